@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "cdprep/format/geometry.h"
+#include "cdprep/format/limits.h"
+
+namespace cdprep::format {
+
+/// First bytes of a finished bake. The writer stores them last. 0x93 and the
+/// line ends catch transfers in text mode.
+inline constexpr std::array<char, 8> kMagic = {'\x93', 'C', 'D', 'P', '\r', '\n', '\x1a', '\n'};
+
+/// Raised whenever an older reader would misread a newer file.
+inline constexpr std::uint32_t kVersion = 1;
+
+inline constexpr std::uint32_t kEndianMark = 0x01020304;    ///< as the writer's processor stores it
+inline constexpr double kIeeeCheck = 0x1.5bf0a8b145769p+1;  ///< e: proves IEEE 754 doubles
+
+inline constexpr std::uint64_t kUserBlockSize = 4096;   ///< HDF5 starts here
+inline constexpr std::uint64_t kSectionAlignment = 64;  ///< one cache line
+inline constexpr std::uint64_t kPageAlignment = 4096;   ///< of sections of kPageThreshold and more
+inline constexpr std::uint64_t kPageThreshold = 65536;  ///< bytes
+
+/// What a section holds. Numbers are never reused, not even for retired ids.
+/// Element types are in geometry.h; names in brackets are those of the HDF5
+/// datasets.
+enum class SectionId : std::uint32_t {
+    positions_f32 = 1,     ///< Float3 per vertex, in order of first use by the tree order
+    positions_f64 = 2,     ///< Double3 per vertex, instead of positions_f32
+    triangles = 3,         ///< Triangle per triangle, in tree order
+    source_triangle = 4,   ///< uint32 per triangle: its number in the imported file
+    source_vertex = 5,     ///< uint32 per vertex: lowest number of those welded into it
+    source_face = 6,       ///< uint32 per source triangle: face within its instance; absent when
+                           ///< every face is a triangle
+    bvh_nodes = 7,         ///< BvhNode, root first
+    degenerate_bits = 8,   ///< uint64: bit i of the array is set when triangle i of the tree order
+                           ///< has collinear corners; absent when none has
+    components = 9,        ///< Component per connected component
+    bounds = 10,           ///< Bounds, one
+    mass_properties = 11,  ///< MassProperties, one; absent unless the model is closed
+    instances = 12,        ///< Instance per node and mesh
+    instance_names = 13,   ///< uint8: UTF-8, each name ended by a zero byte
+    group_runs = 14,       ///< NamedRun
+    group_names = 15,      ///< uint8, as instance_names
+    material_runs = 16,    ///< NamedRun
+    material_names = 17,   ///< uint8, as instance_names
+    provenance = 18,       ///< uint8: canonical JSON, UTF-8: versions, options, source hash
+};
+
+/// Where a section lies.
+struct SectionEntry {
+    SectionId id;
+    std::uint32_t element_size;  ///< bytes; redundant, so that a mismatch is caught early
+    std::uint64_t offset;        ///< from the start of the file; kSectionAlignment; 0 when empty
+    std::uint64_t count;         ///< elements, not bytes
+    std::uint64_t checksum;      ///< checksum() of the section's bytes
+};
+
+/// Bits of FileHeader::flags.
+enum ModelFlags : std::uint32_t {
+    model_closed = 1,      ///< the oriented uses of every edge cancel: winding numbers are exact
+    model_normalized = 2,  ///< baked with --normalize
+};
+
+/// Direction that the imported file calls up. Data only: nothing is turned.
+enum class UpAxis : std::uint32_t { unknown = 0, x = 1, y = 2, z = 3 };
+
+/// The start of the file. The section table follows at byte 256.
+///
+/// The frame maps model coordinates to those of the hierarchy's boxes:
+/// (x - frame_origin) * 2^frame_exponent, which lie in [-1, 1].
+struct FileHeader {
+    std::array<char, 8> magic;  ///< kMagic
+    std::uint32_t version;      ///< kVersion
+    std::uint32_t endian_mark;  ///< kEndianMark
+    double ieee_check;          ///< kIeeeCheck
+    std::uint64_t file_size;    ///< bytes, HDF5 part included
+    /// checksum() of the user block with this field zero.
+    std::uint64_t header_checksum;
+    /// Of the sections' ids, sizes, counts and checksums and of the header's
+    /// facts about the model: same input, options and tool version, same hash.
+    std::uint64_t content_hash;
+    /// Bytes 8 to 47 of the HDF5 superblock. A tool that rewrites the file moves
+    /// the sections but copies this block; then these no longer match.
+    std::array<std::uint8_t, 40> superblock;
+    std::uint32_t section_count;
+    std::uint32_t required_features;  ///< a reader refuses bits that it does not know; now 0
+    std::uint32_t vertex_count;
+    std::uint32_t triangle_count;
+    std::uint32_t flags;  ///< ModelFlags
+    UpAxis up_axis;
+    double metres_per_unit;       ///< length of one model unit; 0 when the file does not say
+    Double3 frame_origin;         ///< model units
+    std::int32_t frame_exponent;  ///< of two
+    std::uint32_t reserved0;      ///< zero
+    /// With model_normalized: model = (source - offset) * factor.
+    Double3 normalize_offset;
+    double normalize_factor;                ///< 1 / diagonal
+    std::array<std::uint8_t, 72> reserved;  ///< zero; readers ignore it
+};
+
+inline constexpr std::uint64_t kSectionTableOffset = 256;
+
+static_assert(sizeof(SectionEntry) == 32 && alignof(SectionEntry) == 8);
+static_assert(offsetof(SectionEntry, offset) == 8);
+static_assert(offsetof(SectionEntry, checksum) == 24);
+
+static_assert(sizeof(FileHeader) == 256 && alignof(FileHeader) == 8);
+static_assert(offsetof(FileHeader, ieee_check) == 16);
+static_assert(offsetof(FileHeader, superblock) == 48);
+static_assert(offsetof(FileHeader, section_count) == 88);
+static_assert(offsetof(FileHeader, metres_per_unit) == 112);
+static_assert(offsetof(FileHeader, frame_exponent) == 144);
+static_assert(offsetof(FileHeader, normalize_offset) == 152);
+static_assert(offsetof(FileHeader, reserved) == 184);
+static_assert(kSectionTableOffset + kMaxSections * sizeof(SectionEntry) <= kUserBlockSize);
+static_assert(std::is_trivially_copyable_v<FileHeader> && std::is_standard_layout_v<FileHeader>);
+
+}  // namespace cdprep::format

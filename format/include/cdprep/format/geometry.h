@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "cdprep/format/limits.h"
+
+namespace cdprep::format {
+
+/// A point or vector in single precision.
+struct Float3 {
+    float x, y, z;
+    friend bool operator==(const Float3&, const Float3&) = default;
+};
+
+/// A point or vector in double precision.
+struct Double3 {
+    double x, y, z;
+    friend bool operator==(const Double3&, const Double3&) = default;
+};
+
+/// Three numbers of vertices, counter-clockwise seen from outside.
+struct Triangle {
+    std::array<std::uint32_t, 3> vertex;
+    friend bool operator==(const Triangle&, const Triangle&) = default;
+};
+
+/// Eight boxes side by side, ready for eight lanes: row = axis, column = box.
+///
+/// Box j of node i of level 0 holds the triangles [8 (8i + j), 8 (8i + j) + 8)
+/// of the tree order; box j of node i of level l > 0 holds node 8i + j of level
+/// l - 1. So there are no child links: the triangle count alone fixes the
+/// shape (bvh_shape.h), and no file can hold a cycle. Nodes are stored level by
+/// level, root first. Boxes past the end of the level below are unused and
+/// hold lower = 1, upper = -1.
+///
+/// Coordinates are frame coordinates, (x - frame_origin) * 2^frame_exponent
+/// (FileHeader), rounded outwards: every vertex of every triangle below lies in
+/// the box in exact arithmetic, so a reader may prune without a tolerance of
+/// its own.
+struct BvhNode {
+    std::array<std::array<float, kBvhWidth>, 3> lower;  ///< [axis][box], frame coordinates
+    std::array<std::array<float, kBvhWidth>, 3> upper;  ///< [axis][box], frame coordinates
+};
+
+/// The boxes of the whole model, in double precision and model units, both
+/// rounded outwards.
+struct Bounds {
+    Double3 lower;                ///< least coordinates of all triangles
+    Double3 upper;                ///< greatest coordinates of all triangles
+    Double3 oriented_centre;      ///< of the oriented box
+    std::array<Double3, 3> axis;  ///< unit vectors of the oriented box, right-handed
+    Double3 half_extent;          ///< of the oriented box along each axis, >= 0
+};
+
+/// One maximal set of triangles connected through shared vertices.
+///
+/// Components are ordered by their lowest source triangle. One vertex of each
+/// decides containment: when two surfaces do not touch, a component lies wholly
+/// inside or wholly outside the other model.
+struct Component {
+    std::uint32_t vertex;          ///< one of its vertices
+    std::uint32_t triangle_count;  ///< its triangles
+    std::uint32_t flags;           ///< ComponentFlags
+    std::uint32_t reserved;        ///< zero
+    double signed_volume;  ///< cubic model units; negative when inside out; 0 when not closed
+};
+
+/// Bits of Component::flags.
+enum ComponentFlags : std::uint32_t {
+    component_closed = 1,  ///< the oriented uses of every edge cancel
+};
+
+/// Volume integrals of a closed, oriented model of density one.
+struct MassProperties {
+    double volume;        ///< cubic model units, signed
+    double surface_area;  ///< square model units
+    Double3 centre;       ///< of mass, model units
+    /// About the centre, model axes: xx, yy, zz, xy, yz, zx. Products of
+    /// inertia carry the sign of -integral(x y).
+    std::array<double, 6> inertia;
+};
+
+/// One use of one mesh by one node of the imported scene.
+///
+/// Its triangles are the run [first_triangle, first_triangle + triangle_count)
+/// of the source numbering; runs follow each other without gaps and cover all
+/// triangles. Equal `mesh` numbers are instances of one mesh.
+struct Instance {
+    std::array<double, 12> model_from_node;  ///< 3 x 4, row by row, already applied to positions
+    std::uint32_t mesh;                      ///< number of the mesh in the imported file
+    std::uint32_t name;                      ///< number in instance_names: the node's path
+    std::uint32_t first_triangle;            ///< source numbering
+    std::uint32_t triangle_count;
+    std::uint32_t flags;     ///< InstanceFlags
+    std::uint32_t reserved;  ///< zero
+};
+
+/// Bits of Instance::flags.
+enum InstanceFlags : std::uint32_t {
+    instance_mirrored = 1,  ///< the transform mirrors; winding was reversed to stay outward
+};
+
+/// A run of source triangles that share one name (a group or a material).
+/// Runs are sorted, do not overlap, and cover all triangles.
+struct NamedRun {
+    std::uint32_t first_triangle;  ///< source numbering
+    std::uint32_t triangle_count;
+    std::uint32_t name;      ///< number in the matching name section
+    std::uint32_t reserved;  ///< zero
+};
+
+static_assert(sizeof(Float3) == 12 && alignof(Float3) == 4);
+static_assert(sizeof(Double3) == 24 && alignof(Double3) == 8);
+static_assert(sizeof(Triangle) == 12 && alignof(Triangle) == 4);
+static_assert(sizeof(BvhNode) == 192 && alignof(BvhNode) == 4);
+static_assert(offsetof(BvhNode, upper) == 96);
+static_assert(sizeof(Bounds) == 168 && alignof(Bounds) == 8);
+static_assert(offsetof(Bounds, oriented_centre) == 48);
+static_assert(offsetof(Bounds, half_extent) == 144);
+static_assert(sizeof(Component) == 24 && alignof(Component) == 8);
+static_assert(offsetof(Component, signed_volume) == 16);
+static_assert(sizeof(MassProperties) == 88 && alignof(MassProperties) == 8);
+static_assert(offsetof(MassProperties, inertia) == 40);
+static_assert(sizeof(Instance) == 120 && alignof(Instance) == 8);
+static_assert(offsetof(Instance, mesh) == 96);
+static_assert(sizeof(NamedRun) == 16 && alignof(NamedRun) == 4);
+static_assert(std::is_trivially_copyable_v<BvhNode> && std::is_standard_layout_v<BvhNode>);
+static_assert(std::is_trivially_copyable_v<Instance> && std::is_standard_layout_v<Instance>);
+static_assert(std::is_trivially_copyable_v<Bounds> && std::is_standard_layout_v<Bounds>);
+
+}  // namespace cdprep::format

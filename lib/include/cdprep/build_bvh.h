@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "cdprep/format/bvh_shape.h"
+#include "cdprep/format/geometry.h"
+
+namespace cdprep::build {
+
+/// Runs body(0) ... body(count - 1), in any order, on any threads, and returns
+/// when all are done. The library starts no threads: this is the caller's.
+using ParallelFor =
+    std::function<void(std::size_t count, const std::function<void(std::size_t)>& body)>;
+
+/// Runs them one after the other.
+void serial_for(std::size_t count, const std::function<void(std::size_t)>& body);
+
+/// The map from model coordinates to box coordinates:
+/// (x - origin) * 2^exponent, in [-1, 1].
+struct Frame {
+    format::Double3 origin = {0, 0, 0};
+    std::int32_t exponent = 0;
+};
+
+struct Bvh {
+    Frame frame;
+    /// order[i] is the input triangle that stands i-th in tree order.
+    std::vector<std::uint32_t> order;
+    /// As format::BvhNode and format::bvh_shape(order.size()) say.
+    std::vector<format::BvhNode> nodes;
+};
+
+struct BvhOptions {
+    ParallelFor parallel_for = serial_for;
+};
+
+/// Builds the packed hierarchy of BvhNode.
+///
+/// Splits top-down by the surface-area heuristic over 16 bins per axis, with the
+/// left part's size rounded to a whole subtree, so that every node but the last
+/// of each level is full. Equal centroids split by number. Boxes are rounded
+/// outwards. The result depends on the input alone, never on parallel_for.
+///
+/// `positions` must be finite and at most format::kMaxCoordinate; triangles may
+/// be degenerate or equal. O(n log n); about 40 bytes of scratch per triangle.
+[[nodiscard]] Bvh build_bvh(std::span<const format::Double3> positions,
+                            std::span<const format::Triangle> triangles,
+                            const BvhOptions& options = {});
+
+}  // namespace cdprep::build

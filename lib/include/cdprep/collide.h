@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+#include "cdprep/containment.h"
+#include "cdprep/overlapping_triangles.h"
+
+namespace cdprep {
+
+/// What a model stands for in a question.
+enum class As : std::uint8_t {
+    surface,  ///< its triangles alone
+    solid,    ///< its triangles and what they enclose
+};
+
+struct CollideOptions {
+    As as = As::surface;
+    Contact contact = Contact::closed;
+    Degenerate degenerate = Degenerate::keep;
+};
+
+struct Collision {
+    bool hit = false;  ///< surfaces touch, or (solid) one proved inside the other
+    /// As::solid only, and asked only when the surfaces do not touch; otherwise
+    /// `no`. `unknown` leaves `hit` false.
+    Containment containment;
+};
+
+/// Returns whether two models collide; stops at the first pair found.
+///
+/// With As::surface two nested surfaces that do not touch do not collide. With
+/// As::solid they do, when a winding number other than 0 proves it: see
+/// find_containment() for open models. As exact as overlapping_triangles().
+///
+/// Needs triangles, positions and bvh_nodes of both; As::solid also components.
+/// Costs O(log n) for most hits and misses. Never allocates.
+[[nodiscard]] Collision collide(const Model& a, const Model& b, const Placement& placement,
+                                Workspace& workspace, const CollideOptions& options = {}) noexcept;
+
+}  // namespace cdprep

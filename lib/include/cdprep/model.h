@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string_view>
+
+#include "cdprep/format/bvh_shape.h"
+#include "cdprep/format/section_set.h"
+#include "cdprep/result.h"
+
+namespace cdprep {
+
+using format::Double3;
+using format::Float3;
+using format::SectionId;
+using format::SectionSet;
+
+/// A baked model, open for queries.
+///
+/// Opening maps the file and checks it once; nothing is copied or decoded.
+/// Every span and every answer that refers to geometry is valid as long as the
+/// Model is alive. Move-only. All const members and all queries may run on any
+/// number of threads at once.
+///
+///     auto opened = cdprep::Model::open("bracket.cdp.h5");
+///     if (!opened) {
+///         std::cerr << opened.error().message << '\n';
+///         return 1;
+///     }
+///     const cdprep::Model& model = opened.value();
+///     std::cout << model.triangle_count() << " triangles\n";
+class Model {
+public:
+    /// Maps `path` and checks completely those sections of `wanted` that are
+    /// present; the others are not touched and give empty spans. Fails with
+    /// `unreadable` when the file cannot be read, is not a finished bake, was
+    /// written by an incompatible version, was rewritten by another tool, or is
+    /// damaged. O(bytes of the sections), at memory speed.
+    [[nodiscard]] static Result<Model> open(const std::filesystem::path& path,
+                                            SectionSet wanted = SectionSet::all());
+
+    /// The same for bytes that the caller keeps: an archive, a network buffer.
+    /// They must start at a multiple of format::kSectionAlignment and stay as
+    /// they are while the Model lives. `name` stands in messages.
+    [[nodiscard]] static Result<Model> open(std::span<const std::byte> bytes,
+                                            SectionSet wanted = SectionSet::all(),
+                                            std::string_view name = "memory");
+
+    /// Maps `path` and checks its first 4,144 bytes alone, whatever its size.
+    /// For files whose hash the caller has verified by other means: a damaged
+    /// one may crash a query.
+    [[nodiscard]] static Result<Model> open_trusted(const std::filesystem::path& path);
+
+    Model(Model&&) noexcept;
+    Model& operator=(Model&&) noexcept;
+    ~Model();
+
+    [[nodiscard]] std::uint32_t triangle_count() const noexcept;  ///< from the header
+    [[nodiscard]] std::uint32_t vertex_count() const noexcept;    ///< from the header
+
+    [[nodiscard]] const format::FileHeader& header() const noexcept;
+
+    /// Sections that were asked for and are present.
+    [[nodiscard]] SectionSet sections() const noexcept;
+
+    /// Raw spans, tree order where FORMAT.md says so; empty when the section is
+    /// absent or was not asked for. Exactly one of the two positions is present.
+    [[nodiscard]] std::span<const Float3> positions_f32() const noexcept;        ///< model units
+    [[nodiscard]] std::span<const Double3> positions_f64() const noexcept;       ///< model units
+    [[nodiscard]] std::span<const format::Triangle> triangles() const noexcept;  ///< tree order
+    [[nodiscard]] std::span<const std::uint32_t> source_triangle() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> source_vertex() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> source_face() const noexcept;
+    [[nodiscard]] std::span<const format::BvhNode> nodes() const noexcept;  ///< root first
+    [[nodiscard]] std::span<const std::uint64_t> degenerate_bits() const noexcept;
+    [[nodiscard]] std::span<const format::Component> components() const noexcept;
+    [[nodiscard]] std::span<const format::Instance> instances() const noexcept;
+    [[nodiscard]] std::span<const format::NamedRun> group_runs() const noexcept;
+    [[nodiscard]] std::span<const format::NamedRun> material_runs() const noexcept;
+    [[nodiscard]] const format::Bounds* bounds() const noexcept;                   ///< or null
+    [[nodiscard]] const format::MassProperties* mass_properties() const noexcept;  ///< or null
+    [[nodiscard]] std::string_view provenance() const noexcept;  ///< canonical JSON
+
+    /// Name number `index` of instance_names, group_names or material_names;
+    /// empty when there is none. O(index).
+    [[nodiscard]] std::string_view name(SectionId names, std::uint32_t index) const noexcept;
+
+    /// Shape of the hierarchy, computed once at opening.
+    [[nodiscard]] const format::BvhShape& shape() const noexcept;
+
+    /// True when the oriented uses of every edge cancel: solid questions have
+    /// exact answers.
+    [[nodiscard]] bool is_closed() const noexcept;
+
+private:
+    struct State;
+    explicit Model(std::unique_ptr<State> state) noexcept;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace cdprep

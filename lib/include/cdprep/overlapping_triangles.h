@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "cdprep/model.h"
+#include "cdprep/placement.h"
+#include "cdprep/workspace.h"
+
+namespace cdprep {
+
+/// One triangle of each model, in the numbering of the imported files.
+struct TrianglePair {
+    std::uint32_t a;
+    std::uint32_t b;
+    friend auto operator<=>(const TrianglePair&, const TrianglePair&) = default;
+};
+
+/// What counts as an overlap of two triangles.
+enum class Contact : std::uint8_t {
+    closed,  ///< any common point: touching counts
+    proper,  ///< the triangles cross, or share area in one plane
+};
+
+/// What becomes of triangles with collinear corners.
+enum class Degenerate : std::uint8_t {
+    keep,  ///< they answer as the segment or point that they are
+    skip,  ///< they never answer
+};
+
+struct OverlapOptions {
+    Contact contact = Contact::closed;
+    Degenerate degenerate = Degenerate::keep;
+};
+
+/// Finds every pair of triangles of `a` and `b` that have a point in common.
+///
+/// Returns how many there are and stores the first of them, in the order of
+/// (a, b), in `pairs`. When `pairs` is too short, it is filled with the smallest
+/// pairs and the true number is still returned; so an empty span counts.
+/// The order costs a sort of the stored pairs.
+///
+/// Exact: the answer is that of exact arithmetic on the vertices as `placement`
+/// moves them (Pose, level E1), the same on every machine. Both models need
+/// triangles, positions and bvh_nodes; without source_triangle the numbering is
+/// that of the tree order. An empty model overlaps nothing.
+///
+/// Costs O(log n + pairs) for compact surfaces, O(n m) at worst. Never
+/// allocates. If only "do they touch?" matters, collide() stops at the first.
+[[nodiscard]] std::size_t overlapping_triangles(const Model& a, const Model& b,
+                                                const Placement& placement, Workspace& workspace,
+                                                std::span<TrianglePair> pairs,
+                                                const OverlapOptions& options = {}) noexcept;
+
+}  // namespace cdprep

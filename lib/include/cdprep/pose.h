@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "cdprep/format/geometry.h"
+#include "cdprep/result.h"
+
+namespace cdprep {
+
+using format::Double3;
+
+/// A rigid motion, proved to be one when it was made: a point p goes to
+/// rotation * p + translation. `world_from_arm` is a pose that maps points of
+/// the arm into the world.
+class Pose {
+public:
+    /// The identity.
+    constexpr Pose() noexcept = default;
+
+    /// Takes R row by row, then T, in model units. Fails with bad_argument, and
+    /// says which number is wrong, when one is not finite, when an entry of
+    /// |R^T R - I| exceeds kRotationTolerance, or when R mirrors.
+    [[nodiscard]] static Result<Pose> from_rows(const std::array<double, 12>& rows);
+
+    /// Takes any quaternion w + xi + yj + zk but zero; its length does not
+    /// matter. Fails with bad_argument when a number is not finite or all four
+    /// are zero. The matrix is within 4 ulp of the exact one.
+    [[nodiscard]] static Result<Pose> from_quaternion(double w, double x, double y, double z,
+                                                      const Double3& translation);
+
+    /// R row by row.
+    [[nodiscard]] constexpr const std::array<double, 9>& rotation() const noexcept {
+        return rotation_;
+    }
+    /// Model units.
+    [[nodiscard]] constexpr const Double3& translation() const noexcept {
+        return translation_;
+    }
+
+    /// Largest permitted entry of |R^T R - I|.
+    static constexpr double kRotationTolerance = 1e-12;
+
+private:
+    std::array<double, 9> rotation_ = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    Double3 translation_ = {0, 0, 0};
+
+    friend Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept;
+};
+
+/// Returns a_from_b = world_from_a^-1 world_from_b by one fixed formula, in
+/// double: R = Ra^T Rb, T = Ra^T (Tb - Ta), each sum from left to right. It
+/// carries rounding of about 1e-16 relative; where parts of one turned assembly
+/// must still touch, use Placement::world.
+[[nodiscard]] Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept;
+
+/// Moves one point: ((R00 x + R01 y) + R02 z) + T0 and so on, in double without
+/// contraction. This is *the* formula: an exact query answers for the points
+/// that it returns (level E1 of exactness).
+[[nodiscard]] inline Double3 moved(const Pose& pose, const Double3& p) noexcept {
+    const std::array<double, 9>& r = pose.rotation();
+    const Double3& t = pose.translation();
+    return {((r[0] * p.x + r[1] * p.y) + r[2] * p.z) + t.x,
+            ((r[3] * p.x + r[4] * p.y) + r[5] * p.z) + t.y,
+            ((r[6] * p.x + r[7] * p.y) + r[8] * p.z) + t.z};
+}
+
+}  // namespace cdprep

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+
+namespace cdprep {
+
+/// What kind of failure, for programs. Numbers are never reused.
+enum class ErrorCode : std::uint32_t {
+    bad_argument = 1,  ///< asked wrongly: an option, a pose, an effect that is not baked
+    unreadable = 2,    ///< input that cannot be read: missing, malformed, damaged
+    unwritable = 3,    ///< output that cannot be written
+    over_budget = 4,   ///< an honest input that needs more time or memory than allowed
+    internal = 5,      ///< our own mistake
+    interrupted = 6,   ///< the person stopped it
+};
+
+/// Why something could not be done. `message` is a whole sentence, made to be
+/// shown to a person as it is; programs switch on `code`.
+struct Error {
+    ErrorCode code;
+    std::string message;
+};
+
+/// Either a value or an Error, never both, never neither.
+///
+///     auto opened = cdprep::Model::open("bracket.cdp.h5");
+///     if (!opened) return fail(opened.error().message);
+///     use(opened.value());
+template <class T>
+class [[nodiscard]] Result {
+public:
+    Result(T value)
+        : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit on purpose
+    Result(Error error)
+        : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit on purpose
+
+    [[nodiscard]] bool ok() const noexcept {
+        return state_.index() == 0;
+    }
+    explicit operator bool() const noexcept {
+        return ok();
+    }
+
+    /// Requires ok().
+    [[nodiscard]] T& value() & {
+        assert(ok());
+        return *std::get_if<0>(&state_);
+    }
+    /// Requires ok().
+    [[nodiscard]] const T& value() const& {
+        assert(ok());
+        return *std::get_if<0>(&state_);
+    }
+    /// Requires ok().
+    [[nodiscard]] T value() && {
+        assert(ok());
+        return std::move(*std::get_if<0>(&state_));
+    }
+
+    /// Requires !ok().
+    [[nodiscard]] const Error& error() const {
+        assert(!ok());
+        return *std::get_if<1>(&state_);
+    }
+
+private:
+    std::variant<T, Error> state_;
+};
+
+/// The Result of something that returns nothing.
+struct Done {};
+
+}  // namespace cdprep

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "cdprep/format/geometry.h"
+
+namespace cdprep {
+
+using format::Double3;
+
+/// Three corners; collinear and coincident ones are allowed: then the triangle
+/// is the segment or point that they span.
+using Corners = std::array<Double3, 3>;
+
+/// How two triangles stand to each other.
+enum class TriangleContact : std::uint8_t {
+    disjoint,         ///< no common point
+    touch,            ///< common points, but no crossing and no shared area
+    cross,            ///< each passes through the other's plane within the other
+    coplanar_overlap  ///< one plane, shared area
+};
+
+/// Returns whether the two triangles have a common point. Exact; the sign test
+/// of Guigue and Devillers (2003), with exact planar and degenerate cases.
+[[nodiscard]] bool triangles_touch(const Corners& a, const Corners& b) noexcept;
+
+/// The same answer, by the six segment-triangle tests of Feito and Torres: an
+/// independent second implementation that the first is held against.
+[[nodiscard]] bool triangles_touch_by_segments(const Corners& a, const Corners& b) noexcept;
+
+/// Returns how the two stand. Exact. A degenerate triangle can only touch, or
+/// cross when its inside passes through the other's inside.
+[[nodiscard]] TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept;
+
+/// True when the corners are exactly collinear.
+[[nodiscard]] bool is_degenerate(const Corners& a) noexcept;
+
+}  // namespace cdprep

@@ -1,0 +1,40 @@
+# Fails when a file includes something its folder may not know about.
+# Run by ctest as: cmake -D ROOT=<source dir> -P check_includes.cmake
+set(offences "")
+function(forbid folder pattern)
+    file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp)
+    foreach(file IN LISTS files)
+        file(STRINGS ${file} hits REGEX "^ *# *include *[<\"](${pattern})")
+        foreach(hit IN LISTS hits)
+            string(APPEND offences "\n  ${file}: ${hit}")
+        endforeach()
+    endforeach()
+    set(offences "${offences}" PARENT_SCOPE)
+endfunction()
+
+set(json "nlohmann")
+set(heavy "hdf5|H5|assimp|CGAL|Eigen|CLI|tbb|oneapi|${json}")
+
+forbid(format        "cdprep/[a-z_]+\\.h|${heavy}")
+forbid(lib           "mesh/|import/|write/|report/|convex/|${heavy}|xxhash")
+forbid(samples       "mesh/|import/|write/|report/|convex/|kernels|traverse|${heavy}")
+forbid(tools/import  "hdf5|H5|CGAL|CLI|tbb|write/|report/|${json}")
+forbid(tools/mesh    "hdf5|H5|assimp|CLI|tbb|import/|write/|report/|convex/|${json}")
+forbid(tools/convex  "hdf5|H5|assimp|CLI|tbb|import/|write/|report/|${json}")
+forbid(tools/write   "assimp|CGAL|Eigen|CLI|tbb|mesh/|import/|report/|convex/|${json}")
+forbid(tools/report  "hdf5|H5|assimp|CGAL|Eigen|CLI|tbb|import/|write/")
+forbid(tools/cdprep  "hdf5|H5|assimp|CGAL|Eigen")
+
+# Only one file of format may know xxHash, and no kernel may know us.
+file(GLOB_RECURSE files ${ROOT}/format/*.h ${ROOT}/format/*.cpp)
+list(FILTER files EXCLUDE REGEX "format/src/checksum\\.cpp$")
+foreach(file IN LISTS files)
+    file(STRINGS ${file} hits REGEX "^ *# *include *[<\"]xxh")
+    if(hits)
+        string(APPEND offences "\n  ${file}: ${hits}")
+    endif()
+endforeach()
+
+if(offences)
+    message(FATAL_ERROR "includes that break the dependency rule:${offences}")
+endif()

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+
+#include "cdprep/build_bvh.h"
+#include "cdprep/result.h"
+#include "mesh/mesh.h"
+
+namespace cdprep::import {
+
+/// What an import may use before it is stopped with over_budget, or, where the
+/// file lies about its size, unreadable.
+struct ImportOptions {
+    std::uint64_t memory_bytes = std::uint64_t{8} << 30;  ///< --import-memory
+    std::chrono::seconds time{300};                       ///< --import-time
+    std::uint64_t file_bytes = std::uint64_t{16} << 30;   ///< --import-file-size
+    build::ParallelFor parallel_for = build::serial_for;
+};
+
+/// Reads OBJ, STL, PLY and OFF by our own readers and every other format by
+/// assimp in a child process. The content decides the format, then the name.
+///
+/// NaN, infinity and indices out of range come back as data (bad_numbers). A
+/// file that cannot be read as its format says is `unreadable`, with file, place,
+/// number found and number allowed.
+[[nodiscard]] Result<mesh::TriangleSoup> import_file(const std::filesystem::path& path,
+                                                     const ImportOptions& options = {});
+
+}  // namespace cdprep::import

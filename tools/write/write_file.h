@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "cdprep/format/file_header.h"
+#include "cdprep/result.h"
+
+namespace cdprep::write {
+
+/// One section's elements, as they are to lie in the file.
+struct Section {
+    format::SectionId id;
+    std::span<const std::byte> bytes;  ///< a whole number of elements
+};
+
+/// Writes a baked file: HDF5 behind a user block with header and section table.
+///
+/// `facts` gives the header fields that describe the model (counts, flags, units,
+/// frame, normalisation); the writer fills in the rest. The file appears under
+/// its name only when it is whole and synced: a temporary beside it is renamed.
+/// A temporary that a killed bake left is removed when its lock is free. Fails
+/// with `unwritable`; the old file is then as it was. Byte-identical for equal
+/// arguments and one HDF5 release.
+[[nodiscard]] Result<Done> write_file(const std::filesystem::path& path,
+                                      const format::FileHeader& facts,
+                                      std::span<const Section> sections);
+
+/// Makes a new section table for a baked file that another HDF5 tool rewrote:
+/// finds every dataset by its name, takes its offset, checks its type, and
+/// replaces the user block. Datasets that are chunked, compressed or of another
+/// type fail with `unreadable`, each named. The data is not changed; the file is
+/// replaced as write_file() does.
+[[nodiscard]] Result<Done> reindex_file(const std::filesystem::path& path);
+
+}  // namespace cdprep::write
