@@ -1,0 +1,54 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""A full disk: exit 4, one sentence, the old file whole, nothing half-written left.
+
+Mounts a small memory file system, so it runs only as root.
+Usage: full_disk.py CDPREP
+"""
+import contextlib
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from killed_bake import digest, write_sheet
+from shared_models import SKIPPED, bake, must, run
+
+
+@contextlib.contextmanager
+def small_disk(folder, size):
+    if os.geteuid() != 0 or subprocess.run(
+            ["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder],
+            capture_output=True).returncode:
+        print("skipped: mounting a small file system needs root")
+        sys.exit(SKIPPED)
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", folder], check=True)
+
+
+def main():
+    program = sys.argv[1]
+    scratch = tempfile.TemporaryDirectory()
+    folder = pathlib.Path(scratch.name)
+    disk = folder / "disk"
+    disk.mkdir()
+    write_sheet(folder / "small.off", 8)
+    write_sheet(folder / "large.off", 150)
+    with small_disk(disk, "512k"):
+        output = disk / "m.cdp.h5"
+        bake(program, folder / "small.off", "-o", output)
+        old = digest(output)
+        full = run(program, "bake", folder / "large.off", "-o", output)
+        must(full.returncode == 4, f"exit {full.returncode} on a full disk: {full.stderr}")
+        must(len(full.stderr.strip().splitlines()) == 1 and "m.cdp.h5" in full.stderr,
+             f"not one sentence that names the file: {full.stderr}")
+        must(digest(output) == old, "the old file changed")
+        must([path.name for path in disk.iterdir()] == ["m.cdp.h5"], "a stray file was left")
+        bake(program, folder / "small.off", "-o", output)
+    print(full.stderr.strip())
+
+
+main()
