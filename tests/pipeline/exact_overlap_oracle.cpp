@@ -2,7 +2,7 @@
 // Prints every pair of triangles of two OFF files that have a point in common,
 // by CGAL's exact predicates and brute force. Triangles must not be degenerate.
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangle_3_Triangle_3_do_intersect.h>
+#include <CGAL/intersections.h>
 
 #include <array>
 #include <cstdlib>
