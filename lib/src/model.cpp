@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/model.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/sections.h"
+#include "damage_sentence.h"
+#include "mapped_file.h"
+
+namespace cdprep {
+
+struct Model::State {
+    MappedFile mapping;  ///< empty when the caller keeps the bytes
+    std::span<const std::byte> file;
+    const format::FileHeader* header = nullptr;
+    SectionSet sections;
+    format::BvhShape shape;
+    std::span<const Float3> positions_f32;
+    std::span<const Double3> positions_f64;
+    std::span<const format::Triangle> triangles;
+    std::span<const std::uint32_t> source_triangle;
+    std::span<const std::uint32_t> source_vertex;
+    std::span<const std::uint32_t> source_face;
+    std::span<const format::BvhNode> nodes;
+    std::span<const std::uint64_t> degenerate_bits;
+    std::span<const format::Component> components;
+    std::span<const format::Bounds> bounds;
+    std::span<const format::MassProperties> mass_properties;
+    std::span<const format::Instance> instances;
+    std::span<const format::NamedRun> group_runs;
+    std::span<const format::NamedRun> material_runs;
+    std::span<const char> instance_names;
+    std::span<const char> group_names;
+    std::span<const char> material_names;
+    std::span<const char> provenance;
+
+    void find_sections(SectionSet wanted);
+
+private:
+    /// Points `span` at the section when it is wanted and there.
+    template <class T>
+    void view(SectionId id, SectionSet wanted, std::span<const T>& span) {
+        if (!wanted.contains(id)) return;
+        const std::optional<format::SectionEntry> entry = format::find_section(file, id);
+        if (!entry) return;
+        sections.insert(id);
+        // The checker has proved offset, alignment and element size.
+        span = {reinterpret_cast<const T*>(file.data() + entry->offset),
+                static_cast<std::size_t>(entry->count)};
+    }
+};
+
+void Model::State::find_sections(SectionSet wanted) {
+    header = reinterpret_cast<const format::FileHeader*>(file.data());
+    shape = format::bvh_shape(header->triangle_count);
+    view(SectionId::positions_f32, wanted, positions_f32);
+    view(SectionId::positions_f64, wanted, positions_f64);
+    view(SectionId::triangles, wanted, triangles);
+    view(SectionId::source_triangle, wanted, source_triangle);
+    view(SectionId::source_vertex, wanted, source_vertex);
+    view(SectionId::source_face, wanted, source_face);
+    view(SectionId::bvh_nodes, wanted, nodes);
+    view(SectionId::degenerate_bits, wanted, degenerate_bits);
+    view(SectionId::components, wanted, components);
+    view(SectionId::bounds, wanted, bounds);
+    view(SectionId::mass_properties, wanted, mass_properties);
+    view(SectionId::instances, wanted, instances);
+    view(SectionId::instance_names, wanted, instance_names);
+    view(SectionId::group_runs, wanted, group_runs);
+    view(SectionId::group_names, wanted, group_names);
+    view(SectionId::material_runs, wanted, material_runs);
+    view(SectionId::material_names, wanted, material_names);
+    view(SectionId::provenance, wanted, provenance);
+}
+
+namespace {
+
+Error damaged(std::string_view name, const format::Damage& damage) {
+    return {ErrorCode::unreadable, damage_sentence(name, damage)};
+}
+
+}  // namespace
+
+Model::Model(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
+Model::Model(Model&&) noexcept = default;
+Model& Model::operator=(Model&&) noexcept = default;
+Model::~Model() = default;
+
+Result<Model> Model::open(const std::filesystem::path& path, SectionSet wanted) {
+    Result<MappedFile> mapped = MappedFile::map(path);
+    if (!mapped) return mapped.error();
+    Result<Model> model = open(mapped.value().bytes(), wanted, path.string());
+    if (model) model.value().state_->mapping = std::move(mapped).value();
+    return model;
+}
+
+Result<Model> Model::open(std::span<const std::byte> bytes, SectionSet wanted,
+                          std::string_view name) {
+    const auto misaligned =
+        reinterpret_cast<std::uintptr_t>(bytes.data()) % format::kSectionAlignment;
+    if (misaligned != 0) {
+        return Error{ErrorCode::bad_argument,
+                     std::string(name) + ": the bytes start " + std::to_string(misaligned) +
+                         " past a multiple of " + std::to_string(format::kSectionAlignment) +
+                         "; they must start at one."};
+    }
+    if (const auto damage = format::find_damage(bytes, wanted)) return damaged(name, *damage);
+    auto state = std::make_unique<State>();
+    state->file = bytes;
+    state->find_sections(wanted);
+    return Model(std::move(state));
+}
+
+Result<Model> Model::open_trusted(const std::filesystem::path& path) {
+    Result<MappedFile> mapped = MappedFile::map(path);
+    if (!mapped) return mapped.error();
+    auto state = std::make_unique<State>();
+    state->mapping = std::move(mapped).value();
+    state->file = state->mapping.bytes();
+    if (const auto damage = format::find_header_damage(state->file)) {
+        return damaged(path.string(), *damage);
+    }
+    state->find_sections(SectionSet::all());
+    return Model(std::move(state));
+}
+
+std::uint32_t Model::triangle_count() const noexcept {
+    return state_->header->triangle_count;
+}
+std::uint32_t Model::vertex_count() const noexcept {
+    return state_->header->vertex_count;
+}
+const format::FileHeader& Model::header() const noexcept {
+    return *state_->header;
+}
+SectionSet Model::sections() const noexcept {
+    return state_->sections;
+}
+std::span<const Float3> Model::positions_f32() const noexcept {
+    return state_->positions_f32;
+}
+std::span<const Double3> Model::positions_f64() const noexcept {
+    return state_->positions_f64;
+}
+std::span<const format::Triangle> Model::triangles() const noexcept {
+    return state_->triangles;
+}
+std::span<const std::uint32_t> Model::source_triangle() const noexcept {
+    return state_->source_triangle;
+}
+std::span<const std::uint32_t> Model::source_vertex() const noexcept {
+    return state_->source_vertex;
+}
+std::span<const std::uint32_t> Model::source_face() const noexcept {
+    return state_->source_face;
+}
+std::span<const format::BvhNode> Model::nodes() const noexcept {
+    return state_->nodes;
+}
+std::span<const std::uint64_t> Model::degenerate_bits() const noexcept {
+    return state_->degenerate_bits;
+}
+std::span<const format::Component> Model::components() const noexcept {
+    return state_->components;
+}
+std::span<const format::Instance> Model::instances() const noexcept {
+    return state_->instances;
+}
+std::span<const format::NamedRun> Model::group_runs() const noexcept {
+    return state_->group_runs;
+}
+std::span<const format::NamedRun> Model::material_runs() const noexcept {
+    return state_->material_runs;
+}
+const format::Bounds* Model::bounds() const noexcept {
+    return state_->bounds.empty() ? nullptr : state_->bounds.data();
+}
+const format::MassProperties* Model::mass_properties() const noexcept {
+    return state_->mass_properties.empty() ? nullptr : state_->mass_properties.data();
+}
+std::string_view Model::provenance() const noexcept {
+    return {state_->provenance.data(), state_->provenance.size()};
+}
+const format::BvhShape& Model::shape() const noexcept {
+    return state_->shape;
+}
+bool Model::is_closed() const noexcept {
+    return (state_->header->flags & format::model_closed) != 0;
+}
+
+std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {
+    std::span<const char> text;
+    if (names == SectionId::instance_names) text = state_->instance_names;
+    if (names == SectionId::group_names) text = state_->group_names;
+    if (names == SectionId::material_names) text = state_->material_names;
+    std::string_view rest(text.data(), text.size());
+    for (std::uint32_t i = 0; !rest.empty(); ++i) {
+        const std::size_t end = rest.find('\0');
+        if (i == index) return rest.substr(0, end);
+        if (end == std::string_view::npos) break;
+        rest.remove_prefix(end + 1);
+    }
+    return {};
+}
+
+}  // namespace cdprep
