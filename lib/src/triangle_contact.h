@@ -18,7 +18,7 @@ using Corners = std::array<Double3, 3>;
 enum class TriangleContact : std::uint8_t {
     disjoint,         ///< no common point
     touch,            ///< common points, but no crossing and no shared area
-    cross,            ///< each passes through the other's plane within the other
+    cross,            ///< their insides cross: not in one plane
     coplanar_overlap  ///< one plane, shared area
 };
 
@@ -30,8 +30,8 @@ enum class TriangleContact : std::uint8_t {
 /// independent second implementation that the first is held against.
 [[nodiscard]] bool triangles_touch_by_segments(const Corners& a, const Corners& b) noexcept;
 
-/// Returns how the two stand. Exact. A degenerate triangle can only touch, or
-/// cross when its inside passes through the other's inside.
+/// Returns how the two stand. Exact. A degenerate triangle has no inside: it can
+/// only touch.
 [[nodiscard]] TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept;
 
 /// True when the corners are exactly collinear.
