@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "cdprep/format/file_header.h"
+
+namespace cdprep::format {
+
+/// Returns the hash of what a model *is*: the header's facts (counts, flags,
+/// units, frame, normalisation) and each section's id, element size, count and
+/// checksum, in the order of ids. Offsets, file size and HDF5's part do not
+/// count.
+[[nodiscard]] std::uint64_t content_hash(const FileHeader& header,
+                                         std::span<const SectionEntry> sections) noexcept;
+
+/// Returns the checksum of a user block as if its field header_checksum were
+/// zero. `user_block` holds kUserBlockSize bytes.
+[[nodiscard]] std::uint64_t header_checksum(
+    std::span<const std::byte, kUserBlockSize> user_block) noexcept;
+
+}  // namespace cdprep::format

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/format/sections.h"
+
+#include <array>
+#include <cstring>
+
+#include "cdprep/format/geometry.h"
+
+namespace cdprep::format {
+namespace {
+
+struct Kind {
+    SectionId id;
+    std::uint32_t element_size;
+    const char* name;
+};
+
+constexpr std::array<Kind, 18> kKinds = {{
+    {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
+    {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
+    {SectionId::triangles, sizeof(Triangle), "triangles"},
+    {SectionId::source_triangle, 4, "source_triangle"},
+    {SectionId::source_vertex, 4, "source_vertex"},
+    {SectionId::source_face, 4, "source_face"},
+    {SectionId::bvh_nodes, sizeof(BvhNode), "bvh_nodes"},
+    {SectionId::degenerate_bits, 8, "degenerate_bits"},
+    {SectionId::components, sizeof(Component), "components"},
+    {SectionId::bounds, sizeof(Bounds), "bounds"},
+    {SectionId::mass_properties, sizeof(MassProperties), "mass_properties"},
+    {SectionId::instances, sizeof(Instance), "instances"},
+    {SectionId::instance_names, 1, "instance_names"},
+    {SectionId::group_runs, sizeof(NamedRun), "group_runs"},
+    {SectionId::group_names, 1, "group_names"},
+    {SectionId::material_runs, sizeof(NamedRun), "material_runs"},
+    {SectionId::material_names, 1, "material_names"},
+    {SectionId::provenance, 1, "provenance"},
+}};
+
+const Kind* find_kind(SectionId id) noexcept {
+    for (const Kind& kind : kKinds) {
+        if (kind.id == id) return &kind;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+FileHeader read_header(std::span<const std::byte> file) noexcept {
+    FileHeader header;
+    std::memcpy(&header, file.data(), sizeof header);
+    return header;
+}
+
+std::optional<SectionEntry> find_section(std::span<const std::byte> file, SectionId id) noexcept {
+    const FileHeader header = read_header(file);
+    for (std::uint32_t i = 0; i < header.section_count; ++i) {
+        SectionEntry entry;
+        std::memcpy(&entry, file.data() + kSectionTableOffset + i * sizeof entry, sizeof entry);
+        if (entry.id == id) return entry;
+    }
+    return std::nullopt;
+}
+
+std::uint32_t element_size(SectionId id) noexcept {
+    const Kind* kind = find_kind(id);
+    return kind ? kind->element_size : 0;
+}
+
+const char* section_name(SectionId id) noexcept {
+    const Kind* kind = find_kind(id);
+    return kind ? kind->name : "unknown";
+}
+
+}  // namespace cdprep::format
