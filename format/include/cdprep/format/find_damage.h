@@ -59,7 +59,7 @@ struct Damage {
 /// Proves, beyond find_damage(), that boxes contain what lies below them in
 /// exact arithmetic, that the tree order is a permutation of the source
 /// triangles, and that degenerate bits match the geometry's repeated corners.
-/// Allocates one bit per triangle. O(bytes).
+/// Copies the sections that it compares. O(bytes).
 [[nodiscard]] std::optional<Damage> find_deep_damage(std::span<const std::byte> file);
 
 }  // namespace cdprep::format

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "cdprep/format/bvh_shape.h"
+#include "cdprep/format/content_hash.h"
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/sections.h"
+
+namespace cdprep::format {
+namespace {
+
+using Found = std::optional<Damage>;
+using Bytes = std::span<const std::byte>;
+
+/// A section's elements, copied: the file's bytes may have any alignment.
+template <class T>
+std::vector<T> copy_of(Bytes file, SectionId id) {
+    const std::optional<SectionEntry> entry = find_section(file, id);
+    std::vector<T> elements(entry ? static_cast<std::size_t>(entry->count) : 0);
+    if (!elements.empty()) {
+        std::memcpy(elements.data(), file.data() + entry->offset, elements.size() * sizeof(T));
+    }
+    return elements;
+}
+
+std::uint64_t place_of(Bytes file, SectionId id, std::uint64_t index) {
+    const std::optional<SectionEntry> entry = find_section(file, id);
+    return entry ? entry->offset + index * entry->element_size : 0;
+}
+
+std::vector<Double3> positions_of(Bytes file) {
+    std::vector<Double3> positions = copy_of<Double3>(file, SectionId::positions_f64);
+    for (const Float3& p : copy_of<Float3>(file, SectionId::positions_f32)) {
+        positions.push_back({p.x, p.y, p.z});
+    }
+    return positions;
+}
+
+/// Sign of (x - origin) * 2^exponent - bound in exact arithmetic. The difference
+/// is kept with its rounding error; the scaling is exact unless it underflows,
+/// and then only a bound of 0 can compare equal.
+int compare(double x, double origin, int exponent, float bound) {
+    const double difference = x - origin;
+    const double virtual_origin = x - difference;
+    const double virtual_x = difference + virtual_origin;
+    const double tail = (x - virtual_x) + (virtual_origin - origin);
+    const double scaled = std::ldexp(difference, exponent);
+    const auto limit = static_cast<double>(bound);
+    if (scaled != limit) return scaled < limit ? -1 : 1;
+    const double rest = scaled == 0 && difference != 0 ? difference : tail;
+    return (rest > 0) - (rest < 0);
+}
+
+double coordinate(const Double3& p, std::size_t axis) {
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// What the checks of the tree look at.
+struct Tree {
+    FileHeader header;
+    BvhShape shape;
+    std::vector<Double3> positions;
+    std::vector<Triangle> triangles;
+    std::vector<BvhNode> nodes;
+};
+
+bool box_holds(const Tree& tree, const BvhNode& node, std::uint32_t box, const Double3& p) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double x = coordinate(p, axis);
+        const double origin = coordinate(tree.header.frame_origin, axis);
+        const int exponent = tree.header.frame_exponent;
+        if (compare(x, origin, exponent, node.lower[axis][box]) < 0) return false;
+        if (compare(x, origin, exponent, node.upper[axis][box]) > 0) return false;
+    }
+    return true;
+}
+
+bool box_holds_triangles(const Tree& tree, const BvhNode& node, std::uint32_t box,
+                         std::uint64_t leaf) {
+    const std::uint64_t first = leaf * kBvhWidth;
+    const std::uint64_t last = std::min<std::uint64_t>(first + kBvhWidth, tree.triangles.size());
+    for (std::uint64_t i = first; i < last; ++i) {
+        for (const std::uint32_t vertex : tree.triangles[i].vertex) {
+            if (!box_holds(tree, node, box, tree.positions[vertex])) return false;
+        }
+    }
+    return true;
+}
+
+bool box_holds_node(const BvhNode& node, std::uint32_t box, const BvhNode& child,
+                    std::uint32_t used) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::uint32_t i = 0; i < used; ++i) {
+            if (child.lower[axis][i] < node.lower[axis][box]) return false;
+            if (child.upper[axis][i] > node.upper[axis][box]) return false;
+        }
+    }
+    return true;
+}
+
+Found find_loose_box(Bytes file, const Tree& tree) {
+    for (std::uint32_t level = 0; level < tree.shape.levels; ++level) {
+        for (std::uint32_t i = 0; i < tree.shape.count[level]; ++i) {
+            const std::uint32_t index = tree.shape.first[level] + i;
+            const BvhNode& node = tree.nodes[index];
+            for (std::uint32_t box = 0; box < tree.shape.used_boxes(level, i); ++box) {
+                const std::uint32_t below = i * kBvhWidth + box;
+                const bool holds =
+                    level == 0
+                        ? box_holds_triangles(tree, node, box, below)
+                        : box_holds_node(node, box, tree.nodes[tree.shape.first[level - 1] + below],
+                                         tree.shape.used_boxes(level - 1, below));
+                if (!holds) {
+                    return Damage{DamageKind::bad_box, SectionId::bvh_nodes,
+                                  place_of(file, SectionId::bvh_nodes, index), box, 0};
+                }
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+Found find_repeated_source(Bytes file) {
+    const auto source = copy_of<std::uint32_t>(file, SectionId::source_triangle);
+    std::vector<bool> seen(source.size(), false);
+    for (std::size_t i = 0; i < source.size(); ++i) {
+        if (seen[source[i]]) {
+            return Damage{DamageKind::bad_fact, SectionId::source_triangle,
+                          place_of(file, SectionId::source_triangle, i), source[i], i};
+        }
+        seen[source[i]] = true;
+    }
+    return std::nullopt;
+}
+
+Found find_unmarked_degenerate(Bytes file, const Tree& tree) {
+    const auto bits = copy_of<std::uint64_t>(file, SectionId::degenerate_bits);
+    for (std::size_t i = 0; i < tree.triangles.size(); ++i) {
+        const auto& v = tree.triangles[i].vertex;
+        const bool repeats = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
+        const bool marked = i / 64 < bits.size() && ((bits[i / 64] >> (i % 64)) & 1) != 0;
+        if (repeats && !marked) {
+            return Damage{DamageKind::bad_fact, SectionId::degenerate_bits,
+                          place_of(file, SectionId::triangles, i), 0, 1};
+        }
+    }
+    return std::nullopt;
+}
+
+Found find_outside_bounds(Bytes file, const Tree& tree) {
+    for (const Bounds& bounds : copy_of<Bounds>(file, SectionId::bounds)) {
+        for (std::size_t i = 0; i < tree.positions.size(); ++i) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double x = coordinate(tree.positions[i], axis);
+                if (x < coordinate(bounds.lower, axis) || x > coordinate(bounds.upper, axis)) {
+                    return Damage{DamageKind::bad_fact, SectionId::bounds,
+                                  place_of(file, SectionId::bounds, 0), i, 0};
+                }
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// The header's hash against the table's entries.
+Found find_wrong_hash(Bytes file) {
+    const FileHeader header = read_header(file);
+    std::vector<SectionEntry> entries(header.section_count);
+    if (!entries.empty()) {
+        std::memcpy(entries.data(), file.data() + kSectionTableOffset,
+                    entries.size() * sizeof(SectionEntry));
+    }
+    const std::uint64_t hash = content_hash(header, entries);
+    if (hash == header.content_hash) return std::nullopt;
+    return Damage{DamageKind::bad_fact, SectionId{0}, offsetof(FileHeader, content_hash),
+                  header.content_hash, hash};
+}
+
+}  // namespace
+
+std::optional<Damage> find_deep_damage(std::span<const std::byte> file) {
+    if (const Found damage = find_damage(file)) return damage;
+    if (const Found damage = find_wrong_hash(file)) return damage;
+    if (const Found damage = find_repeated_source(file)) return damage;
+    Tree tree{read_header(file), {}, positions_of(file), {}, {}};
+    tree.shape = bvh_shape(tree.header.triangle_count);
+    tree.triangles = copy_of<Triangle>(file, SectionId::triangles);
+    tree.nodes = copy_of<BvhNode>(file, SectionId::bvh_nodes);
+    if (!tree.nodes.empty()) {
+        if (const Found damage = find_loose_box(file, tree)) return damage;
+    }
+    if (const Found damage = find_unmarked_degenerate(file, tree)) return damage;
+    return find_outside_bounds(file, tree);
+}
+
+}  // namespace cdprep::format
