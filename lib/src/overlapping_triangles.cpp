@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/overlapping_triangles.h"
+
+#include <algorithm>
+
+#include "contact_pairs.h"
+
+namespace cdprep {
+namespace {
+
+/// Keeps the smallest pairs of those added, as many as fit.
+class SmallestPairs {
+public:
+    explicit SmallestPairs(std::span<TrianglePair> kept) noexcept : kept_(kept) {}
+
+    void add(const TrianglePair& pair) noexcept {
+        if (count_ < kept_.size()) {
+            kept_[count_] = pair;
+        } else if (!kept_.empty()) {
+            // From here on a heap: its front is the greatest kept pair.
+            if (count_ == kept_.size()) std::make_heap(kept_.begin(), kept_.end());
+            if (pair < kept_.front()) replace_greatest(pair);
+        }
+        ++count_;
+    }
+
+    /// Sorts what was kept; returns how many were added.
+    std::size_t finish() noexcept {
+        const std::size_t stored = std::min(count_, kept_.size());
+        std::sort(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(stored));
+        return count_;
+    }
+
+private:
+    void replace_greatest(const TrianglePair& pair) noexcept {
+        std::pop_heap(kept_.begin(), kept_.end());
+        kept_.back() = pair;
+        std::push_heap(kept_.begin(), kept_.end());
+    }
+
+    std::span<TrianglePair> kept_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
+
+std::size_t overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
+                                  Workspace& workspace, std::span<TrianglePair> pairs,
+                                  const OverlapOptions& options) noexcept {
+    SmallestPairs smallest(pairs);
+    for_each_contact(a, b, placement, workspace, options, [&](const TrianglePair& pair) {
+        smallest.add(pair);
+        return true;
+    });
+    return smallest.finish();
+}
+
+}  // namespace cdprep

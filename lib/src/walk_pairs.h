@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "box_placement.h"
+#include "cdprep/model.h"
+#include "workspace_storage.h"
+
+namespace cdprep {
+
+/// A node of the packed hierarchy, or a leaf. Height 0 is a leaf, height h > 0
+/// node `index` of level h - 1.
+struct TreePlace {
+    std::uint32_t height;
+    std::uint32_t index;
+};
+
+/// Two places in one word: heights take four bits, indices of leaves 28.
+struct PendingPair {
+    TreePlace a;
+    TreePlace b;
+
+    [[nodiscard]] std::uint64_t packed() const noexcept {
+        return std::uint64_t{a.height} << 60 | std::uint64_t{a.index} << 32 |
+               std::uint64_t{b.height} << 28 | b.index;
+    }
+    [[nodiscard]] static PendingPair unpacked(std::uint64_t bits) noexcept {
+        return {{static_cast<std::uint32_t>(bits >> 60),
+                 static_cast<std::uint32_t>(bits >> 32) & 0xfffffff},
+                {static_cast<std::uint32_t>(bits >> 28) & 0xf,
+                 static_cast<std::uint32_t>(bits) & 0xfffffff}};
+    }
+};
+static_assert(format::kMaxTriangles / format::kBvhWidth < (1U << 28));
+static_assert(format::kMaxBvhLevels < 16);
+
+/// One side of a step: the node whose boxes are tested, and which of them.
+struct TestedBoxes {
+    const format::BvhNode* node;
+    std::uint32_t first;    ///< box
+    std::uint32_t last;     ///< one past
+    TreePlace first_below;  ///< what box 0 of the node stands for
+};
+
+/// The children of a place, or, when it is to stay, its own box among its
+/// siblings.
+inline TestedBoxes boxes_of(const Model& model, const TreePlace& place, bool descend) noexcept {
+    const format::BvhShape& shape = model.shape();
+    if (descend) {
+        const std::uint32_t level = place.height - 1;
+        return {&model.nodes()[shape.first[level] + place.index],
+                0,
+                shape.used_boxes(level, place.index),
+                {level, place.index * format::kBvhWidth}};
+    }
+    const std::uint32_t box = place.index % format::kBvhWidth;
+    const std::uint32_t parent = place.index / format::kBvhWidth;
+    return {&model.nodes()[shape.first[place.height] + parent],
+            box,
+            box + 1,
+            {place.height, parent * format::kBvhWidth}};
+}
+
+/// Half the sum of the edges of a place's box, in the frame of the walk.
+inline float box_size(const Model& model, const TreePlace& place, float scale) noexcept {
+    const format::BvhShape& shape = model.shape();
+    if (place.height == shape.levels) return 3 * scale;  // the root fills the frame
+    const format::BvhNode& node =
+        model.nodes()[shape.first[place.height] + place.index / format::kBvhWidth];
+    const std::uint32_t box = place.index % format::kBvhWidth;
+    float size = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        size += node.upper[axis][box] - node.lower[axis][box];
+    }
+    return size * scale;
+}
+
+/// Which sides go a level down.
+struct Descent {
+    bool a;
+    bool b;
+};
+
+/// Both when their boxes are of similar size, else the larger; a leaf never, a
+/// root always (it has no siblings to be tested among).
+inline Descent choose_descent(const Model& a, const Model& b, const PendingPair& pair,
+                              const kernels::BoxPlacement& placement) noexcept {
+    constexpr float kSimilar = 2.5F;
+    const bool a_can = pair.a.height > 0;
+    const bool b_can = pair.b.height > 0;
+    if (pair.a.height == a.shape().levels || pair.b.height == b.shape().levels) {
+        return {a_can, b_can};
+    }
+    if (!a_can || !b_can) return {a_can, b_can};
+    const float size_a = box_size(a, pair.a, placement.scale_a);
+    const float size_b = box_size(b, pair.b, placement.scale_b);
+    return {size_b <= kSimilar * size_a, size_a <= kSimilar * size_b};
+}
+
+/// Walks the two hierarchies depth first and calls `leaf(index_a, index_b)` for
+/// each pair of leaves whose boxes no face direction separates, until it returns
+/// false. Returns false when it did. Both models need nodes.
+template <class Leaf>
+bool walk_pairs(const Model& a, const Model& b, const Placement& placement,
+                Workspace::Storage& scratch, Leaf&& leaf) noexcept {
+    if (a.triangle_count() == 0 || b.triangle_count() == 0) return true;
+    const PlacedBoxes placed = place_boxes(a, b, placement);
+    if (placed.apart) return true;
+    const kernels::Table& kernel = kernels::active();
+
+    std::size_t depth = 0;
+    scratch.pending[depth++] = PendingPair{{a.shape().levels, 0}, {b.shape().levels, 0}}.packed();
+    while (depth > 0) {
+        const PendingPair pair = PendingPair::unpacked(scratch.pending[--depth]);
+        if (pair.a.height == 0 && pair.b.height == 0) {
+            if (!leaf(pair.a.index, pair.b.index)) return false;
+            continue;
+        }
+        const Descent descent = choose_descent(a, b, pair, placed.placement);
+        const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
+        const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
+        const std::uint32_t wanted_a = (1U << side_a.last) - (1U << side_a.first);
+        std::array<std::uint8_t, format::kBvhWidth> masks;
+        kernel.overlap_masks(placed.placement, side_a.node->lower[0].data(),
+                             side_b.node->lower[0].data(), side_b.first, side_b.last, masks.data());
+        for (std::uint32_t j = side_b.first; j < side_b.last; ++j) {
+            for (std::uint32_t bits = masks[j] & wanted_a; bits != 0; bits &= bits - 1) {
+                const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
+                scratch.pending[depth++] = PendingPair{
+                    {side_a.first_below.height, side_a.first_below.index + i},
+                    {side_b.first_below.height,
+                     side_b.first_below.index +
+                         j}}.packed();
+            }
+        }
+    }
+    return true;
+}
+
+}  // namespace cdprep

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "cdprep/format/limits.h"
+#include "cdprep/workspace.h"
+#include "moved_leaf.h"
+
+namespace cdprep {
+
+/// Most entries a depth-first walk of two hierarchies holds: each step replaces
+/// one pair by at most 64, and takes at least one side a level down.
+inline constexpr std::size_t kMaxPendingPairs =
+    std::size_t{2} * (format::kMaxBvhLevels + 1) * format::kBvhWidth * format::kBvhWidth;
+
+struct Workspace::Storage {
+    std::array<std::uint64_t, kMaxPendingPairs> pending;
+    MovedLeaf leaf_a;
+    MovedLeaf leaf_b;
+};
+
+}  // namespace cdprep
