@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <span>
+
+#include "cdprep/format/file_header.h"
+
+namespace cdprep::test {
+
+/// Bytes at a cache line's start, in an allocation of exactly their number: a
+/// sanitizer sees a read of one byte too many.
+class AlignedBytes {
+public:
+    AlignedBytes() = default;
+    explicit AlignedBytes(std::size_t size)
+        : data_(static_cast<std::byte*>(::operator new[](size, kAlignment))), size_(size) {
+        std::memset(data_.get(), 0, size);
+    }
+    explicit AlignedBytes(std::span<const std::byte> bytes) : AlignedBytes(bytes.size()) {
+        if (!bytes.empty()) std::memcpy(data_.get(), bytes.data(), bytes.size());
+    }
+
+    [[nodiscard]] std::span<std::byte> span() noexcept {
+        return {data_.get(), size_};
+    }
+    [[nodiscard]] std::span<const std::byte> span() const noexcept {
+        return {data_.get(), size_};
+    }
+    [[nodiscard]] std::size_t size() const noexcept {
+        return size_;
+    }
+
+private:
+    static constexpr std::align_val_t kAlignment{format::kSectionAlignment};
+    struct Free {
+        void operator()(std::byte* p) const {
+            ::operator delete[](p, kAlignment);
+        }
+    };
+    std::unique_ptr<std::byte[], Free> data_;
+    std::size_t size_ = 0;
+};
+
+}  // namespace cdprep::test

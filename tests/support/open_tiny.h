@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "support/meshes.h"
+#include "support/tiny_baker.h"
+
+#include "cdprep/model.h"
+
+namespace cdprep::test {
+
+/// A model and the bytes that it lives in.
+struct OpenModel {
+    AlignedBytes bytes;
+    Model model;
+};
+
+/// Bakes and opens; ends the test program when that fails.
+inline OpenModel open_tiny(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                           const TinyOptions& options = {}) {
+    AlignedBytes bytes = bake_tiny(positions, triangles, options);
+    Result<Model> opened = Model::open(std::as_const(bytes).span());
+    if (!opened) {
+        std::fprintf(stderr, "%s\n", opened.error().message.c_str());
+        std::abort();
+    }
+    return {std::move(bytes), std::move(opened).value()};
+}
+
+inline OpenModel open_tiny(const TestMesh& mesh, const TinyOptions& options = {}) {
+    return open_tiny(mesh.positions, mesh.triangles, options);
+}
+
+}  // namespace cdprep::test

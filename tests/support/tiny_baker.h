@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "support/aligned_bytes.h"
+
+#include "cdprep/format/file_header.h"
+#include "cdprep/format/section_set.h"
+
+namespace cdprep::test {
+
+using format::Double3;
+using format::SectionId;
+using format::Triangle;
+
+struct TinyOptions {
+    bool double_precision = false;  ///< positions_f64 instead of positions_f32
+    format::SectionSet leave_out;   ///< sections that are not written
+};
+
+/// One section's id and bytes.
+struct TinySection {
+    SectionId id;
+    std::vector<std::byte> bytes;
+};
+
+/// Makes a complete file image in memory, as the format demands but without
+/// HDF5: user block, a superblock of zeros, then the sections. Vertices are
+/// taken as they are shared; positions must be finite.
+[[nodiscard]] AlignedBytes bake_tiny(std::span<const Double3> positions,
+                                     std::span<const Triangle> triangles,
+                                     const TinyOptions& options = {});
+
+/// Lays sections out behind a user block with these facts; what bake_tiny does
+/// last, for tests that change a section first.
+[[nodiscard]] AlignedBytes assemble(const format::FileHeader& facts,
+                                    const std::vector<TinySection>& sections);
+
+}  // namespace cdprep::test
