@@ -162,7 +162,7 @@ AlignedBytes bake_tiny(std::span<const Double3> positions, std::span<const Trian
     format::FileHeader facts{};
     facts.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
     facts.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
-    facts.flags = edges_cancel(mesh.triangles) ? format::model_closed : 0;
+    if (edges_cancel(mesh.triangles)) facts.flags = format::model_closed;
     facts.frame_origin = bvh.frame.origin;
     facts.frame_exponent = bvh.frame.exponent;
     return assemble(facts, all);
