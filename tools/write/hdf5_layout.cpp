@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "write/hdf5_layout.h"
+
+#include <hdf5.h>
+
+#include <array>
+#include <cstddef>
+#include <cstring>
+#include <functional>
+#include <utility>
+
+#include "cdprep/format/geometry.h"
+#include "cdprep/format/sections.h"
+
+// HDF5 gives bytes that depend on nothing but the content when time stamps are
+// off for the file, its groups and its datasets, and the library version is
+// pinned. Alignment belongs to the open, not to the dataset, so large sections
+// (on pages) and small ones (on cache lines) are made in two opens.
+
+namespace cdprep::write {
+namespace {
+
+using format::SectionId;
+
+constexpr const char* kGroup = "/cdprep";
+
+/// An HDF5 identifier that closes itself.
+class Handle {
+public:
+    Handle(hid_t id, herr_t (*closer)(hid_t)) noexcept : id_(id), close_(closer) {}
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+    Handle& operator=(Handle&&) = delete;
+    ~Handle() {
+        if (id_ >= 0) close_(id_);
+    }
+    [[nodiscard]] hid_t id() const noexcept {
+        return id_;
+    }
+    [[nodiscard]] bool good() const noexcept {
+        return id_ >= 0;
+    }
+    /// Closes now and tells whether that worked: HDF5 writes when it closes.
+    [[nodiscard]] bool close() noexcept {
+        return id_ >= 0 && close_(std::exchange(id_, -1)) >= 0;
+    }
+
+private:
+    hid_t id_;
+    herr_t (*close_)(hid_t);
+};
+
+/// Keeps HDF5 from printing while it lives.
+class Silence {
+public:
+    Silence() {
+        H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+        H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    }
+    Silence(const Silence&) = delete;
+    Silence& operator=(const Silence&) = delete;
+    ~Silence() {
+        H5Eset_auto2(H5E_DEFAULT, print_, data_);
+    }
+
+private:
+    H5E_auto2_t print_ = nullptr;
+    void* data_ = nullptr;
+};
+
+// --- Element types -----------------------------------------------------------
+
+/// A member of a compound type: an HDF5 scalar, possibly an array of it.
+struct Member {
+    const char* name;
+    std::size_t offset;
+    hid_t scalar;
+    std::vector<hsize_t> shape;
+};
+
+Handle array_of(hid_t scalar, const std::vector<hsize_t>& shape) {
+    if (shape.empty()) return {H5Tcopy(scalar), H5Tclose};
+    return {H5Tarray_create2(scalar, static_cast<unsigned>(shape.size()), shape.data()), H5Tclose};
+}
+
+Handle compound(std::size_t size, const std::vector<Member>& members) {
+    Handle type(H5Tcreate(H5T_COMPOUND, size), H5Tclose);
+    for (const Member& member : members) {
+        const Handle element = array_of(member.scalar, member.shape);
+        H5Tinsert(type.id(), member.name, member.offset, element.id());
+    }
+    return type;
+}
+
+Handle node_type() {
+    using format::BvhNode;
+    return compound(sizeof(BvhNode),
+                    {{"lower", offsetof(BvhNode, lower), H5T_IEEE_F32LE, {3, format::kBvhWidth}},
+                     {"upper", offsetof(BvhNode, upper), H5T_IEEE_F32LE, {3, format::kBvhWidth}}});
+}
+
+Handle component_type() {
+    using format::Component;
+    return compound(sizeof(Component),
+                    {{"vertex", offsetof(Component, vertex), H5T_STD_U32LE, {}},
+                     {"triangle_count", offsetof(Component, triangle_count), H5T_STD_U32LE, {}},
+                     {"flags", offsetof(Component, flags), H5T_STD_U32LE, {}},
+                     {"reserved", offsetof(Component, reserved), H5T_STD_U32LE, {}},
+                     {"signed_volume", offsetof(Component, signed_volume), H5T_IEEE_F64LE, {}}});
+}
+
+Handle bounds_type() {
+    using format::Bounds;
+    return compound(sizeof(Bounds),
+                    {{"lower", offsetof(Bounds, lower), H5T_IEEE_F64LE, {3}},
+                     {"upper", offsetof(Bounds, upper), H5T_IEEE_F64LE, {3}},
+                     {"oriented_centre", offsetof(Bounds, oriented_centre), H5T_IEEE_F64LE, {3}},
+                     {"axis", offsetof(Bounds, axis), H5T_IEEE_F64LE, {3, 3}},
+                     {"half_extent", offsetof(Bounds, half_extent), H5T_IEEE_F64LE, {3}}});
+}
+
+Handle mass_type() {
+    using format::MassProperties;
+    return compound(sizeof(MassProperties),
+                    {{"volume", offsetof(MassProperties, volume), H5T_IEEE_F64LE, {}},
+                     {"surface_area", offsetof(MassProperties, surface_area), H5T_IEEE_F64LE, {}},
+                     {"centre", offsetof(MassProperties, centre), H5T_IEEE_F64LE, {3}},
+                     {"inertia", offsetof(MassProperties, inertia), H5T_IEEE_F64LE, {6}}});
+}
+
+Handle instance_type() {
+    using format::Instance;
+    return compound(
+        sizeof(Instance),
+        {{"model_from_node", offsetof(Instance, model_from_node), H5T_IEEE_F64LE, {3, 4}},
+         {"mesh", offsetof(Instance, mesh), H5T_STD_U32LE, {}},
+         {"name", offsetof(Instance, name), H5T_STD_U32LE, {}},
+         {"first_triangle", offsetof(Instance, first_triangle), H5T_STD_U32LE, {}},
+         {"triangle_count", offsetof(Instance, triangle_count), H5T_STD_U32LE, {}},
+         {"flags", offsetof(Instance, flags), H5T_STD_U32LE, {}},
+         {"reserved", offsetof(Instance, reserved), H5T_STD_U32LE, {}}});
+}
+
+Handle run_type() {
+    using format::NamedRun;
+    return compound(sizeof(NamedRun),
+                    {{"first_triangle", offsetof(NamedRun, first_triangle), H5T_STD_U32LE, {}},
+                     {"triangle_count", offsetof(NamedRun, triangle_count), H5T_STD_U32LE, {}},
+                     {"name", offsetof(NamedRun, name), H5T_STD_U32LE, {}},
+                     {"reserved", offsetof(NamedRun, reserved), H5T_STD_U32LE, {}}});
+}
+
+Handle scalar(hid_t type) {
+    return {H5Tcopy(type), H5Tclose};
+}
+
+/// How a section shows in HDF5.
+struct Look {
+    SectionId id;
+    std::function<Handle()> type;
+    unsigned columns;  ///< 0: one-dimensional
+    const char* units;
+    const char* description;
+};
+
+const std::vector<Look>& looks() {
+    static const std::vector<Look> all = {
+        {SectionId::positions_f32, [] { return scalar(H5T_IEEE_F32LE); }, 3, "model units",
+         "x, y, z of each vertex"},
+        {SectionId::positions_f64, [] { return scalar(H5T_IEEE_F64LE); }, 3, "model units",
+         "x, y, z of each vertex"},
+        {SectionId::triangles, [] { return scalar(H5T_STD_U32LE); }, 3, "1",
+         "vertex numbers of each triangle, in tree order"},
+        {SectionId::source_triangle, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "number in the imported file of each triangle of the tree order"},
+        {SectionId::source_vertex, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "lowest number in the imported file of each vertex"},
+        {SectionId::source_face, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "face of the imported mesh for each source triangle"},
+        {SectionId::bvh_nodes, node_type, 0, "frame coordinates",
+         "boxes of the hierarchy, eight a node, root first"},
+        {SectionId::degenerate_bits, [] { return scalar(H5T_STD_U64LE); }, 0, "1",
+         "bit i: triangle i of the tree order has collinear corners"},
+        {SectionId::components, component_type, 0, "signed_volume: cubic model units",
+         "connected components"},
+        {SectionId::bounds, bounds_type, 0, "model units", "axis-aligned and oriented box"},
+        {SectionId::mass_properties, mass_type, 0, "powers of the model unit, density 1",
+         "volume, area, centre of mass, inertia xx yy zz xy yz zx"},
+        {SectionId::instances, instance_type, 0, "model units",
+         "uses of meshes by nodes of the imported scene"},
+        {SectionId::instance_names, [] { return scalar(H5T_STD_U8LE); }, 0, "1",
+         "node paths, UTF-8, each ended by a zero"},
+        {SectionId::group_runs, run_type, 0, "1", "runs of source triangles of one group"},
+        {SectionId::group_names, [] { return scalar(H5T_STD_U8LE); }, 0, "1",
+         "group names, UTF-8, each ended by a zero"},
+        {SectionId::material_runs, run_type, 0, "1", "runs of source triangles of one material"},
+        {SectionId::material_names, [] { return scalar(H5T_STD_U8LE); }, 0, "1",
+         "material names, UTF-8, each ended by a zero"},
+        {SectionId::provenance, [] { return scalar(H5T_STD_U8LE); }, 0, "1",
+         "canonical JSON, UTF-8: versions, options, hash of the source"},
+    };
+    return all;
+}
+
+const Look* find_look(SectionId id) {
+    for (const Look& look : looks()) {
+        if (look.id == id) return &look;
+    }
+    return nullptr;
+}
+
+// --- Making ---------------------------------------------------------------------
+
+bool add_text(hid_t object, const char* name, const char* text) {
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type.id(), std::strlen(text));
+    H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Handle attribute(
+        H5Acreate2(object, name, type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    return attribute.good() && H5Awrite(attribute.id(), type.id(), text) >= 0;
+}
+
+Handle access_list(std::uint64_t threshold, std::uint64_t alignment) {
+    Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_alignment(list.id(), threshold, alignment);
+    H5Pset_libver_bounds(list.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
+    H5Pset_file_locking(list.id(), false, true);  // OutputFile holds the lock
+    return list;
+}
+
+void keep_links_simple(const Handle& creation) {
+    constexpr unsigned kMostCompactLinks = 65000;
+    H5Pset_link_phase_change(creation.id(), kMostCompactLinks, 0);
+    H5Pset_obj_track_times(creation.id(), false);
+}
+
+/// An empty file with a user block and our group.
+bool make_file(const char* path) {
+    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    H5Pset_userblock(creation.id(), format::kUserBlockSize);
+    keep_links_simple(creation);
+    const Handle access = access_list(1, format::kSectionAlignment);
+    Handle file(H5Fcreate(path, H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
+    if (!file.good()) return false;
+    const Handle group_creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
+    keep_links_simple(group_creation);
+    Handle group(H5Gcreate2(file.id(), kGroup, H5P_DEFAULT, group_creation.id(), H5P_DEFAULT),
+                 H5Gclose);
+    const bool described = group.good() && add_text(group.id(), "description",
+                                                    "a mesh baked for exact collision queries");
+    return described && group.close() && file.close();
+}
+
+std::vector<hsize_t> shape_of(const Look& look, std::uint64_t count) {
+    if (look.columns == 0) return {count};
+    return {count, look.columns};
+}
+
+std::optional<Place> make_dataset(const Handle& file, const Plan& plan) {
+    const Look* look = find_look(plan.id);
+    if (look == nullptr) return std::nullopt;
+    const std::vector<hsize_t> shape = shape_of(*look, plan.count);
+    const Handle type = look->type();
+    const Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                       H5Sclose);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(creation.id(), false);
+    H5Pset_layout(creation.id(), H5D_CONTIGUOUS);
+    H5Pset_alloc_time(creation.id(), H5D_ALLOC_TIME_EARLY);
+    H5Pset_fill_time(creation.id(), H5D_FILL_TIME_NEVER);
+    const std::string name = std::string(kGroup) + "/" + format::section_name(plan.id);
+    Handle dataset(H5Dcreate2(file.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT,
+                              creation.id(), H5P_DEFAULT),
+                   H5Dclose);
+    if (!dataset.good() || !add_text(dataset.id(), "units", look->units) ||
+        !add_text(dataset.id(), "description", look->description)) {
+        return std::nullopt;
+    }
+    const haddr_t offset = H5Dget_offset(dataset.id());
+    if (offset == HADDR_UNDEF || !dataset.close()) return std::nullopt;
+    return Place{plan.id, offset, plan.count};
+}
+
+bool is_large(const Plan& plan) {
+    return plan.count * format::element_size(plan.id) >= format::kPageThreshold;
+}
+
+/// Makes the large or the small datasets, all in one open.
+bool make_datasets(const char* path, std::span<const Plan> plans, bool large,
+                   std::vector<Place>& places) {
+    const Handle access = large ? access_list(format::kPageThreshold, format::kPageAlignment)
+                                : access_list(1, format::kSectionAlignment);
+    Handle file(H5Fopen(path, H5F_ACC_RDWR, access.id()), H5Fclose);
+    if (!file.good()) return false;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        if (is_large(plans[i]) != large) continue;
+        const std::optional<Place> place = make_dataset(file, plans[i]);
+        if (!place) return false;
+        places[i] = *place;
+    }
+    return file.close();
+}
+
+// --- Finding --------------------------------------------------------------------
+
+std::string clause(SectionId id, const char* what) {
+    return std::string("dataset ") + format::section_name(id) + " " + what;
+}
+
+/// One dataset of a file that somebody else may have written.
+std::string find_place(const Handle& file, const Look& look, std::vector<Place>& places) {
+    const std::string name = std::string(kGroup) + "/" + format::section_name(look.id);
+    if (H5Lexists(file.id(), name.c_str(), H5P_DEFAULT) <= 0) return {};
+    const Handle dataset(H5Dopen2(file.id(), name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!dataset.good()) return clause(look.id, "cannot be opened");
+    const Handle type(H5Dget_type(dataset.id()), H5Tclose);
+    const Handle expected = look.type();
+    if (H5Tequal(type.id(), expected.id()) <= 0) return clause(look.id, "has another type");
+    const Handle space(H5Dget_space(dataset.id()), H5Sclose);
+    std::array<hsize_t, 2> shape{};
+    const int expected_rank = look.columns == 0 ? 1 : 2;
+    if (H5Sget_simple_extent_ndims(space.id()) != expected_rank ||
+        H5Sget_simple_extent_dims(space.id(), shape.data(), nullptr) != expected_rank ||
+        (look.columns != 0 && shape[1] != look.columns)) {
+        return clause(look.id, "has another shape");
+    }
+    const Handle creation(H5Dget_create_plist(dataset.id()), H5Pclose);
+    const haddr_t offset = H5Dget_offset(dataset.id());
+    if (H5Pget_layout(creation.id()) != H5D_CONTIGUOUS || offset == HADDR_UNDEF) {
+        return clause(look.id, "is not stored as one uncompressed run");
+    }
+    places.push_back({look.id, offset, shape[0]});
+    return {};
+}
+
+}  // namespace
+
+std::optional<std::vector<Place>> make_layout(const std::filesystem::path& path,
+                                              std::span<const Plan> plans) {
+    const Silence silence;
+    std::vector<Place> places(plans.size());
+    const bool made = make_file(path.c_str()) && make_datasets(path.c_str(), plans, true, places) &&
+                      make_datasets(path.c_str(), plans, false, places);
+    if (!made) return std::nullopt;
+    return places;
+}
+
+FoundLayout find_layout(const std::filesystem::path& path) {
+    const Silence silence;
+    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    if (!file.good()) return {{}, "it is not an HDF5 file that can be read"};
+    FoundLayout found;
+    for (const Look& look : looks()) {
+        const std::string damage = find_place(file, look, found.places);
+        if (!damage.empty()) return {{}, damage};
+    }
+    if (found.places.empty()) found.damage = "it holds no dataset of cdprep";
+    return found;
+}
+
+}  // namespace cdprep::write

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cdprep/format/file_header.h"
+
+namespace cdprep::write {
+
+/// A dataset to be made: an id and how many elements.
+struct Plan {
+    format::SectionId id;
+    std::uint64_t count;
+};
+
+/// A dataset as it lies in a file.
+struct Place {
+    format::SectionId id;
+    std::uint64_t offset;  ///< from the start of the file, user block included
+    std::uint64_t count;
+};
+
+/// Makes the HDF5 file at `path` (which exists and is empty) with a user block
+/// of zeros and one allocated, unwritten dataset per plan, named and described.
+/// Counts are at least 1. Returns the places in the order of the plans; nothing
+/// when HDF5 fails, which on a sound machine means that the disk is full.
+[[nodiscard]] std::optional<std::vector<Place>> make_layout(const std::filesystem::path& path,
+                                                            std::span<const Plan> plans);
+
+/// Finds the datasets of a file that any tool may have written. `damage` names
+/// the first dataset that is not contiguous or not of our type.
+struct FoundLayout {
+    std::vector<Place> places;  ///< by rising id; empty when `damage` is not
+    std::string damage;         ///< a clause for a sentence, or empty
+};
+[[nodiscard]] FoundLayout find_layout(const std::filesystem::path& path);
+
+}  // namespace cdprep::write

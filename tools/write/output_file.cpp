@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "write/output_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+namespace cdprep::write {
+namespace {
+
+constexpr int kMostWriters = 100;  ///< of one target at once
+
+std::filesystem::path temporary_name(const std::filesystem::path& target, int number) {
+    std::string name = "." + target.filename().string() + ".tmp";
+    if (number > 0) name += std::to_string(number);
+    return target.parent_path() / name;
+}
+
+Error unwritable(const std::filesystem::path& target, const std::string& why) {
+    return {ErrorCode::unwritable,
+            target.string() + ": " + why + ". The file that was there before is unchanged."};
+}
+
+/// Opens and locks one temporary; -1 with errno when it cannot be had. The lock
+/// is on the inode, so after locking we look whether the name still leads to it:
+/// another writer may just have renamed or removed it.
+int open_locked(const std::filesystem::path& temporary) {
+    while (true) {
+        const int descriptor = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+        if (descriptor < 0) return -1;
+        struct stat ours {};
+        struct stat named {};
+        if (::flock(descriptor, LOCK_EX | LOCK_NB) == 0 && ::fstat(descriptor, &ours) == 0) {
+            if (::stat(temporary.c_str(), &named) == 0 && ours.st_ino == named.st_ino) {
+                return descriptor;
+            }
+            ::close(descriptor);
+            continue;
+        }
+        const int cause = errno;
+        ::close(descriptor);
+        errno = cause;
+        return -1;
+    }
+}
+
+void remove_abandoned(const std::filesystem::path& temporary) {
+    if (::access(temporary.c_str(), F_OK) != 0) return;
+    const int descriptor = open_locked(temporary);
+    if (descriptor < 0) return;
+    ::unlink(temporary.c_str());
+    ::close(descriptor);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::filesystem::path target, std::filesystem::path temporary,
+                       int descriptor)
+    : target_(std::move(target)), temporary_(std::move(temporary)), descriptor_(descriptor) {}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : target_(std::move(other.target_)),
+      temporary_(std::move(other.temporary_)),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ < 0) return;
+    ::unlink(temporary_.c_str());
+    ::close(descriptor_);
+}
+
+Result<OutputFile> OutputFile::create(const std::filesystem::path& target) {
+    for (int number = 0; number < kMostWriters; ++number) {
+        const std::filesystem::path temporary = temporary_name(target, number);
+        const int descriptor = open_locked(temporary);
+        if (descriptor >= 0) {
+            remove_abandoned(temporary_name(target, number + 1));
+            OutputFile file(target, temporary, descriptor);
+            if (::ftruncate(descriptor, 0) != 0) return file.failed("cannot be emptied");
+            return file;
+        }
+        if (errno != EWOULDBLOCK) {
+            return unwritable(target, std::string("cannot be written: ") + std::strerror(errno));
+        }
+    }
+    return unwritable(target, "is being written by " + std::to_string(kMostWriters) +
+                                  " others, the most allowed at once");
+}
+
+Error OutputFile::failed(const char* what) const {
+    return unwritable(target_, std::string(what) + ": " + std::strerror(errno));
+}
+
+Result<std::uint64_t> OutputFile::size() const {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0) return failed("cannot be examined");
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
+Result<Done> OutputFile::read_at(std::uint64_t offset, std::span<std::byte> bytes) const {
+    while (!bytes.empty()) {
+        const ssize_t done =
+            ::pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (done < 0 && errno == EINTR) continue;
+        if (done <= 0) return failed("cannot be read back");
+        bytes = bytes.subspan(static_cast<std::size_t>(done));
+        offset += static_cast<std::uint64_t>(done);
+    }
+    return Done{};
+}
+
+Result<Done> OutputFile::write_at(std::uint64_t offset, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t done =
+            ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (done < 0 && errno == EINTR) continue;
+        if (done < 0) return failed("cannot be written");
+        bytes = bytes.subspan(static_cast<std::size_t>(done));
+        offset += static_cast<std::uint64_t>(done);
+    }
+    return Done{};
+}
+
+Result<Done> OutputFile::commit() {
+    if (::fsync(descriptor_) != 0) return failed("cannot be forced to disk");
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) return failed("cannot be renamed");
+    ::close(std::exchange(descriptor_, -1));
+    // The name too must survive a power cut; where a folder cannot be synced the
+    // file is whole all the same.
+    const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+    const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (handle >= 0) {
+        ::fsync(handle);
+        ::close(handle);
+    }
+    return Done{};
+}
+
+}  // namespace cdprep::write

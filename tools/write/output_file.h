@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+#include "cdprep/result.h"
+
+namespace cdprep::write {
+
+/// A file that appears under its name only when it is whole.
+///
+/// Lives as a temporary beside its target, locked while this object lives. A
+/// temporary that a killed process left has no lock; the next one for that
+/// target takes it over. Destroyed before commit(), it leaves nothing behind.
+class OutputFile {
+public:
+    /// Fails with `unwritable` when no temporary can be made.
+    [[nodiscard]] static Result<OutputFile> create(const std::filesystem::path& target);
+
+    OutputFile(OutputFile&& other) noexcept;
+    OutputFile& operator=(OutputFile&&) = delete;
+    ~OutputFile();
+
+    [[nodiscard]] const std::filesystem::path& temporary() const noexcept {
+        return temporary_;
+    }
+
+    [[nodiscard]] Result<std::uint64_t> size() const;
+    [[nodiscard]] Result<Done> read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
+    [[nodiscard]] Result<Done> write_at(std::uint64_t offset, std::span<const std::byte> bytes);
+
+    /// Forces the bytes to disk and renames the temporary to the target.
+    [[nodiscard]] Result<Done> commit();
+
+private:
+    OutputFile(std::filesystem::path target, std::filesystem::path temporary, int descriptor);
+    [[nodiscard]] Error failed(const char* what) const;
+
+    std::filesystem::path target_;
+    std::filesystem::path temporary_;
+    int descriptor_;
+};
+
+}  // namespace cdprep::write
