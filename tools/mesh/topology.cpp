@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/topology.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace cdprep::mesh {
+namespace {
+
+std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t vertex) {
+    while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
+    return vertex;
+}
+
+/// Component number of each vertex, in the order of the lowest triangle.
+std::vector<std::uint32_t> number_components(const Mesh& mesh, std::size_t& count) {
+    std::vector<std::uint32_t> parent(mesh.positions.size());
+    std::iota(parent.begin(), parent.end(), 0U);
+    for (const Triangle& triangle : mesh.triangles) {
+        const std::uint32_t root = root_of(parent, triangle.vertex[0]);
+        for (const std::uint32_t vertex : triangle.vertex) parent[root_of(parent, vertex)] = root;
+    }
+    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
+    count = 0;
+    for (const Triangle& triangle : mesh.triangles) {
+        const std::uint32_t root = root_of(parent, triangle.vertex[0]);
+        if (number[root] == kNone) number[root] = static_cast<std::uint32_t>(count++);
+        for (const std::uint32_t vertex : triangle.vertex) number[vertex] = number[root];
+    }
+    return number;
+}
+
+/// One use of an edge, kept with its lower vertex.
+struct EdgeUse {
+    std::uint32_t upper;  ///< the higher vertex
+    std::int32_t sign;    ///< 1 from lower to upper, -1 back
+};
+
+/// All edge uses, those of lower vertex v in [first[v], first[v + 1]).
+struct EdgeUses {
+    std::vector<std::uint32_t> first;
+    std::vector<EdgeUse> use;
+};
+
+template <class Visit>
+void for_each_edge(const Mesh& mesh, Visit visit) {
+    for (const Triangle& triangle : mesh.triangles) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::uint32_t from = triangle.vertex[i];
+            const std::uint32_t to = triangle.vertex[(i + 1) % 3];
+            if (from < to) visit(from, EdgeUse{to, 1});
+            if (to < from) visit(to, EdgeUse{from, -1});
+        }
+    }
+}
+
+EdgeUses collect_edges(const Mesh& mesh) {
+    EdgeUses edges;
+    edges.first.assign(mesh.positions.size() + 1, 0);
+    for_each_edge(mesh, [&](std::uint32_t lower, EdgeUse) { ++edges.first[lower + 1]; });
+    std::partial_sum(edges.first.begin(), edges.first.end(), edges.first.begin());
+    edges.use.resize(edges.first.back());
+    std::vector<std::uint32_t> next(edges.first.begin(), edges.first.end() - 1);
+    for_each_edge(mesh, [&](std::uint32_t lower, EdgeUse use) { edges.use[next[lower]++] = use; });
+    return edges;
+}
+
+/// Whether all edges of one lower vertex cancel.
+bool edges_cancel(std::span<EdgeUse> uses) {
+    std::sort(uses.begin(), uses.end(),
+              [](const EdgeUse& a, const EdgeUse& b) { return a.upper < b.upper; });
+    for (std::size_t i = 0; i < uses.size();) {
+        std::int32_t balance = 0;
+        const std::uint32_t upper = uses[i].upper;
+        for (; i < uses.size() && uses[i].upper == upper; ++i) balance += uses[i].sign;
+        if (balance != 0) return false;
+    }
+    return true;
+}
+
+/// Six times the volume between a triangle and the point o.
+double signed_volume_6(const Double3& a, const Double3& b, const Double3& c, const Double3& o) {
+    const Double3 u{a.x - o.x, a.y - o.y, a.z - o.z};
+    const Double3 v{b.x - o.x, b.y - o.y, b.z - o.z};
+    const Double3 w{c.x - o.x, c.y - o.y, c.z - o.z};
+    return u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) +
+           u.z * (v.x * w.y - v.y * w.x);
+}
+
+double finite(double value) {
+    constexpr double kLargest = std::numeric_limits<double>::max();
+    return std::isnan(value) ? 0 : std::clamp(value, -kLargest, kLargest);
+}
+
+}  // namespace
+
+Topology find_topology(const Mesh& mesh) {
+    std::size_t count = 0;
+    const std::vector<std::uint32_t> number = number_components(mesh, count);
+    Topology topology;
+    topology.components.assign(count, {0, 0, format::component_closed, 0, 0});
+    topology.closed = true;
+
+    EdgeUses edges = collect_edges(mesh);
+    for (std::size_t vertex = 0; vertex < mesh.positions.size(); ++vertex) {
+        const std::size_t first = edges.first[vertex];
+        if (edges_cancel(std::span(edges.use).subspan(first, edges.first[vertex + 1] - first))) {
+            continue;
+        }
+        topology.closed = false;
+        topology.components[number[vertex]].flags = 0;
+    }
+    for (const Triangle& triangle : mesh.triangles) {
+        format::Component& component = topology.components[number[triangle.vertex[0]]];
+        if (component.triangle_count++ == 0) component.vertex = triangle.vertex[0];
+        if ((component.flags & format::component_closed) == 0) continue;
+        const auto [a, b, c] = triangle.vertex;
+        component.signed_volume +=
+            signed_volume_6(mesh.positions[a], mesh.positions[b], mesh.positions[c],
+                            mesh.positions[component.vertex]) /
+            6;
+    }
+    for (format::Component& component : topology.components) {
+        component.signed_volume = finite(component.signed_volume);
+    }
+    return topology;
+}
+
+}  // namespace cdprep::mesh
