@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "import/collada_asset.h"
+
+#include <cmath>
+#include <string>
+
+#include "import/parse_number.h"
+
+namespace cdprep::import {
+namespace {
+
+/// What stands between `before` and the next `after`; empty when there is none.
+std::string_view between(std::string_view text, std::string_view before, char after) {
+    const std::size_t first = text.find(before);
+    if (first == std::string_view::npos) return {};
+    text.remove_prefix(first + before.size());
+    return text.substr(0, text.find(after));
+}
+
+double metres_of(std::string_view unit) {
+    for (const char quote : {'"', '\''}) {
+        const std::string_view text = between(unit, std::string("meter=") + quote, quote);
+        const Number number = parse_number(text.data(), text.data() + text.size());
+        if (number.next && std::isfinite(number.value) && number.value > 0) return number.value;
+    }
+    return 1;
+}
+
+format::UpAxis axis_named(std::string_view name) {
+    if (name.find("X_UP") != std::string_view::npos) return format::UpAxis::x;
+    return name.find("Z_UP") != std::string_view::npos ? format::UpAxis::z : format::UpAxis::y;
+}
+
+}  // namespace
+
+void add_collada_asset(std::string_view bytes, mesh::TriangleSoup& soup) {
+    constexpr std::size_t kLookedAt = 65536;  // the asset is the first element
+    const std::string_view start = bytes.substr(0, kLookedAt);
+    if (start.find("<COLLADA") == std::string_view::npos) return;
+    const std::string_view asset = start.substr(0, start.find("</asset>"));
+    soup.metres_per_unit = metres_of(between(asset, "<unit", '>'));
+    soup.up_axis = axis_named(between(asset, "<up_axis>", '<'));
+}
+
+}  // namespace cdprep::import

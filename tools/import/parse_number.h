@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace cdprep::import {
+
+/// A number read from text.
+struct Number {
+    double value = 0;            ///< correctly rounded; NaN for spellings of no finite number
+    const char* next = nullptr;  ///< just past it; null when there is no number
+    /// The nearest float stands for it without loss (PRODUCT 3): that float is
+    /// `value` itself, or the text has at most 9 significant digits and the float
+    /// printed with as many digits reads the same. static_cast<float>(value) is
+    /// that float.
+    bool single = false;
+};
+
+/// Reads the decimal number at `first`, correctly rounded. It must end before a
+/// blank, a '#', a backslash or `last`; otherwise `next` is null.
+///
+/// Infinity and NaN in the spellings that C libraries write ("inf", "nan",
+/// "-nan(ind)", "1.#QNAN", ...) give that value, also numbers too large for a
+/// double; hexadecimal spellings give NaN. `first` < `last` is not required.
+/// About 5 ns; numbers of more than 19 digits or great exponents about 50 ns.
+[[nodiscard]] inline Number parse_number(const char* first, const char* last) noexcept;
+
+/// The general case of parse_number(): any length, any exponent, any spelling.
+[[nodiscard]] Number parse_odd_number(const char* first, const char* last) noexcept;
+
+/// Decides `Number::single` for the finite text [first, last) of value `value`
+/// by printing the nearest float.
+[[nodiscard]] bool single_prints_the_same(const char* first, const char* last,
+                                          double value) noexcept;
+
+/// Appends the decimal digits at `first` to `value` (modulo 2^64) and returns the
+/// first character that is none.
+[[nodiscard]] inline const char* take_digits(const char* first, const char* last,
+                                             std::uint64_t& value) noexcept;
+
+/// A whole number read from text.
+struct WholeNumber {
+    std::int64_t value = 0;
+    const char* next = nullptr;  ///< just past it; null when there is none
+};
+
+/// Reads the whole number of at most 18 digits at `first`, which ends where
+/// parse_number() says.
+[[nodiscard]] inline WholeNumber parse_whole_number(const char* first, const char* last) noexcept;
+
+// ---------------------------------------------------------------- inline parts
+
+namespace detail {
+
+inline constexpr std::array<double, 23> kPowerOfTen = {
+    1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+    1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+inline constexpr std::array<double, 23> kNegativePowerOfTen = {
+    1e-0,  1e-1,  1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,  1e-8,  1e-9,  1e-10, 1e-11,
+    1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17, 1e-18, 1e-19, 1e-20, 1e-21, 1e-22};
+inline constexpr std::array<std::uint32_t, 8> kSmallPowerOfTen = {1,     10,     100,     1000,
+                                                                  10000, 100000, 1000000, 10000000};
+
+/// The number that eight digit values spell, first digit in the lowest byte.
+constexpr std::uint64_t eight_digits(std::uint64_t digits) noexcept {
+    constexpr std::uint64_t kEverySecond = 0x000000ff000000ff;
+    digits = digits * 10 + (digits >> 8);
+    return ((digits & kEverySecond) * (100 + (std::uint64_t{1000000} << 32)) +
+            ((digits >> 16) & kEverySecond) * (1 + (std::uint64_t{10000} << 32))) >>
+           32;
+}
+
+constexpr bool is_digit(char c) noexcept {
+    return c >= '0' && c <= '9';
+}
+
+constexpr bool ends_number(char c) noexcept {
+    return static_cast<unsigned char>(c) <= ' ' || c == '#' || c == '\\';
+}
+
+enum class Loss : std::uint8_t { none, some, unclear };
+
+/// Whether a float holds significand * 10^exponent = value without loss, for a
+/// significand up to 2^53 and exponents from -22 to 22, where no float overflows
+/// or is subnormal. Up to 6 digits always survive; for 7 to 9 the float must be
+/// nearer than half a unit of the last digit. `value` errs by less than 2^-53 of
+/// at most 10^9 units, so a millionth of a unit to either side is left unclear,
+/// as are decades (below them digits are finer) and doubles halfway between two
+/// floats (where rounding twice could differ from rounding once).
+inline Loss loss_as_single(std::uint64_t significand, int exponent, double value) noexcept {
+    constexpr double kDoubt = 1e-6;  // of half a unit
+    const double nearest = static_cast<float>(value);
+    if (significand < 1000000 || nearest == value) return Loss::none;
+    if (significand >= 1000000000) return Loss::some;
+    constexpr std::uint64_t kHalfway = std::uint64_t{1} << 28;
+    const bool halfway = (std::bit_cast<std::uint64_t>(value) & (2 * kHalfway - 1)) == kHalfway;
+    if (halfway || significand == 1000000 || significand == 10000000 || significand == 100000000) {
+        return Loss::unclear;
+    }
+    const double half_unit =
+        0.5 * (exponent < 0 ? kNegativePowerOfTen[static_cast<std::size_t>(-exponent)]
+                            : kPowerOfTen[static_cast<std::size_t>(exponent)]);
+    const double difference = nearest > value ? nearest - value : value - nearest;
+    if (difference < half_unit * (1 - kDoubt)) return Loss::none;
+    return difference > half_unit * (1 + kDoubt) ? Loss::some : Loss::unclear;
+}
+
+}  // namespace detail
+
+inline const char* take_digits(const char* first, const char* last, std::uint64_t& value) noexcept {
+    static_assert(std::endian::native == std::endian::little);
+    while (last - first >= 8) {
+        std::uint64_t text;
+        std::memcpy(&text, first, 8);
+        const std::uint64_t digits = text ^ 0x3030303030303030;
+        // The high bit of each byte above 9. A carry out of a byte above 0x89
+        // only spoils later bytes, and the first one that is no digit decides.
+        const std::uint64_t others = ((digits + 0x7676767676767676) | digits) & 0x8080808080808080;
+        if (others == 0) {
+            value = value * 100000000 + detail::eight_digits(digits);
+            first += 8;
+            continue;
+        }
+        const auto count = static_cast<unsigned>(std::countr_zero(others)) / 8;
+        if (count == 0) return first;
+        value = value * detail::kSmallPowerOfTen[count] +
+                detail::eight_digits(digits << (64 - 8 * count));
+        return first + count;
+    }
+    for (; first < last && detail::is_digit(*first); ++first) {
+        value = value * 10 + static_cast<std::uint64_t>(*first - '0');
+    }
+    return first;
+}
+
+inline WholeNumber parse_whole_number(const char* first, const char* last) noexcept {
+    constexpr int kMaxDigits = 18;
+    const char* at = first;
+    const bool negative = at < last && *at == '-';
+    if (negative || (at < last && *at == '+')) ++at;
+    std::uint64_t value = 0;
+    const char* const digits = at;
+    at = take_digits(at, last, value);
+    if (at == digits || at - digits > kMaxDigits) return {};
+    if (at < last && !detail::ends_number(*at)) return {};
+    const auto whole = static_cast<std::int64_t>(value);
+    return {negative ? -whole : whole, at};
+}
+
+inline Number parse_number(const char* first, const char* last) noexcept {
+    const char* at = first;
+    if (at >= last) return {};
+    const bool negative = *at == '-';
+    if (negative || *at == '+') ++at;
+
+    std::uint64_t significand = 0;
+    const char* const digits = at;
+    at = take_digits(at, last, significand);
+    auto digit_count = at - digits;
+    int exponent = 0;
+    if (at < last && *at == '.') {
+        const char* const fraction = ++at;
+        at = take_digits(at, last, significand);
+        digit_count += at - fraction;
+        if (digit_count > 19) return parse_odd_number(first, last);
+        exponent = static_cast<int>(fraction - at);
+    }
+    if (digit_count == 0 || digit_count > 19) return parse_odd_number(first, last);
+    if (at < last && (*at == 'e' || *at == 'E')) {
+        ++at;
+        const bool below = at < last && *at == '-';
+        if (below || (at < last && *at == '+')) ++at;
+        std::uint64_t power = 0;
+        const char* const power_digits = at;
+        at = take_digits(at, last, power);
+        if (at == power_digits || at - power_digits > 4) return parse_odd_number(first, last);
+        exponent += below ? -static_cast<int>(power) : static_cast<int>(power);
+    }
+    if (at < last && !detail::ends_number(*at)) return parse_odd_number(first, last);
+
+    // Both factors are doubles without rounding, so one operation rounds once.
+    constexpr std::uint64_t kExact = std::uint64_t{1} << 53;
+    if (significand > kExact || exponent < -22 || exponent > 22) {
+        return parse_odd_number(first, last);
+    }
+    const auto whole = static_cast<double>(significand);
+    const double value = exponent < 0
+                             ? whole / detail::kPowerOfTen[static_cast<std::size_t>(-exponent)]
+                             : whole * detail::kPowerOfTen[static_cast<std::size_t>(exponent)];
+    const detail::Loss loss = detail::loss_as_single(significand, exponent, value);
+    const bool single = loss == detail::Loss::none ||
+                        (loss == detail::Loss::unclear && single_prints_the_same(first, at, value));
+    return {negative ? -value : value, at, single};
+}
+
+}  // namespace cdprep::import

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "import/read_off.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "import/join_chunks.h"
+#include "import/parse_number.h"
+#include "import/text_chunks.h"
+
+namespace cdprep::import {
+namespace {
+
+struct Fault {
+    const char* at;
+    std::string what;
+};
+
+struct Header {
+    std::string_view prefix;  ///< before OFF
+    std::uint64_t vertices = 0;
+    std::uint64_t faces = 0;
+    const char* body = nullptr;
+};
+
+/// The length of the keyword at `at`, or 0. Digits may follow it directly.
+std::size_t keyword_length(const char* at, const char* end) noexcept {
+    constexpr std::string_view kPrefixLetters = "STCN4n";
+    constexpr std::size_t kMaxPrefix = 6;
+    const std::string_view text(at, static_cast<std::size_t>(end - at));
+    const std::size_t prefix = std::min(text.find_first_not_of(kPrefixLetters), text.size());
+    return prefix <= kMaxPrefix && text.substr(prefix, 3) == "OFF" ? prefix + 3 : 0;
+}
+
+/// The keyword is optional; vertices and faces follow, and perhaps edges.
+std::optional<Fault> read_header(std::string_view text, Header& header) {
+    const char* const end = text.data() + text.size();
+    const char* at = next_row(text.data(), end);
+    if (const std::size_t length = keyword_length(at, end)) {
+        header.prefix = {at, length - 3};
+        at = next_row(at + length, end);
+    }
+    if (header.prefix.find_first_of("4n") != std::string_view::npos) {
+        return Fault{at, "the OFF file has another dimension than 3"};
+    }
+    if (std::string_view(at, static_cast<std::size_t>(end - at)).starts_with("BINARY")) {
+        return Fault{at, "binary OFF files are not read. Save it as text"};
+    }
+    for (std::uint64_t* count : {&header.vertices, &header.faces}) {
+        at = next_row(at, end);
+        const WholeNumber number = parse_whole_number(at, end);
+        if (!number.next || number.value < 0) {
+            return Fault{at, at == end ? "the file ends inside the OFF header"
+                                       : quoted_word(at, end) + " is no count of an OFF header"};
+        }
+        *count = static_cast<std::uint64_t>(number.value);
+        at = number.next;
+    }
+    header.body = next_line(at, end);
+    return std::nullopt;
+}
+
+/// Reads the rows of one chunk: first vertices, then faces.
+class OffChunkReader {
+public:
+    OffChunkReader(const Header& header, const RowChunk& rows, PolygonChunk& chunk)
+        : header_(header),
+          chunk_(chunk),
+          row_(rows.first_row),
+          at_(rows.text.data()),
+          end_(at_ + rows.text.size()) {
+        // Rows of about 28 bytes.
+        const bool has_vertices = rows.first_row < header.vertices;
+        if (has_vertices) chunk_.positions.reserve(rows.text.size() / 28);
+        if (!has_vertices) chunk_.corners.reserve(3 * rows.text.size() / 28);
+    }
+
+    std::optional<Fault> read() {
+        const std::uint64_t last = header_.vertices + header_.faces;
+        for (at_ = next_row(at_, end_); at_ < end_ && row_ < last; ++row_) {
+            if (!(row_ < header_.vertices ? read_vertex() : read_face())) {
+                return std::move(fault_);
+            }
+            at_ = next_row(next_line(at_, end_), end_);
+        }
+        return std::nullopt;
+    }
+
+private:
+    bool fail(std::string_view needed) {
+        at_ = skip_blanks(at_, end_);
+        const bool ended = at_ == end_ || *at_ == '\n' || *at_ == '#';
+        fault_ = Fault{at_, (ended ? "the line ends" : quoted_word(at_, end_) + " stands") +
+                                " where " + std::string(needed) + " is needed"};
+        return false;
+    }
+
+    bool read_vertex() {
+        std::array<double, 3> x{};
+        for (double& value : x) {
+            at_ = skip_blanks(at_, end_);
+            const Number number = parse_number(at_, end_);
+            if (!number.next) return fail("a coordinate of a vertex");
+            value = number.value;
+            chunk_.single_precision = chunk_.single_precision && number.single;
+            at_ = number.next;
+        }
+        chunk_.positions.push_back({x[0], x[1], x[2]});
+        return true;
+    }
+
+    bool read_face() {
+        const WholeNumber size = parse_whole_number(at_, end_);
+        if (!size.next || size.value < 0) return fail("the number of corners of a face");
+        at_ = size.next;
+        for (std::int64_t i = 0; i < size.value; ++i) {
+            at_ = skip_blanks(at_, end_);
+            const WholeNumber index = parse_whole_number(at_, end_);
+            if (!index.next) {
+                return fail("corner " + std::to_string(i + 1) + " of " +
+                            std::to_string(size.value) + " of a face");
+            }
+            chunk_.add_corner(index.value, index.value);
+            at_ = index.next;
+        }
+        chunk_.end_face(static_cast<std::size_t>(size.value));
+        return true;
+    }
+
+    const Header& header_;
+    PolygonChunk& chunk_;
+    std::uint64_t row_;
+    const char* at_;
+    const char* end_;
+    std::optional<Fault> fault_;
+};
+
+Error too_short(const SourceFile& file, const Header& header, std::uint64_t rows) {
+    const std::string end = "; the file is cut off, or its header is wrong";
+    if (rows < header.vertices) {
+        return file.unreadable("the file has " + std::to_string(rows) +
+                               " lines after the header, which counts " +
+                               std::to_string(header.vertices) + " vertices and " +
+                               std::to_string(header.faces) + " faces" + end);
+    }
+    return file.unreadable("the file ends after face " + std::to_string(rows - header.vertices) +
+                           " of " + std::to_string(header.faces) + end);
+}
+
+}  // namespace
+
+Result<mesh::TriangleSoup> read_off(const SourceFile& file, const ImportOptions& options) {
+    Header header;
+    if (const auto fault = read_header(file.bytes(), header)) {
+        return file.unreadable_line(fault->at, fault->what);
+    }
+    const auto header_bytes = static_cast<std::size_t>(header.body - file.bytes().data());
+    const std::vector<RowChunk> rows =
+        split_rows(file.bytes().substr(header_bytes), options.parallel_for);
+    const std::uint64_t count = rows.empty() ? 0 : rows.back().first_row + rows.back().row_count;
+    if (count < header.vertices || count - header.vertices < header.faces) {
+        return too_short(file, header, count);
+    }
+    std::vector<PolygonChunk> chunks(rows.size());
+    std::vector<std::optional<Fault>> faults(rows.size());
+    options.parallel_for(rows.size(), [&](std::size_t i) {
+        faults[i] = OffChunkReader(header, rows[i], chunks[i]).read();
+    });
+    for (const std::optional<Fault>& fault : faults) {
+        if (fault) return file.unreadable_line(fault->at, fault->what);
+    }
+    return join_chunks(
+        file, std::move(chunks),
+        {.memory_bytes = options.memory_bytes, .parallel_for = options.parallel_for});
+}
+
+bool looks_like_off(std::string_view bytes) noexcept {
+    constexpr std::size_t kLookedAt = 65536;
+    const char* const end = bytes.data() + std::min(bytes.size(), kLookedAt);
+    const char* const at = next_row(bytes.data(), end);
+    const std::size_t length = keyword_length(at, end);
+    return length > 0 && (at + length == end || static_cast<unsigned char>(at[length]) <= ' ' ||
+                          detail::is_digit(at[length]) || at[length] == '#');
+}
+
+}  // namespace cdprep::import

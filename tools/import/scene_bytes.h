@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+namespace cdprep::import {
+
+/// What the importing child hands to its parent: one SceneHeader, then arrays
+/// without gaps in the order of its counts. The parent believes none of it.
+///
+/// Both sides come from one build on one machine: no byte order, no version.
+
+inline constexpr std::array<char, 8> kSceneMagic = {'C', 'D', 'P', 'S', 'C', 'E', 'N', 'E'};
+
+/// How the child fared. Only `read` has arrays; the others have a text.
+enum class SceneOutcome : std::uint32_t {
+    read = 1,
+    unreadable = 2,     ///< the text says why
+    out_of_memory = 3,  ///< the limit was reached
+};
+
+struct SceneHeader {
+    std::array<char, 8> magic;  ///< kSceneMagic
+    SceneOutcome outcome;
+    std::uint32_t up_axis;      ///< format::UpAxis
+    double metres_per_unit;     ///< 0: the file does not say
+    std::uint64_t input_bytes;  ///< of all files opened
+    // Arrays follow, in this order:
+    std::uint64_t mesh_count;       ///< SceneMesh
+    std::uint64_t node_count;       ///< SceneNode, parents before children, depth first
+    std::uint64_t node_mesh_count;  ///< uint32: mesh numbers, of one node after the other
+    std::uint64_t material_count;   ///< uint32: bytes of each name
+    std::uint64_t vertex_count;     ///< three floats, of one mesh after the other
+    std::uint64_t face_count;       ///< uint32: corners of each face
+    std::uint64_t corner_count;     ///< uint32: vertices of the mesh, from 0
+    std::uint64_t text_bytes;       ///< names of nodes, then of materials; or the message
+};
+
+struct SceneMesh {
+    std::uint64_t vertex_count;
+    std::uint64_t face_count;
+    std::uint64_t corner_count;
+    std::uint32_t material;
+    std::uint32_t reserved;  ///< zero
+};
+
+inline constexpr std::uint32_t kNoParent = 0xffffffff;
+
+struct SceneNode {
+    std::array<float, 16> parent_from_node;  ///< row by row
+    std::uint32_t parent;                    ///< kNoParent for the root
+    std::uint32_t mesh_count;
+    std::uint32_t name_bytes;
+    std::uint32_t reserved;  ///< zero
+};
+
+static_assert(sizeof(SceneHeader) == 96 && std::is_trivially_copyable_v<SceneHeader>);
+static_assert(sizeof(SceneMesh) == 32 && std::is_trivially_copyable_v<SceneMesh>);
+static_assert(sizeof(SceneNode) == 80 && std::is_trivially_copyable_v<SceneNode>);
+
+}  // namespace cdprep::import

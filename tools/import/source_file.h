@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "cdprep/result.h"
+
+namespace cdprep::import {
+
+/// A mesh file, mapped for reading, and its name as messages give it.
+///
+/// Move-only. The bytes are those of the disk: a program that shortens the file
+/// during the import ends the import with a bus error, as for any mapped file.
+class SourceFile {
+public:
+    /// Maps a regular file of at most `max_bytes` bytes. `unreadable` when it is
+    /// missing, no regular file or not permitted; `over_budget` when too long.
+    static Result<SourceFile> open(const std::filesystem::path& path, std::uint64_t max_bytes);
+
+    /// Reads from memory that outlives the object: what tests do.
+    SourceFile(std::string name, std::string_view bytes) noexcept;
+
+    SourceFile(SourceFile&& other) noexcept;
+    SourceFile& operator=(SourceFile&& other) noexcept;
+    ~SourceFile();
+
+    [[nodiscard]] const std::string& name() const noexcept {
+        return name_;
+    }
+    [[nodiscard]] std::string_view bytes() const noexcept {
+        return bytes_;
+    }
+
+    /// "NAME: WHAT.", code `unreadable`.
+    [[nodiscard]] Error unreadable(std::string_view what) const;
+
+    /// "NAME: line N: WHAT.", where N is the line of `at`, a place in bytes().
+    [[nodiscard]] Error unreadable_line(const char* at, std::string_view what) const;
+
+    /// "NAME: WHAT.", code `over_budget`.
+    [[nodiscard]] Error over_budget(std::string_view what) const;
+
+private:
+    std::string name_;
+    std::string_view bytes_;
+    bool mapped_ = false;
+};
+
+/// The start of the word at `at`, quoted and short enough for a message;
+/// characters that do not print are shown as '?'.
+[[nodiscard]] std::string quoted_word(const char* at, const char* end);
+
+}  // namespace cdprep::import

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
+#include "cdprep/build_bvh.h"
+
+namespace cdprep::import {
+
+/// About how much text one parallel step reads: its results stay in the second
+/// level cache.
+inline constexpr std::size_t kChunkBytes = std::size_t{1} << 19;
+
+constexpr bool is_blank(char c) noexcept {
+    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
+}
+
+/// Returns the first character at or after `at` that is no blank.
+inline const char* skip_blanks(const char* at, const char* end) noexcept {
+    while (at < end && is_blank(*at)) ++at;
+    return at;
+}
+
+/// Returns the start of the line after the one that holds `at`, or `end`.
+inline const char* next_line(const char* at, const char* end) noexcept {
+    if (at < end && *at == '\n') return at + 1;
+    const void* const feed = std::memchr(at, '\n', static_cast<std::size_t>(end - at));
+    return feed ? static_cast<const char*>(feed) + 1 : end;
+}
+
+/// The line at `at`, without its end and the blanks around it.
+[[nodiscard]] std::string_view trimmed_line(const char* at, const char* end) noexcept;
+
+/// Cuts text into chunks of about kChunkBytes that follow each other without
+/// gaps. Each but the first starts at the start of a line for which
+/// `may_start(line, end)` is true.
+template <class MayStart>
+[[nodiscard]] std::vector<std::string_view> split_lines(std::string_view text,
+                                                        MayStart&& may_start) {
+    std::vector<std::string_view> chunks;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    while (at < end) {
+        const char* cut = end;
+        if (static_cast<std::size_t>(end - at) > kChunkBytes) {
+            cut = next_line(at + kChunkBytes, end);
+            while (cut < end && !may_start(cut, end)) cut = next_line(cut, end);
+        }
+        chunks.emplace_back(at, static_cast<std::size_t>(cut - at));
+        at = cut;
+    }
+    return chunks;
+}
+
+/// A chunk of lines that each hold one element, and the number of its first.
+struct RowChunk {
+    std::string_view text;
+    std::uint64_t first_row = 0;
+    std::uint64_t row_count = 0;
+};
+
+/// Returns the first line at or after `at` that is neither blank nor a comment
+/// ('#'), at its first character that is no blank; or `end`.
+[[nodiscard]] const char* next_row(const char* at, const char* end) noexcept;
+
+/// Cuts text into chunks of rows and numbers them. Rows are lines, without blank
+/// ones and comments.
+[[nodiscard]] std::vector<RowChunk> split_rows(std::string_view text,
+                                               const build::ParallelFor& parallel_for);
+
+}  // namespace cdprep::import
