@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/bake_report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace cdprep::report {
+namespace {
+
+std::string fixed(double value, int digits) {
+    std::string text(64, '\0');
+    const int size = std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+    text.resize(static_cast<std::size_t>(size));
+    return text;
+}
+
+nlohmann::ordered_json to_json(const BakeReport& report) {
+    nlohmann::ordered_json json = {
+        {"input", report.input}, {"output", report.output}, {"exit", report.exit}};
+    if (report.error) {
+        json["error"] = *report.error;
+        return json;
+    }
+    json["triangles"] = report.triangles;
+    json["vertices"] = report.vertices;
+    json["components"] = report.components;
+    json["merged_vertices"] = report.merged_vertices;
+    json["degenerate_triangles"] = report.degenerate_triangles;
+    json["closed"] = report.closed;
+    json["precision"] = report.single_precision ? "f32" : "f64";
+    json["bytes"] = report.bytes;
+    json["seconds"] = report.seconds;
+    for (const StageTime& stage : report.stages) json["stages"][stage.stage] = stage.seconds;
+    return json;
+}
+
+}  // namespace
+
+std::string bake_text(const BakeReport& report, Timings timings) {
+    std::string text =
+        report.output + ": " + std::to_string(report.triangles) + " triangles, " +
+        std::to_string(report.vertices) + " vertices, " + (report.closed ? "closed" : "open") +
+        ", " + (report.single_precision ? "f32" : "f64") + ", " + std::to_string(report.bytes) +
+        " bytes, " + fixed(report.seconds, 3) + " s\n";
+    if (timings == Timings::hide) return text;
+    for (const StageTime& stage : report.stages) {
+        text += "  " + stage.stage +
+                std::string(12 - std::min<std::size_t>(11, stage.stage.size()), ' ') +
+                fixed(stage.seconds, 4) + " s\n";
+    }
+    return text;
+}
+
+std::string bake_json(const std::vector<BakeReport>& reports) {
+    nlohmann::ordered_json json;
+    json["models"] = nlohmann::ordered_json::array();
+    for (const BakeReport& report : reports) json["models"].push_back(to_json(report));
+    return json.dump(2) + "\n";
+}
+
+}  // namespace cdprep::report

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace cdprep::report {
+
+/// How long a stage took.
+struct StageTime {
+    std::string stage;
+    double seconds;
+};
+
+/// What baking one file gave.
+struct BakeReport {
+    std::string input;
+    std::string output;
+    std::uint64_t triangles = 0;
+    std::uint64_t vertices = 0;
+    std::uint64_t components = 0;
+    std::uint64_t merged_vertices = 0;
+    std::uint64_t degenerate_triangles = 0;
+    bool closed = false;
+    bool single_precision = false;
+    std::uint64_t bytes = 0;
+    double seconds = 0;
+    std::vector<StageTime> stages;
+    int exit = 0;                      ///< exit code for this file
+    std::optional<std::string> error;  ///< the sentence, when it failed
+};
+
+/// A line for a person; with the times of the stages when asked for.
+enum class Timings : std::uint8_t { hide, show };
+[[nodiscard]] std::string bake_text(const BakeReport& report, Timings timings);
+
+/// {"models": [...]}: one object a file.
+[[nodiscard]] std::string bake_json(const std::vector<BakeReport>& reports);
+
+}  // namespace cdprep::report

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/info_report.h"
+
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cdprep/format/sections.h"
+
+namespace cdprep::report {
+namespace {
+
+std::uint64_t byte_count(const format::SectionEntry& entry) {
+    return entry.count * entry.element_size;
+}
+
+const char* precision(const Model& model) {
+    return model.positions_f64().empty() ? "f32" : "f64";
+}
+
+const char* up_axis(const Model& model) {
+    switch (model.header().up_axis) {
+        case format::UpAxis::x:
+            return "x";
+        case format::UpAxis::y:
+            return "y";
+        case format::UpAxis::z:
+            return "z";
+        default:
+            return "unknown";
+    }
+}
+
+bool is_normalized(const Model& model) {
+    return (model.header().flags & format::model_normalized) != 0;
+}
+
+/// The provenance as JSON, or as text where it is not.
+nlohmann::ordered_json provenance(const Model& model) {
+    auto parsed = nlohmann::ordered_json::parse(model.provenance(), nullptr, false);
+    if (parsed.is_discarded()) return std::string(model.provenance());
+    return parsed;
+}
+
+}  // namespace
+
+std::string info_text(const std::string& file, const Model& model,
+                      std::span<const format::SectionEntry> sections) {
+    std::string text = file + ": format " + std::to_string(model.header().version) + ", " +
+                       std::to_string(model.triangle_count()) + " triangles, " +
+                       std::to_string(model.vertex_count()) + " vertices, " +
+                       std::to_string(model.components().size()) + " components\n";
+    text += std::string("surface questions: exact; positions ") + precision(model) + "\n";
+    text += model.is_closed() ? "solid questions: exact, the mesh is closed\n"
+                              : "solid questions: unknown, the mesh is open\n";
+    text += "section                  offset        bytes\n";
+    for (const format::SectionEntry& entry : sections) {
+        std::array<char, 96> line{};
+        std::snprintf(line.data(), line.size(), "%-18s %12llu %12llu\n",
+                      format::section_name(entry.id), static_cast<unsigned long long>(entry.offset),
+                      static_cast<unsigned long long>(byte_count(entry)));
+        text += line.data();
+    }
+    return text;
+}
+
+std::string info_json(const std::string& file, const Model& model,
+                      std::span<const format::SectionEntry> sections) {
+    nlohmann::ordered_json json = {
+        {"file", file},
+        {"format", model.header().version},
+        {"bytes", model.header().file_size},
+        {"triangles", model.triangle_count()},
+        {"vertices", model.vertex_count()},
+        {"components", model.components().size()},
+        {"precision", precision(model)},
+        {"closed", model.is_closed()},
+        {"normalized", is_normalized(model)},
+        {"metres_per_unit", model.header().metres_per_unit},
+        {"up_axis", up_axis(model)},
+        {"guarantees", {{"surface", "exact"}, {"solid", model.is_closed() ? "exact" : "unknown"}}},
+    };
+    json["sections"] = nlohmann::ordered_json::array();
+    for (const format::SectionEntry& entry : sections) {
+        json["sections"].push_back({{"name", format::section_name(entry.id)},
+                                    {"id", static_cast<std::uint32_t>(entry.id)},
+                                    {"offset", entry.offset},
+                                    {"bytes", byte_count(entry)},
+                                    {"count", entry.count}});
+    }
+    json["provenance"] = provenance(model);
+    return json.dump(2) + "\n";
+}
+
+}  // namespace cdprep::report

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/provenance.h"
+
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace cdprep::report {
+namespace {
+
+std::string hexadecimal(std::uint64_t value) {
+    std::array<char, 17> text{};
+    std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
+    return text.data();
+}
+
+}  // namespace
+
+std::string provenance_json(const Provenance& provenance) {
+    const nlohmann::json json = {
+        {"tool", {{"name", "cdprep"}, {"version", provenance.tool_version}}},
+        // Raised whenever a stage gives other bytes for the same input.
+        {"algorithms", {{"bvh", 1}, {"weld", 1}, {"topology", 1}, {"bounds", 1}, {"mass", 1}}},
+        {"options",
+         {{"effects", provenance.effects},
+          {"normalize", provenance.normalize},
+          {"weld", provenance.weld_distance}}},
+        {"source", {{"xxh3_64", hexadecimal(provenance.source_hash)}}},
+    };
+    return json.dump();
+}
+
+}  // namespace cdprep::report

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace cdprep::report {
+
+/// Where a bake comes from: everything that decides its bytes, and nothing else
+/// (no path, no time, no host).
+struct Provenance {
+    std::string tool_version;
+    std::vector<std::string> effects;  ///< sorted
+    bool normalize = false;
+    double weld_distance = 0;
+    std::uint64_t source_hash = 0;  ///< format::checksum() of the input file
+};
+
+/// Canonical JSON: keys sorted, no blanks, shortest numbers.
+[[nodiscard]] std::string provenance_json(const Provenance& provenance);
+
+}  // namespace cdprep::report
