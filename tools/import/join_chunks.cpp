@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cdprep/format/limits.h"
+#include "import/resize_large.h"
 #include "mesh/triangulate_polygon.h"
 
 namespace cdprep::import {
@@ -29,8 +30,9 @@ struct Place {
     std::uint64_t first_face = 0;
 };
 
+/// Zero times infinity or NaN is NaN, and NaN spreads.
 bool is_finite(const Double3& p) noexcept {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    return (p.x * 0 + p.y * 0) + p.z * 0 == 0;
 }
 
 bool fits_predicates(const Double3& p) noexcept {
@@ -66,6 +68,28 @@ public:
                 bad_corners_.push_back({slot, found});
             }
         }
+    }
+
+    /// Both steps in one for a chunk of triangles whose corners are all in range.
+    /// False for any other: then nothing counts.
+    bool write_plain_triangles() {
+        if (!chunk_.sizes.empty() || !chunk_.odd.empty()) return false;
+        const auto limit = static_cast<std::uint32_t>(soup_.positions.size());
+        const auto base = static_cast<std::uint32_t>(place_.first_vertex);
+        Triangle* const triangles = soup_.triangles.data() + place_.first_triangle;
+        std::uint32_t bad = 0;
+        for (std::size_t i = 0; i < chunk_.triangle_count; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::uint32_t corner = chunk_.corners[3 * i + k];
+                const std::uint32_t own = corner >> 31;  // kFromChunkStart
+                const std::uint32_t vertex = (corner & 0x7fffffff) + own * base;
+                bad |= static_cast<std::uint32_t>(vertex >= limit);
+                triangles[i].vertex[k] = vertex;
+            }
+        }
+        if (bad) return false;
+        write_face_numbers();
+        return true;
     }
 
     void write_triangles() {
@@ -139,6 +163,14 @@ private:
         }
     }
 
+    void write_face_numbers() {
+        if (soup_.face.empty()) return;
+        for (std::uint64_t i = 0; i < chunk_.triangle_count; ++i) {
+            soup_.face[place_.first_triangle + i] =
+                static_cast<std::uint32_t>(place_.first_face + i);
+        }
+    }
+
     void add_bad_triangle(std::uint64_t number, std::size_t slot) {
         const auto corner = std::lower_bound(
             bad_corners_.begin(), bad_corners_.end(), slot,
@@ -205,7 +237,7 @@ void move_positions(mesh::TriangleSoup& soup, std::vector<PolygonChunk>& chunks,
     if (!chunks.empty() && chunks[0].positions.size() == places.back().first_vertex) {
         soup.positions = std::move(chunks[0].positions);
     } else {
-        soup.positions.resize(places.back().first_vertex);
+        resize_large(soup.positions, places.back().first_vertex);
         parallel_for(chunks.size(), [&](std::size_t i) {
             std::copy(chunks[i].positions.begin(), chunks[i].positions.end(),
                       soup.positions.data() + places[i].first_vertex);
@@ -272,16 +304,18 @@ Result<mesh::TriangleSoup> join_chunks(const SourceFile& file, std::vector<Polyg
     move_positions(soup, chunks, places, options.parallel_for);
     soup.groups = join_runs(chunks, places, &PolygonChunk::groups, "default");
     soup.materials = join_runs(chunks, places, &PolygonChunk::materials, "");
-    soup.triangles.resize(total.first_triangle);
+    resize_large(soup.triangles, total.first_triangle);
     if (std::any_of(chunks.begin(), chunks.end(),
                     [](const PolygonChunk& chunk) { return !chunk.sizes.empty(); })) {
-        soup.face.resize(total.first_triangle);
+        resize_large(soup.face, total.first_triangle);
     }
     std::vector<std::vector<BadNumber>> bad_triangles(chunks.size());
     options.parallel_for(chunks.size(), [&](std::size_t i) {
         ChunkJoiner joiner(soup, chunks[i], places[i], options.first_index);
-        joiner.resolve_corners();
-        joiner.write_triangles();
+        if (!joiner.write_plain_triangles()) {
+            joiner.resolve_corners();
+            joiner.write_triangles();
+        }
         bad_triangles[i] = std::move(joiner.bad_triangles);
         chunks[i] = {};
     });

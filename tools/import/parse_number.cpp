@@ -71,7 +71,9 @@ bool spells_no_decimal(std::string_view token, double& value) noexcept {
         return true;
     }
     value = std::numeric_limits<double>::quiet_NaN();
-    return starts_with(token, "nan") || starts_with(token, "1.#") || starts_with(token, "0x");
+    return starts_with(token, "nan") || starts_with(token, "1.#qnan") ||
+           starts_with(token, "1.#snan") || starts_with(token, "1.#ind") ||
+           starts_with(token, "0x");
 }
 
 }  // namespace
@@ -104,7 +106,10 @@ Number parse_odd_number(const char* first, const char* last) noexcept {
     const char* const end = std::find_if(first, last, detail::ends_number);
     if (first == end) return {};
     const std::string_view token(first, static_cast<std::size_t>(end - first));
-    if (double value = 0; spells_no_decimal(token, value)) return {value, end, false};
+    const char* const word_end = std::find_if(
+        first, last, [](char c) { return static_cast<unsigned char>(c) <= ' ' || c == '\\'; });
+    const std::string_view word(first, static_cast<std::size_t>(word_end - first));
+    if (double value = 0; spells_no_decimal(word, value)) return {value, word_end, false};
 
     const bool negative = *first == '-';
     const char* const magnitude = first + (negative || *first == '+' ? 1 : 0);

@@ -39,8 +39,9 @@ struct Number {
 
 /// Appends the decimal digits at `first` to `value` (modulo 2^64) and returns the
 /// first character that is none.
-[[nodiscard]] inline const char* take_digits(const char* first, const char* last,
-                                             std::uint64_t& value) noexcept;
+[[nodiscard, gnu::always_inline]] inline const char* take_digits(const char* first,
+                                                                 const char* last,
+                                                                 std::uint64_t& value) noexcept;
 
 /// A whole number read from text.
 struct WholeNumber {
@@ -62,8 +63,8 @@ inline constexpr std::array<double, 23> kPowerOfTen = {
 inline constexpr std::array<double, 23> kNegativePowerOfTen = {
     1e-0,  1e-1,  1e-2,  1e-3,  1e-4,  1e-5,  1e-6,  1e-7,  1e-8,  1e-9,  1e-10, 1e-11,
     1e-12, 1e-13, 1e-14, 1e-15, 1e-16, 1e-17, 1e-18, 1e-19, 1e-20, 1e-21, 1e-22};
-inline constexpr std::array<std::uint32_t, 8> kSmallPowerOfTen = {1,     10,     100,     1000,
-                                                                  10000, 100000, 1000000, 10000000};
+inline constexpr std::array<std::uint32_t, 9> kSmallPowerOfTen = {
+    1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 
 /// The number that eight digit values spell, first digit in the lowest byte.
 constexpr std::uint64_t eight_digits(std::uint64_t digits) noexcept {
@@ -93,20 +94,19 @@ enum class Loss : std::uint8_t { none, some, unclear };
 /// floats (where rounding twice could differ from rounding once).
 inline Loss loss_as_single(std::uint64_t significand, int exponent, double value) noexcept {
     constexpr double kDoubt = 1e-6;  // of half a unit
-    const double nearest = static_cast<float>(value);
-    if (significand < 1000000 || nearest == value) return Loss::none;
-    if (significand >= 1000000000) return Loss::some;
     constexpr std::uint64_t kHalfway = std::uint64_t{1} << 28;
-    const bool halfway = (std::bit_cast<std::uint64_t>(value) & (2 * kHalfway - 1)) == kHalfway;
-    if (halfway || significand == 1000000 || significand == 10000000 || significand == 100000000) {
-        return Loss::unclear;
-    }
+    const double nearest = static_cast<float>(value);
+    if (significand >= 1000000000) return nearest == value ? Loss::none : Loss::some;
     const double half_unit =
         0.5 * (exponent < 0 ? kNegativePowerOfTen[static_cast<std::size_t>(-exponent)]
                             : kPowerOfTen[static_cast<std::size_t>(exponent)]);
     const double difference = nearest > value ? nearest - value : value - nearest;
-    if (difference < half_unit * (1 - kDoubt)) return Loss::none;
-    return difference > half_unit * (1 + kDoubt) ? Loss::some : Loss::unclear;
+    const bool halfway = (std::bit_cast<std::uint64_t>(value) & (2 * kHalfway - 1)) == kHalfway;
+    const bool decade =
+        (significand == 1000000) | (significand == 10000000) | (significand == 100000000);
+    if ((difference < half_unit * (1 - kDoubt)) & !halfway & !decade) return Loss::none;
+    if (significand < 1000000 || nearest == value) return Loss::none;
+    return halfway || decade || difference <= half_unit * (1 + kDoubt) ? Loss::unclear : Loss::some;
 }
 
 }  // namespace detail
@@ -120,16 +120,14 @@ inline const char* take_digits(const char* first, const char* last, std::uint64_
         // The high bit of each byte above 9. A carry out of a byte above 0x89
         // only spoils later bytes, and the first one that is no digit decides.
         const std::uint64_t others = ((digits + 0x7676767676767676) | digits) & 0x8080808080808080;
-        if (others == 0) {
-            value = value * 100000000 + detail::eight_digits(digits);
-            first += 8;
-            continue;
-        }
         const auto count = static_cast<unsigned>(std::countr_zero(others)) / 8;
         if (count == 0) return first;
         value = value * detail::kSmallPowerOfTen[count] +
                 detail::eight_digits(digits << (64 - 8 * count));
-        return first + count;
+        first += count;
+        // One branch, seldom taken: lengths vary too much to be predicted.
+        const bool more = (count == 8) & (first < last) && detail::is_digit(*first);
+        if (!more) return first;
     }
     for (; first < last && detail::is_digit(*first); ++first) {
         value = value * 10 + static_cast<std::uint64_t>(*first - '0');
@@ -155,11 +153,15 @@ inline Number parse_number(const char* first, const char* last) noexcept {
     const char* at = first;
     if (at >= last) return {};
     const bool negative = *at == '-';
-    if (negative || *at == '+') ++at;
+    at += negative | (*at == '+');
 
     std::uint64_t significand = 0;
     const char* const digits = at;
-    at = take_digits(at, last, significand);
+    if (last - at > 1 && at[1] == '.' && detail::is_digit(*at)) {
+        significand = static_cast<std::uint64_t>(*at++ - '0');
+    } else {
+        at = take_digits(at, last, significand);
+    }
     auto digit_count = at - digits;
     int exponent = 0;
     if (at < last && *at == '.') {
@@ -180,7 +182,8 @@ inline Number parse_number(const char* first, const char* last) noexcept {
         if (at == power_digits || at - power_digits > 4) return parse_odd_number(first, last);
         exponent += below ? -static_cast<int>(power) : static_cast<int>(power);
     }
-    if (at < last && !detail::ends_number(*at)) return parse_odd_number(first, last);
+    // A '#' may begin a comment, or belong to 1.#INF.
+    if (at<last&& static_cast<unsigned char>(*at)> ' ') return parse_odd_number(first, last);
 
     // Both factors are doubles without rounding, so one operation rounds once.
     constexpr std::uint64_t kExact = std::uint64_t{1} << 53;

@@ -97,14 +97,19 @@ private:
     bool read_vertex() {
         std::array<double, 3> x{};
         bool single = true;
+        const char* at = at_;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            at_ = skip_to_word(at_, end_);
-            const Number number = parse_number(at_, end_);
-            if (!number.next) return fail_vertex(axis);
+            at = skip_to_word(at, end_);
+            const Number number = parse_number(at, end_);
+            if (!number.next) {
+                at_ = at;
+                return fail_vertex(axis);
+            }
             x[axis] = number.value;
             single = single && number.single;
-            at_ = number.next;
+            at = number.next;
         }
+        at_ = at;
         chunk_.positions.push_back({x[0], x[1], x[2]});
         chunk_.single_precision = chunk_.single_precision && single;
         return true;
@@ -115,7 +120,33 @@ private:
         return fail("a vertex has " + std::to_string(axis) + " coordinates; 3 are needed");
     }
 
+    /// The usual face: three numbers from 1 on, perhaps with slashes. False, and
+    /// nothing read, for any other.
+    bool read_plain_triangle() {
+        constexpr std::ptrdiff_t kMaxDigits = 9;  // below kFromChunkStart
+        std::array<std::uint32_t, 3> corners{};
+        const char* at = at_;
+        for (std::uint32_t& corner : corners) {
+            while (at < end_ && *at == ' ') ++at;
+            std::uint64_t index = 0;
+            const char* const digits = at;
+            at = take_digits(at, end_, index);
+            if (index == 0 || at - digits > kMaxDigits) return false;
+            if (at < end_ && *at == '/') {
+                while (at < end_ && (detail::is_digit(*at) || *at == '/' || *at == '-')) ++at;
+            }
+            corner = static_cast<std::uint32_t>(index - 1);
+        }
+        while (at < end_ && is_blank(*at)) ++at;
+        if (at < end_ && *at != '\n') return false;
+        chunk_.corners.insert(chunk_.corners.end(), corners.begin(), corners.end());
+        chunk_.end_face(3);
+        at_ = at;
+        return true;
+    }
+
     bool read_face() {
+        if (read_plain_triangle()) return true;
         const std::size_t first = chunk_.corners.size();
         for (;;) {
             at_ = skip_to_word(at_, end_);

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "import/read_ply_body.h"
+#include "import/resize_large.h"
 
 namespace cdprep::import {
 namespace {
@@ -126,7 +127,7 @@ private:
         }
         const std::array<std::size_t, 3> places = {element.x, element.y, element.z};
         PolygonChunk& chunk = chunks_.front();
-        chunk.positions.resize(element.count);
+        resize_large(chunk.positions, element.count);
         std::atomic<bool> single = true;
         options_.parallel_for((element.count + kBlock - 1) / kBlock, [&](std::size_t block) {
             const std::size_t last = std::min<std::size_t>((block + 1) * kBlock, element.count);

@@ -11,6 +11,7 @@
 #include "cdprep/format/limits.h"
 #include "import/join_chunks.h"
 #include "import/parse_number.h"
+#include "import/resize_large.h"
 #include "import/text_chunks.h"
 
 namespace cdprep::import {
@@ -41,8 +42,8 @@ Result<mesh::TriangleSoup> read_binary(const SourceFile& file, const ImportOptio
     }
     mesh::TriangleSoup soup;
     soup.single_precision = true;
-    soup.positions.resize(3 * count);
-    soup.triangles.resize(count);
+    resize_large(soup.positions, 3 * count);
+    resize_large(soup.triangles, count);
     constexpr std::size_t kBlock = 16384;
     options.parallel_for((count + kBlock - 1) / kBlock, [&](std::size_t block) {
         const std::size_t last = std::min((block + 1) * kBlock, count);
