@@ -22,7 +22,11 @@ std::string pairs_text(std::span<const TrianglePair> pairs) {
     std::string text = "[";
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         if (i > 0) text += ", ";
-        text += "[" + std::to_string(pairs[i].a) + ", " + std::to_string(pairs[i].b) + "]";
+        text += '[';
+        text += std::to_string(pairs[i].a);
+        text += ", ";
+        text += std::to_string(pairs[i].b);
+        text += ']';
     }
     return text + "]";
 }

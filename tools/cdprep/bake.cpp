@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <new>
+
+#include "command.h"
+#include "interrupt.h"
+#include "pipeline.h"
+#include "progress.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::vector<fs::path> inputs;
+    fs::path output;
+    fs::path output_folder;
+    std::string effects;
+    std::string format = "text";
+    std::string progress = "auto";
+    std::size_t threads = 0;
+    bool timings = false;
+    std::uint64_t import_memory = import::ImportOptions{}.memory_bytes;
+    std::uint64_t import_file_size = import::ImportOptions{}.file_bytes;
+    std::uint64_t import_seconds = static_cast<std::uint64_t>(import::ImportOptions{}.time.count());
+    BakeOptions options;
+};
+
+/// NAME.cdp.h5 beside the input, or where the arguments say.
+fs::path output_for(const Arguments& arguments, const fs::path& input) {
+    if (!arguments.output.empty()) return arguments.output;
+    fs::path name = input.filename();
+    name.replace_extension(".cdp.h5");
+    if (!arguments.output_folder.empty()) return arguments.output_folder / name;
+    return input.parent_path() / name;
+}
+
+/// Fails when two inputs would become one file.
+Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
+    std::map<fs::path, fs::path> input_of;
+    std::vector<fs::path> outputs;
+    for (const fs::path& input : arguments.inputs) {
+        const fs::path output = output_for(arguments, input);
+        const auto [at, is_new] = input_of.try_emplace(output.lexically_normal(), input);
+        if (!is_new) {
+            return Error{ErrorCode::bad_argument, at->second.string() + " and " + input.string() +
+                                                      " would both become " + output.string() +
+                                                      ". Bake them into different folders."};
+        }
+        outputs.push_back(output);
+    }
+    return outputs;
+}
+
+/// Bakes one file, whatever happens.
+Result<report::BakeReport> bake_one(const fs::path& input, const fs::path& output,
+                                    const Arguments& arguments, const Threads& threads,
+                                    const std::function<void(const char*)>& begins) {
+    try {
+        return bake(input, output, arguments.options, threads, begins);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::over_budget,
+                     input.string() + ": needs more memory than the machine gives."};
+    } catch (const std::exception& error) {
+        return Error{ErrorCode::internal,
+                     input.string() + ": internal error: " + error.what() + ". Please report it."};
+    }
+}
+
+report::BakeReport failed(const fs::path& input, const fs::path& output, const Error& error) {
+    report::BakeReport report;
+    report.input = input.string();
+    report.output = output.string();
+    report.exit = static_cast<int>(exit_for(error.code));
+    report.error = error.message;
+    return report;
+}
+
+void print(const report::BakeReport& report, const Arguments& arguments) {
+    if (report.error) {
+        std::cerr << "cdprep bake: " << *report.error << '\n';
+    } else if (arguments.format == "text") {
+        std::cout << report::bake_text(
+            report, arguments.timings ? report::Timings::show : report::Timings::hide);
+    }
+}
+
+Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
+              ProgressStyle style) {
+    const Threads threads(arguments.threads);
+    Progress progress(style, arguments.inputs.size());
+    std::vector<report::BakeReport> reports;
+    Exit worst = Exit::success;
+    for (std::size_t i = 0; i < outputs.size() && !is_interrupted(); ++i) {
+        const fs::path& input = arguments.inputs[i];
+        const Result<report::BakeReport> baked = bake_one(
+            input, outputs[i], arguments, threads,
+            [&](const char* stage) { progress.show(i, input.filename().string() + ": " + stage); });
+        progress.clear();
+        reports.push_back(baked ? baked.value() : failed(input, outputs[i], baked.error()));
+        print(reports.back(), arguments);
+        worst = std::max(worst, static_cast<Exit>(reports.back().exit));
+    }
+    if (arguments.format == "json") std::cout << report::bake_json(reports);
+    std::cout.flush();
+    return is_interrupted() ? Exit::interrupted : worst;
+}
+
+Exit run(Arguments& arguments) {
+    const Result<Effects> effects = parse_effects(arguments.effects);
+    if (!effects) return fail("bake", effects.error());
+    const Result<ProgressStyle> style = parse_progress(arguments.progress);
+    if (!style) return fail("bake", style.error());
+    if (!arguments.output.empty() && arguments.inputs.size() > 1) {
+        return fail("bake", {ErrorCode::bad_argument, "-o names one file, but there are " +
+                                                          std::to_string(arguments.inputs.size()) +
+                                                          " inputs. Use --output-dir."});
+    }
+    const Result<std::vector<fs::path>> outputs = outputs_for(arguments);
+    if (!outputs) return fail("bake", outputs.error());
+    if (!arguments.output_folder.empty()) {
+        std::error_code error;
+        fs::create_directories(arguments.output_folder, error);
+        if (error) {
+            return fail("bake",
+                        {ErrorCode::unwritable, arguments.output_folder.string() +
+                                                    ": cannot be made: " + error.message() + "."});
+        }
+    }
+    arguments.options.effects = effects.value();
+    arguments.options.import.memory_bytes = arguments.import_memory;
+    arguments.options.import.file_bytes = arguments.import_file_size;
+    arguments.options.import.time = std::chrono::seconds(arguments.import_seconds);
+    return bake_all(arguments, outputs.value(), style.value());
+}
+
+}  // namespace
+
+void add_bake(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("bake", "Turn mesh files into queryable models");
+    command->add_option("input", arguments->inputs, "OBJ, STL, PLY, OFF, glTF, ... files")
+        ->required();
+    CLI::Option* output =
+        command->add_option("-o,--output", arguments->output, "Default: INPUT with .cdp.h5");
+    command->add_option("--output-dir", arguments->output_folder, "Where many outputs go")
+        ->excludes(output);
+    command->add_option("--effects", arguments->effects,
+                        "What the file is to serve, with commas, or all. Default: collide, "
+                        "overlap, distance, within, ray, closest");
+    command->add_flag("--normalize", arguments->options.normalize,
+                      "Fit to a box of diagonal 1, centred");
+    command
+        ->add_option("--weld", arguments->options.weld_distance,
+                     "Merge vertices this close, in model units")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor");
+    command->add_flag("--timings", arguments->timings, "Show how long each stage took");
+    command->add_option("--format", arguments->format, "text or json")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->capture_default_str();
+    command->add_option("--progress", arguments->progress, "auto, bar, plain or none")
+        ->capture_default_str();
+    command
+        ->add_option("--import-memory", arguments->import_memory,
+                     "Most memory an import may use, such as 2GB")
+        ->transform(CLI::AsSizeValue(false));
+    command
+        ->add_option("--import-file-size", arguments->import_file_size,
+                     "Largest file to import, such as 4GB")
+        ->transform(CLI::AsSizeValue(false));
+    command->add_option("--import-time", arguments->import_seconds,
+                        "Most seconds an import may take");
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cdprep/build_bvh.h"
+#include "cdprep/format/section_set.h"
+#include "mesh/mesh.h"
+#include "write/write_file.h"
+
+namespace cdprep::cli {
+
+/// Everything a bake may hold, as arrays that sections can point into.
+class BakedArrays {
+public:
+    /// `ordered` and `bvh` are in tree order; `degenerate` as find_degenerate()
+    /// gives it. Takes from the soup what is kept of the source.
+    BakedArrays(const mesh::TriangleSoup& soup, mesh::Mesh ordered, build::Bvh bvh,
+                std::vector<std::uint64_t> degenerate, std::vector<format::Component> components,
+                const format::Bounds& bounds, const std::optional<format::MassProperties>& mass,
+                std::string provenance);
+
+    /// Views of those sections in `wanted` that have something to say. Valid
+    /// while this object lives and stays where it is.
+    [[nodiscard]] std::vector<write::Section> sections(format::SectionSet wanted) const;
+
+    [[nodiscard]] const mesh::Mesh& mesh() const noexcept {
+        return mesh_;
+    }
+    [[nodiscard]] std::size_t component_count() const noexcept {
+        return components_.size();
+    }
+    [[nodiscard]] std::size_t degenerate_count() const noexcept;
+
+private:
+    mesh::Mesh mesh_;
+    build::Bvh bvh_;
+    std::vector<std::uint64_t> degenerate_;
+    std::vector<format::Component> components_;
+    std::vector<format::Bounds> bounds_;
+    std::vector<format::MassProperties> mass_;
+    std::string provenance_;
+    std::vector<format::Float3> floats_;
+    std::vector<std::uint32_t> face_;
+    std::vector<format::Instance> instances_;
+    mesh::NamedRuns groups_;
+    mesh::NamedRuns materials_;
+    std::string instance_names_;
+    std::string group_names_;
+    std::string material_names_;
+};
+
+}  // namespace cdprep::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "cdprep/result.h"
+
+namespace cdprep::cli {
+
+/// What the process returns; scripts rely on the numbers.
+enum class Exit : int {
+    success = 0,
+    findings = 1,
+    usage = 2,
+    unreadable = 3,
+    unwritable = 4,
+    over_budget = 5,
+    internal = 6,
+    interrupted = 130,
+};
+
+[[nodiscard]] Exit exit_for(ErrorCode code);
+
+/// Prints "cdprep COMMAND: SENTENCE" on stderr; returns the exit code for it.
+Exit fail(const char* command, const Error& error);
+
+/// Each adds its subcommand; its callback stores how it went in `exit`.
+void add_bake(CLI::App& app, Exit& exit);
+void add_info(CLI::App& app, Exit& exit);
+void add_query(CLI::App& app, Exit& exit);
+void add_reindex(CLI::App& app, Exit& exit);
+
+}  // namespace cdprep::cli

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "cdprep/format/find_damage.h"
+#include "cdprep/model.h"
+#include "command.h"
+#include "damage_sentence.h"
+#include "mapped_file.h"
+#include "report/info_report.h"
+
+namespace cdprep::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path file;
+    std::string format = "text";
+    bool deep = false;
+};
+
+std::vector<format::SectionEntry> table_of(std::span<const std::byte> file,
+                                           const format::FileHeader& header) {
+    std::vector<format::SectionEntry> entries(header.section_count);
+    if (!entries.empty()) {
+        std::memcpy(entries.data(), file.data() + format::kSectionTableOffset,
+                    entries.size() * sizeof(format::SectionEntry));
+    }
+    return entries;
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<MappedFile> mapped = MappedFile::map(arguments.file);
+    if (!mapped) return fail("info", mapped.error());
+    const std::span<const std::byte> bytes = mapped.value().bytes();
+    const Result<Model> opened =
+        Model::open(bytes, format::SectionSet::all(), arguments.file.string());
+    if (!opened) return fail("info", opened.error());
+    if (arguments.deep) {
+        if (const auto damage = format::find_deep_damage(bytes)) {
+            return fail("info",
+                        {ErrorCode::unreadable, damage_sentence(arguments.file.string(), *damage)});
+        }
+    }
+    const Model& model = opened.value();
+    const std::vector<format::SectionEntry> table = table_of(bytes, model.header());
+    const std::string file = arguments.file.string();
+    std::cout << (arguments.format == "json" ? report::info_json(file, model, table)
+                                             : report::info_text(file, model, table));
+    return Exit::success;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("info", "Show what a baked file holds and promises");
+    command->add_option("file", arguments->file, "A .cdp.h5 file")->required();
+    command->add_flag("--deep", arguments->deep, "Prove that the content is right, not only safe");
+    command->add_option("--format", arguments->format, "text or json")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->capture_default_str();
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

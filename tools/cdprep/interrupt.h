@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+namespace cdprep::cli {
+
+/// Turns SIGINT and SIGTERM into a flag, so that work stops between two stages
+/// and leaves no temporary behind. A second signal ends the process at once.
+void watch_for_interrupts();
+
+[[nodiscard]] bool is_interrupted();
+
+}  // namespace cdprep::cli

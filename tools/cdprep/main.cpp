@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "command.h"
+#include "interrupt.h"
+
+int main(int argc, char** argv) {
+    using cdprep::cli::Exit;
+    CLI::App app{"Bake meshes to mappable files and ask them exact questions", "cdprep"};
+    app.set_version_flag("--version", CDPREP_VERSION);
+    app.require_subcommand(1);
+    Exit exit = Exit::success;
+    cdprep::cli::add_bake(app, exit);
+    cdprep::cli::add_info(app, exit);
+    cdprep::cli::add_query(app, exit);
+    cdprep::cli::add_reindex(app, exit);
+    cdprep::cli::watch_for_interrupts();
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        const bool asked = error.get_exit_code() == 0;  // --help, --version
+        app.exit(error, std::cout, std::cerr);
+        return static_cast<int>(asked ? Exit::success : Exit::usage);
+    } catch (const std::bad_alloc&) {
+        std::cerr << "cdprep: this needs more memory than the machine gives.\n";
+        return static_cast<int>(Exit::over_budget);
+    } catch (const std::exception& error) {
+        std::cerr << "cdprep: internal error: " << error.what() << ". Please report it.\n";
+        return static_cast<int>(Exit::internal);
+    }
+    return static_cast<int>(exit);
+}

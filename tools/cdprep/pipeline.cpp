@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "baked_arrays.h"
+#include "cdprep/build_bvh.h"
+#include "cdprep/format/checksum.h"
+#include "convex/find_bounds.h"
+#include "convex/mass_properties.h"
+#include "interrupt.h"
+#include "mesh/degenerate.h"
+#include "mesh/normalize.h"
+#include "mesh/topology.h"
+#include "mesh/tree_order.h"
+#include "mesh/weld.h"
+#include "report/provenance.h"
+#include "write/write_file.h"
+
+namespace cdprep::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Names stages, times them, and stops between two when asked to.
+class Stages {
+public:
+    Stages(report::BakeReport& report, const std::function<void(const char*)>& begins)
+        : report_(report), begins_(begins) {}
+
+    template <class Work>
+    auto run(const char* name, Work work) {
+        begins_(name);
+        const Clock::time_point begin = Clock::now();
+        auto result = work();
+        report_.stages.push_back({name, seconds_since(begin)});
+        return result;
+    }
+
+private:
+    report::BakeReport& report_;
+    const std::function<void(const char*)>& begins_;
+};
+
+Error interrupted(const std::filesystem::path& input) {
+    return {ErrorCode::interrupted, input.string() + ": stopped; nothing was written."};
+}
+
+/// The sentence for the first number that no mesh may hold.
+Error refused(const std::filesystem::path& input, const mesh::TriangleSoup& soup) {
+    const mesh::BadNumber& bad = soup.bad_numbers.front();
+    std::string message = input.string() + ": ";
+    if (bad.kind == mesh::BadNumber::Kind::not_finite) {
+        message += "vertex " + std::to_string(bad.vertex) +
+                   " has a coordinate that is not finite; every one must be";
+    } else {
+        message += "triangle " + std::to_string(bad.triangle) + " uses vertex " +
+                   std::to_string(bad.found) + ", but the file has " + std::to_string(bad.limit) +
+                   " vertices";
+    }
+    if (soup.bad_number_count > 1) {
+        message += " (" + std::to_string(soup.bad_number_count) + " such places in all)";
+    }
+    return {ErrorCode::unreadable, message + "."};
+}
+
+/// Coordinates beyond what the runtime promises.
+std::optional<Error> find_too_large(const std::filesystem::path& input, const mesh::Mesh& mesh) {
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const format::Double3& p = mesh.positions[i];
+        const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+        if (largest > format::kMaxCoordinate) {
+            return Error{ErrorCode::unreadable,
+                         input.string() + ": vertex " + std::to_string(mesh.source_vertex[i]) +
+                             " has a coordinate of size " + std::to_string(largest) +
+                             "; the largest allowed is 2^1000."};
+        }
+    }
+    return std::nullopt;
+}
+
+std::uint64_t hash_of_file(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::vector<char> bytes(std::filesystem::file_size(path));
+    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return format::checksum(std::as_bytes(std::span(bytes)));
+}
+
+/// What the stages after welding find, each on its own.
+struct Findings {
+    build::Bvh bvh;
+    mesh::Topology topology;
+    format::Bounds bounds{};
+    std::optional<format::MassProperties> mass;
+    std::uint64_t source_hash = 0;
+};
+
+Findings examine(const mesh::Mesh& mesh, const std::filesystem::path& input,
+                 const BakeOptions& options, const Threads& threads) {
+    Findings found;
+    const bool wants_mass = options.effects.sections.contains(format::SectionId::mass_properties);
+    threads.run_all({
+        [&] {
+            found.bvh = build::build_bvh(mesh.positions, mesh.triangles,
+                                         {.parallel_for = threads.parallel_for()});
+        },
+        [&] {
+            found.topology = mesh::find_topology(mesh);
+            if (wants_mass && found.topology.closed) {
+                found.mass = convex::find_mass_properties(mesh);
+            }
+        },
+        [&] { found.bounds = convex::find_bounds(mesh); },
+        [&] { found.source_hash = hash_of_file(input); },
+    });
+    return found;
+}
+
+/// The header's facts about the model.
+format::FileHeader facts_of(const mesh::TriangleSoup& soup, const mesh::Mesh& mesh,
+                            const Findings& found, const mesh::Normalization& normalization,
+                            const BakeOptions& options) {
+    format::FileHeader facts{};
+    facts.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
+    facts.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
+    if (found.topology.closed) facts.flags |= format::model_closed;
+    if (options.normalize) facts.flags |= format::model_normalized;
+    facts.up_axis = soup.up_axis;
+    facts.metres_per_unit = soup.metres_per_unit;
+    facts.frame_origin = found.bvh.frame.origin;
+    facts.frame_exponent = found.bvh.frame.exponent;
+    facts.normalize_offset = normalization.offset;
+    facts.normalize_factor = normalization.factor;
+    return facts;
+}
+
+std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash) {
+    return report::provenance_json({CDPREP_VERSION, options.effects.names, options.normalize,
+                                    options.weld_distance, source_hash});
+}
+
+}  // namespace
+
+Result<report::BakeReport> bake(const std::filesystem::path& input,
+                                const std::filesystem::path& output, const BakeOptions& options,
+                                const Threads& threads,
+                                const std::function<void(const char*)>& begins) {
+    const Clock::time_point begin = Clock::now();
+    report::BakeReport report;
+    report.input = input.string();
+    report.output = output.string();
+    Stages stages(report, begins);
+
+    auto imported =
+        stages.run("import", [&] { return import::import_file(input, options.import); });
+    if (!imported) return imported.error();
+    mesh::TriangleSoup soup = std::move(imported).value();
+    if (soup.bad_number_count > 0) return refused(input, soup);
+    if (is_interrupted()) return interrupted(input);
+
+    const mesh::Normalization normalization = stages.run("normalize", [&] {
+        return options.normalize ? mesh::normalize(soup) : mesh::Normalization{};
+    });
+    mesh::Welded welded = stages.run("weld", [&] {
+        return mesh::weld(soup, {options.weld_distance, threads.parallel_for()});
+    });
+    if (const auto error = find_too_large(input, welded.mesh)) return *error;
+    if (is_interrupted()) return interrupted(input);
+
+    Findings found =
+        stages.run("build", [&] { return examine(welded.mesh, input, options, threads); });
+    if (is_interrupted()) return interrupted(input);
+
+    const BakedArrays arrays = stages.run("arrange", [&] {
+        mesh::TreeOrdered ordered = mesh::in_tree_order(welded.mesh, found.bvh.order);
+        for (format::Component& component : found.topology.components) {
+            component.vertex = ordered.new_vertex[component.vertex];
+        }
+        std::vector<std::uint64_t> degenerate =
+            mesh::find_degenerate(ordered.mesh, threads.parallel_for());
+        return BakedArrays{soup,
+                           std::move(ordered.mesh),
+                           std::move(found.bvh),
+                           std::move(degenerate),
+                           std::move(found.topology.components),
+                           found.bounds,
+                           found.mass,
+                           provenance_of(options, found.source_hash)};
+    });
+    const format::FileHeader facts = facts_of(soup, arrays.mesh(), found, normalization, options);
+    const Result<Done> written = stages.run("write", [&] {
+        return write::write_file(output, facts, arrays.sections(options.effects.sections));
+    });
+    if (!written) return written.error();
+
+    report.triangles = facts.triangle_count;
+    report.vertices = facts.vertex_count;
+    report.components = arrays.component_count();
+    report.merged_vertices = welded.report.merged_vertices;
+    report.degenerate_triangles = arrays.degenerate_count();
+    report.closed = (facts.flags & format::model_closed) != 0;
+    report.single_precision = soup.single_precision;
+    report.bytes = std::filesystem::file_size(output);
+    report.seconds = seconds_since(begin);
+    return report;
+}
+
+}  // namespace cdprep::cli

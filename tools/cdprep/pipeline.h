@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <functional>
+
+#include "cdprep/result.h"
+#include "effects.h"
+#include "import/import_file.h"
+#include "parallel.h"
+#include "report/bake_report.h"
+
+namespace cdprep::cli {
+
+struct BakeOptions {
+    Effects effects;
+    bool normalize = false;
+    double weld_distance = 0;  ///< model units
+    import::ImportOptions import;
+};
+
+/// Bakes one file: import, weld, build, measure, write. Called back with the
+/// name of each stage as it begins. Fails with the code that tells why;
+/// `interrupted` between two stages when the person stopped the program.
+[[nodiscard]] Result<report::BakeReport> bake(const std::filesystem::path& input,
+                                              const std::filesystem::path& output,
+                                              const BakeOptions& options, const Threads& threads,
+                                              const std::function<void(const char*)>& begins);
+
+}  // namespace cdprep::cli
