@@ -17,8 +17,8 @@ using format::SectionId;
 using format::Triangle;
 
 struct TinyOptions {
-    bool double_precision = false;  ///< positions_f64 instead of positions_f32
-    format::SectionSet leave_out;   ///< sections that are not written
+    bool double_precision = false;      ///< positions_f64 instead of positions_f32
+    format::SectionSet leave_out = {};  ///< sections that are not written
 };
 
 /// One section's id and bytes.

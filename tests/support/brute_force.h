@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "support/meshes.h"
+
+#include "cdprep/overlapping_triangles.h"
+#include "triangle_contact.h"
+
+namespace cdprep::test {
+
+/// Corners of triangle `index` after moving, by the formula of the contract.
+inline Corners corners_of(const TestMesh& mesh, std::size_t index, const Pose* pose) {
+    Corners corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Double3& p = mesh.positions[mesh.triangles[index].vertex[i]];
+        corners[i] = pose == nullptr ? p : moved(*pose, p);
+    }
+    return corners;
+}
+
+/// Every overlapping pair, by all n m six-segment tests: no box, no tree.
+inline std::vector<TrianglePair> brute_force_pairs(const TestMesh& a, const TestMesh& b,
+                                                   const Placement& placement) {
+    const Pose* pose_a = placement.a_is_moved() ? &placement.pose_a() : nullptr;
+    const Pose* pose_b = placement.b_is_moved() ? &placement.pose_b() : nullptr;
+    std::vector<TrianglePair> pairs;
+    for (std::uint32_t i = 0; i < a.triangles.size(); ++i) {
+        const Corners at_a = corners_of(a, i, pose_a);
+        for (std::uint32_t j = 0; j < b.triangles.size(); ++j) {
+            if (triangles_touch_by_segments(at_a, corners_of(b, j, pose_b))) {
+                pairs.push_back({i, j});
+            }
+        }
+    }
+    return pairs;
+}
+
+/// The answer of the product, with all pairs.
+inline std::vector<TrianglePair> all_pairs(const Model& a, const Model& b,
+                                           const Placement& placement, Workspace& workspace,
+                                           const OverlapOptions& options = {}) {
+    std::vector<TrianglePair> pairs(overlapping_triangles(a, b, placement, workspace, {}, options));
+    pairs.resize(overlapping_triangles(a, b, placement, workspace, pairs, options));
+    return pairs;
+}
+
+}  // namespace cdprep::test

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <thread>
+
+#include "cdprep/collide.h"
+#include "support/brute_force.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+
+namespace cdprep::test {
+namespace {
+
+// The oracle: brute force by the six-segment test. Fine and coarse meshes, poses
+// that move B, A, both by their own pose, and both relatively.
+TEST(OverlappingTrianglesLaws, AgreesWithBruteForce) {
+    constexpr std::uint32_t kSeed = 20261121;
+    constexpr int kRounds = 60;
+    std::mt19937 random(kSeed);
+    std::size_t touching = 0, asked = 0;
+    for (int round = 0; round < kRounds; ++round) {
+        const bool coarse = round % 2 == 0;
+        const TestMesh a =
+            coarse ? coarse_grid_soup(random(), 60, 3) : random_soup(random(), 80, 0.2);
+        const TestMesh b =
+            coarse ? coarse_grid_soup(random(), 60, 3) : random_soup(random(), 80, 0.2);
+        const OpenModel model_a = open_tiny(a, {.double_precision = round % 3 == 0});
+        const OpenModel model_b = open_tiny(b);
+        Workspace workspace;
+        const Pose p = round % 4 == 0 ? Pose() : random_pose(random, 1);
+        const Pose q = random_pose(random, 1);
+        for (const Placement& placement :
+             {Placement::b_moves(p), Placement::a_moves(p), Placement::relative(p, q),
+              Placement::world(p, q), Placement::world(q, q)}) {
+            const auto pairs = all_pairs(model_a.model, model_b.model, placement, workspace);
+            ASSERT_EQ(pairs, brute_force_pairs(a, b, placement))
+                << "seed " << kSeed << ", round " << round;
+            const bool hit = collide(model_a.model, model_b.model, placement, workspace).hit;
+            ASSERT_EQ(hit, !pairs.empty());
+            touching += pairs.size();
+            asked += a.triangles.size() * b.triangles.size();
+        }
+    }
+    // Neither answer may be rare, or this test would prove nothing.
+    EXPECT_GT(touching, asked / 200);
+    EXPECT_LT(touching, asked / 2);
+}
+
+TEST(OverlappingTrianglesLaws, SwappingTheModelsSwapsThePairs) {
+    std::mt19937 random(7);
+    const TestMesh a = icosphere(2), b = torus(1, 0.25, 20, 10);
+    const OpenModel model_a = open_tiny(a, {.double_precision = true});
+    const OpenModel model_b = open_tiny(b, {.double_precision = true});
+    Workspace workspace;
+    std::size_t total = 0;
+    for (int round = 0; round < 50; ++round) {
+        const Pose pose = random_pose(random, 0.5);
+        auto pairs = all_pairs(model_a.model, model_b.model, Placement::b_moves(pose), workspace);
+        auto swapped = all_pairs(model_b.model, model_a.model, Placement::a_moves(pose), workspace);
+        for (TrianglePair& pair : swapped) std::swap(pair.a, pair.b);
+        std::sort(swapped.begin(), swapped.end());
+        ASSERT_EQ(pairs, swapped) << "round " << round;
+        total += pairs.size();
+    }
+    EXPECT_GT(total, 1000u);
+}
+
+// Parts of one turned assembly keep their shared vertices: by construction every
+// triangle touches itself and its neighbours, however both are turned.
+TEST(OverlappingTrianglesLaws, WorldPlacementKeepsSharedVerticesShared) {
+    std::mt19937 random(11);
+    const OpenModel sphere = open_tiny(icosphere(3), {.double_precision = true});
+    Workspace workspace;
+    const auto still = all_pairs(sphere.model, sphere.model, Placement::b_moves(Pose()), workspace);
+    for (int round = 0; round < 20; ++round) {
+        const Pose pose = random_pose(random, 1000);
+        ASSERT_EQ(all_pairs(sphere.model, sphere.model, Placement::world(pose, pose), workspace),
+                  still)
+            << "round " << round;
+    }
+}
+
+// B15: triangles in another order give the same pairs under their new numbers.
+TEST(OverlappingTrianglesLaws, OrderOfTrianglesDoesNotMatter) {
+    std::mt19937 random(13);
+    const TestMesh a = icosphere(2);
+    const OpenModel still = open_tiny(torus(1, 0.5, 16, 8));
+    Workspace workspace;
+    const Placement placement = Placement::b_moves(random_pose(random, 0.25));
+    const auto expected = all_pairs(open_tiny(a).model, still.model, placement, workspace);
+    std::vector<std::uint32_t> order(a.triangles.size());
+    for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::shuffle(order.begin(), order.end(), random);
+    TestMesh shuffled{a.positions, {}};
+    for (const std::uint32_t source : order) shuffled.triangles.push_back(a.triangles[source]);
+    auto pairs = all_pairs(open_tiny(shuffled).model, still.model, placement, workspace);
+    for (TrianglePair& pair : pairs) pair.a = order[pair.a];
+    std::sort(pairs.begin(), pairs.end());
+    EXPECT_EQ(pairs, expected);
+    EXPECT_FALSE(pairs.empty());
+}
+
+TEST(OverlappingTrianglesLaws, ThreadsShareModelsAndAgree) {
+    const OpenModel sphere = open_tiny(icosphere(3));
+    const OpenModel ring = open_tiny(torus(1, 0.25, 24, 12));
+    std::mt19937 random(17);
+    std::vector<Placement> placements;
+    for (int i = 0; i < 40; ++i) placements.push_back(Placement::b_moves(random_pose(random, 0.5)));
+    std::vector<std::vector<TrianglePair>> expected;
+    Workspace serial;
+    for (const Placement& p : placements) {
+        expected.push_back(all_pairs(sphere.model, ring.model, p, serial));
+    }
+    std::vector<std::size_t> mismatches(8, 0);
+    std::vector<std::thread> threads;
+    for (std::size_t t = 0; t < mismatches.size(); ++t) {
+        threads.emplace_back([&, t] {
+            Workspace workspace;
+            for (std::size_t i = 0; i < placements.size(); ++i) {
+                const auto pairs = all_pairs(sphere.model, ring.model, placements[i], workspace);
+                mismatches[t] += pairs == expected[i] ? 0 : 1;
+            }
+        });
+    }
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(mismatches, std::vector<std::size_t>(8, 0));
+}
+
+}  // namespace
+}  // namespace cdprep::test
