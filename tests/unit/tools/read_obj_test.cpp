@@ -62,10 +62,10 @@ TEST(ReadObj, ReadsEverySpellingOfACorner) {
 }
 
 TEST(ReadObj, SkipsWhatIsNoSurface) {
-    const TriangleSoup s = soup(
-        "# v 9 9 9\nmtllib a b.mtl\n" + kFour +
-        "vt 0 0\nvn 0 0 1\nvp 1\np 1 2\nl 1 2 3\ns off\ncstype bezier\ncurv 0 1 1 2\nend\n"
-        "\n  \t \n\xff\xfe junk\nf 1 2 3\nf\nf 1\nf 1 2\n");
+    const TriangleSoup s =
+        soup("# v 9 9 9\nmtllib a b.mtl\n" + kFour +
+             "vt 0 0\nvn 0 0 1\nvp 1\np 1 2\nl 1 2 3\ns off\ncstype bezier\ncurv 0 1 1 2\nend\n"
+             "\n  \t \n\xff\xfe junk\nf 1 2 3\nf\nf 1\nf 1 2\n");
     EXPECT_EQ(s.triangles, kOne);
     EXPECT_EQ(s.positions.size(), 4u);
 }
@@ -132,7 +132,8 @@ TEST(ReadObj, APolygonWithABadCornerIsAFan) {
 }
 
 TEST(ReadObj, NonFiniteCoordinatesAreDataWithTheirPlace) {
-    const TriangleSoup s = soup("v 0 0 0\nv nan 0 0\nv 0 -inf 0\nv 0 0 1e999\nv 0 0x1p3 0\nf 1 2 3");
+    const TriangleSoup s =
+        soup("v 0 0 0\nv nan 0 0\nv 0 -inf 0\nv 0 0 1e999\nv 0 0x1p3 0\nf 1 2 3");
     EXPECT_EQ(s.bad_number_count, 4u);
     ASSERT_EQ(s.bad_numbers.size(), 4u);
     for (std::uint32_t i = 0; i < 4; ++i) {
@@ -160,6 +161,13 @@ TEST(ReadObj, OneDoubleKeepsAllPositionsDouble) {
     const TriangleSoup floats = soup("v 0.1 0.2 0.3\n");
     EXPECT_TRUE(floats.single_precision);
     EXPECT_EQ(floats.positions[0].x, static_cast<double>(0.1f));
+    for (int count = 1; count < 20; ++count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) text += "v 0.1 0.2 0.3\n";
+        for (const Double3& p : soup(text).positions) {
+            EXPECT_EQ(p, (Double3{0.1f, 0.2f, 0.3f})) << count;
+        }
+    }
     const TriangleSoup doubles = soup("v 0.1 0.2 0.3\nv 0 0 0.1234567890123\n");
     EXPECT_FALSE(doubles.single_precision);
     EXPECT_EQ(doubles.positions[0].x, 0.1);
@@ -187,16 +195,14 @@ TEST(ReadObj, GroupsAndMaterialsAreRunsOverTriangles) {
 
 TEST(ReadObj, NamesBecomeUtf8) {
     const TriangleSoup s = soup(kFour + "g na\xc3\xafve \xff\x01\nf 1 2 3\n");
-    EXPECT_EQ(s.groups.names,
-              (std::vector<std::string>{"na\xc3\xafve \xef\xbf\xbd\xef\xbf\xbd"}));
+    EXPECT_EQ(s.groups.names, (std::vector<std::string>{"na\xc3\xafve \xef\xbf\xbd\xef\xbf\xbd"}));
 }
 
 TEST(ReadObj, SaysWhichLineIsBroken) {
     EXPECT_EQ(sentence("v 0 0 0\nv 1 2\n"),
               "t.obj: line 2: a vertex has 2 coordinates; 3 are needed.");
     EXPECT_EQ(sentence("v 0 0 0\r\n\r\nv 1 x 2\n"), "t.obj: line 3: 'x' is no number.");
-    EXPECT_EQ(sentence(kFour + "f 1 2 three\n"),
-              "t.obj: line 5: 'three' is no corner of a face.");
+    EXPECT_EQ(sentence(kFour + "f 1 2 three\n"), "t.obj: line 5: 'three' is no corner of a face.");
     EXPECT_EQ(sentence(kFour + "f 1 2 3.5\n"), "t.obj: line 5: '3.5' is no corner of a face.");
     EXPECT_EQ(sentence(kFour + "f 1 2 /3\n"), "t.obj: line 5: '/3' is no corner of a face.");
     EXPECT_EQ(sentence("f 1 2 3\n"), "t.obj: has 1 triangles but no vertices.");
@@ -276,8 +282,12 @@ Long make_long() {
                 result.triangles.push_back(t);
                 break;
             }
-            case 4: result.text += "# a comment with v 1 2 3 in it\n"; break;
-            case 5: result.text += "vn 0 0 1\n"; break;
+            case 4:
+                result.text += "# a comment with v 1 2 3 in it\n";
+                break;
+            case 5:
+                result.text += "vn 0 0 1\n";
+                break;
         }
     }
     return result;
