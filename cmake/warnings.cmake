@@ -9,6 +9,9 @@ endif()
 function(cdprep_compile_options target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     target_compile_options(${target} PRIVATE
-        -Wall -Wextra -Wpedantic -Wshadow -Werror=return-type -ffp-contract=off)
+        -Wall -Wextra -Wpedantic -Wshadow -Werror=return-type -ffp-contract=off
+        # GCC 12.2 drops two of the three roundings of `p = {float(p.x), float(p.y),
+        # float(p.z)}` in a loop over points of doubles.
+        $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
 endfunction()

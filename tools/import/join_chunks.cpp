@@ -249,12 +249,8 @@ void move_positions(mesh::TriangleSoup& soup, std::vector<PolygonChunk>& chunks,
     parallel_for((soup.positions.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
         const std::size_t first = block * kBlock;
         const std::size_t count = std::min(kBlock, soup.positions.size() - first);
-        // One axis after the other: GCC 12.2 forgets x and y where it joins the
-        // three roundings of a point.
-        for (double Double3::*const axis : {&Double3::x, &Double3::y, &Double3::z}) {
-            for (Double3& p : std::span(soup.positions).subspan(first, count)) {
-                p.*axis = static_cast<float>(p.*axis);
-            }
+        for (Double3& p : std::span(soup.positions).subspan(first, count)) {
+            p = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
         }
     });
 }
