@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
     cdprep::Workspace workspace;
     std::vector<cdprep::TrianglePair> pairs(1000);  // yours: queries never allocate
     for (const double x : {0.0, 23.0, 40.0, 80.0}) {
-        const auto pose = cdprep::Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, x, 15, -20});
+        const auto pose = cdprep::Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, x, 15, -19.5});
         if (!pose) {
             std::cerr << pose.error().message << '\n';
             return 2;

@@ -108,12 +108,12 @@ std::vector<format::Component> components(const Ordered& mesh,
 
 }  // namespace
 
-AlignedBytes assemble(const format::FileHeader& facts, const std::vector<TinySection>& sections) {
-    const auto aligned = [](std::uint64_t size) {
-        return (size + format::kSectionAlignment - 1) / format::kSectionAlignment *
-               format::kSectionAlignment;
+AlignedBytes assemble(const format::FileHeader& facts, const std::vector<TinySection>& sections,
+                      std::uint64_t section_alignment) {
+    const auto aligned = [section_alignment](std::uint64_t size) {
+        return (size + section_alignment - 1) / section_alignment * section_alignment;
     };
-    std::uint64_t size = format::kUserBlockSize + format::kSectionAlignment;
+    std::uint64_t size = aligned(format::kUserBlockSize + format::kSectionAlignment);
     std::vector<format::SectionEntry> entries;
     for (const TinySection& made : sections) {
         const std::uint32_t element = format::element_size(made.id);
@@ -165,7 +165,7 @@ AlignedBytes bake_tiny(std::span<const Double3> positions, std::span<const Trian
     if (edges_cancel(mesh.triangles)) facts.flags = format::model_closed;
     facts.frame_origin = bvh.frame.origin;
     facts.frame_exponent = bvh.frame.exponent;
-    return assemble(facts, all);
+    return assemble(facts, all, options.section_alignment);
 }
 
 }  // namespace cdprep::test

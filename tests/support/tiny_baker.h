@@ -17,7 +17,9 @@ using format::SectionId;
 using format::Triangle;
 
 struct TinyOptions {
-    bool double_precision = false;      ///< positions_f64 instead of positions_f32
+    bool double_precision = false;  ///< positions_f64 instead of positions_f32
+    /// Where sections start; a multiple of format::kSectionAlignment.
+    std::uint64_t section_alignment = format::kSectionAlignment;
     format::SectionSet leave_out = {};  ///< sections that are not written
 };
 
@@ -37,6 +39,7 @@ struct TinySection {
 /// Lays sections out behind a user block with these facts; what bake_tiny does
 /// last, for tests that change a section first.
 [[nodiscard]] AlignedBytes assemble(const format::FileHeader& facts,
-                                    const std::vector<TinySection>& sections);
+                                    const std::vector<TinySection>& sections,
+                                    std::uint64_t section_alignment = format::kSectionAlignment);
 
 }  // namespace cdprep::test

@@ -20,7 +20,7 @@ Node random_node(std::mt19937& random, bool coarse) {
         for (std::size_t box = 0; box < 8; ++box) {
             const float lower = coarse ? static_cast<float>(grid(random)) / 4 : fine(random);
             const float size =
-                coarse ? static_cast<float>(grid(random) + 4) / 8 : std::fabs(fine(random));
+                coarse ? static_cast<float>(grid(random) + 4) / 4 : std::fabs(fine(random));
             node[8 * axis + box] = lower;
             node[24 + 8 * axis + box] = lower + size;
         }

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/format/find_damage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "cdprep/format/sections.h"
+#include "support/open_tiny.h"
+#include "support/reseal.h"
+
+namespace cdprep::format {
+namespace {
+
+using test::AlignedBytes;
+
+AlignedBytes baked_cube() {
+    const test::TestMesh cube = test::unit_cube();
+    return test::bake_tiny(cube.positions, cube.triangles);
+}
+
+AlignedBytes copy_of(const AlignedBytes& file) {
+    return AlignedBytes(file.span());
+}
+
+std::optional<Damage> check(const AlignedBytes& file, SectionSet wanted = SectionSet::all()) {
+    return find_damage(file.span(), wanted);
+}
+
+/// Overwrites some bytes and seals the file again, so that only the content can
+/// be wrong.
+template <class T>
+AlignedBytes with(const AlignedBytes& file, std::uint64_t at, const T& value) {
+    AlignedBytes changed = copy_of(file);
+    std::memcpy(changed.span().data() + at, &value, sizeof value);
+    test::reseal(changed.span());
+    return changed;
+}
+
+std::uint64_t start_of(const AlignedBytes& file, SectionId id) {
+    return find_section(file.span(), id).value().offset;
+}
+
+DamageKind kind_of(const std::optional<Damage>& damage) {
+    return damage ? damage->kind : DamageKind{0};
+}
+
+TEST(FindDamage, AcceptsWhatTheBakerMakes) {
+    EXPECT_FALSE(check(baked_cube()));
+    const test::TestMesh empty;
+    EXPECT_FALSE(check(test::bake_tiny(empty.positions, empty.triangles)));
+    EXPECT_FALSE(find_deep_damage(baked_cube().span()));
+}
+
+TEST(FindDamage, RejectsEveryTruncation) {
+    const AlignedBytes file = baked_cube();
+    for (std::size_t size = 0; size < file.size(); ++size) {
+        // An allocation of exactly that size: a sanitizer sees one byte too many.
+        const AlignedBytes cut(std::span(std::as_const(file).span()).first(size));
+        ASSERT_TRUE(check(cut)) << "accepted " << size << " bytes";
+    }
+}
+
+/// Bytes that belong to the user block or to a section.
+std::vector<bool> covered_bytes(const AlignedBytes& file) {
+    std::vector<bool> covered(file.size(), false);
+    const auto cover = [&](std::uint64_t first, std::uint64_t count) {
+        for (std::uint64_t i = first; i < first + count; ++i) covered[i] = true;
+    };
+    cover(0, kUserBlockSize);
+    cover(kUserBlockSize + 8, 40);  // the superblock's stamp
+    const FileHeader header = read_header(file.span());
+    for (std::uint32_t i = 0; i < header.section_count; ++i) {
+        SectionEntry entry;
+        std::memcpy(&entry, file.span().data() + kSectionTableOffset + i * sizeof entry,
+                    sizeof entry);
+        cover(entry.offset, entry.count * entry.element_size);
+    }
+    return covered;
+}
+
+TEST(FindDamage, RejectsEveryFlippedBitThatIsNotPadding) {
+    AlignedBytes file = baked_cube();
+    const std::vector<bool> covered = covered_bytes(file);
+    for (std::size_t i = 0; i < file.size(); ++i) {
+        for (unsigned bit = 0; bit < 8; ++bit) {
+            file.span()[i] ^= std::byte(1U << bit);
+            ASSERT_EQ(check(file).has_value(), covered[i]) << "byte " << i << ", bit " << bit;
+            file.span()[i] ^= std::byte(1U << bit);
+        }
+    }
+}
+
+TEST(FindDamage, NamesWhatIsForeign) {
+    const AlignedBytes file = baked_cube();
+    EXPECT_EQ(kind_of(check(AlignedBytes())), DamageKind::too_short);
+    EXPECT_EQ(kind_of(check(with(file, 0, 'x'))), DamageKind::bad_magic);
+    EXPECT_EQ(kind_of(check(with(file, offsetof(FileHeader, version), kVersion + 1))),
+              DamageKind::bad_version);
+    EXPECT_EQ(kind_of(check(with(file, offsetof(FileHeader, endian_mark), 0x04030201U))),
+              DamageKind::bad_byte_order);
+    EXPECT_EQ(kind_of(check(with(file, offsetof(FileHeader, required_features), 1U))),
+              DamageKind::unknown_feature);
+    AlignedBytes moved = copy_of(file);
+    moved.span()[kUserBlockSize + 20] = std::byte{1};
+    EXPECT_EQ(kind_of(check(moved)), DamageKind::rewritten);
+}
+
+// Every 32-bit word of header and table at 0, 1, the maximum and off by one: an
+// answer or an acceptance, but never a read outside (the sanitizer would tell).
+TEST(FindDamage, SurvivesEveryHeaderFieldAtItsLimits) {
+    const AlignedBytes file = baked_cube();
+    const std::uint64_t end =
+        kSectionTableOffset + read_header(file.span()).section_count * sizeof(SectionEntry);
+    std::size_t refused = 0, tried = 0;
+    for (std::uint64_t at = 0; at < end; at += 4) {
+        std::uint32_t now = 0;
+        std::memcpy(&now, file.span().data() + at, sizeof now);
+        for (const std::uint32_t value : {0U, 1U, 0x7fffffffU, 0xffffffffU, now - 1, now + 1}) {
+            if (value == now) continue;
+            ++tried;
+            refused += check(with(file, at, value)) ? 1 : 0;
+        }
+    }
+    EXPECT_GT(refused, tried / 2);
+}
+
+TEST(FindDamage, CountsCannotWrapAround) {
+    const AlignedBytes file = baked_cube();
+    const std::uint64_t count_at = kSectionTableOffset + offsetof(SectionEntry, count);
+    const std::uint64_t offset_at = kSectionTableOffset + offsetof(SectionEntry, offset);
+    for (const std::uint64_t count :
+         {~std::uint64_t{0}, std::uint64_t{1} << 62, (~std::uint64_t{0}) / sizeof(Float3) + 2}) {
+        EXPECT_EQ(kind_of(check(with(file, count_at, count))), DamageKind::bad_section);
+    }
+    for (const std::uint64_t offset :
+         {~std::uint64_t{63}, std::uint64_t{64}, std::uint64_t{4097}}) {
+        EXPECT_EQ(kind_of(check(with(file, offset_at, offset))), DamageKind::bad_section);
+    }
+}
+
+TEST(FindDamage, SectionsMayNotShareBytes) {
+    const AlignedBytes file = baked_cube();
+    const std::uint64_t second = kSectionTableOffset + sizeof(SectionEntry);
+    const std::uint64_t first_offset = start_of(file, SectionId::positions_f32);
+    EXPECT_EQ(kind_of(check(with(file, second + offsetof(SectionEntry, offset), first_offset))),
+              DamageKind::bad_section);
+}
+
+TEST(FindDamage, IndicesMustLieInRange) {
+    const AlignedBytes file = baked_cube();
+    const auto bad = [&](SectionId id) {
+        return kind_of(check(with(file, start_of(file, id), 99U)));
+    };
+    EXPECT_EQ(bad(SectionId::triangles), DamageKind::bad_index);
+    EXPECT_EQ(bad(SectionId::source_triangle), DamageKind::bad_index);
+    EXPECT_EQ(bad(SectionId::components), DamageKind::bad_index);
+}
+
+TEST(FindDamage, NumbersMustBeFinite) {
+    const AlignedBytes file = baked_cube();
+    for (const float value :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        EXPECT_EQ(kind_of(check(with(file, start_of(file, SectionId::positions_f32), value))),
+                  DamageKind::bad_number);
+        EXPECT_EQ(kind_of(check(with(file, start_of(file, SectionId::bvh_nodes), value))),
+                  DamageKind::bad_number);
+    }
+}
+
+TEST(FindDamage, CountsMustMatchTheHeader) {
+    const AlignedBytes file = baked_cube();
+    for (std::uint32_t i = 0; i < read_header(file.span()).section_count; ++i) {
+        const std::uint64_t at =
+            kSectionTableOffset + i * sizeof(SectionEntry) + offsetof(SectionEntry, count);
+        std::uint64_t count = 0;
+        std::memcpy(&count, file.span().data() + at, sizeof count);
+        if (count < 2) continue;
+        const DamageKind kind = kind_of(check(with(file, at, count - 1)));
+        EXPECT_TRUE(kind == DamageKind::bad_count) << "entry " << i;
+    }
+}
+
+TEST(FindDamage, PositionsAndTrianglesNeedEachOther) {
+    const test::TestMesh cube = test::unit_cube();
+    const AlignedBytes file =
+        test::bake_tiny(cube.positions, cube.triangles, {.leave_out = {SectionId::positions_f32}});
+    EXPECT_EQ(kind_of(check(file)), DamageKind::missing_section);
+    const AlignedBytes no_triangles =
+        test::bake_tiny(cube.positions, cube.triangles, {.leave_out = {SectionId::triangles}});
+    EXPECT_EQ(kind_of(check(no_triangles)), DamageKind::missing_section);
+}
+
+std::vector<test::TinySection> names_and_runs(std::uint32_t first, std::uint32_t count, char end) {
+    std::vector<test::TinySection> sections;
+    const NamedRun run{first, count, 0, 0};
+    const auto* bytes = reinterpret_cast<const std::byte*>(&run);
+    sections.push_back({SectionId::group_runs, {bytes, bytes + sizeof run}});
+    sections.push_back({SectionId::group_names, {std::byte{'g'}, std::byte(end)}});
+    return sections;
+}
+
+TEST(FindDamage, RunsCoverAllTrianglesAndNamesEnd) {
+    FileHeader facts{};
+    facts.triangle_count = 12;
+    EXPECT_FALSE(check(test::assemble(facts, names_and_runs(0, 12, '\0'))));
+    EXPECT_EQ(kind_of(check(test::assemble(facts, names_and_runs(1, 11, '\0')))),
+              DamageKind::bad_order);
+    EXPECT_EQ(kind_of(check(test::assemble(facts, names_and_runs(0, 11, '\0')))),
+              DamageKind::bad_order);
+    EXPECT_EQ(kind_of(check(test::assemble(facts, names_and_runs(0, 12, 'x')))),
+              DamageKind::bad_order);
+}
+
+TEST(FindDamage, LooksOnlyAtWhatIsWanted) {
+    AlignedBytes file = baked_cube();
+    file.span()[start_of(file, SectionId::source_vertex)] ^= std::byte{1};
+    EXPECT_EQ(kind_of(check(file)), DamageKind::bad_checksum);
+    EXPECT_FALSE(check(file, {SectionId::positions_f32, SectionId::triangles}));
+}
+
+TEST(FindDeepDamage, SeesABoxThatLostItsTriangle) {
+    const AlignedBytes file = baked_cube();
+    const std::uint64_t upper = start_of(file, SectionId::bvh_nodes) + offsetof(BvhNode, upper);
+    EXPECT_EQ(kind_of(find_deep_damage(with(file, upper, -2.0F).span())), DamageKind::bad_box);
+}
+
+TEST(FindDeepDamage, SeesASourceTriangleNamedTwice) {
+    const AlignedBytes file = baked_cube();
+    const std::uint64_t at = start_of(file, SectionId::source_triangle);
+    std::uint32_t second = 0;
+    std::memcpy(&second, file.span().data() + at + 4, sizeof second);
+    EXPECT_EQ(kind_of(find_deep_damage(with(file, at, second).span())), DamageKind::bad_fact);
+}
+
+}  // namespace
+}  // namespace cdprep::format

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/model.h"
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "cdprep/collide.h"
+#include "cdprep/format/sections.h"
+#include "support/open_tiny.h"
+
+namespace cdprep::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder that goes with the test.
+class Scratch {
+public:
+    Scratch() : path_(fs::temp_directory_path() / ("model_test_" + std::to_string(::getpid()))) {
+        fs::create_directories(path_);
+    }
+    ~Scratch() {
+        fs::remove_all(path_);
+    }
+    Scratch(const Scratch&) = delete;
+    Scratch& operator=(const Scratch&) = delete;
+    [[nodiscard]] fs::path write(const char* name, std::span<const std::byte> bytes) const {
+        std::ofstream file(path_ / name, std::ios::binary);
+        file.write(reinterpret_cast<const char*>(bytes.data()),
+                   static_cast<std::streamsize>(bytes.size()));
+        return path_ / name;
+    }
+    [[nodiscard]] const fs::path& path() const {
+        return path_;
+    }
+
+private:
+    fs::path path_;
+};
+
+AlignedBytes baked_cube() {
+    const TestMesh cube = unit_cube();
+    return bake_tiny(cube.positions, cube.triangles);
+}
+
+TEST(Model, OpensFromAPathAsFromMemory) {
+    const Scratch scratch;
+    const AlignedBytes bytes = baked_cube();
+    const fs::path path = scratch.write("cube.cdp.h5", bytes.span());
+    for (const auto& opened : {Model::open(path), Model::open_trusted(path)}) {
+        ASSERT_TRUE(opened) << opened.error().message;
+        EXPECT_EQ(opened.value().triangle_count(), 12u);
+        EXPECT_EQ(opened.value().positions_f32().size(), 8u);
+        EXPECT_TRUE(opened.value().positions_f64().empty());
+        EXPECT_TRUE(opened.value().is_closed());
+        EXPECT_EQ(opened.value().components().size(), 1u);
+        EXPECT_EQ(opened.value().mass_properties(), nullptr);
+    }
+}
+
+TEST(Model, SaysWhatIsWrongWithAFile) {
+    const Scratch scratch;
+    const AlignedBytes bytes = baked_cube();
+    const auto sentence = [](const fs::path& path) {
+        const auto opened = Model::open(path);
+        return opened ? std::string("opened") : opened.error().message;
+    };
+    EXPECT_NE(sentence(scratch.path() / "none").find("cannot be opened"), std::string::npos);
+    EXPECT_NE(sentence(scratch.path()).find("not a regular file"), std::string::npos);
+    EXPECT_NE(sentence(scratch.write("empty", {})).find("has 0 bytes"), std::string::npos);
+    EXPECT_NE(sentence(scratch.write("cut", bytes.span().first(bytes.size() - 1)))
+                  .find("but its header says " + std::to_string(bytes.size())),
+              std::string::npos);
+    AlignedBytes flipped(bytes.span());
+    flipped.span()[bytes.size() - 64] ^= std::byte{1};
+    EXPECT_NE(sentence(scratch.write("flipped", flipped.span())).find("has checksum"),
+              std::string::npos);
+}
+
+TEST(Model, MisalignedMemoryIsRefused) {
+    const AlignedBytes bytes = baked_cube();
+    AlignedBytes shifted(bytes.size() + 8);
+    std::memcpy(shifted.span().data() + 8, bytes.span().data(), bytes.size());
+    const auto opened = Model::open(std::as_const(shifted).span().subspan(8));
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().code, ErrorCode::bad_argument);
+}
+
+TEST(Model, MovingKeepsTheSpans) {
+    OpenModel first = open_tiny(unit_cube());
+    const auto* triangles = first.model.triangles().data();
+    const Model second = std::move(first.model);
+    EXPECT_EQ(second.triangles().data(), triangles);
+}
+
+TEST(Model, NamesBeyondTheLastAreEmpty) {
+    format::FileHeader facts{};
+    std::vector<std::byte> names;
+    for (const char c : std::string("left\0right\0", 11)) names.push_back(std::byte(c));
+    const AlignedBytes bytes = assemble(facts, {{SectionId::group_names, names}});
+    const auto opened = Model::open(bytes.span());
+    ASSERT_TRUE(opened) << opened.error().message;
+    const Model& model = opened.value();
+    EXPECT_EQ(model.name(SectionId::group_names, 0), "left");
+    EXPECT_EQ(model.name(SectionId::group_names, 1), "right");
+    EXPECT_EQ(model.name(SectionId::group_names, 2), "");
+    EXPECT_EQ(model.name(SectionId::material_names, 0), "");
+}
+
+/// The file on pages of its own, each section on separate ones, those that are
+/// not `wanted` closed to every access.
+class GuardedPages {
+public:
+    GuardedPages(std::span<const std::byte> file, SectionSet wanted) {
+        const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+        size_ = (file.size() + page - 1) / page * page;
+        start_ = static_cast<std::byte*>(
+            ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+        std::memcpy(start_, file.data(), file.size());
+        bytes_ = {start_, file.size()};
+        const format::FileHeader header = format::read_header(file);
+        for (std::uint32_t i = 0; i < header.section_count; ++i) {
+            format::SectionEntry entry;
+            std::memcpy(&entry, file.data() + format::kSectionTableOffset + i * sizeof entry,
+                        sizeof entry);
+            if (wanted.contains(entry.id) || entry.count == 0) continue;
+            EXPECT_EQ(entry.offset % page, 0u);
+            ::mprotect(start_ + entry.offset, entry.count * entry.element_size, PROT_NONE);
+            ++guarded_;
+        }
+    }
+    ~GuardedPages() {
+        ::munmap(start_, size_);
+    }
+    GuardedPages(const GuardedPages&) = delete;
+    GuardedPages& operator=(const GuardedPages&) = delete;
+    [[nodiscard]] std::span<const std::byte> bytes() const {
+        return bytes_;
+    }
+    [[nodiscard]] int guarded() const {
+        return guarded_;
+    }
+
+private:
+    std::byte* start_ = nullptr;
+    std::size_t size_ = 0;
+    std::span<const std::byte> bytes_;
+    int guarded_ = 0;
+};
+
+// Sections on pages of their own; any access to an unwanted one ends the program.
+TEST(Model, OpenAndQueryTouchOnlyTheSectionsAskedFor) {
+    const TestMesh cube = unit_cube();
+    const AlignedBytes bytes =
+        bake_tiny(cube.positions, cube.triangles, {.section_alignment = 4096});
+    const SectionSet wanted = {SectionId::positions_f32, SectionId::triangles,
+                               SectionId::bvh_nodes};
+    const GuardedPages pages(bytes.span(), wanted);
+    EXPECT_GE(pages.guarded(), 3);
+    const auto opened = Model::open(pages.bytes(), wanted);
+    ASSERT_TRUE(opened) << opened.error().message;
+    EXPECT_TRUE(opened.value().source_triangle().empty());
+    EXPECT_EQ(opened.value().sections(), wanted);
+    Workspace workspace;
+    EXPECT_TRUE(collide(opened.value(), opened.value(), Placement::b_moves(Pose()), workspace).hit);
+}
+
+}  // namespace
+}  // namespace cdprep::test
