@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "import/read_stl.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <vector>
+
+namespace cdprep::import {
+namespace {
+
+using mesh::BadNumber;
+using mesh::Double3;
+using mesh::Triangle;
+using mesh::TriangleSoup;
+
+Result<TriangleSoup> read(const std::string& bytes, const ImportOptions& options = {}) {
+    const std::vector<char> exact(bytes.begin(), bytes.end());
+    return read_stl(SourceFile("t.stl", {exact.data(), exact.size()}), options);
+}
+
+TriangleSoup soup(const std::string& bytes) {
+    Result<TriangleSoup> result = read(bytes);
+    EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
+    return result.ok() ? std::move(result).value() : TriangleSoup{};
+}
+
+std::string sentence(const std::string& bytes) {
+    const Result<TriangleSoup> result = read(bytes);
+    EXPECT_FALSE(result.ok());
+    return result.ok() ? "" : result.error().message;
+}
+
+/// A binary file; triangle i has the corners (i, 0, 0), (0, 1, 0), (0, 0, 1).
+std::string binary(std::uint32_t claimed, std::uint32_t written, std::string header = "") {
+    header.resize(80, ' ');
+    std::string bytes = header;
+    bytes.append(reinterpret_cast<const char*>(&claimed), 4);
+    for (std::uint32_t i = 0; i < written; ++i) {
+        const float x[12] = {9, 9, 9, static_cast<float>(i), 0, 0, 0, 1, 0, 0, 0, 1};
+        bytes.append(reinterpret_cast<const char*>(x), sizeof x);
+        bytes.append("\x7f\x7f");
+    }
+    return bytes;
+}
+
+const std::string kFacet =
+    " facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 1e0 0 0\n"
+    "   vertex 0 1.5 0\n  endloop\n endfacet\n";
+const std::vector<Double3> kCorners = {{0, 0, 0}, {1, 0, 0}, {0, 1.5, 0}};
+
+TEST(ReadStl, BinaryTrianglesHaveThreeVerticesEach) {
+    const TriangleSoup s = soup(binary(2, 2));
+    EXPECT_EQ(s.positions, (std::vector<Double3>{
+                               {0, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}));
+    EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{0, 1, 2}}, {{3, 4, 5}}}));
+    EXPECT_TRUE(s.single_precision);
+    EXPECT_TRUE(s.groups.runs.empty());
+}
+
+TEST(ReadStl, ABinaryFileMayBeginWithSolid) {
+    EXPECT_EQ(soup(binary(3, 3, "solid facet normal")).triangles.size(), 3u);
+}
+
+TEST(ReadStl, ManyBinaryTrianglesComeInAnyOrderOfBlocks) {
+    ImportOptions backwards;
+    backwards.parallel_for = [](std::size_t count, const std::function<void(std::size_t)>& body) {
+        for (std::size_t i = count; i-- > 0;) body(i);
+    };
+    const auto result = read(binary(50'000, 50'000), backwards);
+    ASSERT_TRUE(result.ok());
+    for (std::uint32_t i = 0; i < 50'000; ++i) {
+        ASSERT_EQ(result.value().positions[3 * i].x, i);
+        ASSERT_EQ(result.value().triangles[i], (Triangle{{3 * i, 3 * i + 1, 3 * i + 2}}));
+    }
+}
+
+TEST(ReadStl, ABinaryCountThatDisagreesWithTheLengthIsUnreadable) {
+    EXPECT_EQ(sentence(binary(4, 3)),
+              "t.stl: the header counts 4 triangles, which take 284 bytes, but the file has 234.");
+    EXPECT_EQ(sentence(binary(2, 3)),
+              "t.stl: the header counts 2 triangles, which take 184 bytes, but the file has 234.");
+    EXPECT_EQ(sentence(binary(0xffffffff, 1)),
+              "t.stl: the header counts 4294967295 triangles, which take 214748364834 bytes, but "
+              "the file has 134.");
+}
+
+TEST(ReadStl, NonFiniteBinaryCoordinatesAreData) {
+    std::string bytes = binary(2, 2);
+    const float bad = NAN;
+    std::memcpy(bytes.data() + 84 + 50 + 12 + 16, &bad, 4);  // triangle 1, corner 1, y
+    const TriangleSoup s = soup(bytes);
+    ASSERT_EQ(s.bad_number_count, 1u);
+    EXPECT_EQ(s.bad_numbers[0].kind, BadNumber::Kind::not_finite);
+    EXPECT_EQ(s.bad_numbers[0].vertex, 4u);
+}
+
+TEST(ReadStl, ReadsText) {
+    const TriangleSoup s = soup("solid a part\n" + kFacet + "endsolid a part\n");
+    EXPECT_EQ(s.positions, kCorners);
+    EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{0, 1, 2}}}));
+    EXPECT_EQ(s.groups.names, (std::vector<std::string>{"a part"}));
+    EXPECT_TRUE(s.single_precision);
+}
+
+TEST(ReadStl, ReadsTextOfAnyCaseAndLayout) {
+    for (const std::string text :
+         {"SOLID\r\n FACET NORMAL 0 0 1\r\nOUTER LOOP\r\nVERTEX 0 0 0\r\nVERTEX 1 0 0\r\n"
+          "VERTEX 0 1.5 0\r\nENDLOOP\r\nENDFACET\r\nENDSOLID\r\n",
+          "solid\nfacet normal nan nan nan outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1.5 0 "
+          "endloop endfacet\nendsolid",
+          "  solid x\nfacet outer loop\nvertex\n0\n0\n0 vertex 1 0 0 vertex 0 1.5 0 endloop\n"
+          "endfacet endsolid x"}) {
+        EXPECT_EQ(soup(text).positions, kCorners) << text;
+    }
+}
+
+TEST(ReadStl, SolidsAreGroups) {
+    const TriangleSoup s = soup("solid a\n" + kFacet + kFacet + "endsolid a\nsolid vertex 1 2\n" +
+                                kFacet + "endsolid\n");
+    ASSERT_EQ(s.groups.runs.size(), 2u);
+    EXPECT_EQ(s.groups.names, (std::vector<std::string>{"a", "vertex 1 2"}));
+    EXPECT_EQ(s.groups.runs[1].first_triangle, 2u);
+    EXPECT_EQ(s.groups.runs[1].triangle_count, 1u);
+}
+
+TEST(ReadStl, TextKeepsDoubles) {
+    const TriangleSoup s = soup(
+        "solid\nfacet normal 0 0 1\nouter loop\nvertex 0.1234567890123 0 0\nvertex 1 0 0\n"
+        "vertex 0 0.1 inf\nendloop\nendfacet\nendsolid\n");
+    EXPECT_FALSE(s.single_precision);
+    EXPECT_EQ(s.positions[0].x, 0.1234567890123);
+    EXPECT_EQ(s.positions[2].y, 0.1);
+    EXPECT_EQ(s.bad_number_count, 1u);
+}
+
+TEST(ReadStl, SaysWhichFacetIsBroken) {
+    const std::string start = "solid\n" + kFacet;
+    EXPECT_EQ(sentence(start + "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet\n"
+                               "endsolid\n"),
+              "t.stl: line 9: a facet has 1 vertices; 3 are needed.");
+    EXPECT_EQ(sentence(start + "facet normal 0 0 1\nouter loop\nvertex 0 0\nendloop\nendfacet\n"),
+              "t.stl: line 12: 'endloop' is no number.");
+    EXPECT_EQ(sentence(start), "t.stl: line 9: the file ends without endsolid: it is cut off.");
+    EXPECT_EQ(sentence(start + "vertex 1 2 3\nendsolid\n"),
+              "t.stl: line 11: a vertex that belongs to no facet.");
+    EXPECT_EQ(sentence(start + "endfacet\nendsolid\n"),
+              "t.stl: line 9: an endfacet without its facet.");
+}
+
+TEST(ReadStl, AnEmptySolidIsAnEmptySoup) {
+    EXPECT_TRUE(soup("solid nothing\nendsolid nothing\n").triangles.empty());
+    EXPECT_TRUE(soup(binary(0, 0)).triangles.empty());
+}
+
+TEST(ReadStl, EveryTruncationIsASoupOrASentence) {
+    const std::string text = "solid a\n" + kFacet + kFacet + "endsolid a\n";
+    for (std::size_t size = 0; size < text.size(); ++size) {
+        const Result<TriangleSoup> result = read(text.substr(0, size));
+        // Only the name behind endsolid may be missing.
+        EXPECT_EQ(result.ok(), size >= text.size() - 3) << size;
+    }
+    const std::string bytes = binary(3, 3);
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+        EXPECT_FALSE(read(bytes.substr(0, size)).ok()) << size;
+    }
+}
+
+TEST(ReadStl, LongTextIsReadInChunks) {
+    std::string text = "solid a\n";
+    for (int i = 0; i < 20'000; ++i) text += kFacet;
+    text += "endsolid a\n";
+    const TriangleSoup s = soup(text);
+    ASSERT_EQ(s.triangles.size(), 20'000u);
+    for (std::uint32_t i = 0; i < 60'000; ++i) ASSERT_EQ(s.positions[i], kCorners[i % 3]);
+    EXPECT_EQ(s.triangles.back(), (Triangle{{59'997, 59'998, 59'999}}));
+    EXPECT_EQ(s.groups.runs.size(), 1u);
+    EXPECT_FALSE(read(text.substr(0, 1'000'000)).ok());
+}
+
+}  // namespace
+}  // namespace cdprep::import
