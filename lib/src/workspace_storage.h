@@ -16,8 +16,20 @@ namespace cdprep {
 inline constexpr std::size_t kMaxPendingPairs =
     std::size_t{2} * (format::kMaxBvhLevels + 1) * format::kBvhWidth * format::kBvhWidth;
 
+/// A place of a tree with a bound that orders the walk: a distance or a ray's t.
+struct BoundedPlace {
+    double bound;
+    std::uint32_t height;
+    std::uint32_t index;
+};
+
+/// Most entries an ordered walk of one hierarchy holds: seven siblings a level.
+inline constexpr std::size_t kMaxBoundedPlaces =
+    std::size_t{format::kMaxBvhLevels + 1} * format::kBvhWidth;
+
 struct Workspace::Storage {
     std::array<std::uint64_t, kMaxPendingPairs> pending;
+    std::array<BoundedPlace, kMaxBoundedPlaces> bounded;
     MovedLeaf leaf_a;
     MovedLeaf leaf_b;
 };

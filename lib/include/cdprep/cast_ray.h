@@ -30,12 +30,13 @@ struct RayOptions {
 /// Returns the first point where `ray` meets the surface, or nothing.
 ///
 /// Whether it hits a triangle is exact: the signs of the volumes that the line
-/// through origin and origin + direction (rounded once) spans with the edges.
-/// Closed: a ray along an edge or through a vertex hits, so none slips between
-/// neighbours. Both sides count. A ray in a triangle's plane hits where it
-/// enters. `t` carries rounding of at most 32 ulp of the larger of t and the
-/// triangle's distance scale; among hits whose t are equal the lowest source
-/// triangle answers. A model without triangles is never hit.
+/// through the origin and a second point, origin + 2^k direction rounded once (k
+/// makes the step as large as the coordinates), spans with the edges. Closed: a
+/// ray along an edge or through a vertex hits, so none slips between neighbours.
+/// Both sides count. A ray in a triangle's plane hits where it enters. `t` and
+/// `point` are rounded; among hits whose t are equal the lowest source triangle
+/// answers. A model without triangles is never hit, nor does a direction of zero
+/// hit anything.
 ///
 /// Needs triangles, positions and bvh_nodes. Costs O(log n) for compact
 /// surfaces. Never allocates.

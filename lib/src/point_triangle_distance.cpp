@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "point_triangle_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// All work is done relative to q and scaled by a power of two so that the largest
+// corner coordinate is about 1; u = 2^-53, M the largest |corner - q|.
+//
+// Edges. The nearest point of a segment is found by one projection; its place
+// along the edge is off by a few u M, so its distance is within 16 u M.
+//
+// Face. With n = (b - a) x (c - a) and L the longest edge, n is off by at most
+// 8 u L^2 in relative terms 8 u L^2 / |n|, which tilts the plane by as much: the
+// foot of q and the distance to the plane are off by less than
+// eta = 64 u M L^2 / |n|. A foot that is wrongly thought inside or outside is
+// within eta of an edge, so taking the other's distance errs by no more than eta.
+//
+// Slivers. Where eta is larger than the inradius |n| / perimeter, the face is
+// left out: every point of it is within the inradius of an edge.
+
+namespace cdprep {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+constexpr double kEdgeError = 16 * kUnit;
+constexpr double kFaceError = 64 * kUnit;
+
+struct Vector {
+    double x, y, z;
+};
+
+Vector operator-(const Vector& a, const Vector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Vector operator+(const Vector& a, const Vector& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Vector operator*(double s, const Vector& a) {
+    return {s * a.x, s * a.y, s * a.z};
+}
+double dot(const Vector& a, const Vector& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+double length(const Vector& a) {
+    return std::sqrt(dot(a, a));
+}
+
+struct Nearest {
+    Vector point;
+    double distance;
+};
+
+/// The point of the segment nearest to the origin.
+Nearest nearest_on_edge(const Vector& a, const Vector& b) {
+    const Vector edge = b - a;
+    const double squared = dot(edge, edge);
+    const double t = squared > 0 ? std::clamp(-dot(a, edge) / squared, 0.0, 1.0) : 0.0;
+    const Vector point = t <= 0.5 ? a + t * edge : b - (1 - t) * edge;
+    return {point, length(point)};
+}
+
+Nearest nearest_on_edges(const Vector& a, const Vector& b, const Vector& c) {
+    Nearest best = nearest_on_edge(a, b);
+    for (const Nearest& edge : {nearest_on_edge(b, c), nearest_on_edge(c, a)}) {
+        if (edge.distance < best.distance) best = edge;
+    }
+    return best;
+}
+
+/// Whether the foot of the origin lies inside the triangle, as far as rounding
+/// lets one see.
+bool foot_is_inside(const Vector& a, const Vector& b, const Vector& c, const Vector& n) {
+    return dot(n, cross(a, b)) >= 0 && dot(n, cross(b, c)) >= 0 && dot(n, cross(c, a)) >= 0;
+}
+
+}  // namespace
+
+PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t) noexcept {
+    double size = 0;
+    std::array<Vector, 3> corner;
+    for (std::size_t i = 0; i < 3; ++i) {
+        corner[i] = {t[i].x - q.x, t[i].y - q.y, t[i].z - q.z};
+        size = std::max(
+            {size, std::fabs(corner[i].x), std::fabs(corner[i].y), std::fabs(corner[i].z)});
+    }
+    if (size == 0) return {q, 0, 0, 0};
+    const int exponent = -std::ilogb(size);
+    for (Vector& v : corner) {
+        v = {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
+    }
+    const auto& [a, b, c] = corner;
+    const double farthest = std::max({length(a), length(b), length(c)});
+    const Vector n = cross(b - a, c - a);
+    const double ab = length(b - a), bc = length(c - b), ca = length(a - c);
+    const double longest = std::max({ab, bc, ca});
+    const double height = length(n);
+
+    Nearest best = nearest_on_edges(a, b, c);
+    const double edge_error = kEdgeError * farthest;
+    double upper = best.distance + edge_error;
+    double lower = 0;
+    const double rounding = 8 * kUnit * longest * longest;  // of n
+    const double inradius = longest > 0 ? (height + rounding) / (ab + bc + ca) : 0;
+    const double eta =
+        height > 2 * rounding ? kFaceError * farthest * (1 + longest * longest / height) : inradius;
+    if (eta >= inradius) {
+        lower = best.distance - edge_error - inradius;
+    } else {
+        if (foot_is_inside(a, b, c, n)) {
+            const double plane = dot(n, a) / height;
+            const Vector foot = (plane / height) * n;
+            if (std::fabs(plane) < best.distance) best = {foot, std::fabs(plane)};
+            upper = std::min(upper, best.distance + eta);
+        }
+        lower = best.distance - eta;
+    }
+    const auto back = [&](double x) { return std::ldexp(x, -exponent); };
+    // The last factor covers the roundings of these sums; scaling back may round
+    // a subnormal, so one step outwards covers that.
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const double outer = std::nextafter(back(upper * (1 + 4 * kUnit)), kInfinity);
+    const double inner = std::nextafter(back(lower * (1 - 4 * kUnit)), -kInfinity);
+    return {{q.x + back(best.point.x), q.y + back(best.point.y), q.z + back(best.point.z)},
+            back(best.distance),
+            std::max(0.0, inner),
+            outer};
+}
+
+}  // namespace cdprep

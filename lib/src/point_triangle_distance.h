@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "triangle_contact.h"
+
+namespace cdprep {
+
+/// How far a point is from a triangle.
+struct PointTriangleDistance {
+    Double3 nearest;  ///< on the triangle up to rounding
+    double computed;  ///< the rounded distance to `nearest`
+    double lower;     ///< proved: the exact distance is at least this, >= 0
+    double upper;     ///< proved: and at most this
+};
+
+/// Works for triangles without area and for all sizes from subnormals to
+/// kMaxCoordinate. The interval is a few ulp of the farthest corner's distance
+/// wide, more for slivers.
+[[nodiscard]] PointTriangleDistance point_triangle_distance(const Double3& q,
+                                                            const Corners& t) noexcept;
+
+}  // namespace cdprep

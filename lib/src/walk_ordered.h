@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "walk_pairs.h"
+
+namespace cdprep {
+
+/// Walks one hierarchy, smallest bound first among siblings. `bound(node, box)`
+/// gives a lower bound of what the box can hold, `leaf(index)` handles a leaf
+/// and returns the bound beyond which nothing is of interest any more.
+template <class Bound, class Leaf>
+void walk_ordered(const Model& model, Workspace::Storage& scratch, double limit, Bound&& bound,
+                  Leaf&& leaf) noexcept {
+    if (model.triangle_count() == 0) return;
+    std::size_t depth = 0;
+    scratch.bounded[depth++] = {0, model.shape().levels, 0};
+    while (depth > 0) {
+        const BoundedPlace top = scratch.bounded[--depth];
+        if (top.bound > limit) continue;
+        if (top.height == 0) {
+            limit = std::min(limit, leaf(top.index));
+            continue;
+        }
+        const TestedBoxes boxes = boxes_of(model, {top.height, top.index}, true);
+        const auto first = scratch.bounded.begin() + static_cast<std::ptrdiff_t>(depth);
+        auto last = first;
+        for (std::uint32_t box = boxes.first; box < boxes.last; ++box) {
+            const double value = bound(*boxes.node, box);
+            if (value > limit) continue;
+            *last++ = {value, boxes.first_below.height, boxes.first_below.index + box};
+        }
+        std::sort(first, last, [](const BoundedPlace& a, const BoundedPlace& b) {
+            return a.bound > b.bound;  // the last is taken first
+        });
+        depth += static_cast<std::size_t>(last - first);
+    }
+}
+
+}  // namespace cdprep

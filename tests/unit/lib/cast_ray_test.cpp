@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/cast_ray.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "support/open_tiny.h"
+
+namespace cdprep::test {
+namespace {
+
+std::optional<RayHit> cast(const TestMesh& mesh, const Ray& ray, const RayOptions& options = {}) {
+    const OpenModel model = open_tiny(mesh, {.double_precision = true});
+    Workspace workspace;
+    return cast_ray(model.model, ray, workspace, options);
+}
+
+TestMesh one_triangle() {
+    return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}}};
+}
+
+// By hand: the bottom of the unit cube, one unit above the origin of the ray.
+TEST(CastRay, MeasuresInLengthsOfTheDirection) {
+    const auto hit = cast(unit_cube(), {{0.25, 0.5, -1}, {0, 0, 0.5}});
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->t, 2.0);
+    EXPECT_EQ(hit->triangle, 0u);
+    EXPECT_EQ(hit->point.z, 0.0);
+    EXPECT_FALSE(cast(unit_cube(), {{0.25, 0.5, -1}, {0, 0, -1}}));
+}
+
+TEST(CastRay, LimitIsInclusive) {
+    const Ray ray{{0.25, 0.5, -1}, {0, 0, 1}};
+    EXPECT_TRUE(cast(unit_cube(), ray, {.max_t = 1.0}));
+    EXPECT_FALSE(cast(unit_cube(), ray, {.max_t = std::nextafter(1.0, 0.0)}));
+}
+
+TEST(CastRay, EdgesAndCornersHitAndTheLowestTriangleAnswers) {
+    const auto diagonal = cast(unit_cube(), {{0.5, 0.5, -1}, {0, 0, 1}});  // both bottom faces
+    ASSERT_TRUE(diagonal);
+    EXPECT_EQ(diagonal->triangle, 0u);
+    EXPECT_TRUE(cast(unit_cube(), {{0, 0, -1}, {0, 0, 1}}));    // along an edge of the cube
+    EXPECT_TRUE(cast(unit_cube(), {{-1, -1, -1}, {1, 1, 1}}));  // through a corner
+    EXPECT_FALSE(cast(unit_cube(), {{-0x1p-50, 0, -1}, {0, 0, 1}}));
+}
+
+// By hand, in the plane of the triangle: enters at x = 0, starts inside, runs
+// along an edge, passes by, points away.
+TEST(CastRay, RaysInTheTrianglesPlaneHitWhereTheyEnter) {
+    EXPECT_EQ(cast(one_triangle(), {{-1, 1, 0}, {1, 0, 0}})->t, 1.0);
+    EXPECT_EQ(cast(one_triangle(), {{1, 1, 0}, {1, 0, 0}})->t, 0.0);
+    EXPECT_EQ(cast(one_triangle(), {{-2, 0, 0}, {1, 0, 0}})->t, 2.0);
+    EXPECT_EQ(cast(one_triangle(), {{-1, 5, 0}, {1, -1, 0}})->t, 1.0);
+    EXPECT_FALSE(cast(one_triangle(), {{-1, 6, 0}, {1, -1, 0}}));
+    EXPECT_FALSE(cast(one_triangle(), {{-1, 1, 0}, {-1, 0, 0}}));
+    EXPECT_FALSE(cast(one_triangle(), {{5, 1, 0}, {1, 0, 0}}));
+}
+
+TEST(CastRay, TrianglesWithoutAreaAnswerAsSegments) {
+    const TestMesh segment{{{1, 0, 0}, {1, 2, 0}, {1, 1, 0}}, {{{0, 1, 2}}}};
+    EXPECT_EQ(cast(segment, {{0, 1.5, 0}, {1, 0, 0}})->t, 1.0);
+    EXPECT_EQ(cast(segment, {{1, -1, 0}, {0, 1, 0}})->t, 1.0);
+    EXPECT_FALSE(cast(segment, {{0, 1.5, 0x1p-60}, {1, 0, 0}}));
+    EXPECT_FALSE(cast(segment, {{0, 2.5, 0}, {1, 0, 0}}));
+}
+
+TEST(CastRay, NothingIsHitInAnEmptyModel) {
+    EXPECT_FALSE(cast({}, {{0, 0, 0}, {1, 0, 0}}));
+    EXPECT_FALSE(cast(unit_cube(), {{0, 0, 0}, {0, 0, 0}}));
+}
+
+TEST(CastRay, ScaleDoesNotMatter) {
+    for (const double scale : {0x1p-1000, 0x1p-100, 0x1p100, 0x1p900}) {
+        const TestMesh cube = moved_by(unit_cube(), scale, {0, 0, 0});
+        const auto hit = cast(cube, {{scale / 4, scale / 2, -scale}, {0, 0, scale}});
+        ASSERT_TRUE(hit) << scale;
+        EXPECT_EQ(hit->t, 1.0) << scale;
+    }
+}
+
+/// Exact for small integers: where line and plane cross, as a fraction.
+struct Crossing {
+    long long numerator;
+    long long denominator;  ///< > 0
+};
+
+using Integers = std::array<long long, 3>;
+
+Integers minus(const Integers& a, const Integers& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Integers cross(const Integers& a, const Integers& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+long long dot(const Integers& a, const Integers& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+Integers integers(const Double3& p) {
+    return {static_cast<long long>(p.x), static_cast<long long>(p.y), static_cast<long long>(p.z)};
+}
+
+/// The textbook test in integers: plane, then three half-planes. Nothing when the
+/// ray is parallel to the plane.
+std::optional<Crossing> exact_crossing(const Ray& ray, const std::array<Double3, 3>& t) {
+    const Integers o = integers(ray.origin), d = integers(ray.direction);
+    const Integers a = integers(t[0]), b = integers(t[1]), c = integers(t[2]);
+    const Integers n = cross(minus(b, a), minus(c, a));
+    long long den = dot(n, d);
+    long long num = dot(n, minus(a, o));
+    if (den == 0) return std::nullopt;
+    if (den < 0) {
+        den = -den;
+        num = -num;
+    }
+    if (num < 0) return std::nullopt;
+    const Integers p = {o[0] * den + num * d[0], o[1] * den + num * d[1], o[2] * den + num * d[2]};
+    const auto inside = [&](const Integers& u, const Integers& v) {
+        const Integers at = {p[0] - u[0] * den, p[1] - u[1] * den, p[2] - u[2] * den};
+        return dot(n, cross(minus(v, u), at)) >= 0;
+    };
+    if (!inside(a, b) || !inside(b, c) || !inside(c, a)) return std::nullopt;
+    return Crossing{num, den};
+}
+
+bool is_parallel(const Ray& ray, const std::array<Double3, 3>& t) {
+    const Integers a = integers(t[0]), b = integers(t[1]), c = integers(t[2]);
+    return dot(cross(minus(b, a), minus(c, a)), integers(ray.direction)) == 0;
+}
+
+// The oracle: integers on a coarse grid, where rays meet edges and corners often.
+// Triangles that are parallel to a ray are left to the tests by hand.
+TEST(CastRayLaws, AgreesWithIntegersOnACoarseGrid) {
+    std::mt19937 random(20261121);
+    std::uniform_int_distribution<int> grid(-6, 6);
+    int hits = 0, rays = 0;
+    for (int round = 0; round < 60; ++round) {
+        const TestMesh mesh = coarse_grid_soup(random(), 20, 4);
+        const OpenModel model = open_tiny(mesh);
+        Workspace workspace;
+        for (int i = 0; i < 60; ++i) {
+            const auto number = [&] { return static_cast<double>(grid(random)); };
+            const double ox = number(), oy = number(), oz = number();
+            const double dx = number(), dy = number(), dz = number();
+            const Ray ray{{ox, oy, oz}, {dx, dy, dz}};
+            if (dx == 0 && dy == 0 && dz == 0) continue;
+            bool parallel = false;
+            std::optional<Crossing> nearest;
+            for (const Triangle& triangle : mesh.triangles) {
+                const std::array<Double3, 3> t = {mesh.positions[triangle.vertex[0]],
+                                                  mesh.positions[triangle.vertex[1]],
+                                                  mesh.positions[triangle.vertex[2]]};
+                parallel = parallel || is_parallel(ray, t);
+                const auto crossing = exact_crossing(ray, t);
+                if (crossing && (!nearest || crossing->numerator * nearest->denominator <
+                                                 nearest->numerator * crossing->denominator)) {
+                    nearest = crossing;
+                }
+            }
+            if (parallel) continue;
+            const auto hit = cast_ray(model.model, ray, workspace);
+            ASSERT_EQ(hit.has_value(), nearest.has_value()) << "round " << round << ", ray " << i;
+            ++rays;
+            if (!hit) continue;
+            ++hits;
+            const double exact =
+                static_cast<double>(nearest->numerator) / static_cast<double>(nearest->denominator);
+            ASSERT_NEAR(hit->t, exact, 1e-14 * (1 + exact));
+        }
+    }
+    EXPECT_GT(rays, 1000);
+    EXPECT_GT(hits, rays * 2 / 10);
+    EXPECT_LT(hits, rays * 8 / 10);
+}
+
+// A closed surface: by the definition of inside, every ray from within hits.
+TEST(CastRayLaws, NoRayEscapesAClosedSurface) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    const TestMesh sphere = icosphere(3);
+    const OpenModel model = open_tiny(sphere, {.double_precision = true});
+    Workspace workspace;
+    for (int i = 0; i < 2000; ++i) {
+        const double x = normal(random), y = normal(random), z = normal(random);
+        ASSERT_TRUE(cast_ray(model.model, {{0.1, 0.2, 0.3}, {x, y, z}}, workspace)) << i;
+    }
+    for (const Double3& vertex : sphere.positions) {  // through every vertex
+        ASSERT_TRUE(cast_ray(model.model, {{0, 0, 0}, vertex}, workspace));
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::test

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/containment.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "cdprep/collide.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+#include "winding.h"
+
+namespace cdprep::test {
+namespace {
+
+TestMesh cube_at(double low, double high) {
+    return moved_by(unit_cube(), high - low, {low, low, low});
+}
+
+Inclusion where(const TestMesh& mesh, const Double3& p) {
+    const OpenModel model = open_tiny(mesh, {.double_precision = true});
+    Workspace workspace;
+    return includes(model.model, p, workspace);
+}
+
+// P02, P03: by hand, a cube's inside, with rays along its diagonals and edges.
+TEST(Containment, HalfIntegerProbesOfACube) {
+    const OpenModel model = open_tiny(cube_at(-2, 2));
+    Workspace workspace;
+    for (int i = -4; i <= 4; ++i) {
+        for (int j = -4; j <= 4; ++j) {
+            for (int k = -4; k <= 4; ++k) {
+                const Inclusion found =
+                    includes(model.model, {i * 0.75, j * 0.75, k * 0.75}, workspace);
+                const int farthest = std::max({std::abs(i), std::abs(j), std::abs(k)});
+                ASSERT_EQ(found.answer == Answer::yes, farthest * 0.75 <= 2)
+                    << i << " " << j << " " << k;
+            }
+        }
+    }
+}
+
+// P04: points in the plane of a face or on the line of an edge, but outside.
+TEST(Containment, ExtensionsOfFacesAndEdgesAreOutside) {
+    for (const Double3& p : {Double3{-1, 0, 0}, Double3{-1, 1, 1}, Double3{-1, 0.5, 0},
+                             Double3{-1, 0.5, 1}, Double3{0.5, -1, 0}, Double3{0, 0, -3}}) {
+        EXPECT_EQ(where(unit_cube(), p).answer, Answer::no);
+    }
+}
+
+// P05
+TEST(Containment, TheBoundaryIsOnTheSurface) {
+    for (const Double3& p : {Double3{0.25, 0.5, 0}, Double3{0.5, 0, 0}, Double3{1, 1, 1}}) {
+        const Inclusion found = where(unit_cube(), p);
+        EXPECT_TRUE(found.on_surface);
+        EXPECT_EQ(found.answer, Answer::yes);
+    }
+}
+
+// P06, P09: by counting shells.
+TEST(Containment, WindingNumbersAddUp) {
+    const Double3 core{1.5, 1.5, 1.5};
+    EXPECT_EQ(where(joined(cube_at(0, 3), cube_at(1, 2)), core).winding, 2);
+    const Inclusion hollow = where(joined(cube_at(0, 3), reversed(cube_at(1, 2))), core);
+    EXPECT_EQ(hollow.answer, Answer::no);
+    EXPECT_EQ(hollow.winding, 0);
+    const Inclusion inverted = where(reversed(cube_at(1, 2)), core);
+    EXPECT_EQ(inverted.winding, -1);
+    EXPECT_EQ(inverted.answer, Answer::yes);
+}
+
+// P01: the ray runs through a folded vertex, where once-per-sign rules fail.
+TEST(Containment, FoldedVertexIsCountedRight) {
+    const TestMesh folded{{{0, 0, 0}, {3, 4, -2}, {4, 5, 1}, {-5, 0, -3}, {5, -5, 0}, {-6, -6, -6}},
+                          {{{0, 1, 2}},
+                           {{0, 2, 3}},
+                           {{0, 3, 4}},
+                           {{0, 4, 1}},
+                           {{5, 2, 1}},
+                           {{5, 3, 2}},
+                           {{5, 4, 3}},
+                           {{5, 1, 4}}}};
+    const Double3 o{0, 0, -20}, q{0, 0, -0.5};
+    int winding = 0;
+    for (const Triangle& t : folded.triangles) {
+        winding += winding_term(o, q,
+                                {folded.positions[t.vertex[0]], folded.positions[t.vertex[1]],
+                                 folded.positions[t.vertex[2]]})
+                       .crossings;
+    }
+    EXPECT_EQ(std::abs(winding), 1);
+    EXPECT_EQ(where(folded, q).answer, Answer::yes);
+}
+
+// P07
+TEST(Containment, SolidsThatShareAnEdgeAreNotRefused) {
+    const TestMesh two = joined(cube_at(0, 1), moved_by(unit_cube(), 1, {1, 1, 0}));
+    EXPECT_EQ(where(two, {0.5, 0.5, 0.5}).answer, Answer::yes);
+    EXPECT_EQ(where(two, {1.5, 1.5, 0.5}).answer, Answer::yes);
+    EXPECT_EQ(where(two, {1.5, 0.5, 0.5}).answer, Answer::no);
+}
+
+// P08: by symmetry, five of six equal faces make 5/6.
+TEST(Containment, OpenInputIsNeverGuessed) {
+    TestMesh open = unit_cube();
+    open.triangles.resize(10);
+    const Inclusion centre = where(open, {0.5, 0.5, 0.5});
+    EXPECT_EQ(centre.answer, Answer::unknown);
+    EXPECT_NEAR(centre.winding, 5.0 / 6, 1e-12);
+    EXPECT_EQ(where(open, {5, 5, 5}).answer, Answer::no);  // outside the box: outside
+}
+
+TEST(WindingTerm, DoesNotDependOnTheOrigin) {
+    std::mt19937 random(3);
+    std::uniform_int_distribution<int> grid(-3, 3);
+    const TestMesh mesh = joined(cube_at(-2, 2), cube_at(-1, 1));
+    int inside = 0, asked = 0;
+    for (int i = 0; i < 300; ++i) {
+        const auto point = [&] {
+            const double x = grid(random), y = grid(random), z = grid(random);
+            return Double3{0.75 * x, 0.75 * y, 0.75 * z};
+        };
+        const Double3 q = point();
+        std::optional<int> expected;
+        for (int k = 0; k < 5; ++k) {
+            const Double3 o = point();
+            if (o == q) continue;
+            int winding = 0;
+            bool on = false;
+            for (const Triangle& t : mesh.triangles) {
+                const WindingTerm term =
+                    winding_term(o, q,
+                                 {mesh.positions[t.vertex[0]], mesh.positions[t.vertex[1]],
+                                  mesh.positions[t.vertex[2]]});
+                winding += term.crossings;
+                on = on || term.on_surface;
+            }
+            if (on) break;
+            ASSERT_EQ(expected.value_or(winding), winding) << "query " << i;
+            expected = winding;
+        }
+        if (expected) inside += *expected != 0 ? 1 : 0;
+        if (expected) ++asked;
+    }
+    EXPECT_GT(asked, 100);
+    EXPECT_GT(inside, 5);
+    EXPECT_LT(inside, asked);
+}
+
+Collision solid(const TestMesh& a, const TestMesh& b, const Placement& placement) {
+    const OpenModel model_a = open_tiny(a, {.double_precision = true});
+    const OpenModel model_b = open_tiny(b, {.double_precision = true});
+    Workspace workspace;
+    return collide(model_a.model, model_b.model, placement, workspace, {.as = As::solid});
+}
+
+// By construction: a small cube inside a large one, under every placement.
+TEST(CollideSolid, NestedSolidsCollideHoweverTheyAreMoved) {
+    std::mt19937 random(9);
+    for (int i = 0; i < 20; ++i) {
+        const Pose p = random_pose(random, 10);
+        for (const bool swapped : {false, true}) {
+            const TestMesh inner = cube_at(1, 2), outer = cube_at(0, 3);
+            const Collision found = swapped ? solid(outer, inner, Placement::world(p, p))
+                                            : solid(inner, outer, Placement::world(p, p));
+            ASSERT_TRUE(found.hit);
+            EXPECT_EQ(found.containment.answer, Answer::yes);
+            EXPECT_EQ(found.containment.a_inside_b, !swapped);
+            EXPECT_EQ(found.containment.winding, 1);
+        }
+    }
+}
+
+TEST(CollideSolid, SurfacesAloneDoNotCollideWhenNested) {
+    const OpenModel inner = open_tiny(cube_at(1, 2)), outer = open_tiny(cube_at(0, 3));
+    Workspace workspace;
+    EXPECT_FALSE(collide(inner.model, outer.model, Placement::b_moves(Pose()), workspace).hit);
+}
+
+TEST(CollideSolid, ACavityHoldsNothing) {
+    const TestMesh hollow = joined(cube_at(0, 3), reversed(cube_at(1, 2)));
+    const Collision found = solid(hollow, cube_at(1.25, 1.75), Placement::b_moves(Pose()));
+    EXPECT_FALSE(found.hit);
+    EXPECT_EQ(found.containment.answer, Answer::no);
+}
+
+TEST(CollideSolid, OpenContainersAnswerUnknown) {
+    TestMesh open = cube_at(0, 3);
+    open.triangles.resize(10);
+    const Collision found = solid(open, cube_at(1, 2), Placement::b_moves(Pose()));
+    EXPECT_FALSE(found.hit);
+    EXPECT_EQ(found.containment.answer, Answer::unknown);
+    EXPECT_GT(std::fabs(found.containment.winding), 0.5);
+}
+
+}  // namespace
+}  // namespace cdprep::test
