@@ -21,7 +21,7 @@ using mesh::Double3;
 
 constexpr Affine kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
-Affine to_affine(const std::array<float, 16>& matrix) {
+Affine to_affine(const std::array<double, 16>& matrix) {
     Affine result;
     std::copy_n(matrix.begin(), result.size(), result.begin());
     return result;
@@ -240,8 +240,9 @@ private:
                                                              : apply(model_from_node, stored));
         }
         read_faces(place, mirrors(model_from_node), chunk);
-        if (place.counts.material < materials_.size()) {
-            chunk.materials.push_back({0, materials_[place.counts.material]});
+        const bool named = place.counts.material < materials_.size();
+        if (!materials_.empty()) {
+            chunk.materials.push_back({0, named ? materials_[place.counts.material] : ""});
         }
         return chunk;
     }

@@ -49,8 +49,8 @@ struct SceneMesh {
 inline constexpr std::uint32_t kNoParent = 0xffffffff;
 
 struct SceneNode {
-    std::array<float, 16> parent_from_node;  ///< row by row
-    std::uint32_t parent;                    ///< kNoParent for the root
+    std::array<double, 16> parent_from_node;  ///< row by row
+    std::uint32_t parent;                     ///< kNoParent for the root
     std::uint32_t mesh_count;
     std::uint32_t name_bytes;
     std::uint32_t reserved;  ///< zero
@@ -58,6 +58,6 @@ struct SceneNode {
 
 static_assert(sizeof(SceneHeader) == 96 && std::is_trivially_copyable_v<SceneHeader>);
 static_assert(sizeof(SceneMesh) == 32 && std::is_trivially_copyable_v<SceneMesh>);
-static_assert(sizeof(SceneNode) == 80 && std::is_trivially_copyable_v<SceneNode>);
+static_assert(sizeof(SceneNode) == 144 && std::is_trivially_copyable_v<SceneNode>);
 
 }  // namespace cdprep::import

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "import/assimp_child.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "import/import_file.h"
+
+namespace cdprep::import {
+namespace {
+
+using mesh::Double3;
+using mesh::Triangle;
+using mesh::TriangleSoup;
+
+/// A folder of its own for each test, removed at the end.
+class AssimpChild : public testing::Test {
+protected:
+    void SetUp() override {
+        std::string name = (std::filesystem::temp_directory_path() / "cdprep-XXXXXX").string();
+        ASSERT_NE(::mkdtemp(name.data()), nullptr);
+        folder_ = name;
+    }
+    void TearDown() override {
+        std::filesystem::remove_all(folder_);
+    }
+
+    std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+        std::ofstream(folder_ / name, std::ios::binary) << bytes;
+        return folder_ / name;
+    }
+
+    std::filesystem::path folder_;
+};
+
+/// A glTF file of one triangle in a separate buffer, used by the given nodes.
+std::string gltf(const std::string& nodes, const std::string& buffer, int index_count = 3) {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[)" + nodes +
+           R"(],"meshes":[{"name":"m","primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)" +
+           R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3",)" +
+           R"("min":[0,0,0],"max":[1,1,1]},{"bufferView":1,"componentType":5125,"count":)" +
+           std::to_string(index_count) +
+           R"(,"type":"SCALAR"}],"bufferViews":[{"buffer":0,"byteLength":36},)" +
+           R"({"buffer":0,"byteOffset":36,"byteLength":12}],"buffers":[{"byteLength":48,"uri":")" +
+           buffer + R"("}]})";
+}
+
+std::string triangle_buffer(std::uint32_t last_index = 2) {
+    const float x[9] = {0, 0, 0, 0.1f, 0, 0, 0, 1, 0};
+    const std::uint32_t index[3] = {0, 1, last_index};
+    std::string bytes(48, '\0');
+    std::memcpy(bytes.data(), x, 36);
+    std::memcpy(bytes.data() + 36, index, 12);
+    return bytes;
+}
+
+const char* const kTwoNodes = R"({"name":"root","children":[1],"translation":[1,2,3]},)"
+                              R"({"name":"leaf","mesh":0,"scale":[-2,1,1]})";
+
+TEST_F(AssimpChild, ReadsASceneWithItsTransformsAndUnits) {
+    write("b.bin", triangle_buffer());
+    const auto result = import_file(write("s.gltf", gltf(kTwoNodes, "b.bin")));
+    ASSERT_TRUE(result.ok()) << result.error().message;
+    const TriangleSoup& s = result.value();
+    EXPECT_EQ(s.positions,
+              (std::vector<Double3>{{1, 2, 3}, {-2 * double(0.1f) + 1, 2, 3}, {1, 3, 3}}));
+    EXPECT_EQ(s.triangles, (std::vector<Triangle>{{{0, 2, 1}}}));
+    ASSERT_EQ(s.instances.size(), 1u);
+    EXPECT_EQ(s.instances[0].flags, format::instance_mirrored);
+    EXPECT_TRUE(s.instance_names[0].ends_with("root/leaf")) << s.instance_names[0];
+    EXPECT_EQ(s.metres_per_unit, 1);
+    EXPECT_EQ(s.up_axis, format::UpAxis::y);
+    EXPECT_FALSE(s.single_precision);
+}
+
+TEST_F(AssimpChild, AnUntransformedSceneIsSingle) {
+    write("b.bin", triangle_buffer());
+    const auto result = import_file(write("s.gltf", gltf(R"({"name":"root","mesh":0})", "b.bin")));
+    ASSERT_TRUE(result.ok()) << result.error().message;
+    EXPECT_TRUE(result.value().single_precision);
+    EXPECT_EQ(result.value().positions[1].x, static_cast<double>(0.1f));
+}
+
+TEST_F(AssimpChild, AnIndexOutOfRangeIsNeverLost) {
+    write("b.bin", triangle_buffer(7));
+    const auto result = import_file(write("s.gltf", gltf(R"({"name":"root","mesh":0})", "b.bin")));
+    ASSERT_TRUE(result.ok()) << result.error().message;
+    ASSERT_EQ(result.value().bad_number_count, 1u);
+    EXPECT_EQ(result.value().bad_numbers[0].found, 7);
+    EXPECT_EQ(result.value().bad_numbers[0].limit, 3);
+}
+
+TEST_F(AssimpChild, FilesOutsideTheFolderAreNotRead) {
+    std::filesystem::create_directory(folder_ / "inner");
+    write("b.bin", triangle_buffer());
+    const std::string nodes = R"({"name":"root","mesh":0})";
+    EXPECT_FALSE(import_file(write("inner/s.gltf", gltf(nodes, "../b.bin"))).ok());
+    EXPECT_FALSE(
+        import_file(write("inner/s.gltf", gltf(nodes, (folder_ / "b.bin").string()))).ok());
+    write("inner/b.bin", triangle_buffer());
+    EXPECT_TRUE(import_file(write("inner/s.gltf", gltf(nodes, "b.bin"))).ok());
+    EXPECT_TRUE(import_file(write("s.gltf", gltf(nodes, "inner/b.bin"))).ok());
+}
+
+TEST_F(AssimpChild, WhatItCannotReadIsOneSentence) {
+    for (const char* content : {"", "x", "rubbish of no format at all\n", "{}", "<xml/>", "glTF"}) {
+        for (const char* name : {"a.gltf", "a.glb", "a.dae", "a.fbx", "a.3ds", "a.xyz", "a"}) {
+            const auto result = import_file(write(name, content));
+            ASSERT_FALSE(result.ok()) << name << " '" << content << "'";
+            EXPECT_EQ(result.error().code, ErrorCode::unreadable);
+            const std::string& message = result.error().message;
+            EXPECT_EQ(message.back(), '.') << message;
+            EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+            EXPECT_NE(message.find(name), std::string::npos) << message;
+        }
+    }
+}
+
+TEST_F(AssimpChild, AMissingBufferAndACycleAreUnreadable) {
+    const std::string nodes = R"({"name":"root","mesh":0})";
+    const auto missing = import_file(write("s.gltf", gltf(nodes, "none.bin")));
+    ASSERT_FALSE(missing.ok());
+    EXPECT_EQ(missing.error().code, ErrorCode::unreadable);
+    write("b.bin", triangle_buffer());
+    const auto cyclic = import_file(
+        write("s.gltf", gltf(R"({"children":[1],"mesh":0},{"children":[0]})", "b.bin")));
+    ASSERT_FALSE(cyclic.ok());
+    EXPECT_EQ(cyclic.error().code, ErrorCode::unreadable);
+}
+
+// Counts far beyond the buffer: whatever happens in the child, here it is one
+// sentence, and soon.
+TEST_F(AssimpChild, LyingCountsAreUnreadable) {
+    write("b.bin", triangle_buffer());
+    const std::string nodes = R"({"name":"root","mesh":0})";
+    const auto begun = std::chrono::steady_clock::now();
+    for (const int count : {6, 3000, 2'000'000'000}) {
+        const auto result = import_file(write("s.gltf", gltf(nodes, "b.bin", count)));
+        ASSERT_FALSE(result.ok()) << count;
+        EXPECT_EQ(result.error().code, ErrorCode::unreadable) << result.error().message;
+    }
+    EXPECT_LT(std::chrono::steady_clock::now() - begun, std::chrono::seconds(60));
+}
+
+/// A COLLADA file with that many triangles.
+std::string collada(int triangles, const std::string& asset = "") {
+    std::string points;
+    std::string index;
+    for (int i = 0; i < triangles + 2; ++i) points += std::to_string(i) + " 0 0.25 ";
+    for (int i = 0; i < triangles; ++i) {
+        for (int k = 0; k < 3; ++k) index += std::to_string(i + k) + " ";
+    }
+    const std::string values = std::to_string(3 * (triangles + 2));
+    return R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" )"
+           R"(version="1.4.1"><asset>)" +
+           asset +
+           R"(</asset><library_geometries><geometry id="g" )"
+           R"(name="g"><mesh><source id="p"><float_array id="a" count=")" +
+           values + R"(">)" + points +
+           R"(</float_array><technique_common><accessor source="#a" count=")" +
+           std::to_string(triangles + 2) +
+           R"(" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>)"
+           R"(<param name="Z" type="float"/></accessor></technique_common></source>)"
+           R"(<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)"
+           R"(<triangles count=")" +
+           std::to_string(triangles) + R"("><input semantic="VERTEX" source="#v" offset="0"/><p>)" +
+           index +
+           R"(</p></triangles></mesh></geometry></library_geometries><library_visual_scenes>)"
+           R"(<visual_scene id="s"><node id="n" name="n"><instance_geometry url="#g"/></node>)"
+           R"(</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene>)"
+           R"(</COLLADA>)";
+}
+
+TEST_F(AssimpChild, ColladaTellsUnitAndUpAxisAndIsNotTurned) {
+    const auto plain = import_file(write("a.dae", collada(1)));
+    ASSERT_TRUE(plain.ok()) << plain.error().message;
+    EXPECT_EQ(plain.value().metres_per_unit, 1);
+    EXPECT_EQ(plain.value().up_axis, format::UpAxis::y);
+    const auto inches = import_file(
+        write("b.dae", collada(1, R"(<unit name="inch" meter="0.0254"/><up_axis>Z_UP</up_axis>)")));
+    ASSERT_TRUE(inches.ok()) << inches.error().message;
+    EXPECT_EQ(inches.value().metres_per_unit, 0.0254);
+    EXPECT_EQ(inches.value().up_axis, format::UpAxis::z);
+    EXPECT_EQ(inches.value().positions, plain.value().positions);
+    EXPECT_EQ(plain.value().positions[1], (Double3{1, 0, 0.25}));
+}
+
+TEST_F(AssimpChild, TooLittleMemoryIsOverBudgetForAnHonestFile) {
+    const std::filesystem::path path = write("a.dae", collada(200'000));
+    ImportOptions options;
+    options.memory_bytes = 48 << 20;
+    const auto result = import_file(path, options);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().code, ErrorCode::over_budget) << result.error().message;
+#endif
+    EXPECT_TRUE(import_file(path).ok());
+}
+
+TEST_F(AssimpChild, TooLittleTimeIsOverBudget) {
+    ImportOptions options;
+    options.time = std::chrono::seconds(0);
+    const auto result = import_file(write("a.dae", collada(200'000)), options);
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().code, ErrorCode::over_budget);
+}
+
+TEST_F(AssimpChild, ManyImportsLeaveNoDescriptorsAndNoChildren) {
+    write("b.bin", triangle_buffer());
+    const std::filesystem::path path =
+        write("s.gltf", gltf(R"({"name":"root","mesh":0})", "b.bin"));
+    const auto count = [] {
+        return std::distance(std::filesystem::directory_iterator("/proc/self/fd"),
+                             std::filesystem::directory_iterator());
+    };
+    const auto before = count();
+    for (int i = 0; i < 20; ++i) EXPECT_TRUE(import_file(path).ok());
+    EXPECT_EQ(count(), before);
+}
+
+}  // namespace
+}  // namespace cdprep::import

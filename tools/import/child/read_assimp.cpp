@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "read_assimp.h"
+
+#include <assimp/config.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <assimp/Importer.hpp>
+#include <exception>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "folder_files.h"
+
+namespace cdprep::import {
+namespace {
+
+std::string_view text_of(const aiString& text) {
+    return {text.data, std::min<std::size_t>(text.length, sizeof text.data)};
+}
+
+Scene::Mesh to_mesh(const aiMesh& mesh) {
+    Scene::Mesh result;
+    result.material = mesh.mMaterialIndex;
+    for (unsigned i = 0; mesh.HasPositions() && i < mesh.mNumVertices; ++i) {
+        const aiVector3D& p = mesh.mVertices[i];
+        result.vertices.push_back({p.x, p.y, p.z});
+    }
+    for (unsigned i = 0; mesh.mFaces && i < mesh.mNumFaces; ++i) {
+        const aiFace& face = mesh.mFaces[i];
+        result.sizes.push_back(face.mNumIndices);
+        result.corners.insert(result.corners.end(), face.mIndices,
+                              face.mIndices + face.mNumIndices);
+    }
+    return result;
+}
+
+Scene::Node to_node(const aiNode& node, std::uint32_t parent) {
+    Scene::Node result;
+    result.name = text_of(node.mName);
+    result.parent = parent;
+    for (unsigned row = 0; row < 4; ++row) {
+        for (unsigned column = 0; column < 4; ++column) {
+            result.parent_from_node[4 * row + column] = node.mTransformation[row][column];
+        }
+    }
+    result.meshes.assign(node.mMeshes, node.mMeshes + node.mNumMeshes);
+    return result;
+}
+
+/// Depth first, by hand: trees may be deeper than the stack.
+std::vector<Scene::Node> to_nodes(const aiNode* root) {
+    struct Pending {
+        const aiNode* node;
+        std::uint32_t parent;
+    };
+    std::vector<Scene::Node> nodes;
+    std::vector<Pending> pending;
+    if (root) pending.push_back({root, kNoParent});
+    while (!pending.empty()) {
+        const Pending top = pending.back();
+        pending.pop_back();
+        const auto number = static_cast<std::uint32_t>(nodes.size());
+        nodes.push_back(to_node(*top.node, top.parent));
+        for (unsigned i = top.node->mNumChildren; i-- > 0;) {
+            pending.push_back({top.node->mChildren[i], number});
+        }
+    }
+    return nodes;
+}
+
+/// Units and up axis, as far as assimp tells them.
+void describe_space(const aiMetadata& metadata, Scene& scene) {
+    constexpr double kMetresPerCentimetre = 0.01;  // FBX counts in centimetres
+    float factor = 0;
+    double exact_factor = 0;
+    if (metadata.Get("UnitScaleFactor", exact_factor) && exact_factor > 0) {
+        scene.metres_per_unit = exact_factor * kMetresPerCentimetre;
+    } else if (metadata.Get("UnitScaleFactor", factor) && factor > 0) {
+        scene.metres_per_unit = static_cast<double>(factor) * kMetresPerCentimetre;
+    }
+    std::int32_t axis = 0;
+    if (metadata.Get("UpAxis", axis) && axis >= 0 && axis <= 2) {
+        scene.up_axis = static_cast<format::UpAxis>(axis + 1);  // UpAxis::x is 1
+    }
+    aiString importer;
+    const bool named = metadata.Get("SourceAsset_Format", importer);
+    if (named && text_of(importer).starts_with("glTF")) {
+        scene.metres_per_unit = 1;  // glTF says so
+        scene.up_axis = format::UpAxis::y;
+    }
+    // assimp scales the root, which COLLADA gives no transform, by the unit.
+    if (named && text_of(importer).starts_with("Collada") && !scene.nodes.empty()) {
+        scene.nodes.front().parent_from_node = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    }
+}
+
+}  // namespace
+
+Scene read_assimp(const std::string& path, std::uint64_t& input_bytes) {
+    Assimp::Importer importer;
+    importer.SetIOHandler(new FolderFiles(path, input_bytes));  // the importer owns it
+    importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
+    const aiScene* const found = importer.ReadFile(path, 0);
+    if (!found && importer.GetException()) std::rethrow_exception(importer.GetException());
+    if (!found) throw std::runtime_error(importer.GetErrorString());
+
+    Scene scene;
+    for (unsigned i = 0; i < found->mNumMeshes; ++i) {
+        scene.meshes.push_back(to_mesh(*found->mMeshes[i]));
+    }
+    scene.nodes = to_nodes(found->mRootNode);
+    for (unsigned i = 0; i < found->mNumMaterials; ++i) {
+        aiString name;
+        found->mMaterials[i]->Get(AI_MATKEY_NAME, name);
+        scene.materials.emplace_back(text_of(name));
+    }
+    if (found->mMetaData) describe_space(*found->mMetaData, scene);
+    return scene;
+}
+
+}  // namespace cdprep::import

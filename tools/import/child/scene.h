@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cdprep/format/file_header.h"
+#include "import/scene_bytes.h"
+
+namespace cdprep::import {
+
+/// What an importer found, before it goes to the parent.
+struct Scene {
+    struct Mesh {
+        std::vector<std::array<float, 3>> vertices;
+        std::vector<std::uint32_t> sizes;    ///< corners per face
+        std::vector<std::uint32_t> corners;  ///< any number, in range or not
+        std::uint32_t material = 0xffffffff;
+    };
+    struct Node {
+        std::string name;
+        std::uint32_t parent = kNoParent;  ///< stands before it
+        std::array<double, 16> parent_from_node{};
+        std::vector<std::uint32_t> meshes;
+    };
+    std::vector<Mesh> meshes;
+    std::vector<Node> nodes;  ///< depth first
+    std::vector<std::string> materials;
+    double metres_per_unit = 0;
+    format::UpAxis up_axis = format::UpAxis::unknown;
+};
+
+/// Writes the scene to the parent's descriptor, as scene_bytes.h says.
+[[nodiscard]] bool write_scene(const Scene& scene, std::uint64_t input_bytes);
+
+/// Writes that there is none, and why.
+[[nodiscard]] bool write_failure(SceneOutcome outcome, std::string_view why,
+                                 std::uint64_t input_bytes);
+
+}  // namespace cdprep::import
