@@ -35,11 +35,12 @@ MeshFormat sniff_format(std::string_view bytes, const std::filesystem::path& pat
     }
     if (is_binary_stl(bytes) || looks_like_text_stl(bytes)) return MeshFormat::stl;
     if (looks_like_off(bytes)) return MeshFormat::off;
+    if (looks_like_obj(bytes)) return MeshFormat::obj;
     const std::string extension = lower_extension(path);
     if (extension == ".stl") return MeshFormat::stl;
     if (extension == ".ply") return MeshFormat::ply;
     if (extension == ".off") return MeshFormat::off;
-    return extension == ".obj" || looks_like_obj(bytes) ? MeshFormat::obj : MeshFormat::other;
+    return extension == ".obj" ? MeshFormat::obj : MeshFormat::other;
 }
 
 }  // namespace cdprep::import
