@@ -8,9 +8,9 @@
 namespace cdprep {
 
 /// An exact sum of doubles: components that do not overlap, least first, none
-/// zero (Shewchuk 1997). `Capacity` is an upper bound of their number; nothing
-/// is allocated. Exact as long as no product of two components leaves the range
-/// of double; predicates.cpp scales so that none does.
+/// zero (Shewchuk 1997, strongly non-overlapping). `Capacity` is an upper bound
+/// of their number; nothing is allocated. Exact as long as no product leaves the
+/// range of double; predicates.cpp sees to that.
 template <std::size_t Capacity>
 struct Expansion {
     std::array<double, Capacity> component;
@@ -39,9 +39,28 @@ inline Exact2 two_sum(double a, double b) noexcept {
     return {sum, (a - a_virtual) + (b - b_virtual)};
 }
 
+/// For |a| >= |b| or a == 0.
+inline Exact2 fast_two_sum(double a, double b) noexcept {
+    const double sum = a + b;
+    return {sum, b - (sum - a)};
+}
+
+/// The upper 26 bits and the rest (Veltkamp). Overflows beyond 2^996.
+inline Exact2 split(double a) noexcept {
+    constexpr double kSplitter = 0x1p27 + 1;
+    const double scaled = kSplitter * a;
+    const double upper = scaled - (scaled - a);
+    return {upper, a - upper};
+}
+
+/// Dekker's product: without a fused multiply-add, which the oldest processors
+/// that we support do not have.
 inline Exact2 two_product(double a, double b) noexcept {
     const double product = a * b;
-    return {product, std::fma(a, b, -product)};
+    const Exact2 x = split(a);
+    const Exact2 y = split(b);
+    const double rest = product - x.value * y.value - x.tail * y.value - x.value * y.tail;
+    return {product, x.tail * y.tail - rest};
 }
 
 /// a - b, exactly.
@@ -53,46 +72,61 @@ inline Expansion<2> difference(double a, double b) noexcept {
     return result;
 }
 
-/// Adds one component to an expansion of any size (Shewchuk's GROW-EXPANSION).
-template <std::size_t N>
-void grow(Expansion<N>& e, double b) noexcept {
-    const std::size_t size = e.size;
-    e.size = 0;
-    double carry = b;
-    for (std::size_t i = 0; i < size; ++i) {
-        const Exact2 sum = two_sum(carry, e.component[i]);
-        carry = sum.value;
-        e.append(sum.tail);
-    }
-    e.append(carry);
-}
-
-template <std::size_t N, std::size_t M>
-Expansion<N + M> sum(const Expansion<N>& a, const Expansion<M>& b) noexcept {
-    Expansion<N + M> result;
-    for (std::size_t i = 0; i < a.size; ++i) result.component[i] = a.component[i];
-    result.size = a.size;
-    for (std::size_t i = 0; i < b.size; ++i) grow(result, b.component[i]);
-    return result;
-}
-
 template <std::size_t N>
 Expansion<N> negated(Expansion<N> a) noexcept {
     for (std::size_t i = 0; i < a.size; ++i) a.component[i] = -a.component[i];
     return a;
 }
 
+/// Shewchuk's FAST-EXPANSION-SUM, which needs rounding to even: the components
+/// of both in order of size, added up from the least.
 template <std::size_t N, std::size_t M>
-Expansion<2 * N * M> product(const Expansion<N>& a, const Expansion<M>& b) noexcept {
-    Expansion<2 * N * M> result;
-    for (std::size_t i = 0; i < a.size; ++i) {
-        for (std::size_t j = 0; j < b.size; ++j) {
-            const Exact2 exact = two_product(a.component[i], b.component[j]);
-            grow(result, exact.tail);
-            grow(result, exact.value);
-        }
+Expansion<N + M> sum(const Expansion<N>& a, const Expansion<M>& b) noexcept {
+    Expansion<N + M> result;
+    std::size_t i = 0;
+    std::size_t j = 0;
+    const auto next = [&] {
+        const bool take_a =
+            j == b.size || (i < a.size && std::fabs(a.component[i]) < std::fabs(b.component[j]));
+        return take_a ? a.component[i++] : b.component[j++];
+    };
+    double carry = 0;
+    while (i < a.size || j < b.size) {
+        const Exact2 exact = two_sum(carry, next());
+        carry = exact.value;
+        result.append(exact.tail);
     }
+    result.append(carry);
     return result;
+}
+
+/// Shewchuk's SCALE-EXPANSION.
+template <std::size_t N>
+Expansion<2 * N> scaled(const Expansion<N>& a, double factor) noexcept {
+    Expansion<2 * N> result;
+    double carry = 0;
+    for (std::size_t i = 0; i < a.size; ++i) {
+        const Exact2 exact = two_product(a.component[i], factor);
+        const Exact2 low = two_sum(carry, exact.tail);
+        const Exact2 high = fast_two_sum(exact.value, low.value);
+        result.append(low.tail);
+        result.append(high.tail);
+        carry = high.value;
+    }
+    result.append(carry);
+    return result;
+}
+
+template <std::size_t N>
+Expansion<4 * N> product(const Expansion<N>& a, const Expansion<2>& b) noexcept {
+    Expansion<4 * N> result;
+    if (b.size < 2) {
+        const double factor = b.size == 0 ? 0 : b.component[0];
+        const Expansion<2 * N> exact = scaled(a, factor);
+        for (std::size_t i = 0; i < exact.size; ++i) result.append(exact.component[i]);
+        return result;
+    }
+    return sum(scaled(a, b.component[0]), scaled(a, b.component[1]));
 }
 
 }  // namespace cdprep

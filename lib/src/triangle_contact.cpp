@@ -28,13 +28,6 @@ int orient_seen(View view, const Double3& a, const Double3& b, const Double3& c)
     return orient2d(seen(view, a), seen(view, b), seen(view, c));
 }
 
-/// The signs of the corners of `moving` against the plane of `still`.
-Signs plane_signs(const Corners& still, const Corners& moving) {
-    return {orient3d(still[0], still[1], still[2], moving[0]),
-            orient3d(still[0], still[1], still[2], moving[1]),
-            orient3d(still[0], still[1], still[2], moving[2])};
-}
-
 bool all_zero(const Signs& s) {
     return s[0] == 0 && s[1] == 0 && s[2] == 0;
 }
@@ -250,9 +243,10 @@ bool is_degenerate(const Corners& t) noexcept {
 TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept {
     const Signs a_signs = plane_signs(b, a);
     if (strictly_one_side(a_signs)) return TriangleContact::disjoint;
+    if (all_zero(a_signs)) return flat_contact(a, b);
     const Signs b_signs = plane_signs(a, b);
     if (strictly_one_side(b_signs)) return TriangleContact::disjoint;
-    if (all_zero(a_signs) || all_zero(b_signs)) return flat_contact(a, b);
+    if (all_zero(b_signs)) return flat_contact(a, b);
     const int order = interval_order(canonical(a, a_signs, b, b_signs), 0);
     if (order > 0) return TriangleContact::disjoint;
     const bool crosses = order < 0 && on_both_sides(a_signs) && on_both_sides(b_signs);
