@@ -1,55 +1,231 @@
 // SPDX-License-Identifier: MIT
+#include "triangle_contact.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <bitset>
+#include <cmath>
+#include <cstdint>
+#include <map>
 #include <random>
-#include <set>
+#include <string>
+
+#include "support/exact_contact.h"
+#include "support/exact_rational.h"
 
 #include "predicates.h"
-#include "triangle_contact.h"
 
-namespace cdprep {
+namespace cdprep::test {
 namespace {
 
-Corners grid_triangle(std::mt19937& random, int grid) {
-    std::uniform_int_distribution<int> step(-grid, grid);
-    Corners t{};
+std::size_t pattern(const std::array<int, 3>& signs) {
+    return static_cast<std::size_t>((signs[0] + 1) + 3 * (signs[1] + 1) + 9 * (signs[2] + 1));
+}
+
+/// Both implementations against the definition.
+template <class Number>
+TriangleContact expect_agreement(const Corners& a, const Corners& b, const std::string& where) {
+    const TriangleContact truth = contact_by_definition(exact<Number>(a), exact<Number>(b));
+    const bool closed = truth != TriangleContact::disjoint;
+    EXPECT_EQ(classify_contact(a, b), truth) << where;
+    EXPECT_EQ(classify_contact(b, a), truth) << where;
+    EXPECT_EQ(triangles_touch(a, b), closed) << where;
+    EXPECT_EQ(triangles_touch_by_segments(a, b), closed) << where;
+    return truth;
+}
+
+class Kinds {
+public:
+    void add(TriangleContact kind) {
+        ++count_[kind];
+    }
+    /// Smallest number of times that one of the four kinds was seen.
+    [[nodiscard]] int rarest() {
+        using enum TriangleContact;
+        return std::min({count_[disjoint], count_[touch], count_[cross], count_[coplanar_overlap]});
+    }
+    int operator[](TriangleContact kind) {
+        return count_[kind];
+    }
+
+private:
+    std::map<TriangleContact, int> count_;
+};
+
+Corners grid_triangle(std::mt19937& random, int size) {
+    std::uniform_int_distribution<int> grid(-size, size);
+    Corners t;
     for (Double3& p : t) {
-        const int x = step(random), y = step(random), z = step(random);
-        p = {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
+        p = {static_cast<double>(grid(random)), static_cast<double>(grid(random)),
+             static_cast<double>(grid(random))};
     }
     return t;
 }
 
-/// The signs of each triangle's corners against the other's plane, in one number.
-int sign_pattern(const Corners& a, const Corners& b) {
-    int pattern = 0;
-    for (const Double3& p : a) pattern = 3 * pattern + orient3d(b[0], b[1], b[2], p) + 1;
-    for (const Double3& p : b) pattern = 3 * pattern + orient3d(a[0], a[1], a[2], p) + 1;
-    return pattern;
+// Small integers: every way in which two planes can part the corners of the
+// other triangle occurs, 26 x 26 besides the coplanar ones.
+TEST(TriangleContactLaws, BothTestsFollowTheDefinitionForAllSignPatterns) {
+    constexpr std::uint32_t kSeed = 676;
+    std::mt19937 random(kSeed);
+    std::bitset<std::size_t{27} * 27> seen;
+    Kinds kinds;
+    for (int round = 0; round < 400'000 && !HasFailure(); ++round) {
+        const Corners a = grid_triangle(random, 2 + round % 2);
+        const Corners b = grid_triangle(random, 2 + round % 2);
+        if (is_degenerate(a) || is_degenerate(b)) continue;
+        seen.set(pattern(plane_signs(b, a)) + 27 * pattern(plane_signs(a, b)));
+        kinds.add(expect_agreement<std::int64_t>(a, b, "round " + std::to_string(round)));
+    }
+    EXPECT_EQ(seen.count(), 676U + 1U);  // and one for coplanar pairs
+    EXPECT_GT(kinds[TriangleContact::disjoint], 100'000);
+    EXPECT_GT(kinds[TriangleContact::cross], 20'000);
+    EXPECT_GT(kinds.rarest(), 100) << "seed " << kSeed;
 }
 
-// Two implementations that share no test but the predicates must agree always.
-// Small integers reach every pair of sign patterns that two planes can show.
-TEST(TriangleContactLaws, BothTestsAgreeOverAllSignPatterns) {
-    constexpr std::uint32_t kSeed = 20261121;
-    constexpr int kPairs = 1'200'000;
-    constexpr int kAllZero = 13;  // three zeros in base 3 with digits 1
+// Segments and points among them, in the plane z = 0 and in space.
+TEST(TriangleContactLaws, BothTestsFollowTheDefinitionWithoutArea) {
+    constexpr std::uint32_t kSeed = 7;
     std::mt19937 random(kSeed);
-    std::set<int> patterns;
-    int touching = 0;
-    for (int i = 0; i < kPairs; ++i) {
-        const int grid = 1 + i % 4;
-        const Corners a = grid_triangle(random, grid), b = grid_triangle(random, grid);
-        const bool touch = triangles_touch(a, b);
-        ASSERT_EQ(touch, triangles_touch_by_segments(a, b)) << "seed " << kSeed << ", pair " << i;
-        const int pattern = sign_pattern(a, b);
-        if (pattern / 27 != kAllZero && pattern % 27 != kAllZero) patterns.insert(pattern);
-        touching += touch ? 1 : 0;
+    int degenerate = 0;
+    Kinds kinds;
+    for (int round = 0; round < 200'000 && !HasFailure(); ++round) {
+        Corners a = grid_triangle(random, 2);
+        Corners b = grid_triangle(random, 2);
+        if (round % 3 == 0) a[2] = a[static_cast<std::size_t>(round / 3 % 2)];
+        if (round % 3 == 1) {
+            b[2] = {2 * b[1].x - b[0].x, 2 * b[1].y - b[0].y, 2 * b[1].z - b[0].z};
+        }
+        if (round % 5 == 0) {
+            for (std::size_t i = 0; i < 3; ++i) a[i].z = b[i].z = 0;
+        }
+        if (round % 7 == 0) a[1] = a[2] = a[0];
+        if (round % 11 == 0) b[1] = b[2] = b[0];
+        degenerate += is_degenerate(a) || is_degenerate(b) ? 1 : 0;
+        kinds.add(expect_agreement<std::int64_t>(a, b, "round " + std::to_string(round)));
     }
-    EXPECT_EQ(patterns.size(), 26u * 26u);
-    EXPECT_GT(touching, kPairs * 2 / 10);
-    EXPECT_LT(touching, kPairs * 8 / 10);
+    EXPECT_GT(degenerate, 100'000);
+    EXPECT_GT(kinds[TriangleContact::touch], 20'000);
+    EXPECT_GT(kinds[TriangleContact::disjoint], 60'000);
+}
+
+TEST(TriangleContactLaws, BothTestsFollowTheDefinitionInOnePlane) {
+    constexpr std::uint32_t kSeed = 8;
+    std::mt19937 random(kSeed);
+    std::uniform_int_distribution<int> slope(-2, 2);
+    Kinds kinds;
+    for (int round = 0; round < 100'000 && !HasFailure(); ++round) {
+        Corners a = grid_triangle(random, 3);
+        Corners b = grid_triangle(random, 3);
+        const int u = slope(random), v = slope(random);
+        for (Corners* t : {&a, &b}) {
+            for (Double3& p : *t) p.z = u * p.x + v * p.y;
+        }
+        kinds.add(expect_agreement<std::int64_t>(a, b, "round " + std::to_string(round)));
+    }
+    EXPECT_GT(kinds[TriangleContact::disjoint], 20'000);
+    EXPECT_GT(kinds[TriangleContact::touch], 10'000);
+    EXPECT_GT(kinds[TriangleContact::coplanar_overlap], 20'000);
+}
+
+Double3 uniform_point(std::mt19937& random) {
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    return {uniform(random), uniform(random), uniform(random)};
+}
+
+// Doubles whose differences round: turned copies of flat and touching figures.
+TEST(TriangleContactLaws, BothTestsFollowTheDefinitionWhereRoundingDecides) {
+    constexpr std::uint32_t kSeed = 9;
+    std::mt19937 random(kSeed);
+    Kinds kinds;
+    for (int round = 0; round < 4'000 && !HasFailure(); ++round) {
+        Corners a{uniform_point(random), uniform_point(random), uniform_point(random)};
+        Corners b{uniform_point(random), uniform_point(random), uniform_point(random)};
+        const double s = 0.5 + 0.4 * uniform_point(random).x;
+        if (round % 4 == 0) b[0] = a[0];
+        if (round % 4 == 1) {  // a corner of b nearly on an edge of a
+            b[0] = {a[0].x + s * (a[1].x - a[0].x), a[0].y + s * (a[1].y - a[0].y),
+                    a[0].z + s * (a[1].z - a[0].z)};
+        }
+        if (round % 4 == 2) {  // both nearly in one plane
+            for (Corners* t : {&a, &b}) {
+                for (Double3& p : *t) p.z = 0.3 * p.x + 0.7 * p.y + 0.1;
+            }
+        }
+        if (round % 8 >= 4) b[2] = a[1];
+        kinds.add(expect_agreement<ExactNumber>(a, b, "round " + std::to_string(round)));
+    }
+    EXPECT_GT(kinds[TriangleContact::disjoint], 500) << "seed " << kSeed;
+    EXPECT_GT(kinds[TriangleContact::touch], 500) << "seed " << kSeed;
+    EXPECT_GT(kinds[TriangleContact::cross], 200) << "seed " << kSeed;
+}
+
+// Slivers 2^-40 thick on a grid of their own thickness.
+TEST(TriangleContactLaws, BothTestsFollowTheDefinitionForSlivers) {
+    constexpr std::uint32_t kSeed = 10;
+    std::mt19937 random(kSeed);
+    std::uniform_int_distribution<int> step(-2, 2);
+    Kinds kinds;
+    for (int round = 0; round < 4'000 && !HasFailure(); ++round) {
+        std::array<Corners, 2> t = {grid_triangle(random, 1), grid_triangle(random, 1)};
+        for (Corners& corners : t) {
+            corners[2] = corners[1];
+            for (Double3& p : corners) {
+                p.x += 0x1p-40 * step(random);
+                p.y += 0x1p-40 * step(random);
+                p.z += round % 2 == 0 ? 0x1p-40 * step(random) : 0;
+            }
+        }
+        kinds.add(expect_agreement<ExactNumber>(t[0], t[1], "round " + std::to_string(round)));
+    }
+    EXPECT_GT(kinds[TriangleContact::disjoint], 1'000) << "seed " << kSeed;
+    EXPECT_GT(kinds[TriangleContact::touch] + kinds[TriangleContact::cross], 30);
+}
+
+// Exponents from one end of double to the other, in one triangle.
+TEST(TriangleContactLaws, BothTestsFollowTheDefinitionForAllExponents) {
+    constexpr std::uint32_t kSeed = 11;
+    std::mt19937 random(kSeed);
+    std::uniform_int_distribution<int> exponent(-2, 2);
+    Kinds kinds;
+    for (int round = 0; round < 3'000 && !HasFailure(); ++round) {
+        std::array<Corners, 2> t = {grid_triangle(random, 1), grid_triangle(random, 1)};
+        for (Corners& corners : t) {
+            for (Double3& p : corners) {
+                p.x = std::ldexp(p.x, 490 * exponent(random));
+                p.y = std::ldexp(p.y, 490 * exponent(random));
+                p.z = std::ldexp(p.z, 490 * exponent(random));
+            }
+        }
+        kinds.add(expect_agreement<ExactNumber>(t[0], t[1], "round " + std::to_string(round)));
+    }
+    EXPECT_GT(kinds[TriangleContact::disjoint], 600) << "seed " << kSeed;
+    EXPECT_GT(kinds[TriangleContact::touch] + kinds[TriangleContact::cross], 150);
+}
+
+// Scaling a small-integer figure by odd factors keeps every sign.
+TEST(TriangleContactLaws, AreInvariantUnderShearsThatIntegersSurvive) {
+    constexpr std::uint32_t kSeed = 12;
+    std::mt19937 random(kSeed);
+    int hits = 0;
+    constexpr int kRounds = 50'000;
+    for (int round = 0; round < kRounds; ++round) {
+        const Corners a = grid_triangle(random, 2);
+        const Corners b = grid_triangle(random, 2);
+        const auto sheared = [](Corners t) {
+            for (Double3& p : t) {
+                p = {p.x + 1e6 * p.y - 3 * p.z, p.y + 7 * p.z, p.z - 12345 * (p.y + 7 * p.z)};
+            }
+            return t;
+        };
+        const TriangleContact kind = classify_contact(a, b);
+        ASSERT_EQ(classify_contact(sheared(a), sheared(b)), kind)
+            << "seed " << kSeed << ", round " << round;
+        hits += kind != TriangleContact::disjoint ? 1 : 0;
+    }
+    EXPECT_GT(hits, kRounds / 5);
+    EXPECT_LT(hits, kRounds * 7 / 10);
 }
 
 TEST(TriangleContactLaws, RelabellingChangesNothing) {
@@ -97,4 +273,4 @@ TEST(TriangleContactLaws, ScalingAndShiftingChangeNothing) {
 }
 
 }  // namespace
-}  // namespace cdprep
+}  // namespace cdprep::test
