@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <new>
+#include <set>
 
 #include "command.h"
 #include "interrupt.h"
@@ -40,17 +42,31 @@ fs::path output_for(const Arguments& arguments, const fs::path& input) {
     return input.parent_path() / name;
 }
 
-/// Fails when two inputs would become one file.
+/// One spelling for every way to name a file.
+fs::path spelled_out(const fs::path& path) {
+    return fs::absolute(path).lexically_normal();
+}
+
+/// Fails when two inputs would become one file, or an output would replace an
+/// input.
 Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
     std::map<fs::path, fs::path> input_of;
+    std::set<fs::path> inputs;
+    for (const fs::path& input : arguments.inputs) inputs.insert(spelled_out(input));
     std::vector<fs::path> outputs;
     for (const fs::path& input : arguments.inputs) {
         const fs::path output = output_for(arguments, input);
-        const auto [at, is_new] = input_of.try_emplace(output.lexically_normal(), input);
+        const auto [at, is_new] = input_of.try_emplace(spelled_out(output), input);
         if (!is_new) {
-            return Error{ErrorCode::bad_argument, at->second.string() + " and " + input.string() +
-                                                      " would both become " + output.string() +
-                                                      ". Bake them into different folders."};
+            return Error{ErrorCode::bad_argument,
+                         at->second.string() + " and " + input.string() + " would both become " +
+                             output.string() + ". Bake them in two calls, into different folders."};
+        }
+        if (inputs.contains(spelled_out(output))) {
+            return Error{ErrorCode::bad_argument,
+                         output.string() +
+                             " is an input and would be replaced. Choose another "
+                             "output."};
         }
         outputs.push_back(output);
     }
@@ -116,10 +132,8 @@ Exit run(Arguments& arguments) {
     if (!effects) return fail("bake", effects.error());
     const Result<ProgressStyle> style = parse_progress(arguments.progress);
     if (!style) return fail("bake", style.error());
-    if (!arguments.output.empty() && arguments.inputs.size() > 1) {
-        return fail("bake", {ErrorCode::bad_argument, "-o names one file, but there are " +
-                                                          std::to_string(arguments.inputs.size()) +
-                                                          " inputs. Use --output-dir."});
+    if (!std::isfinite(arguments.options.weld_distance)) {
+        return fail("bake", {ErrorCode::bad_argument, "--weld is not finite; it must be."});
     }
     const Result<std::vector<fs::path>> outputs = outputs_for(arguments);
     if (!outputs) return fail("bake", outputs.error());

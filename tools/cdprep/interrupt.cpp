@@ -21,6 +21,8 @@ void on_signal(int signal) {
 void watch_for_interrupts() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
+    // A file longer than permitted is then an error of the write that we report.
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool is_interrupted() {

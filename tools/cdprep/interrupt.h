@@ -4,7 +4,8 @@
 namespace cdprep::cli {
 
 /// Turns SIGINT and SIGTERM into a flag, so that work stops between two stages
-/// and leaves no temporary behind. A second signal ends the process at once.
+/// and leaves no temporary behind. A second signal ends the process at once. A
+/// write beyond the permitted file size fails instead of ending the process.
 void watch_for_interrupts();
 
 [[nodiscard]] bool is_interrupted();

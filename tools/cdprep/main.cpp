@@ -30,5 +30,10 @@ int main(int argc, char** argv) {
         std::cerr << "cdprep: internal error: " << error.what() << ". Please report it.\n";
         return static_cast<int>(Exit::internal);
     }
+    if (cdprep::cli::is_interrupted()) exit = Exit::interrupted;
+    if (exit == Exit::success && !std::cout.flush()) {
+        std::cerr << "cdprep: standard output takes no more; the result is not complete.\n";
+        exit = Exit::unwritable;
+    }
     return static_cast<int>(exit);
 }

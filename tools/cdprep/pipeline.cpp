@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -35,21 +37,30 @@ double seconds_since(Clock::time_point begin) {
 /// Names stages, times them, and stops between two when asked to.
 class Stages {
 public:
-    Stages(report::BakeReport& report, const std::function<void(const char*)>& begins)
-        : report_(report), begins_(begins) {}
+    explicit Stages(const std::function<void(const char*)>& begins) : begins_(begins) {}
 
     template <class Work>
     auto run(const char* name, Work work) {
         begins_(name);
+        double& seconds = add(name);
         const Clock::time_point begin = Clock::now();
         auto result = work();
-        report_.stages.push_back({name, seconds_since(begin)});
+        seconds = seconds_since(begin);
         return result;
     }
 
+    /// Adds a stage; the caller fills in its time.
+    double& add(const char* name) {
+        return times_.emplace_back(report::StageTime{name, 0}).seconds;
+    }
+
+    [[nodiscard]] std::vector<report::StageTime> times() const {
+        return {times_.begin(), times_.end()};
+    }
+
 private:
-    report::BakeReport& report_;
     const std::function<void(const char*)>& begins_;
+    std::deque<report::StageTime> times_;  ///< a deque: references to its elements stay
 };
 
 Error interrupted(const std::filesystem::path& input) {
@@ -74,16 +85,19 @@ Error refused(const std::filesystem::path& input, const mesh::TriangleSoup& soup
     return {ErrorCode::unreadable, message + "."};
 }
 
-/// Coordinates beyond what the runtime promises.
-std::optional<Error> find_too_large(const std::filesystem::path& input, const mesh::Mesh& mesh) {
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const format::Double3& p = mesh.positions[i];
-        const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-        if (largest > format::kMaxCoordinate) {
-            return Error{ErrorCode::unreadable,
-                         input.string() + ": vertex " + std::to_string(mesh.source_vertex[i]) +
-                             " has a coordinate of size " + std::to_string(largest) +
-                             "; the largest allowed is 2^1000."};
+/// The sentence for the first coordinate beyond what the runtime promises.
+std::optional<Error> find_too_large(const std::filesystem::path& input,
+                                    const mesh::TriangleSoup& soup) {
+    for (const format::Triangle& triangle : soup.triangles) {
+        for (const std::uint32_t vertex : triangle.vertex) {
+            const format::Double3& p = soup.positions[vertex];
+            const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+            if (largest <= format::kMaxCoordinate) continue;
+            std::ostringstream message;
+            message << input.string() << ": vertex " << vertex << " has a coordinate of size "
+                    << largest << "; the largest allowed is 2^1000, about "
+                    << format::kMaxCoordinate << '.';
+            return Error{ErrorCode::unreadable, message.str()};
         }
     }
     return std::nullopt;
@@ -105,23 +119,38 @@ struct Findings {
     std::uint64_t source_hash = 0;
 };
 
+/// Runs the stages that need nothing of each other side by side. Their times go
+/// to `stages` in a fixed order, whoever ends first.
 Findings examine(const mesh::Mesh& mesh, const std::filesystem::path& input,
-                 const BakeOptions& options, const Threads& threads) {
+                 const BakeOptions& options, const Threads& threads, Stages& stages) {
     Findings found;
     const bool wants_mass = options.effects.sections.contains(format::SectionId::mass_properties);
+    double& tree_s = stages.add("  tree");
+    double& topology_s = stages.add("  topology");
+    double& bounds_s = stages.add("  bounds");
+    double& hash_s = stages.add("  source hash");
+    const auto timed = [](double& seconds, auto work) {
+        return [&seconds, work] {
+            const Clock::time_point begin = Clock::now();
+            work();
+            seconds = seconds_since(begin);
+        };
+    };
     threads.run_all({
-        [&] {
-            found.bvh = build::build_bvh(mesh.positions, mesh.triangles,
-                                         {.parallel_for = threads.parallel_for()});
-        },
-        [&] {
-            found.topology = mesh::find_topology(mesh);
-            if (wants_mass && found.topology.closed) {
-                found.mass = convex::find_mass_properties(mesh);
-            }
-        },
-        [&] { found.bounds = convex::find_bounds(mesh); },
-        [&] { found.source_hash = hash_of_file(input); },
+        timed(tree_s,
+              [&] {
+                  found.bvh = build::build_bvh(mesh.positions, mesh.triangles,
+                                               {.parallel_for = threads.parallel_for()});
+              }),
+        timed(topology_s,
+              [&] {
+                  found.topology = mesh::find_topology(mesh);
+                  if (wants_mass && found.topology.closed) {
+                      found.mass = convex::find_mass_properties(mesh);
+                  }
+              }),
+        timed(bounds_s, [&] { found.bounds = convex::find_bounds(mesh); }),
+        timed(hash_s, [&] { found.source_hash = hash_of_file(input); }),
     });
     return found;
 }
@@ -159,26 +188,28 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     report::BakeReport report;
     report.input = input.string();
     report.output = output.string();
-    Stages stages(report, begins);
+    Stages stages(begins);
 
-    auto imported =
-        stages.run("import", [&] { return import::import_file(input, options.import); });
+    auto imported = stages.run("import", [&] {
+        import::ImportOptions limits = options.import;
+        limits.parallel_for = threads.parallel_for();
+        return import::import_file(input, limits);
+    });
+    if (is_interrupted()) return interrupted(input);
     if (!imported) return imported.error();
     mesh::TriangleSoup soup = std::move(imported).value();
     if (soup.bad_number_count > 0) return refused(input, soup);
-    if (is_interrupted()) return interrupted(input);
+    if (const auto error = find_too_large(input, soup)) return *error;
 
     const mesh::Normalization normalization = stages.run("normalize", [&] {
         return options.normalize ? mesh::normalize(soup) : mesh::Normalization{};
     });
-    mesh::Welded welded = stages.run("weld", [&] {
-        return mesh::weld(soup, {options.weld_distance, threads.parallel_for()});
-    });
-    if (const auto error = find_too_large(input, welded.mesh)) return *error;
+    mesh::Welded welded =
+        stages.run("weld", [&] { return mesh::weld(soup, {options.weld_distance}); });
     if (is_interrupted()) return interrupted(input);
 
     Findings found =
-        stages.run("build", [&] { return examine(welded.mesh, input, options, threads); });
+        stages.run("build", [&] { return examine(welded.mesh, input, options, threads, stages); });
     if (is_interrupted()) return interrupted(input);
 
     const BakedArrays arrays = stages.run("arrange", [&] {
@@ -211,6 +242,7 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     report.closed = (facts.flags & format::model_closed) != 0;
     report.single_precision = soup.single_precision;
     report.bytes = std::filesystem::file_size(output);
+    report.stages = stages.times();
     report.seconds = seconds_since(begin);
     return report;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
+#include <limits>
 
 namespace cdprep::convex {
 namespace {
@@ -88,8 +89,10 @@ void set_oriented(format::Bounds& bounds, const Normalization& normalized,
                               normalized.centre.y() + back(middle.y()),
                               normalized.centre.z() + back(middle.z())};
     for (int i = 0; i < 3; ++i) bounds.axis[static_cast<std::size_t>(i)] = double3(axes.col(i));
-    // The centre was rounded at the coordinates' own size.
-    const double rounding = 0x1p-50 * normalized.centre.cwiseAbs().maxCoeff();
+    // The centre was rounded at the coordinates' own size, or to a multiple of the
+    // smallest double.
+    const double rounding = 0x1p-50 * normalized.centre.cwiseAbs().maxCoeff() +
+                            8 * std::numeric_limits<double>::denorm_min();
     bounds.half_extent = {back(half.x()) + rounding, back(half.y()) + rounding,
                           back(half.z()) + rounding};
 }

@@ -28,16 +28,23 @@ Box box_of_used(const TriangleSoup& soup) {
     return box;
 }
 
+/// The plain formula, because the shared poses were made with it; where its
+/// squares leave the range of double, one that does not.
+double diagonal_of(const Box& box) {
+    const double x = box.upper.x - box.lower.x;
+    const double y = box.upper.y - box.lower.y;
+    const double z = box.upper.z - box.lower.z;
+    const double square = x * x + y * y + z * z;
+    return std::isnormal(square) ? std::sqrt(square) : std::hypot(x, y, z);
+}
+
 }  // namespace
 
 Normalization normalize(TriangleSoup& soup) {
     if (soup.triangles.empty()) return {};
     const Box box = box_of_used(soup);
-    const double x = box.upper.x - box.lower.x;
-    const double y = box.upper.y - box.lower.y;
-    const double z = box.upper.z - box.lower.z;
-    const double length = std::sqrt(x * x + y * y + z * z);
-    const double diagonal = length > 0 && std::isfinite(length) ? length : 1;
+    const double length = diagonal_of(box);
+    const double diagonal = length > 0 && std::isfinite(1 / length) ? length : 1;
     const Double3 offset = {0.5 * (box.lower.x + box.upper.x), 0.5 * (box.lower.y + box.upper.y),
                             0.5 * (box.lower.z + box.upper.z)};
     const auto fitted = [diagonal](double value, double middle) {

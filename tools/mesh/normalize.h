@@ -13,7 +13,8 @@ struct Normalization {
 
 /// Fits the soup to a box whose diagonal is 1, centred: the box of the vertices
 /// that triangles use, in double, then each coordinate rounded to a float. A
-/// soup without extent is only centred. Afterwards single_precision holds.
+/// soup without extent, or of less than 2^-1022, is only centred. Coordinates are
+/// at most format::kMaxCoordinate. Afterwards single_precision holds.
 Normalization normalize(TriangleSoup& soup);
 
 }  // namespace cdprep::mesh

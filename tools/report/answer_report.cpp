@@ -1,10 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/answer_report.h"
 
-#include <nlohmann/json.hpp>
+#include <array>
+#include <charconv>
+#include <ostream>
+
+// JSON is put together by hand here: pairs come by the million, and a blank after
+// each comma and colon is part of what scripts may rely on.
 
 namespace cdprep::report {
 namespace {
+
+template <class Number>
+void append(std::string& text, Number value) {
+    std::array<char, 32> digits;  // the shortest form of a double takes at most 24
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    text.append(digits.data(), end.ptr);
+}
+
+template <class Number>
+std::string number(Number value) {
+    std::string text;
+    append(text, value);
+    return text;
+}
 
 const char* word(Answer answer) {
     switch (answer) {
@@ -17,62 +36,140 @@ const char* word(Answer answer) {
     }
 }
 
-/// Written by hand, with a blank after each comma: pairs come by the million.
-std::string pairs_text(std::span<const TrianglePair> pairs) {
-    std::string text = "[";
+const char* word(bool yes) {
+    return yes ? "true" : "false";
+}
+
+std::string place(const Double3& p, const char* between) {
+    return number(p.x) + between + number(p.y) + between + number(p.z);
+}
+
+/// `row_begin` 17 `between` 4 `row_end` for each pair, with `comma` between two.
+struct PairStyle {
+    const char* row_begin;
+    const char* between;
+    const char* row_end;
+    const char* comma;
+};
+
+std::string pairs_text(std::span<const TrianglePair> pairs, const PairStyle& style) {
+    std::string text;
+    text.reserve(pairs.size() * 16);
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (i > 0) text += ", ";
-        text += '[';
-        text += std::to_string(pairs[i].a);
-        text += ", ";
-        text += std::to_string(pairs[i].b);
-        text += ']';
+        if (i > 0) text += style.comma;
+        text += style.row_begin;
+        append(text, pairs[i].a);
+        text += style.between;
+        append(text, pairs[i].b);
+        text += style.row_end;
     }
-    return text + "]";
+    return text;
 }
 
 std::string as_json(const PairAnswer& answer) {
-    std::string text = "{\"pose\": " + std::to_string(answer.pose) +
-                       ", \"hit\": " + (answer.hit ? "true" : "false");
-    if (answer.count) text += ", \"count\": " + std::to_string(*answer.count);
-    if (answer.pairs) text += ", \"pairs\": " + pairs_text(*answer.pairs);
+    std::string text = "{\"pose\": " + number(answer.pose) + ", \"hit\": " + word(answer.hit);
+    if (answer.count) text += ", \"count\": " + number(*answer.count);
+    if (answer.pairs) {
+        text += ", \"pairs\": [" + pairs_text(*answer.pairs, {"[", ", ", "]", ", "}) + "]";
+    }
     if (answer.containment) {
-        text += std::string(", \"containment\": \"") + word(answer.containment->answer) + "\"";
-        text += ", \"winding\": " + nlohmann::json(answer.containment->winding).dump();
+        text += std::string(", \"containment\": \"") + word(answer.containment->answer) +
+                "\", \"winding\": " + number(answer.containment->winding);
     }
     return text + "}";
 }
 
 std::string as_text(const PairAnswer& answer) {
-    std::string text = "pose " + std::to_string(answer.pose) + ": ";
-    text += answer.hit ? "hit" : "free";
-    if (answer.count) text += ", " + std::to_string(*answer.count) + " pairs";
-    if (answer.containment)
+    std::string text = "pose " + number(answer.pose) + (answer.hit ? ": hit" : ": free");
+    if (answer.count) text += ", " + number(*answer.count) + " pairs";
+    if (answer.containment) {
         text += std::string(", containment ") + word(answer.containment->answer);
-    if (answer.pairs) {
-        for (const TrianglePair& pair : *answer.pairs) {
-            text += "\n  " + std::to_string(pair.a) + " " + std::to_string(pair.b);
-        }
     }
+    if (answer.pairs) text += pairs_text(*answer.pairs, {"\n  ", " ", "", ""});
     return text;
+}
+
+std::string as_json(const InsideAnswer& answer) {
+    return "{\"point\": " + number(answer.point) + ", \"inside\": \"" +
+           word(answer.inclusion.answer) +
+           "\", \"on_surface\": " + word(answer.inclusion.on_surface) +
+           ", \"winding\": " + number(answer.inclusion.winding) + "}";
+}
+
+std::string as_text(const InsideAnswer& answer) {
+    return "point " + number(answer.point) + ": inside " + word(answer.inclusion.answer) +
+           (answer.inclusion.on_surface ? ", on the surface"
+                                        : ", winding " + number(answer.inclusion.winding));
+}
+
+std::string as_json(const ClosestAnswer& answer) {
+    std::string text =
+        "{\"point\": " + number(answer.point) + ", \"found\": " + word(answer.closest.has_value());
+    if (answer.closest) {
+        text += ", \"lower\": " + number(answer.closest->lower) +
+                ", \"upper\": " + number(answer.closest->upper) +
+                ", \"triangle\": " + number(answer.closest->triangle) + ", \"at\": [" +
+                place(answer.closest->point, ", ") + "]";
+    }
+    return text + "}";
+}
+
+std::string as_text(const ClosestAnswer& answer) {
+    const std::string text = "point " + number(answer.point) + ": ";
+    if (!answer.closest) return text + "nothing";
+    return text + "distance " + number(answer.closest->lower) + " to " +
+           number(answer.closest->upper) + ", triangle " + number(answer.closest->triangle) +
+           ", at " + place(answer.closest->point, " ");
+}
+
+std::string as_json(const RayAnswer& answer) {
+    std::string text =
+        "{\"ray\": " + number(answer.ray) + ", \"hit\": " + word(answer.hit.has_value());
+    if (answer.hit) {
+        text += ", \"t\": " + number(answer.hit->t) +
+                ", \"triangle\": " + number(answer.hit->triangle) + ", \"at\": [" +
+                place(answer.hit->point, ", ") + "]";
+    }
+    return text + "}";
+}
+
+std::string as_text(const RayAnswer& answer) {
+    const std::string text = "ray " + number(answer.ray) + ": ";
+    if (!answer.hit) return text + "free";
+    return text + "hit at t " + number(answer.hit->t) + ", triangle " +
+           number(answer.hit->triangle) + ", at " + place(answer.hit->point, " ");
 }
 
 }  // namespace
 
-const char* answers_begin(AnswerFormat format) {
-    return format == AnswerFormat::json ? "[" : "";
+void Answers::add(const PairAnswer& answer) {
+    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
 }
 
-const char* answers_between(AnswerFormat format) {
-    return format == AnswerFormat::json ? ",\n " : "\n";
+void Answers::add(const InsideAnswer& answer) {
+    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
 }
 
-const char* answers_end(AnswerFormat format) {
-    return format == AnswerFormat::json ? "]\n" : "\n";
+void Answers::add(const ClosestAnswer& answer) {
+    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
 }
 
-std::string answer(const PairAnswer& answer, AnswerFormat format) {
-    return format == AnswerFormat::text ? as_text(answer) : as_json(answer);
+void Answers::add(const RayAnswer& answer) {
+    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
+}
+
+void Answers::finish() {
+    if (format_ == AnswerFormat::json) out_ << (is_first_ ? "[]\n" : "]\n");
+    out_.flush();
+}
+
+void Answers::write(const std::string& answer) {
+    if (format_ == AnswerFormat::json) {
+        out_ << (is_first_ ? "[" : ",\n ") << answer;
+        is_first_ = false;
+        return;
+    }
+    out_ << answer << '\n';
 }
 
 }  // namespace cdprep::report

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
+#include <iosfwd>
 #include <optional>
 #include <span>
 #include <string>
 
+#include "cdprep/cast_ray.h"
+#include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 
 namespace cdprep::report {
 
 enum class AnswerFormat : std::uint8_t { text, json, ndjson };
 
-/// The answer for one pose.
+/// The answer about two models in one pose.
 struct PairAnswer {
     std::size_t pose = 0;
     bool hit = false;
@@ -22,12 +24,47 @@ struct PairAnswer {
     std::optional<Containment> containment;              ///< solid only
 };
 
-/// What stands before the first answer, between two and after the last.
-[[nodiscard]] const char* answers_begin(AnswerFormat format);
-[[nodiscard]] const char* answers_between(AnswerFormat format);
-[[nodiscard]] const char* answers_end(AnswerFormat format);
+/// Whether point number `point` is inside.
+struct InsideAnswer {
+    std::size_t point = 0;
+    Inclusion inclusion;
+};
 
-/// One answer: a line of NDJSON, an element of a JSON array, or a line of text.
-[[nodiscard]] std::string answer(const PairAnswer& answer, AnswerFormat format);
+/// What lies nearest to point number `point`; nothing in an empty model.
+struct ClosestAnswer {
+    std::size_t point = 0;
+    std::optional<ClosestPoint> closest;
+};
+
+/// What ray number `ray` meets first.
+struct RayAnswer {
+    std::size_t ray = 0;
+    std::optional<RayHit> hit;
+};
+
+/// Writes answers one after the other: lines of text, elements of one JSON
+/// array, or lines of NDJSON such as
+/// {"pose": 0, "hit": true, "count": 2, "pairs": [[17, 4], [18, 4]]}.
+/// Numbers read back as the same doubles.
+class Answers {
+public:
+    /// `out` outlives the object.
+    Answers(std::ostream& out, AnswerFormat format) : out_(out), format_(format) {}
+
+    void add(const PairAnswer& answer);
+    void add(const InsideAnswer& answer);
+    void add(const ClosestAnswer& answer);
+    void add(const RayAnswer& answer);
+
+    /// Call once, after the last answer.
+    void finish();
+
+private:
+    void write(const std::string& answer);
+
+    std::ostream& out_;
+    AnswerFormat format_;
+    bool is_first_ = true;
+};
 
 }  // namespace cdprep::report

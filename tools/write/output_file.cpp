@@ -17,7 +17,9 @@ namespace {
 constexpr int kMostWriters = 100;  ///< of one target at once
 
 std::filesystem::path temporary_name(const std::filesystem::path& target, int number) {
-    std::string name = "." + target.filename().string() + ".tmp";
+    std::string name = ".";
+    name += target.filename().string();
+    name += ".tmp";
     if (number > 0) name += std::to_string(number);
     return target.parent_path() / name;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -19,6 +20,7 @@ namespace cdprep::write {
 namespace {
 
 using format::SectionEntry;
+using format::SectionId;
 
 std::uint64_t element_count(const Section& section) {
     return section.bytes.size() / format::element_size(section.id);
@@ -78,13 +80,13 @@ Result<Done> write_user_block(OutputFile& file, const format::FileHeader& facts,
     return file.write_at(0, bytes.first(magic));
 }
 
-/// Reads back what was written, as a user of the file will.
-Result<Done> commit_checked(OutputFile& file, const std::filesystem::path& path) {
+/// Reads back what was written, as a user of the file will. `blame` says whose
+/// fault it is when that fails.
+Result<Done> commit_checked(OutputFile& file, const std::filesystem::path& path, ErrorCode blame) {
     const Result<Model> opened = Model::open(file.temporary());
     if (!opened) {
-        return Error{
-            ErrorCode::unwritable,
-            path.string() + ": what was written does not read back: " + opened.error().message};
+        return Error{blame, path.string() +
+                                ": what was written does not read back: " + opened.error().message};
     }
     return file.commit();
 }
@@ -99,12 +101,6 @@ Error no_layout(const std::filesystem::path& path) {
 Error not_mendable(const std::filesystem::path& path, const std::string& why) {
     return {ErrorCode::unreadable,
             path.string() + ": cannot be reindexed: " + why + ". Bake the mesh again."};
-}
-
-/// A section of a file that is mapped as a whole.
-std::span<const std::byte> bytes_at(std::span<const std::byte> file, const Place& place) {
-    return file.subspan(static_cast<std::size_t>(place.offset),
-                        static_cast<std::size_t>(place.count * format::element_size(place.id)));
 }
 
 /// The whole file's bytes.
@@ -122,10 +118,8 @@ Result<std::vector<std::byte>> bytes_of(const std::filesystem::path& path) {
     return bytes;
 }
 
-}  // namespace
-
-Result<Done> write_file(const std::filesystem::path& path, const format::FileHeader& facts,
-                        std::span<const Section> sections) {
+Result<Done> write_and_check(const std::filesystem::path& path, const format::FileHeader& facts,
+                             std::span<const Section> sections, ErrorCode blame) {
     Result<OutputFile> created = OutputFile::create(path);
     if (!created) return created.error();
     OutputFile& file = created.value();
@@ -135,42 +129,98 @@ Result<Done> write_file(const std::filesystem::path& path, const format::FileHea
     const std::vector<SectionEntry> entries = entries_for(sorted, *places);
     if (Result<Done> written = write_sections(file, sorted, entries); !written) return written;
     if (Result<Done> sealed = write_user_block(file, facts, entries); !sealed) return sealed;
-    return commit_checked(file, path);
+    return commit_checked(file, path, blame);
+}
+
+/// The user block of a file, as far as it can be believed after another tool
+/// rewrote the rest: a clause that says what is wrong, or nothing.
+const char* find_block_damage(std::span<const std::byte> bytes) {
+    if (bytes.size() < format::kUserBlockSize ||
+        format::read_header(bytes).magic != format::kMagic) {
+        return "it has no user block of cdprep in front";
+    }
+    const format::FileHeader header = format::read_header(bytes);
+    const auto block = bytes.first<format::kUserBlockSize>();
+    if (header.header_checksum != format::header_checksum(block) ||
+        header.section_count > format::kMaxSections) {
+        return "its user block is damaged";
+    }
+    return header.version == format::kVersion ? nullptr : "it was written as another version";
+}
+
+/// Where the sections lie now. Their bytes must be those of the bake: whoever
+/// moves data does not change it. Empty sections have no dataset and stay.
+struct Relocated {
+    std::vector<Section> sections;
+    std::vector<SectionEntry> entries;
+    std::string damage;  ///< a clause for a sentence, or empty
+};
+
+std::string clause(const Place& place, const char* what) {
+    return std::string("dataset ") + format::section_name(place.id) + " " + what;
+}
+
+Relocated relocate(std::span<const std::byte> file, std::span<const Place> places) {
+    Relocated found;
+    for (const Place& place : places) {
+        const std::uint64_t size = place.count * format::element_size(place.id);
+        if (place.offset > file.size() || size > file.size() - place.offset) {
+            return {{}, {}, clause(place, "ends past the end of the file")};
+        }
+        const auto bytes =
+            file.subspan(static_cast<std::size_t>(place.offset), static_cast<std::size_t>(size));
+        std::optional<SectionEntry> entry = format::find_section(file, place.id);
+        if (!entry || entry->checksum != format::checksum(bytes)) {
+            return {{}, {}, clause(place, "does not hold what was baked")};
+        }
+        entry->offset = place.offset;
+        found.sections.push_back({place.id, bytes});
+        found.entries.push_back(*entry);
+    }
+    for (auto id = SectionId::positions_f32; format::element_size(id) != 0;
+         id = static_cast<SectionId>(static_cast<std::uint32_t>(id) + 1)) {
+        const std::optional<SectionEntry> entry = format::find_section(file, id);
+        if (!entry || entry->count != 0) continue;
+        found.sections.push_back({id, {}});
+        found.entries.push_back(*entry);
+    }
+    std::sort(found.entries.begin(), found.entries.end(),
+              [](const SectionEntry& a, const SectionEntry& b) { return a.id < b.id; });
+    return found;
+}
+
+bool is_aligned(const SectionEntry& entry) {
+    return entry.offset % format::kSectionAlignment == 0;
+}
+
+}  // namespace
+
+Result<Done> write_file(const std::filesystem::path& path, const format::FileHeader& facts,
+                        std::span<const Section> sections) {
+    return write_and_check(path, facts, sections, ErrorCode::unwritable);
 }
 
 Result<Done> reindex_file(const std::filesystem::path& path) {
     const Result<std::vector<std::byte>> read = bytes_of(path);
     if (!read) return read.error();
     const std::span<const std::byte> bytes = read.value();
-    if (bytes.size() < format::kUserBlockSize ||
-        format::read_header(bytes).magic != format::kMagic) {
-        return not_mendable(path, "it has no user block of cdprep in front");
-    }
-    const format::FileHeader facts = format::read_header(bytes);
-    if (facts.header_checksum != format::header_checksum(bytes.first<format::kUserBlockSize>())) {
-        return not_mendable(path, "its user block is damaged");
-    }
-    const FoundLayout found = find_layout(path);
+    if (const char* damage = find_block_damage(bytes)) return not_mendable(path, damage);
+    const FoundLayout layout = find_layout(path);
+    if (!layout.damage.empty()) return not_mendable(path, layout.damage);
+    const Relocated found = relocate(bytes, layout.places);
     if (!found.damage.empty()) return not_mendable(path, found.damage);
 
-    std::vector<Section> sections;
-    std::vector<SectionEntry> entries;
-    bool aligned = true;
-    for (const Place& place : found.places) {
-        const std::span<const std::byte> content = bytes_at(bytes, place);
-        sections.push_back({place.id, content});
-        entries.push_back({place.id, format::element_size(place.id), place.offset, place.count,
-                           format::checksum(content)});
-        aligned = aligned && place.offset % format::kSectionAlignment == 0;
-    }
+    const format::FileHeader facts = format::read_header(bytes);
     // Where the other tool broke the alignment, the sections must move once more.
-    if (!aligned) return write_file(path, facts, sections);
+    if (!std::all_of(found.entries.begin(), found.entries.end(), is_aligned)) {
+        return write_and_check(path, facts, found.sections, ErrorCode::unreadable);
+    }
     Result<OutputFile> created = OutputFile::create(path);
     if (!created) return created.error();
     OutputFile& file = created.value();
     if (Result<Done> copied = file.write_at(0, bytes); !copied) return copied;
-    if (Result<Done> sealed = write_user_block(file, facts, entries); !sealed) return sealed;
-    return commit_checked(file, path);
+    if (Result<Done> sealed = write_user_block(file, facts, found.entries); !sealed) return sealed;
+    return commit_checked(file, path, ErrorCode::unreadable);
 }
 
 }  // namespace cdprep::write

@@ -30,10 +30,11 @@ struct Section {
                                       std::span<const Section> sections);
 
 /// Makes a new section table for a baked file that another HDF5 tool rewrote:
-/// finds every dataset by its name, takes its offset, checks its type, and
-/// replaces the user block. Datasets that are chunked, compressed or of another
-/// type fail with `unreadable`, each named. The data is not changed; the file is
-/// replaced as write_file() does.
+/// finds every dataset by its name, checks its type and that its bytes are the
+/// baked ones, takes its offset, and replaces the user block. Datasets that are
+/// chunked, compressed, changed or of another type fail with `unreadable`, each
+/// named; those that were removed drop out of the table. The file is replaced as
+/// write_file() does; where the tool broke the alignment, the data moves again.
 [[nodiscard]] Result<Done> reindex_file(const std::filesystem::path& path);
 
 }  // namespace cdprep::write

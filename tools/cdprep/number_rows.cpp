@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "number_rows.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+
+namespace cdprep::cli {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r,";
+
+/// The next word of the text, taken off its front; empty at the end.
+std::string_view next_word(std::string_view& text) {
+    const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
+    const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
+    const std::string_view word = text.substr(begin, end - begin);
+    text.remove_prefix(end);
+    return word;
+}
+
+bool parse_number(std::string_view word, double& value) {
+    if (word.starts_with('+')) word.remove_prefix(1);  // from_chars takes no plus
+    const char* last = word.data() + word.size();
+    const auto [end, error] = std::from_chars(word.data(), last, value);
+    return error == std::errc{} && end == last && std::isfinite(value);
+}
+
+bool is_skipped(const std::string& line) {
+    const std::size_t begin = line.find_first_not_of(kBlanks);
+    return begin == std::string::npos || line[begin] == '#';
+}
+
+}  // namespace
+
+Result<Done> parse_row(std::string_view text, const std::string& place, std::span<double> row) {
+    std::size_t count = 0;
+    for (std::string_view word = next_word(text); !word.empty(); word = next_word(text)) {
+        double value = 0;
+        if (!parse_number(word, value)) {
+            return Error{ErrorCode::unreadable,
+                         place + ": '" + std::string(word) + "' is not a finite number."};
+        }
+        if (count < row.size()) row[count] = value;
+        ++count;
+    }
+    if (count != row.size()) {
+        return Error{ErrorCode::unreadable, place + ": there are " + std::to_string(count) +
+                                                " numbers, but it takes " +
+                                                std::to_string(row.size()) + "."};
+    }
+    return Done{};
+}
+
+Result<Done> for_each_line(
+    const std::filesystem::path& path,
+    const std::function<Result<Done>(const std::string& line, const std::string& place)>& take) {
+    std::ifstream file(path);
+    if (!file) return Error{ErrorCode::unreadable, path.string() + ": cannot be opened."};
+    std::string line;
+    for (std::size_t number = 1; std::getline(file, line); ++number) {
+        if (is_skipped(line)) continue;
+        Result<Done> taken = take(line, path.string() + ": line " + std::to_string(number));
+        if (!taken) return taken;
+    }
+    if (file.bad()) return Error{ErrorCode::unreadable, path.string() + ": cannot be read."};
+    return Done{};
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "cdprep/cast_ray.h"
+#include "cdprep/closest_point.h"
+#include "cdprep/containment.h"
+#include "effects.h"
+#include "interrupt.h"
+#include "open_for.h"
+#include "points_file.h"
+#include "query.h"
+
+namespace cdprep::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path model;
+    std::filesystem::path places;  ///< file of points or rays
+    std::string format = "text";
+};
+
+/// One question about one model, asked at many places.
+template <class Place>
+struct Question {
+    const char* name;
+    const char* description;
+    const char* option;  ///< --points or --rays
+    const char* option_description;
+    Result<std::vector<Place>> (*read)(const std::filesystem::path&);
+    void (*ask)(const Model&, const Place&, Workspace&, std::size_t number, report::Answers&);
+};
+
+void ask_inside(const Model& model, const Double3& point, Workspace& workspace, std::size_t number,
+                report::Answers& answers) {
+    answers.add(report::InsideAnswer{number, includes(model, point, workspace)});
+}
+
+void ask_closest(const Model& model, const Double3& point, Workspace& workspace, std::size_t number,
+                 report::Answers& answers) {
+    answers.add(report::ClosestAnswer{number, closest_point(model, point, workspace)});
+}
+
+void ask_ray(const Model& model, const Ray& ray, Workspace& workspace, std::size_t number,
+             report::Answers& answers) {
+    answers.add(report::RayAnswer{number, cast_ray(model, ray, workspace)});
+}
+
+constexpr Question<Double3> kInside = {"inside",    "Which points are inside?",
+                                       "--points",  "File of points, 3 numbers a line",
+                                       read_points, ask_inside};
+constexpr Question<Double3> kClosest = {"closest",   "What is nearest to each point?",
+                                        "--points",  "File of points, 3 numbers a line",
+                                        read_points, ask_closest};
+constexpr Question<Ray> kRay = {"ray",     "What does each ray meet first?",
+                                "--rays",  "File of rays, 6 numbers a line: origin, direction",
+                                read_rays, ask_ray};
+
+template <class Place>
+Exit run(const Arguments& arguments, const Question<Place>& question) {
+    const Result<Model> model = open_for(arguments.model, sections_for(question.name));
+    if (!model) return fail("query", model.error());
+    const Result<std::vector<Place>> places = question.read(arguments.places);
+    if (!places) return fail("query", places.error());
+    Workspace workspace;
+    report::Answers answers(std::cout, parse_answer_format(arguments.format));
+    for (std::size_t i = 0; i < places.value().size() && !is_interrupted(); ++i) {
+        question.ask(model.value(), places.value()[i], workspace, i, answers);
+    }
+    answers.finish();
+    return Exit::success;
+}
+
+template <class Place>
+void add_question(CLI::App& query, const Question<Place>& question, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = query.add_subcommand(question.name, question.description);
+    command->add_option("model", arguments->model, "A baked file")->required();
+    command->add_option(question.option, arguments->places, question.option_description)
+        ->required();
+    add_answer_format(*command, arguments->format);
+    command->callback([arguments, &question, &exit] { exit = run(*arguments, question); });
+}
+
+}  // namespace
+
+void add_point_questions(CLI::App& query, Exit& exit) {
+    add_question(query, kInside, exit);
+    add_question(query, kClosest, exit);
+    add_question(query, kRay, exit);
+}
+
+}  // namespace cdprep::cli
