@@ -102,6 +102,38 @@ bool single_prints_the_same(const char* first, const char* last, double value) n
            back.digits == decimal.digits;
 }
 
+// The quotient or product of two numbers that x87 registers hold exactly, rounded
+// to 64 bits, lies on the same side of every point halfway between two doubles as
+// the true value, unless it is such a point. So rounding it again is right, except
+// then.
+Number parse_long_number(const char* first, const char* last, std::uint64_t significand,
+                         int exponent) noexcept {
+    using Limits = std::numeric_limits<long double>;
+    constexpr int kMaxExponent = 27;  // 5^27 < 2^64
+    if (Limits::digits != 64 || exponent < -kMaxExponent || exponent > kMaxExponent) {
+        return parse_odd_number(first, last);
+    }
+    static constexpr std::array<long double, kMaxExponent + 1> kPowers = [] {
+        std::array<long double, kMaxExponent + 1> powers{};
+        long double power = 1;
+        for (long double& entry : powers) {
+            entry = power;
+            power *= 10;
+        }
+        return powers;
+    }();
+    const auto whole = static_cast<long double>(significand);
+    const long double wide = exponent < 0 ? whole / kPowers[static_cast<std::size_t>(-exponent)]
+                                          : whole * kPowers[static_cast<std::size_t>(exponent)];
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &wide, sizeof bits);
+    constexpr std::uint64_t kDropped = 0x7ff;  // 64 bits to 53
+    if ((bits & kDropped) == 0x400) return parse_odd_number(first, last);
+    const auto value = static_cast<double>(wide);
+    const bool single = single_prints_the_same(first, last, value);
+    return {*first == '-' ? -value : value, last, single};
+}
+
 Number parse_odd_number(const char* first, const char* last) noexcept {
     const char* const end = std::find_if(first, last, detail::ends_number);
     if (first == end) return {};

@@ -29,6 +29,11 @@ struct Number {
 /// About 5 ns; numbers of more than 19 digits or great exponents about 50 ns.
 [[nodiscard]] inline Number parse_number(const char* first, const char* last) noexcept;
 
+/// The case of parse_number() for more digits than a double holds: at most 19
+/// digits, significand * 10^exponent, which [first, last) spells.
+[[nodiscard]] Number parse_long_number(const char* first, const char* last,
+                                       std::uint64_t significand, int exponent) noexcept;
+
 /// The general case of parse_number(): any length, any exponent, any spelling.
 [[nodiscard]] Number parse_odd_number(const char* first, const char* last) noexcept;
 
@@ -188,7 +193,7 @@ inline Number parse_number(const char* first, const char* last) noexcept {
     // Both factors are doubles without rounding, so one operation rounds once.
     constexpr std::uint64_t kExact = std::uint64_t{1} << 53;
     if (significand > kExact || exponent < -22 || exponent > 22) {
-        return parse_odd_number(first, last);
+        return parse_long_number(first, at, significand, exponent);
     }
     const auto whole = static_cast<double>(significand);
     const double value = exponent < 0

@@ -2,13 +2,13 @@
 #include "import/read_off.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "import/join_chunks.h"
 #include "import/parse_number.h"
+#include "import/plain_rows.h"
 #include "import/text_chunks.h"
 
 namespace cdprep::import {
@@ -99,20 +99,24 @@ private:
     }
 
     bool read_vertex() {
-        std::array<double, 3> x{};
-        for (double& value : x) {
+        if (const char* const next = take_vertex(at_, end_, chunk_)) {
+            at_ = next;
+            return true;
+        }
+        for (int axis = 0; axis < 3; ++axis) {
             at_ = skip_blanks(at_, end_);
             const Number number = parse_number(at_, end_);
-            if (!number.next) return fail("a coordinate of a vertex");
-            value = number.value;
-            chunk_.single_precision = chunk_.single_precision && number.single;
+            if (!number.next) break;
             at_ = number.next;
         }
-        chunk_.positions.push_back({x[0], x[1], x[2]});
-        return true;
+        return fail("a coordinate of a vertex");
     }
 
     bool read_face() {
+        if (const char* const next = take_triangle(at_, end_, chunk_)) {
+            at_ = next;
+            return true;
+        }
         const WholeNumber size = parse_whole_number(at_, end_);
         if (!size.next || size.value < 0) return fail("the number of corners of a face");
         at_ = size.next;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "import/parse_number.h"
+#include "import/plain_rows.h"
 #include "import/read_ply_body.h"
 #include "import/text_chunks.h"
 
@@ -65,6 +65,12 @@ private:
     }
 
     bool read_vertex(const PlyElement& element) {
+        if (element.x == 0 && element.y == 1 && element.z == 2) {
+            if (const char* const next = take_vertex(at_, end_, chunk_)) {
+                at_ = next;
+                return true;
+            }
+        }
         mesh::Double3 position{0, 0, 0};
         const std::size_t last = std::max({element.x, element.y, element.z});
         for (std::size_t i = 0; i <= last; ++i) {
@@ -85,6 +91,12 @@ private:
     }
 
     bool read_list(const PlyElement& element) {
+        if (element.role == PlyRole::faces && element.indices == 0) {
+            if (const char* const next = take_triangle(at_, end_, chunk_)) {
+                at_ = next;
+                return true;
+            }
+        }
         for (std::size_t i = 0; i < element.indices; ++i) {
             if (!skip_property(element.properties[i])) return fail(element, i);
         }

@@ -138,6 +138,47 @@ TEST_F(AssimpChild, AMissingBufferAndACycleAreUnreadable) {
     EXPECT_EQ(cyclic.error().code, ErrorCode::unreadable);
 }
 
+/// The same scene as one GLB file.
+std::string glb() {
+    std::string json = gltf(kTwoNodes, "");
+    json.erase(json.find(R"(,"uri":"")"), 9);
+    json.resize((json.size() + 3) / 4 * 4, ' ');
+    const std::string binary = triangle_buffer();
+    const auto number = [](std::size_t value) {
+        const auto word = static_cast<std::uint32_t>(value);
+        return std::string(reinterpret_cast<const char*>(&word), 4);
+    };
+    return "glTF" + number(2) + number(12 + 8 + json.size() + 8 + binary.size()) +
+           number(json.size()) + "JSON" + json + number(binary.size()) + std::string("BIN\0", 4) +
+           binary;
+}
+
+TEST_F(AssimpChild, EveryTruncationOfAGlbIsUnreadable) {
+    const std::string whole = glb();
+    ASSERT_TRUE(import_file(write("s.glb", whole)).ok());
+    for (std::size_t size = 0; size < whole.size(); ++size) {
+        const auto result = import_file(write("s.glb", whole.substr(0, size)));
+        ASSERT_FALSE(result.ok()) << size;
+        EXPECT_EQ(result.error().code, ErrorCode::unreadable) << result.error().message;
+    }
+}
+
+TEST_F(AssimpChild, FlippedBitsOfAGlbAreASoupOrASentence) {
+    const std::string whole = glb();
+    int soups = 0;
+    for (std::size_t byte = 0; byte < whole.size(); ++byte) {
+        std::string flipped = whole;
+        flipped[byte] = static_cast<char>(flipped[byte] ^ (1 << byte % 8));
+        const auto result = import_file(write("s.glb", flipped));
+        soups += result.ok();
+        if (result.ok()) continue;
+        EXPECT_EQ(result.error().code, ErrorCode::unreadable) << result.error().message;
+        EXPECT_EQ(result.error().message.find("crashed"), std::string::npos)
+            << result.error().message;
+    }
+    EXPECT_GT(soups, 50);
+}
+
 // Counts far beyond the buffer: whatever happens in the child, here it is one
 // sentence, and soon.
 TEST_F(AssimpChild, LyingCountsAreUnreadable) {

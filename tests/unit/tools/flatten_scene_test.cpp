@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -85,7 +86,7 @@ public:
     [[nodiscard]] std::vector<std::byte> whole() const {
         std::vector<std::byte> all(sizeof header + arrays.size());
         std::memcpy(all.data(), &header, sizeof header);
-        std::memcpy(all.data() + sizeof header, arrays.data(), arrays.size());
+        std::copy(arrays.begin(), arrays.end(), all.begin() + sizeof header);
         return all;
     }
 

@@ -203,6 +203,21 @@ TEST(ParseNumber, AgreesWithTheCLibraryOnCoordinates) {
     EXPECT_LT(singles, kRounds * 9 / 10);
 }
 
+// More digits than a double holds, where two roundings must give what one does.
+TEST(ParseNumber, AgreesWithTheCLibraryOnLongNumbers) {
+    constexpr unsigned kSeed = 53;
+    SCOPED_TRACE(kSeed);
+    std::mt19937_64 random(kSeed);
+    for (int i = 0; i < 500'000 && !HasFailure(); ++i) {
+        const std::uint64_t digits = random() % 10'000'000'000'000'000'000u >> random() % 12;
+        const auto exponent = static_cast<int>(random() % 64) - 32;
+        std::string text = std::to_string(digits) + "e" + std::to_string(exponent);
+        expect_like_strtod(text);
+        text = std::to_string(digits);
+        expect_like_strtod("-" + text.insert(random() % text.size(), "."));
+    }
+}
+
 /// The exact decimal expansion of a double.
 std::string exact_text(double value) {
     char text[1200];

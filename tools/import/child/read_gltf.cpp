@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -38,8 +37,10 @@ enum Component : std::uint64_t {
 }
 
 std::string read_bytes(const std::filesystem::path& path, std::uint64_t& input_bytes) {
+    std::string bytes(std::filesystem::file_size(path), '\0');
     std::ifstream stream(path, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!stream) fail("a file of it cannot be read");
     input_bytes += bytes.size();
     return bytes;
 }
