@@ -23,7 +23,8 @@ public:
         const std::array<double, 3> at = {q.x - o.x, q.y - o.y, q.z - o.z};
         for (std::size_t i = 0; i < 3; ++i) point_[i] = std::ldexp(at[i], exponent_);
         slack_ = 0x1p-49 * (std::fabs(q.x) + std::fabs(q.y) + std::fabs(q.z) + std::fabs(o.x) +
-                            std::fabs(o.y) + std::fabs(o.z) + std::ldexp(1.0, -exponent_));
+                            std::fabs(o.y) + std::fabs(o.z) + std::ldexp(1.0, -exponent_)) +
+                 kSubnormal;
     }
 
     double operator()(const format::BvhNode& node, std::uint32_t box) const noexcept {
@@ -32,10 +33,14 @@ public:
             gap[axis] = std::max(
                 {0.0, node.lower[axis][box] - point_[axis], point_[axis] - node.upper[axis][box]});
         }
-        return std::ldexp(std::hypot(gap[0], gap[1], gap[2]), -exponent_) - slack_;
+        const double distance = std::ldexp(std::hypot(gap[0], gap[1], gap[2]), -exponent_);
+        // A point so far away that it leaves the frame's range prunes nothing.
+        return std::isfinite(distance) ? distance - slack_ : 0;
     }
 
 private:
+    static constexpr double kSubnormal = 0x1p-1070;  ///< scaling back may round
+
     std::array<double, 3> point_{};
     int exponent_;
     double slack_;

@@ -4,27 +4,34 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 // All work is done relative to q and scaled by a power of two so that the largest
 // corner coordinate is about 1; u = 2^-53, M the largest |corner - q|.
 //
-// Edges. The nearest point of a segment is found by one projection; its place
-// along the edge is off by a few u M, so its distance is within 16 u M.
+// Every candidate is a point of the triangle: it is put together from corners with
+// weights that are not negative and add up to 1, off by less than 8 u M. So its
+// distance is an upper bound, give or take 16 u M, however badly the weights are
+// known. The lower bound takes what the weights may be wrong by.
+//
+// Edges. One projection; the place along the edge is off by a few u M, so the
+// distance is within 16 u M.
 //
 // Face. With n = (b - a) x (c - a) and L the longest edge, n is off by at most
-// 8 u L^2 in relative terms 8 u L^2 / |n|, which tilts the plane by as much: the
-// foot of q and the distance to the plane are off by less than
-// eta = 64 u M L^2 / |n|. A foot that is wrongly thought inside or outside is
-// within eta of an edge, so taking the other's distance errs by no more than eta.
+// 8 u L^2, in relative terms 8 u L^2 / |n|, which tilts the plane by as much. The
+// foot's places along the edges, taken relative to an end of each (the edge enters
+// the product, not two far corners), are off by that tilt and 8 u M. Both together
+// stay below eta = 64 u M (1 + L^2 / |n|). A foot that is wrongly thought inside or
+// outside is within eta of an edge, so the other's distance is right within eta.
 //
-// Slivers. Where eta is larger than the inradius |n| / perimeter, the face is
-// left out: every point of it is within the inradius of an edge.
+// Slivers. Where eta is larger than the inradius |n| / perimeter, the face is left
+// out of the lower bound: every point of it is within the inradius of an edge.
 
 namespace cdprep {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
-constexpr double kEdgeError = 16 * kUnit;
+constexpr double kCandidateError = 16 * kUnit;
 constexpr double kFaceError = 64 * kUnit;
 
 struct Vector {
@@ -72,10 +79,16 @@ Nearest nearest_on_edges(const Vector& a, const Vector& b, const Vector& c) {
     return best;
 }
 
-/// Whether the foot of the origin lies inside the triangle, as far as rounding
-/// lets one see.
-bool foot_is_inside(const Vector& a, const Vector& b, const Vector& c, const Vector& n) {
-    return dot(n, cross(a, b)) >= 0 && dot(n, cross(b, c)) >= 0 && dot(n, cross(c, a)) >= 0;
+/// The foot of the origin, when it lies inside the triangle as far as rounding
+/// lets one see; n is the triangle's normal.
+std::optional<Vector> foot_inside(const Vector& a, const Vector& b, const Vector& c,
+                                  const Vector& n) {
+    const double at_a = dot(n, cross(b, c - b));
+    const double at_b = dot(n, cross(c, a - c));
+    const double at_c = dot(n, cross(a, b - a));
+    const double all = at_a + at_b + at_c;
+    if (!(std::min({at_a, at_b, at_c}) >= 0 && all > 0)) return std::nullopt;
+    return (at_a / all) * a + (at_b / all) * b + (at_c / all) * c;
 }
 
 }  // namespace
@@ -101,24 +114,18 @@ PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t
     const double height = length(n);
 
     Nearest best = nearest_on_edges(a, b, c);
-    const double edge_error = kEdgeError * farthest;
-    double upper = best.distance + edge_error;
-    double lower = 0;
+    const double on_edges = best.distance;
+    if (const std::optional<Vector> foot = foot_inside(a, b, c, n)) {
+        if (const double distance = length(*foot); distance < on_edges) best = {*foot, distance};
+    }
     const double rounding = 8 * kUnit * longest * longest;  // of n
     const double inradius = longest > 0 ? (height + rounding) / (ab + bc + ca) : 0;
     const double eta =
         height > 2 * rounding ? kFaceError * farthest * (1 + longest * longest / height) : inradius;
-    if (eta >= inradius) {
-        lower = best.distance - edge_error - inradius;
-    } else {
-        if (foot_is_inside(a, b, c, n)) {
-            const double plane = dot(n, a) / height;
-            const Vector foot = (plane / height) * n;
-            if (std::fabs(plane) < best.distance) best = {foot, std::fabs(plane)};
-            upper = std::min(upper, best.distance + eta);
-        }
-        lower = best.distance - eta;
-    }
+    const double candidate_error = kCandidateError * farthest;
+    const double upper = best.distance + candidate_error;
+    const double lower =
+        eta < inradius ? best.distance - eta : on_edges - candidate_error - inradius;
     const auto back = [&](double x) { return std::ldexp(x, -exponent); };
     // The last factor covers the roundings of these sums; scaling back may round
     // a subnormal, so one step outwards covers that.

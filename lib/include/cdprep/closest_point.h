@@ -26,10 +26,11 @@ struct ClosestPoint {
 /// can tell, the one with the smallest number answers.
 ///
 /// `query` must be finite. `max_distance` may be infinite and is inclusive:
-/// compared with `lower`. The interval is a few ulp wide and always holds the
-/// truth (closest_point_laws_test). Needs triangles, positions and bvh_nodes.
-/// Never allocates. Visits every node in the worst case: a point at the centre
-/// of a sphere.
+/// nothing that near is missed, and what is found has `lower` at most
+/// `max_distance`. The interval always holds the truth (closest_point_laws_test);
+/// it is a few ulp of the triangle's farthest corner wide, more for slivers.
+/// Needs triangles, positions and bvh_nodes. Never allocates. Visits every node
+/// in the worst case: a point at the centre of a sphere.
 ///
 ///     if (auto near = cdprep::closest_point(model, {0, 0, 2}, workspace)) {
 ///         std::cout << "triangle " << near->triangle << " at " << near->upper << '\n';

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "support/exact_distance.h"
+
+#include <algorithm>
+
+#include "support/exact_contact.h"
+
+namespace cdprep::test {
+namespace {
+
+using Vector = ExactPoint<ExactNumber>;
+
+/// Corners relative to q: the distance sought is that from the origin.
+ExactRational squared_distance_to_segment(const Vector& a, const Vector& b) {
+    const Vector edge = minus(b, a);
+    const ExactNumber along = -dot(a, edge);  // of the foot, times |edge|^2
+    const ExactNumber squared = dot(edge, edge);
+    if (along.sign() <= 0) return {dot(a, a), 1.0};
+    if (along >= squared) return {dot(b, b), 1.0};
+    return {dot(a, a) * squared - along * along, squared};
+}
+
+}  // namespace
+
+ExactRational exact_squared_distance(const Double3& q, const Corners& corners) {
+    const ExactTriangle<ExactNumber> t = exact<ExactNumber>(corners);
+    const Vector origin = {q.x, q.y, q.z};
+    const std::array<Vector, 3> v = {minus(t[0], origin), minus(t[1], origin), minus(t[2], origin)};
+    const Vector n = cross(minus(v[1], v[0]), minus(v[2], v[0]));
+    bool above = !is_zero(n);  // the foot of the origin lies in the triangle
+    ExactRational best = squared_distance_to_segment(v[2], v[0]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vector& from = v[i];
+        const Vector& to = v[(i + 1) % 3];
+        best = std::min(best, squared_distance_to_segment(from, to));
+        above = above && dot(n, cross(from, to)).sign() >= 0;
+    }
+    if (!above) return best;
+    const ExactNumber height = dot(n, v[0]);
+    return std::min(best, ExactRational(height * height, dot(n, n)));
+}
+
+}  // namespace cdprep::test

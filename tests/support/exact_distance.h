@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "support/exact_rational.h"
+
+#include "triangle_contact.h"
+
+namespace cdprep::test {
+
+/// The square of the distance from q to the closed triangle, without rounding.
+/// Corners may be collinear or equal.
+[[nodiscard]] ExactRational exact_squared_distance(const Double3& q, const Corners& corners);
+
+}  // namespace cdprep::test
