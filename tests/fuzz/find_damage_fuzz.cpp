@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Hostile bytes: what the checker accepts must be safe to ask anything.
+//
+// Checksums would stop nearly every mutation, so each input is also judged after
+// its checksums have been made right again: then only the content can refuse.
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "support/aligned_bytes.h"
+#include "support/meshes.h"
+#include "support/reseal.h"
+#include "support/tiny_baker.h"
+
+#include "cdprep/cast_ray.h"
+#include "cdprep/closest_point.h"
+#include "cdprep/collide.h"
+#include "cdprep/containment.h"
+#include "cdprep/format/find_damage.h"
+
+namespace {
+
+using namespace cdprep;  // NOLINT(google-build-using-namespace): a program of its own
+
+constexpr std::uint32_t kMostTriangles = 4096;  ///< keeps one input below a second
+
+bool can_answer(const Model& model) {
+    return model.triangle_count() <= kMostTriangles &&
+           model.triangles().size() == model.triangle_count() &&
+           model.nodes().size() == model.shape().node_count &&
+           (model.triangle_count() == 0 || !model.positions_f32().empty() ||
+            !model.positions_f64().empty());
+}
+
+void ask(const Model& model) {
+    static Workspace workspace;
+    static std::vector<TrianglePair> pairs(256);
+    const Pose turned = Pose::from_quaternion(1, 2, 3, 4, {0.25, 0, 0}).value();
+    for (const Placement& placement :
+         {Placement::b_moves(Pose()), Placement::world(turned, Pose())}) {
+        (void)overlapping_triangles(model, model, placement, workspace, pairs);
+        (void)collide(model, model, placement, workspace, {.as = As::solid});
+    }
+    (void)cast_ray(model, {{0.5, 0.25, -3}, {0.125, 0, 1}}, workspace);
+    (void)closest_point(model, {0.25, 0.5, 2}, workspace);
+    (void)includes(model, {0.5, 0.5, 0.5}, workspace);
+    for (std::uint32_t i = 0; i < 4; ++i) (void)model.name(SectionId::group_names, i);
+}
+
+void judge(const test::AlignedBytes& bytes) {
+    const auto opened = Model::open(bytes.span());
+    if (opened && can_answer(opened.value())) ask(opened.value());
+    if (opened) (void)format::find_deep_damage(bytes.span());
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    test::AlignedBytes bytes(std::as_bytes(std::span(data, size)));
+    judge(bytes);
+    test::reseal(bytes.span());
+    judge(bytes);
+    return 0;
+}
+
+/// A few whole files to start from, in place of a stored corpus.
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t max_size, unsigned int seed);
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+
+namespace {
+
+std::vector<test::AlignedBytes> make_seeds() {
+    std::vector<test::AlignedBytes> seeds;
+    for (const test::TestMesh& mesh :
+         {test::TestMesh{}, test::unit_cube(), test::icosphere(1), test::coarse_grid_soup(1, 40, 2),
+          test::copies_of_one_triangle(20)}) {
+        seeds.push_back(test::bake_tiny(mesh.positions, mesh.triangles));
+        seeds.push_back(
+            test::bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}));
+    }
+    return seeds;
+}
+
+}  // namespace
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size,
+                                               std::size_t max_size, unsigned int seed) {
+    static const std::vector<test::AlignedBytes> seeds = make_seeds();
+    const auto& start = seeds[seed % seeds.size()];
+    if ((size < 4200 || seed % 97 == 0) && start.size() <= max_size) {
+        std::memcpy(data, start.span().data(), start.size());
+        size = start.size();
+    }
+    return LLVMFuzzerMutate(data, size, max_size);
+}
