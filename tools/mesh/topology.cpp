@@ -118,13 +118,12 @@ Topology find_topology(const Mesh& mesh) {
         if (component.triangle_count++ == 0) component.vertex = triangle.vertex[0];
         if ((component.flags & format::component_closed) == 0) continue;
         const auto [a, b, c] = triangle.vertex;
-        component.signed_volume +=
+        component.signed_volume +=  // six times, until the end: whole numbers stay exact
             signed_volume_6(mesh.positions[a], mesh.positions[b], mesh.positions[c],
-                            mesh.positions[component.vertex]) /
-            6;
+                            mesh.positions[component.vertex]);
     }
     for (format::Component& component : topology.components) {
-        component.signed_volume = finite(component.signed_volume);
+        component.signed_volume = finite(component.signed_volume / 6);
     }
     return topology;
 }
