@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "moved_leaf.h"
@@ -31,7 +32,13 @@ public:
         const double shift = std::max({std::fabs(t.x), std::fabs(t.y), std::fabs(t.z)});
         // 5 u (3 reach + shift) for the vertices, as much again for the boxes, and
         // some: see box_placement.cpp.
-        slack_ = 0x1p-47 * (3 * reach + shift);
+        reach_ = reach + shift;
+        slack_ = 0x1p-47 * (3 * reach + shift) + kSubnormal;
+    }
+
+    /// About the largest coordinate; never 0.
+    [[nodiscard]] double reach() const noexcept {
+        return reach_;
     }
 
     [[nodiscard]] Box3 box(const format::BvhNode& node, std::uint32_t index) const noexcept {
@@ -57,15 +64,20 @@ public:
     }
 
 private:
+    static constexpr double kSubnormal = 0x1p-1070;  ///< scaling back may round
+
     const format::FileHeader& header_;
     Pose pose_;
+    double reach_ = 0;
     double slack_ = 0;
 };
 
-/// A point before q on the line through q along x.
-Double3 ray_origin(const Double3& q) noexcept {
-    constexpr double kLeast = 0x1p-1022;  ///< the step must not vanish at q = 0
-    return {q.x - 2 * std::max(std::fabs(q.x), kLeast), q.y, q.z};
+/// A point before q on the line through q along x. As far away as the model is
+/// large: a step too small for the predicates' filter would make every triangle
+/// slow.
+Double3 ray_origin(const Double3& q, double reach) noexcept {
+    const double x = q.x - 2 * std::max(std::fabs(q.x), reach);
+    return {std::max(x, std::numeric_limits<double>::lowest()), q.y, q.z};
 }
 
 bool ray_meets(const Double3& q, const Box3& box) noexcept {
@@ -81,7 +93,7 @@ bool holds(const Box3& box, const Double3& q) noexcept {
 Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
                           Workspace::Storage& scratch) noexcept {
     const MovedBoxes boxes(model);
-    const Double3 o = ray_origin(q);
+    const Double3 o = ray_origin(q, boxes.reach());
     long winding = 0;
     const auto add_leaf = [&](std::uint32_t leaf) {
         const std::uint32_t first = leaf * format::kBvhWidth;

@@ -37,7 +37,7 @@ WindingTerm winding_term(const Double3& o, const Double3& q, const Corners& t) n
     const int side = orient3d(t[0], t[1], t[2], q);
     if (side == 0) {
         // In the plane of the triangle, or the triangle has none.
-        return {0, !is_degenerate(t) && triangles_touch({q, q, q}, t)};
+        return {0, triangles_touch({q, q, q}, t)};
     }
     const int turn = perturbed_sign(o, q, t[0], t[1]);
     if (turn == 0 || turn != perturbed_sign(o, q, t[1], t[2]) ||
