@@ -24,8 +24,9 @@ struct PendingPair {
     TreePlace b;
 
     [[nodiscard]] std::uint64_t packed() const noexcept {
-        return std::uint64_t{a.height} << 60 | std::uint64_t{a.index} << 32 |
-               std::uint64_t{b.height} << 28 | b.index;
+        const std::uint64_t half_a = std::uint64_t{a.height} << 28 | a.index;
+        const std::uint64_t half_b = std::uint64_t{b.height} << 28 | b.index;
+        return half_a << 32 | half_b;
     }
     [[nodiscard]] static PendingPair unpacked(std::uint64_t bits) noexcept {
         return {{static_cast<std::uint32_t>(bits >> 60),
