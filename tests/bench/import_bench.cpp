@@ -128,9 +128,9 @@ std::string stl_text(const Grid& grid) {
 std::string glb(const Grid& grid) {
     const std::size_t points = grid.points.size() * 12;
     const std::size_t indices = grid.triangles.size() * 12;
-    std::string json;
-    print(json, R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
-                R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)");
+    std::string json =
+        R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+        R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)";
     print(json,
           R"("accessors":[{"bufferView":0,"componentType":5126,"count":%zu,"type":"VEC3"},)"
           R"({"bufferView":1,"componentType":5125,"count":%zu,"type":"SCALAR"}],)",

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -273,10 +274,17 @@ private:
     /// "root/arm/hand", built where it is asked for: deep scenes have long paths.
     [[nodiscard]] std::string path_of(std::uint32_t node) const {
         constexpr std::size_t kMaxPathBytes = 4096;
-        std::string path = names_[node];
-        for (std::uint32_t n = parents_[node]; n != kNoParent; n = parents_[n]) {
-            if (path.size() + names_[n].size() > kMaxPathBytes) return ".../" + path;
-            path = names_[n] + "/" + path;
+        std::vector<std::string_view> parts;
+        std::size_t bytes = 0;
+        for (std::uint32_t n = node; n != kNoParent && bytes <= kMaxPathBytes; n = parents_[n]) {
+            parts.emplace_back(names_[n]);
+            bytes += names_[n].size() + 1;
+            if (bytes > kMaxPathBytes && parts.size() > 1) parts.back() = "...";
+        }
+        std::string path;
+        for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+            if (!path.empty()) path += '/';
+            path += *part;
         }
         return path;
     }

@@ -16,11 +16,11 @@ namespace cdprep::import {
 [[nodiscard]] inline const char* take_vertex(const char* at, const char* end, PolygonChunk& chunk) {
     std::array<double, 3> x{};
     bool single = true;
-    for (double& value : x) {
+    for (std::size_t axis = 0; axis < x.size(); ++axis) {
         at = skip_blanks(at, end);
         const Number number = parse_number(at, end);
         if (!number.next) return nullptr;
-        value = number.value;
+        x[axis] = number.value;
         single = single && number.single;
         at = number.next;
     }

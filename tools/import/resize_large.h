@@ -4,7 +4,7 @@
 #include <sys/mman.h>
 
 #include <cstddef>
-#include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace cdprep::import {
@@ -13,14 +13,13 @@ namespace cdprep::import {
 /// touches of 4 KiB pages otherwise cost a quarter of a fast import.
 template <class T>
 void resize_large(std::vector<T>& values, std::size_t count) {
-    constexpr std::uintptr_t kHugePage = std::uintptr_t{1} << 21;
+    constexpr std::size_t kHugePage = std::size_t{1} << 21;
     values.reserve(count);
-    const auto first = reinterpret_cast<std::uintptr_t>(values.data());
-    const std::uintptr_t begin = (first + kHugePage - 1) / kHugePage * kHugePage;
-    const std::uintptr_t end = (first + count * sizeof(T)) / kHugePage * kHugePage;
-    if (begin < end) {
+    void* whole_pages = values.data();
+    std::size_t bytes = count * sizeof(T);
+    if (std::align(kHugePage, kHugePage, whole_pages, bytes)) {
         // Advice: nothing is lost where it is not taken.
-        (void)::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+        (void)::madvise(whole_pages, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
     }
     values.resize(count);
 }
