@@ -44,6 +44,11 @@ Result<Pose> Pose::from_rows(const std::array<double, 12>& rows) {
             return bad_pose("Number " + std::to_string(i + 1) + " of the pose is " +
                             shown(rows[i]) + "; all twelve must be finite.");
         }
+        if (std::fabs(rows[i]) > format::kMaxCoordinate) {
+            return bad_pose("Number " + std::to_string(i + 1) + " of the pose is " +
+                            shown(rows[i]) + "; at most " + shown(format::kMaxCoordinate) +
+                            " is allowed.");
+        }
     }
     Pose pose;
     std::copy_n(rows.begin(), 9, pose.rotation_.begin());

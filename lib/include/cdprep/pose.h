@@ -19,13 +19,15 @@ public:
     constexpr Pose() noexcept = default;
 
     /// Takes R row by row, then T, in model units. Fails with bad_argument, and
-    /// says which number is wrong, when one is not finite, when an entry of
-    /// |R^T R - I| exceeds kRotationTolerance, or when R mirrors.
+    /// says which number is wrong, when one is not finite or beyond
+    /// format::kMaxCoordinate, when an entry of |R^T R - I| exceeds
+    /// kRotationTolerance, or when R mirrors.
     [[nodiscard]] static Result<Pose> from_rows(const std::array<double, 12>& rows);
 
     /// Takes any quaternion w + xi + yj + zk but zero; its length does not
-    /// matter. Fails with bad_argument when a number is not finite or all four
-    /// are zero. The matrix is within 4 ulp of the exact one.
+    /// matter. Fails with bad_argument when a number is not finite, all four are
+    /// zero, or the translation is beyond format::kMaxCoordinate. Each entry of R
+    /// is within kQuaternionError of the exact one.
     [[nodiscard]] static Result<Pose> from_quaternion(double w, double x, double y, double z,
                                                       const Double3& translation);
 
@@ -40,6 +42,8 @@ public:
 
     /// Largest permitted entry of |R^T R - I|.
     static constexpr double kRotationTolerance = 1e-12;
+    /// Largest error of an entry of R made from a quaternion (pose_test).
+    static constexpr double kQuaternionError = 8 * 0x1p-53;
 
 private:
     std::array<double, 9> rotation_ = {1, 0, 0, 0, 1, 0, 0, 0, 1};

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/build_bvh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+#include <thread>
+
+#include "support/exact_rational.h"
+#include "support/meshes.h"
+
+namespace cdprep::test {
+namespace {
+
+using build::build_bvh;
+using build::Bvh;
+using format::BvhShape;
+
+std::vector<TestMesh> awkward_meshes() {
+    return {TestMesh{},
+            fan(1),
+            fan(9),
+            unit_cube(),
+            grid_sheet(20, 30),
+            icosphere(3),
+            random_soup(1, 700, 0.3),
+            coarse_grid_soup(2, 500, 3),
+            copies_of_one_triangle(1000),
+            geometric_progression(900),
+            moved_by(icosphere(2), 0x1p-1000, {}),
+            moved_by(icosphere(2), 0x1p998, {}),
+            moved_by(icosphere(2), 1e-3, {1e9, -1e9, 1e9})};
+}
+
+ExactNumber in_frame(double x, double origin, std::int32_t exponent) {
+    ExactNumber value = ExactNumber(x) - ExactNumber(origin);
+    // Two steps: neither power of two leaves the range of double.
+    value = value * ExactNumber(std::ldexp(1.0, exponent / 2));
+    return value * ExactNumber(std::ldexp(1.0, exponent - exponent / 2));
+}
+
+struct Range {
+    std::uint32_t first, last;
+};
+
+/// Triangles in tree order below box `box` of node `node` of a level.
+Range below(std::uint32_t level, std::uint32_t node, std::uint32_t box, std::size_t count) {
+    std::uint64_t size = format::kBvhWidth;
+    for (std::uint32_t l = 0; l < level; ++l) size *= format::kBvhWidth;
+    const std::uint64_t first = (std::uint64_t{node} * format::kBvhWidth + box) * size;
+    return {static_cast<std::uint32_t>(std::min<std::uint64_t>(first, count)),
+            static_cast<std::uint32_t>(std::min<std::uint64_t>(first + size, count))};
+}
+
+/// Boxes must hold their triangles in exact arithmetic.
+void expect_boxes_hold(const TestMesh& mesh, const Bvh& bvh) {
+    const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
+    const double origin[3] = {bvh.frame.origin.x, bvh.frame.origin.y, bvh.frame.origin.z};
+    for (std::uint32_t level = 0; level < shape.levels; ++level) {
+        for (std::uint32_t n = 0; n < shape.count[level]; ++n) {
+            const format::BvhNode& node = bvh.nodes[shape.first[level] + n];
+            for (std::uint32_t box = 0; box < shape.used_boxes(level, n); ++box) {
+                const Range range = below(level, n, box, bvh.order.size());
+                ASSERT_LT(range.first, range.last);
+                for (std::uint32_t i = range.first; i < range.last; ++i) {
+                    for (const std::uint32_t v : mesh.triangles[bvh.order[i]].vertex) {
+                        const Double3& p = mesh.positions[v];
+                        const double x[3] = {p.x, p.y, p.z};
+                        for (std::size_t axis = 0; axis < 3; ++axis) {
+                            const ExactNumber at =
+                                in_frame(x[axis], origin[axis], bvh.frame.exponent);
+                            ASSERT_TRUE(ExactNumber(node.lower[axis][box]) <= at);
+                            ASSERT_TRUE(at <= ExactNumber(node.upper[axis][box]));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(BuildBvh, EveryBoxHoldsItsTrianglesInExactArithmetic) {
+    for (const TestMesh& mesh : awkward_meshes()) {
+        expect_boxes_hold(mesh, build_bvh(mesh.positions, mesh.triangles));
+    }
+}
+
+TEST(BuildBvh, TheOrderNamesEveryTriangleOnce) {
+    for (const TestMesh& mesh : awkward_meshes()) {
+        std::vector<std::uint32_t> order = build_bvh(mesh.positions, mesh.triangles).order;
+        std::sort(order.begin(), order.end());
+        std::vector<std::uint32_t> all(mesh.triangles.size());
+        std::iota(all.begin(), all.end(), 0U);
+        EXPECT_EQ(order, all);
+    }
+}
+
+TEST(BuildBvh, UsedBoxesLieInTheUnitFrameAndUnusedOnesAreEmpty) {
+    for (const TestMesh& mesh : awkward_meshes()) {
+        const Bvh bvh = build_bvh(mesh.positions, mesh.triangles);
+        const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
+        ASSERT_EQ(bvh.nodes.size(), shape.node_count);
+        for (std::uint32_t level = 0; level < shape.levels; ++level) {
+            for (std::uint32_t n = 0; n < shape.count[level]; ++n) {
+                const format::BvhNode& node = bvh.nodes[shape.first[level] + n];
+                for (std::uint32_t box = 0; box < format::kBvhWidth; ++box) {
+                    for (std::size_t axis = 0; axis < 3; ++axis) {
+                        const float lower = node.lower[axis][box], upper = node.upper[axis][box];
+                        if (box < shape.used_boxes(level, n)) {
+                            EXPECT_TRUE(-1 <= lower && lower <= upper && upper <= 1);
+                        } else {
+                            EXPECT_TRUE(lower == 1 && upper == -1);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Every body on a thread of its own, last first.
+void threads_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+    std::vector<std::thread> threads;
+    for (std::size_t i = count; i-- > 0;) threads.emplace_back(body, i);
+    for (std::thread& thread : threads) thread.join();
+}
+
+// Large enough that the builder hands work out.
+TEST(BuildBvh, ThreadsDoNotChangeTheResult) {
+    const TestMesh sphere = icosphere(6);
+    const Bvh serial = build_bvh(sphere.positions, sphere.triangles);
+    const Bvh parallel = build_bvh(sphere.positions, sphere.triangles, {threads_for});
+    EXPECT_EQ(serial.order, parallel.order);
+    ASSERT_EQ(serial.nodes.size(), parallel.nodes.size());
+    EXPECT_EQ(std::memcmp(serial.nodes.data(), parallel.nodes.data(),
+                          serial.nodes.size() * sizeof(format::BvhNode)),
+              0);
+}
+
+// The ideal leaf is a square patch; turned anyhow, its box has edges of one side's
+// length on average. A tree that ignored places would be 30 times worse.
+TEST(BuildBvh, LeavesOfASphereAreCompact) {
+    const TestMesh sphere = icosphere(5);  // 20,480 triangles
+    const Bvh bvh = build_bvh(sphere.positions, sphere.triangles);
+    const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
+    double edges = 0;
+    for (std::uint32_t leaf = 0; leaf < shape.leaf_count; ++leaf) {
+        const format::BvhNode& node = bvh.nodes[shape.first[0] + leaf / format::kBvhWidth];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            edges += node.upper[axis][leaf % format::kBvhWidth] -
+                     node.lower[axis][leaf % format::kBvhWidth];
+        }
+    }
+    // Eight triangles cover 4 pi 8 / 20480 = 0.0049 of area: a patch of 0.07 x 0.07.
+    const double mean_edge = std::ldexp(edges / (3.0 * shape.leaf_count), -bvh.frame.exponent);
+    EXPECT_LT(mean_edge, 2 * 0.07);
+}
+
+}  // namespace
+}  // namespace cdprep::test

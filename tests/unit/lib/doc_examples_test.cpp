@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// The examples of README.md and of the public headers, as programs that run.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <vector>
+
+#include "cdprep/closest_point.h"
+#include "cdprep/collide.h"
+#include "support/open_tiny.h"
+
+namespace cdprep::test {
+namespace {
+
+/// The working folder of the test holds the files that the examples open.
+class DocExamples : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_ = std::filesystem::temp_directory_path() /
+                  ("doc_examples_test_" + std::to_string(::getpid()));
+        std::filesystem::create_directories(folder_);
+        before_ = std::filesystem::current_path();
+        std::filesystem::current_path(folder_);
+        const TestMesh cube = unit_cube();
+        const AlignedBytes bytes = bake_tiny(cube.positions, cube.triangles);
+        for (const char* name : {"arm.cdp.h5", "part.cdp.h5", "bracket.cdp.h5"}) {
+            std::ofstream(name, std::ios::binary)
+                .write(reinterpret_cast<const char*>(bytes.span().data()),
+                       static_cast<std::streamsize>(bytes.size()));
+        }
+    }
+    void TearDown() override {
+        std::filesystem::current_path(before_);
+        std::filesystem::remove_all(folder_);
+    }
+
+private:
+    std::filesystem::path folder_;
+    std::filesystem::path before_;
+};
+
+struct ReadmeAnswer {
+    bool hit;
+    std::vector<TrianglePair> pairs;
+};
+
+std::optional<ReadmeAnswer> readme() {
+    auto arm = cdprep::Model::open("arm.cdp.h5");
+    auto part = cdprep::Model::open("part.cdp.h5");
+    auto arm_from_part = cdprep::Pose::from_quaternion(1, 0, 0, 0, {0.1, 0, 0});
+    if (!arm || !part || !arm_from_part) return std::nullopt;
+
+    cdprep::Workspace workspace;
+    auto placement = cdprep::Placement::b_moves(arm_from_part.value());
+    bool hit = cdprep::collide(arm.value(), part.value(), placement, workspace).hit;
+
+    std::vector<cdprep::TrianglePair> pairs(1000);
+    std::size_t count =
+        cdprep::overlapping_triangles(arm.value(), part.value(), placement, workspace, pairs);
+    pairs.resize(count);
+    return ReadmeAnswer{hit, pairs};
+}
+
+// Two unit cubes, one shifted by 0.1 along x: their sides share area.
+TEST_F(DocExamples, Readme) {
+    const auto answer = readme();
+    ASSERT_TRUE(answer);
+    EXPECT_TRUE(answer->hit);
+    EXPECT_FALSE(answer->pairs.empty());
+    EXPECT_LE(answer->pairs.size(), 144U);
+}
+
+int model_example(std::ostream& out) {
+    auto opened = cdprep::Model::open("bracket.cdp.h5");
+    if (!opened) {
+        out << opened.error().message << '\n';
+        return 1;
+    }
+    const cdprep::Model& model = opened.value();
+    out << model.triangle_count() << " triangles\n";
+    return 0;
+}
+
+TEST_F(DocExamples, ModelAndResult) {
+    std::ostringstream out;
+    EXPECT_EQ(model_example(out), 0);
+    EXPECT_EQ(out.str(), "12 triangles\n");
+    std::filesystem::remove("bracket.cdp.h5");
+    EXPECT_EQ(model_example(out), 1);
+}
+
+TEST_F(DocExamples, ClosestPoint) {
+    const auto opened = cdprep::Model::open("bracket.cdp.h5");
+    ASSERT_TRUE(opened);
+    const cdprep::Model& model = opened.value();
+    cdprep::Workspace workspace;
+    std::ostringstream out;
+    if (auto near = cdprep::closest_point(model, {0, 0, 2}, workspace)) {
+        out << "triangle " << near->triangle << " at " << near->upper << '\n';
+    }
+    EXPECT_NE(out.str().find(" at 1\n"), std::string::npos) << out.str();
+}
+
+}  // namespace
+}  // namespace cdprep::test
