@@ -48,7 +48,20 @@ def main():
         must(digest(output) == old, "the old file changed")
         must([path.name for path in disk.iterdir()] == ["m.cdp.h5"], "a stray file was left")
         bake(program, folder / "small.off", "-o", output)
+
+        with open(disk / "filler", "wb", buffering=0) as filler, contextlib.suppress(OSError):
+            while True:
+                filler.write(bytes(4096))
+        last = run(program, "bake", folder / "small.off", folder / "small.off", "-o", disk / "n")
+        must(last.returncode == 2, f"exit {last.returncode} for one output of two inputs")
+        last = run(program, "bake", folder / "large.off", folder / "small.off",
+                   "--output-dir", disk)
+        must(last.returncode == 4 and len(last.stderr.strip().splitlines()) == 2,
+             f"exit {last.returncode} when no byte is free: {last.stderr}")
+        must(sorted(path.name for path in disk.iterdir()) == ["filler", "m.cdp.h5"],
+             "a stray file was left on a disk without a free byte")
     print(full.stderr.strip())
+    print(last.stderr.strip())
 
 
 main()

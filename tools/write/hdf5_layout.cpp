@@ -11,6 +11,7 @@
 
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/sections.h"
+#include "write/hdf5_in_memory.h"
 
 // HDF5 gives bytes that depend on nothing but the content when time stamps are
 // off for the file, its groups and its datasets, and the library version is
@@ -222,11 +223,13 @@ bool add_text(hid_t object, const char* name, const char* text) {
     return attribute.good() && H5Awrite(attribute.id(), type.id(), text) >= 0;
 }
 
-Handle access_list(std::uint64_t threshold, std::uint64_t alignment) {
+constexpr const char* kName = "in memory";
+
+Handle access_list(SparseMemory& memory, std::uint64_t threshold, std::uint64_t alignment) {
     Handle list(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_alignment(list.id(), threshold, alignment);
     H5Pset_libver_bounds(list.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
-    H5Pset_file_locking(list.id(), false, true);  // OutputFile holds the lock
+    if (!keep_in_memory(list.id(), memory)) return {-1, H5Pclose};
     return list;
 }
 
@@ -237,12 +240,12 @@ void keep_links_simple(const Handle& creation) {
 }
 
 /// An empty file with a user block and our group.
-bool make_file(const char* path) {
+bool make_file(SparseMemory& memory) {
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_userblock(creation.id(), format::kUserBlockSize);
     keep_links_simple(creation);
-    const Handle access = access_list(1, format::kSectionAlignment);
-    Handle file(H5Fcreate(path, H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
+    const Handle access = access_list(memory, 1, format::kSectionAlignment);
+    Handle file(H5Fcreate(kName, H5F_ACC_TRUNC, creation.id(), access.id()), H5Fclose);
     if (!file.good()) return false;
     const Handle group_creation(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
     keep_links_simple(group_creation);
@@ -288,11 +291,12 @@ bool is_large(const Plan& plan) {
 }
 
 /// Makes the large or the small datasets, all in one open.
-bool make_datasets(const char* path, std::span<const Plan> plans, bool large,
+bool make_datasets(SparseMemory& memory, std::span<const Plan> plans, bool large,
                    std::vector<Place>& places) {
-    const Handle access = large ? access_list(format::kPageThreshold, format::kPageAlignment)
-                                : access_list(1, format::kSectionAlignment);
-    Handle file(H5Fopen(path, H5F_ACC_RDWR, access.id()), H5Fclose);
+    const Handle access = large
+                              ? access_list(memory, format::kPageThreshold, format::kPageAlignment)
+                              : access_list(memory, 1, format::kSectionAlignment);
+    Handle file(H5Fopen(kName, H5F_ACC_RDWR, access.id()), H5Fclose);
     if (!file.good()) return false;
     for (std::size_t i = 0; i < plans.size(); ++i) {
         if (is_large(plans[i]) != large) continue;
@@ -337,14 +341,14 @@ std::string find_place(const Handle& file, const Look& look, std::vector<Place>&
 
 }  // namespace
 
-std::optional<std::vector<Place>> make_layout(const std::filesystem::path& path,
-                                              std::span<const Plan> plans) {
+std::optional<Layout> make_layout(std::span<const Plan> plans) {
     const Silence silence;
-    std::vector<Place> places(plans.size());
-    const bool made = make_file(path.c_str()) && make_datasets(path.c_str(), plans, true, places) &&
-                      make_datasets(path.c_str(), plans, false, places);
+    Layout layout{std::vector<Place>(plans.size()), {}};
+    const bool made = make_file(layout.rest) &&
+                      make_datasets(layout.rest, plans, true, layout.places) &&
+                      make_datasets(layout.rest, plans, false, layout.places);
     if (!made) return std::nullopt;
-    return places;
+    return layout;
 }
 
 FoundLayout find_layout(const std::filesystem::path& path) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cdprep/format/file_header.h"
+#include "write/sparse_memory.h"
 
 namespace cdprep::write {
 
@@ -25,12 +26,16 @@ struct Place {
     std::uint64_t count;
 };
 
-/// Makes the HDF5 file at `path` (which exists and is empty) with a user block
-/// of zeros and one allocated, unwritten dataset per plan, named and described.
-/// Counts are at least 1. Returns the places in the order of the plans; nothing
-/// when HDF5 fails, which on a sound machine means that the disk is full.
-[[nodiscard]] std::optional<std::vector<Place>> make_layout(const std::filesystem::path& path,
-                                                            std::span<const Plan> plans);
+/// An HDF5 file without what its datasets hold.
+struct Layout {
+    std::vector<Place> places;  ///< in the order of the plans
+    SparseMemory rest;          ///< everything but the datasets; its size is the file's
+};
+
+/// Makes an HDF5 file with a user block of zeros and one allocated, unwritten
+/// dataset per plan, named and described. Counts are at least 1. Nothing when
+/// HDF5 fails, which means that memory is short.
+[[nodiscard]] std::optional<Layout> make_layout(std::span<const Plan> plans);
 
 /// Finds the datasets of a file that any tool may have written. `damage` names
 /// the first dataset that is not contiguous or not of our type.

@@ -64,6 +64,23 @@ Result<Done> write_sections(OutputFile& file, std::span<const Section> sections,
     return Done{};
 }
 
+/// Writes what HDF5 put around the sections.
+Result<Done> write_rest(OutputFile& file, const Layout& layout) {
+    std::vector<Place> places = layout.places;
+    places.push_back({SectionId{}, layout.rest.size(), 0});
+    std::sort(places.begin(), places.end(),
+              [](const Place& a, const Place& b) { return a.offset < b.offset; });
+    std::uint64_t at = 0;
+    std::vector<std::byte> bytes;
+    for (const Place& place : places) {
+        bytes.resize(static_cast<std::size_t>(place.offset - at));
+        layout.rest.read(at, bytes);
+        if (Result<Done> written = file.write_at(at, bytes); !written) return written;
+        at = place.offset + place.count * format::element_size(place.id);
+    }
+    return Done{};
+}
+
 /// Puts the user block in front; the magic comes last, with everything else of
 /// it already there.
 Result<Done> write_user_block(OutputFile& file, const format::FileHeader& facts,
@@ -92,9 +109,9 @@ Result<Done> commit_checked(OutputFile& file, const std::filesystem::path& path,
 }
 
 Error no_layout(const std::filesystem::path& path) {
-    return {ErrorCode::unwritable,
+    return {ErrorCode::over_budget,
             path.string() +
-                ": HDF5 could not lay the file out; the disk may be full. The file "
+                ": HDF5 could not lay the file out; memory may be short. The file "
                 "that was there before is unchanged."};
 }
 
@@ -124,10 +141,11 @@ Result<Done> write_and_check(const std::filesystem::path& path, const format::Fi
     if (!created) return created.error();
     OutputFile& file = created.value();
     const std::vector<Section> sorted = by_id(sections);
-    const auto places = make_layout(file.temporary(), plans_for(sorted));
-    if (!places) return no_layout(path);
-    const std::vector<SectionEntry> entries = entries_for(sorted, *places);
+    const std::optional<Layout> layout = make_layout(plans_for(sorted));
+    if (!layout) return no_layout(path);
+    const std::vector<SectionEntry> entries = entries_for(sorted, layout->places);
     if (Result<Done> written = write_sections(file, sorted, entries); !written) return written;
+    if (Result<Done> written = write_rest(file, *layout); !written) return written;
     if (Result<Done> sealed = write_user_block(file, facts, entries); !sealed) return sealed;
     return commit_checked(file, path, blame);
 }
