@@ -24,6 +24,12 @@
 // stay below eta = 64 u M (1 + L^2 / |n|). A foot that is wrongly thought inside or
 // outside is within eta of an edge, so the other's distance is right within eta.
 //
+// Support. Whatever p is, the triangle lies beyond the plane through its corner
+// that is least in p's direction: min(corner . p) / |p| is a lower bound, tight
+// when p is near the nearest point. Its products, sum, division and the corners
+// themselves are off by at most 8 u M. Near the surface p's direction is not
+// known well enough, and the bounds above are the better ones.
+//
 // Slivers. Where eta is larger than the inradius |n| / perimeter, the face is left
 // out of the lower bound: every point of it is within the inradius of an edge.
 
@@ -33,6 +39,8 @@ namespace {
 constexpr double kUnit = 0x1p-53;
 constexpr double kCandidateError = 16 * kUnit;
 constexpr double kFaceError = 64 * kUnit;
+constexpr double kSupportError = 8 * kUnit;
+constexpr double kLeastSquarable = 0x1p-400;
 
 struct Vector {
     double x, y, z;
@@ -91,6 +99,15 @@ std::optional<Vector> foot_inside(const Vector& a, const Vector& b, const Vector
     return (at_a / all) * a + (at_b / all) * b + (at_c / all) * c;
 }
 
+/// A lower bound from the plane across `nearest`; `farthest` is the distance of
+/// the farthest corner.
+double support_bound(const std::array<Vector, 3>& corner, const Nearest& nearest, double farthest) {
+    if (nearest.distance < kLeastSquarable) return 0;
+    const Vector& p = nearest.point;
+    const double least = std::min({dot(corner[0], p), dot(corner[1], p), dot(corner[2], p)});
+    return least / nearest.distance - kSupportError * farthest;
+}
+
 }  // namespace
 
 PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t) noexcept {
@@ -124,8 +141,9 @@ PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t
         height > 2 * rounding ? kFaceError * farthest * (1 + longest * longest / height) : inradius;
     const double candidate_error = kCandidateError * farthest;
     const double upper = best.distance + candidate_error;
-    const double lower =
+    const double by_error =
         eta < inradius ? best.distance - eta : on_edges - candidate_error - inradius;
+    const double lower = std::max(by_error, support_bound(corner, best, farthest));
     const auto back = [&](double x) { return std::ldexp(x, -exponent); };
     // The last factor covers the roundings of these sums; scaling back may round
     // a subnormal, so one step outwards covers that.

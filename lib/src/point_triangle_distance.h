@@ -14,8 +14,9 @@ struct PointTriangleDistance {
 };
 
 /// Works for triangles without area and for all sizes from subnormals to
-/// kMaxCoordinate. The interval is a few ulp of the farthest corner's distance
-/// wide, more for slivers.
+/// kMaxCoordinate. The interval is at most 32 u of the farthest corner's distance
+/// wide, u = 2^-53, unless the point is much nearer than that: then up to 200 u,
+/// and more for slivers.
 [[nodiscard]] PointTriangleDistance point_triangle_distance(const Double3& q,
                                                             const Corners& t) noexcept;
 

@@ -19,6 +19,13 @@ def shared_folder():
     return folder
 
 
+def shared_models_if_there(*names):
+    """Those of the test models, or none where a checkout has none."""
+    beside = pathlib.Path(__file__).resolve().parents[2].parent / "shared"
+    folder = pathlib.Path(os.environ.get("CDPREP_SHARED", beside)) / "models"
+    return [folder / name for name in names if (folder / name).is_file()]
+
+
 def run(program, *arguments, **options):
     """Runs cdprep; returns the finished process with text output."""
     return subprocess.run([program, *map(str, arguments)], capture_output=True, text=True,
@@ -31,9 +38,9 @@ def must(condition, sentence):
         sys.exit(1)
 
 
-def bake(program, *arguments):
+def bake(program, *arguments, **options):
     """Bakes, which must succeed."""
-    done = run(program, "bake", *arguments)
+    done = run(program, "bake", *arguments, **options)
     must(done.returncode == 0, f"bake {arguments} exited {done.returncode}: {done.stderr}")
     return done
 

@@ -18,6 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMostThreads = 4096;
+constexpr int kMostSeconds = 1'000'000;
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 50;
+
 struct Arguments {
     std::vector<fs::path> inputs;
     fs::path output;
@@ -174,7 +178,8 @@ void add_bake(CLI::App& app, Exit& exit) {
                      "Merge vertices this close, in model units")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor");
+    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
+        ->check(CLI::Range(0, kMostThreads));
     command->add_flag("--timings", arguments->timings, "Show how long each stage took");
     command->add_option("--format", arguments->format, "text or json")
         ->check(CLI::IsMember({"text", "json"}))
@@ -184,13 +189,16 @@ void add_bake(CLI::App& app, Exit& exit) {
     command
         ->add_option("--import-memory", arguments->import_memory,
                      "Most memory an import may use, such as 2GB")
-        ->transform(CLI::AsSizeValue(false));
+        ->transform(CLI::AsSizeValue(false))
+        ->check(CLI::Range(std::uint64_t{1}, kMostBytes));
     command
         ->add_option("--import-file-size", arguments->import_file_size,
                      "Largest file to import, such as 4GB")
-        ->transform(CLI::AsSizeValue(false));
-    command->add_option("--import-time", arguments->import_seconds,
-                        "Most seconds an import may take");
+        ->transform(CLI::AsSizeValue(false))
+        ->check(CLI::Range(std::uint64_t{1}, kMostBytes));
+    command
+        ->add_option("--import-time", arguments->import_seconds, "Most seconds an import may take")
+        ->check(CLI::Range(1, kMostSeconds));
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 

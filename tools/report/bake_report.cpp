@@ -56,7 +56,8 @@ std::string bake_json(const std::vector<BakeReport>& reports) {
     nlohmann::ordered_json json;
     json["models"] = nlohmann::ordered_json::array();
     for (const BakeReport& report : reports) json["models"].push_back(to_json(report));
-    return json.dump(2) + "\n";
+    // File names need not be UTF-8; JSON must.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace cdprep::report

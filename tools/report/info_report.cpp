@@ -89,7 +89,8 @@ std::string info_json(const std::string& file, const Model& model,
                                     {"count", entry.count}});
     }
     json["provenance"] = provenance(model);
-    return json.dump(2) + "\n";
+    // File names need not be UTF-8; JSON must.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace cdprep::report

@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Fixed words and exit codes: what is asked wrongly, cannot be read or cannot be
+written gives one sentence that names it, and changes nothing.
+
+Usage: asked_wrongly.py CDPREP
+"""
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from killed_bake import digest, write_sheet
+from shared_models import bake, must, run
+
+IDENTITY = "1 0 0 0 1 0 0 0 1 0 0 0"
+
+
+def main():
+    program = sys.argv[1]
+    scratch = tempfile.TemporaryDirectory()
+    folder = pathlib.Path(scratch.name)
+    write_sheet(folder / "sheet.off", 4)
+    (folder / "again").mkdir()
+    write_sheet(folder / "again" / "sheet.off", 5)
+    model = folder / "sheet.cdp.h5"
+    bake(program, folder / "sheet.off")
+    must(model.exists(), "without -o the output is not beside the input")
+    before = digest(model)
+    (folder / "text.cdp.h5").write_text("not a bake " * 1000)
+    (folder / "a folder").mkdir()
+    (folder / "notes.xyz").write_text("1 2 3\n")
+    (folder / "poses").write_text(IDENTITY + "\n1 0 0 0 1 0 0 0 -1 0 0 0\n")
+    (folder / "words").write_text(IDENTITY + "\n1 0 0 0 1 0 0 0 x 0 0 0\n")
+    (folder / "empty poses").write_text("# none\n")
+    pair = ["query", "overlap", model, model]
+
+    cases = [  # arguments, exit code, words of the sentence
+        ([], 2, []),
+        (["bake"], 2, []),
+        (["frobnicate"], 2, []),
+        (["bake", folder / "sheet.off", "--no-such-option"], 2, []),
+        (["bake", folder / "missing.off"], 3, ["missing.off"]),
+        (["bake", folder / "a folder"], 3, ["a folder"]),
+        (["bake", folder / "notes.xyz"], 3, ["notes.xyz"]),
+        (["bake", "/dev/null", "-o", folder / "null"], 3, ["/dev/null"]),
+        (["bake", folder / "sheet.off", folder / "again" / "sheet.off", "--output-dir",
+          folder / "out"], 2, [str(folder / "sheet.off"), "again/sheet.off"]),
+        (["bake", folder / "sheet.off", folder / "again" / "sheet.off", "-o", model], 2,
+         ["again/sheet.off"]),
+        (["bake", folder / "sheet.off", "-o", model, "--output-dir", folder], 2, []),
+        (["bake", folder / "sheet.off", "-o", folder / "sheet.off"], 2, ["sheet.off"]),
+        (["bake", folder / "sheet.off", "-o", folder / "no" / "m.cdp.h5"], 4, ["m.cdp.h5"]),
+        (["bake", folder / "sheet.off", "--output-dir", model], 4, ["sheet.cdp.h5"]),
+        (["bake", folder / "sheet.off", "--weld", "-1"], 2, []),
+        (["bake", folder / "sheet.off", "--weld", "nan"], 2, []),
+        (["bake", folder / "sheet.off", "--progress", "loud"], 2, ["loud"]),
+        (["bake", folder / "sheet.off", "--import-file-size", "10"], 5, ["sheet.off"]),
+        (["bake", folder / "sheet.off", "-j", "-1"], 2, []),
+        (["bake", folder / "sheet.off", "--import-memory", "-1"], 2, []),
+        (["bake", folder / "sheet.off", "--import-memory", "0"], 2, []),
+        (["bake", folder / "sheet.off", "--import-time", "-1"], 2, []),
+        (["info", folder / "text.cdp.h5"], 3, ["text.cdp.h5"]),
+        (["info", folder / "missing.cdp.h5"], 3, ["missing.cdp.h5"]),
+        (["info", folder / "a folder"], 3, ["a folder"]),
+        (["info", folder / "sheet.off"], 3, ["sheet.off"]),
+        (["reindex", folder / "text.cdp.h5"], 3, ["text.cdp.h5"]),
+        (["query", "overlap", model], 2, []),
+        (["query", "overlap", model, folder / "missing.cdp.h5"], 3, ["missing.cdp.h5"]),
+        ([*pair, "--pose", "1 2 3"], 2, ["3", "12"]),
+        ([*pair, "--pose", "1 0 0 0 1 0 0 0 1 0 0 nan"], 2, ["nan"]),
+        ([*pair, "--pose", "2 0 0 0 1 0 0 0 1 0 0 0"], 2, ["R^T R"]),
+        ([*pair, "--poses", folder / "poses"], 2, ["poses", "line 2", "mirrors"]),
+        ([*pair, "--poses", folder / "words"], 3, ["words", "line 2", "'x'"]),
+        ([*pair, "--poses", folder / "missing"], 3, ["missing"]),
+        ([*pair, "--poses", folder / "poses", "--pose", IDENTITY], 2, []),
+        ([*pair, "--structure", "octree"], 2, ["octree"]),
+        ([*pair, "--structure", "nonsense"], 2, ["nonsense"]),
+        ([*pair, "--as", "liquid"], 2, ["liquid"]),
+        ([*pair, "--format", "xml"], 2, ["xml"]),
+        (["query", "inside", model], 2, ["--points"]),
+        ([*pair, "--poses", folder / "empty poses"], 0, []),
+        (["--help"], 0, []),
+        (["bake", "--help"], 0, []),
+        (["--version"], 0, []),
+    ]
+    for arguments, code, words in cases:
+        done = run(program, *arguments)
+        must(done.returncode == code, f"{arguments}: exit {done.returncode} instead of {code}: "
+                                      f"{done.stderr}{done.stdout}")
+        if code == 0:
+            must(not done.stderr, f"{arguments}: {done.stderr}")
+            continue
+        must(not done.stdout, f"{arguments} fails but prints {done.stdout}")
+        must(done.stderr.strip() and all(word in done.stderr for word in words),
+             f"{arguments}: {done.stderr}")
+        must(digest(model) == before, f"{arguments} changed the model")
+    must(not (folder / "out").exists() or not list((folder / "out").iterdir()),
+         "something was baked although two inputs have one output")
+
+    # One bad input does not stop the others; the JSON has each.
+    done = run(program, "bake", folder / "missing.off", folder / "sheet.off", "--output-dir",
+               folder / "batch", "--format", "json")
+    reports = json.loads(done.stdout)["models"]
+    must(done.returncode == 3 and [report["exit"] for report in reports] == [3, 0],
+         f"a batch exited {done.returncode}: {done.stdout}")
+    must((folder / "batch" / "sheet.cdp.h5").exists(), "the good input was not baked")
+
+    # Names in any bytes.
+    odd = os.fsencode(folder) + b"/\xff\xfe odd\n.off"
+    os.link(folder / "sheet.off", odd)
+    done = subprocess.run([program, "bake", odd, "--format", "json"], capture_output=True)
+    must(done.returncode == 0 and json.loads(done.stdout.decode("utf-8", "replace")),
+         f"a name that is not UTF-8: {done}")
+
+    # Answers that nobody can take.
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([program, *map(str, pair)], stdout=full, stderr=subprocess.PIPE)
+    must(done.returncode == 4 and done.stderr, f"a full stdout exited {done.returncode}")
+    print(f"{len(cases)} ways to ask")
+
+
+main()

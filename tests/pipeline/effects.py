@@ -1,0 +1,85 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""A bake holds what its effects need and no more; a question that needs more
+names the missing sections and is asked wrongly (exit 2).
+
+Usage: effects.py CDPREP
+"""
+import json
+import pathlib
+import sys
+import tempfile
+
+from killed_bake import write_sheet
+from shared_models import bake, must, run
+
+GEOMETRY = {"positions_f32", "triangles", "bvh_nodes", "degenerate_bits", "bounds", "provenance"}
+SOURCE = {"source_triangle", "source_vertex", "source_face", "group_runs", "group_names",
+          "material_runs", "material_names", "instances", "instance_names"}
+# What each effect may hold; sections that would say nothing are left out.
+ALLOWED = {
+    "collide": GEOMETRY | {"components"}, "inside": GEOMETRY | {"components"},
+    "overlap": GEOMETRY | SOURCE, "ray": GEOMETRY | SOURCE, "closest": GEOMETRY | SOURCE,
+    "distance": GEOMETRY | SOURCE, "within": GEOMETRY | SOURCE,
+    "response": {"mass_properties", "bounds", "provenance"},
+}
+MUST_HAVE = {"collide": {"bvh_nodes", "components"}, "inside": {"components"},
+             "overlap": {"source_triangle"}, "response": {"bounds"}}
+
+
+def sections(program, path):
+    info = run(program, "info", path, "--deep", "--format", "json")
+    must(info.returncode == 0, f"info --deep exited {info.returncode}: {info.stderr}")
+    return {section["name"] for section in json.loads(info.stdout)["sections"]}
+
+
+def main():
+    program = sys.argv[1]
+    scratch = tempfile.TemporaryDirectory()
+    folder = pathlib.Path(scratch.name)
+    write_sheet(folder / "sheet.off", 20)
+    (folder / "points").write_text("0 0 0\n")
+    (folder / "rays").write_text("0.3 0.3 9 0 0 -1\n")
+
+    baked, sizes = {}, {}
+    for effect, allowed in ALLOWED.items():
+        baked[effect] = folder / f"{effect}.cdp.h5"
+        bake(program, folder / "sheet.off", "-o", baked[effect], "--effects", effect)
+        found = sections(program, baked[effect])
+        must(found <= allowed, f"--effects {effect} also baked {found - allowed}")
+        must(MUST_HAVE.get(effect, set()) <= found, f"--effects {effect} holds only {found}")
+        sizes[effect] = baked[effect].stat().st_size
+    must(sizes["response"] < sizes["collide"] < sizes["overlap"], f"sizes {sizes}")
+
+    pair = [baked["collide"], baked["collide"]]
+    for arguments, served in ((["collide", *pair], True),
+                              (["collide", *pair, "--as", "solid"], True),
+                              (["collide", baked["overlap"], baked["overlap"]], True),
+                              (["collide", baked["overlap"], baked["overlap"], "--as", "solid"],
+                               False),
+                              (["overlap", *pair], False),
+                              (["inside", baked["collide"], "--points", folder / "points"], True),
+                              (["inside", baked["ray"], "--points", folder / "points"], False),
+                              (["ray", baked["ray"], "--rays", folder / "rays"], True),
+                              (["closest", baked["inside"], "--points", folder / "points"], False),
+                              (["closest", baked["response"], "--points", folder / "points"],
+                               False)):
+        done = run(program, "query", *arguments)
+        must(done.returncode == (0 if served else 2),
+             f"query {arguments} exited {done.returncode}: {done.stderr}")
+        if not served:
+            must("--effects" in done.stderr and len(done.stderr.splitlines()) == 1
+                 and ("source_triangle" in done.stderr or "components" in done.stderr),
+                 f"the sentence names no section: {done.stderr}")
+
+    everything = folder / "all.cdp.h5"
+    bake(program, folder / "sheet.off", "-o", everything, "--effects", "all")
+    missing = (GEOMETRY - {"degenerate_bits"} | {"components", "source_triangle"}) - sections(program, everything)
+    must(not missing, f"--effects all left {missing} out")
+    for effects in ("colide", "collide,,overlap", "collide, overlap"):
+        done = run(program, "bake", folder / "sheet.off", "-o", everything, "--effects", effects)
+        must(done.returncode == 2 and "overlap" in done.stderr, f"{effects}: {done.stderr}")
+    print(sizes)
+
+
+main()

@@ -1,0 +1,114 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""h5py shows a bake as tables that a scientist understands, with the mesh in them.
+
+Usage: opens_in_h5py.py CDPREP
+"""
+import json
+import pathlib
+import sys
+import tempfile
+
+from shared_models import SKIPPED, bake, must, run
+
+try:
+    import h5py
+    import numpy
+except ImportError:
+    print("skipped: no h5py")
+    sys.exit(SKIPPED)
+
+# Two groups and materials, a quad, 0.1 as text with more digits than a float has.
+OBJ = """mtllib none.mtl
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 0.12345678901234
+g floor
+usemtl stone
+f 1 4 3 2
+g walls
+usemtl wood
+f 1 2 5
+f 2 3 5
+f 3 4 5
+f 4 1 5
+"""
+CORNERS = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 0.12345678901234)]
+
+
+def text(attribute):
+    return attribute.decode() if isinstance(attribute, bytes) else str(attribute)
+
+
+def names(dataset):
+    return bytes(dataset[:]).decode().split("\0")[:-1]
+
+
+def triangle_set(data):
+    """Each triangle by its corners' coordinates, first the least, in source order."""
+    positions, triangles = data["positions_f64"][:], data["triangles"][:]
+    ordered = numpy.empty_like(triangles)
+    ordered[data["source_triangle"][:]] = triangles
+    corners = [[tuple(positions[v]) for v in triangle] for triangle in ordered]
+    return [triangle[k:] + triangle[:k] for triangle in corners
+            for k in [triangle.index(min(triangle))]]
+
+
+def main():
+    program = sys.argv[1]
+    scratch = tempfile.TemporaryDirectory()
+    folder = pathlib.Path(scratch.name)
+    (folder / "tent.obj").write_text(OBJ)
+    output = folder / "tent.cdp.h5"
+    bake(program, folder / "tent.obj", "-o", output, "--effects", "all")
+    info = json.loads(run(program, "info", output, "--format", "json").stdout)
+
+    with h5py.File(output, "r") as file:
+        must(list(file) == ["cdprep"], f"groups {list(file)}")
+        data = file["cdprep"]
+        must({section["name"] for section in info["sections"]} == set(data),
+             "info and h5py list different sections")
+        for section in info["sections"]:
+            dataset = data[section["name"]]
+            must(text(dataset.attrs["units"]) and text(dataset.attrs["description"]),
+                 f"{section['name']} has no units or no description")
+            must(dataset.id.get_offset() == section["offset"]
+                 and dataset.id.get_storage_size() == section["bytes"]
+                 and len(dataset) == section["count"], f"{section['name']} lies elsewhere")
+            must(dataset.chunks is None and dataset.compression is None,
+                 f"{section['name']} is not one plain run")
+
+        must({tuple(p) for p in data["positions_f64"][:]} == set(CORNERS), "positions differ")
+        # The quad is fanned from its first corner; faces keep their order.
+        c = CORNERS
+        faces = [[c[0], c[3], c[2]], [c[0], c[2], c[1]], [c[0], c[1], c[4]], [c[1], c[2], c[4]],
+                 [c[2], c[3], c[4]], [c[3], c[0], c[4]]]
+        found, wanted = triangle_set(data), [f[k:] + f[:k] for f in faces for k in [f.index(min(f))]]
+        must(sorted(map(sorted, found)) == sorted(map(sorted, wanted))
+             or sorted(map(sorted, found[2:])) == sorted(map(sorted, wanted[2:])),
+             f"triangles differ: {found}")
+        must(found[2:] == wanted[2:], f"triangles or their winding differ: {found}")
+        must(list(data["source_face"][:]) == [0, 0, 1, 2, 3, 4], "faces differ")
+        must(names(data["group_names"]) == ["floor", "walls"], "groups differ")
+        must(names(data["material_names"]) == ["stone", "wood"], "materials differ")
+        for runs in ("group_runs", "material_runs"):
+            must([(r["first_triangle"], r["triangle_count"], r["name"]) for r in data[runs][:]]
+                 == [(0, 2, 0), (2, 4, 1)], f"{runs} differ")
+
+        mass = data["mass_properties"][0]  # a pyramid over a unit square
+        must(abs(mass["volume"] - 0.12345678901234 / 3) < 1e-15, f"volume {mass['volume']}")
+        must(numpy.allclose(mass["centre"][2], 0.12345678901234 / 4, atol=1e-15), "centre differs")
+        must(mass["inertia"].shape == (6,), "inertia has another shape")
+        bounds = data["bounds"][0]
+        must(list(bounds["lower"]) == [0, 0, 0] and bounds["upper"][0] == 1, "bounds differ")
+        must(data["bvh_nodes"].dtype["lower"].shape == (3, 8), "boxes have another shape")
+        must(numpy.all(data["bvh_nodes"]["lower"][0][:, 0] <= data["bvh_nodes"]["upper"][0][:, 0]),
+             "the first box is empty")
+        provenance = json.loads(bytes(data["provenance"][:]))
+        must(str(folder) not in json.dumps(provenance), "the provenance knows a path")
+        print(json.dumps(provenance))
+
+
+main()
