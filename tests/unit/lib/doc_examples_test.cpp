@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The examples of README.md and of the public headers, as programs that run.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iostream>
+#include <optional>
+#include <sstream>
 #include <vector>
 
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 #include "support/open_tiny.h"
+#include "support/scratch_folder.h"
 
 namespace cdprep::test {
 namespace {
@@ -19,27 +19,20 @@ namespace {
 class DocExamples : public testing::Test {
 protected:
     void SetUp() override {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("doc_examples_test_" + std::to_string(::getpid()));
-        std::filesystem::create_directories(folder_);
-        before_ = std::filesystem::current_path();
-        std::filesystem::current_path(folder_);
         const TestMesh cube = unit_cube();
         const AlignedBytes bytes = bake_tiny(cube.positions, cube.triangles);
         for (const char* name : {"arm.cdp.h5", "part.cdp.h5", "bracket.cdp.h5"}) {
-            std::ofstream(name, std::ios::binary)
-                .write(reinterpret_cast<const char*>(bytes.span().data()),
-                       static_cast<std::streamsize>(bytes.size()));
+            scratch_.write(name, bytes.span());
         }
+        std::filesystem::current_path(scratch_.path());
     }
     void TearDown() override {
         std::filesystem::current_path(before_);
-        std::filesystem::remove_all(folder_);
     }
 
 private:
-    std::filesystem::path folder_;
-    std::filesystem::path before_;
+    const ScratchFolder scratch_;
+    const std::filesystem::path before_ = std::filesystem::current_path();
 };
 
 struct ReadmeAnswer {

@@ -12,36 +12,12 @@
 #include "cdprep/collide.h"
 #include "cdprep/format/sections.h"
 #include "support/open_tiny.h"
+#include "support/scratch_folder.h"
 
 namespace cdprep::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that goes with the test.
-class Scratch {
-public:
-    Scratch() : path_(fs::temp_directory_path() / ("model_test_" + std::to_string(::getpid()))) {
-        fs::create_directories(path_);
-    }
-    ~Scratch() {
-        fs::remove_all(path_);
-    }
-    Scratch(const Scratch&) = delete;
-    Scratch& operator=(const Scratch&) = delete;
-    [[nodiscard]] fs::path write(const char* name, std::span<const std::byte> bytes) const {
-        std::ofstream file(path_ / name, std::ios::binary);
-        file.write(reinterpret_cast<const char*>(bytes.data()),
-                   static_cast<std::streamsize>(bytes.size()));
-        return path_ / name;
-    }
-    [[nodiscard]] const fs::path& path() const {
-        return path_;
-    }
-
-private:
-    fs::path path_;
-};
 
 AlignedBytes baked_cube() {
     const TestMesh cube = unit_cube();
@@ -49,7 +25,7 @@ AlignedBytes baked_cube() {
 }
 
 TEST(Model, OpensFromAPathAsFromMemory) {
-    const Scratch scratch;
+    const ScratchFolder scratch;
     const AlignedBytes bytes = baked_cube();
     const fs::path path = scratch.write("cube.cdp.h5", bytes.span());
     for (const auto& opened : {Model::open(path), Model::open_trusted(path)}) {
@@ -64,7 +40,7 @@ TEST(Model, OpensFromAPathAsFromMemory) {
 }
 
 TEST(Model, SaysWhatIsWrongWithAFile) {
-    const Scratch scratch;
+    const ScratchFolder scratch;
     const AlignedBytes bytes = baked_cube();
     const auto sentence = [](const fs::path& path) {
         const auto opened = Model::open(path);
@@ -72,7 +48,7 @@ TEST(Model, SaysWhatIsWrongWithAFile) {
     };
     EXPECT_NE(sentence(scratch.path() / "none").find("cannot be opened"), std::string::npos);
     EXPECT_NE(sentence(scratch.path()).find("not a regular file"), std::string::npos);
-    EXPECT_NE(sentence(scratch.write("empty", {})).find("has 0 bytes"), std::string::npos);
+    EXPECT_NE(sentence(scratch.write("empty", "")).find("has 0 bytes"), std::string::npos);
     EXPECT_NE(sentence(scratch.write("cut", bytes.span().first(bytes.size() - 1)))
                   .find("but its header says " + std::to_string(bytes.size())),
               std::string::npos);

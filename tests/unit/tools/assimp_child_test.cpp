@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "import/import_file.h"
+#include "support/scratch_folder.h"
 
 namespace cdprep::import {
 namespace {
@@ -26,21 +27,11 @@ using mesh::TriangleSoup;
 /// A folder of its own for each test, removed at the end.
 class AssimpChild : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "cdprep-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override {
-        std::filesystem::remove_all(folder_);
-    }
-
     std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-        std::ofstream(folder_ / name, std::ios::binary) << bytes;
-        return folder_ / name;
+        return scratch_.write(name, bytes);
     }
 
-    std::filesystem::path folder_;
+    const test::ScratchFolder scratch_;
 };
 
 /// A glTF file of one triangle in a separate buffer, used by the given nodes.
@@ -101,12 +92,12 @@ TEST_F(AssimpChild, AnIndexOutOfRangeIsNeverLost) {
 }
 
 TEST_F(AssimpChild, FilesOutsideTheFolderAreNotRead) {
-    std::filesystem::create_directory(folder_ / "inner");
+    std::filesystem::create_directory(scratch_.path() / "inner");
     write("b.bin", triangle_buffer());
     const std::string nodes = R"({"name":"root","mesh":0})";
     EXPECT_FALSE(import_file(write("inner/s.gltf", gltf(nodes, "../b.bin"))).ok());
     EXPECT_FALSE(
-        import_file(write("inner/s.gltf", gltf(nodes, (folder_ / "b.bin").string()))).ok());
+        import_file(write("inner/s.gltf", gltf(nodes, (scratch_.path() / "b.bin").string()))).ok());
     write("inner/b.bin", triangle_buffer());
     EXPECT_TRUE(import_file(write("inner/s.gltf", gltf(nodes, "b.bin"))).ok());
     EXPECT_TRUE(import_file(write("s.gltf", gltf(nodes, "inner/b.bin"))).ok());

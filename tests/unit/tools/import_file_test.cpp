@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "support/scratch_folder.h"
+
 namespace cdprep::import {
 namespace {
 
@@ -20,21 +22,11 @@ using mesh::TriangleSoup;
 
 class ImportFile : public testing::Test {
 protected:
-    void SetUp() override {
-        std::string name = (std::filesystem::temp_directory_path() / "cdprep-XXXXXX").string();
-        ASSERT_NE(::mkdtemp(name.data()), nullptr);
-        folder_ = name;
-    }
-    void TearDown() override {
-        std::filesystem::remove_all(folder_);
-    }
-
     std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-        std::ofstream(folder_ / name, std::ios::binary) << bytes;
-        return folder_ / name;
+        return scratch_.write(name, bytes);
     }
 
-    std::filesystem::path folder_;
+    const test::ScratchFolder scratch_;
 };
 
 const std::string kObj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -60,15 +52,15 @@ TEST_F(ImportFile, TheContentDecidesWhateverTheName) {
 }
 
 TEST_F(ImportFile, WhatIsNoReadableFileIsOneSentence) {
-    const auto missing = import_file(folder_ / "none.obj");
+    const auto missing = import_file(scratch_.path() / "none.obj");
     ASSERT_FALSE(missing.ok());
     EXPECT_EQ(missing.error().code, ErrorCode::unreadable);
-    EXPECT_EQ(missing.error().message,
-              (folder_ / "none.obj").string() + ": cannot be opened: No such file or directory.");
-    EXPECT_FALSE(import_file(folder_).ok());
+    EXPECT_EQ(missing.error().message, (scratch_.path() / "none.obj").string() +
+                                           ": cannot be opened: No such file or directory.");
+    EXPECT_FALSE(import_file(scratch_.path()).ok());
     EXPECT_FALSE(import_file(write("empty.obj", "")).ok());
-    ASSERT_EQ(::mkfifo((folder_ / "pipe.obj").c_str(), 0600), 0);
-    EXPECT_FALSE(import_file(folder_ / "pipe.obj").ok());
+    ASSERT_EQ(::mkfifo((scratch_.path() / "pipe.obj").c_str(), 0600), 0);
+    EXPECT_FALSE(import_file(scratch_.path() / "pipe.obj").ok());
 }
 
 TEST_F(ImportFile, AFileThatIsTooLargeIsOverBudget) {

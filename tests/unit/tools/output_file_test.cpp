@@ -8,8 +8,8 @@
 
 #include <string>
 
+#include "support/scratch_folder.h"
 #include "unit/tools/image_sections.h"
-#include "unit/tools/scratch_folder.h"
 
 namespace cdprep::write {
 namespace {

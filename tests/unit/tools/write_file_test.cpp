@@ -13,8 +13,8 @@
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model.h"
 #include "support/meshes.h"
+#include "support/scratch_folder.h"
 #include "unit/tools/image_sections.h"
-#include "unit/tools/scratch_folder.h"
 
 namespace cdprep::write {
 namespace {

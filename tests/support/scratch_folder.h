@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace cdprep::test {
 
@@ -27,8 +31,20 @@ public:
         std::filesystem::remove_all(path_, ignored);
     }
 
+    [[nodiscard]] const std::filesystem::path& path() const {
+        return path_;
+    }
     [[nodiscard]] std::string file(const std::string& name) const {
         return (path_ / name).string();
+    }
+    /// Writes a file into it and returns its path.
+    std::filesystem::path write(const std::string& name, std::string_view content) const {
+        std::ofstream(path_ / name, std::ios::binary) << content;
+        return path_ / name;
+    }
+    std::filesystem::path write(const std::string& name, std::span<const std::byte> bytes) const {
+        return write(name,
+                     std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     }
 
     /// Names of everything in it.
