@@ -66,6 +66,7 @@ std::vector<std::string> split(const std::string& list) {
 
 std::vector<std::string> all_names() {
     std::vector<std::string> names;
+    names.reserve(kEffects.size());
     for (const Effect& effect : kEffects) names.emplace_back(effect.name);
     return names;
 }

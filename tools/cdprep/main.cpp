@@ -6,23 +6,41 @@
 #include "command.h"
 #include "interrupt.h"
 
-int main(int argc, char** argv) {
-    using cdprep::cli::Exit;
+namespace cdprep::cli {
+namespace {
+
+Exit run(int argc, char** argv) {
     CLI::App app{"Bake meshes to mappable files and ask them exact questions", "cdprep"};
     app.set_version_flag("--version", CDPREP_VERSION);
     app.require_subcommand(1);
     Exit exit = Exit::success;
-    cdprep::cli::add_bake(app, exit);
-    cdprep::cli::add_info(app, exit);
-    cdprep::cli::add_query(app, exit);
-    cdprep::cli::add_reindex(app, exit);
-    cdprep::cli::watch_for_interrupts();
+    add_bake(app, exit);
+    add_info(app, exit);
+    add_query(app, exit);
+    add_reindex(app, exit);
+    watch_for_interrupts();
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         const bool asked = error.get_exit_code() == 0;  // --help, --version
         app.exit(error, std::cout, std::cerr);
-        return static_cast<int>(asked ? Exit::success : Exit::usage);
+        return asked ? Exit::success : Exit::usage;
+    }
+    if (is_interrupted()) exit = Exit::interrupted;
+    if (exit == Exit::success && !std::cout.flush()) {
+        std::cerr << "cdprep: standard output takes no more; the result is not complete.\n";
+        exit = Exit::unwritable;
+    }
+    return exit;
+}
+
+}  // namespace
+}  // namespace cdprep::cli
+
+int main(int argc, char** argv) {
+    using cdprep::cli::Exit;
+    try {
+        return static_cast<int>(cdprep::cli::run(argc, argv));
     } catch (const std::bad_alloc&) {
         std::cerr << "cdprep: this needs more memory than the machine gives.\n";
         return static_cast<int>(Exit::over_budget);
@@ -30,10 +48,4 @@ int main(int argc, char** argv) {
         std::cerr << "cdprep: internal error: " << error.what() << ". Please report it.\n";
         return static_cast<int>(Exit::internal);
     }
-    if (cdprep::cli::is_interrupted()) exit = Exit::interrupted;
-    if (exit == Exit::success && !std::cout.flush()) {
-        std::cerr << "cdprep: standard output takes no more; the result is not complete.\n";
-        exit = Exit::unwritable;
-    }
-    return static_cast<int>(exit);
 }

@@ -16,7 +16,7 @@ namespace cdprep::import {
 [[nodiscard]] inline const char* take_vertex(const char* at, const char* end, PolygonChunk& chunk) {
     std::array<double, 3> x{};
     bool single = true;
-    for (std::size_t axis = 0; axis < x.size(); ++axis) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
         at = skip_blanks(at, end);
         const Number number = parse_number(at, end);
         if (!number.next) return nullptr;
