@@ -315,6 +315,17 @@ bool all_finite(const Instance& instance) noexcept {
                        [](double x) { return std::isfinite(x); });
 }
 
+/// Leaves hold the count that the triangle count gives them, and finite numbers.
+Found find_bad_leaf(const Content& content) {
+    for (std::uint64_t i = 0; i < content.entry.count; ++i) {
+        const auto leaf = content.element<BvhLeaf>(i);
+        const std::uint64_t rest = content.header.triangle_count - i * kBvhWidth;
+        const std::uint64_t count = std::min<std::uint64_t>(rest, kBvhWidth);
+        if (leaf.count != count) return content.damage(DamageKind::bad_count, i, leaf.count, count);
+    }
+    return find_bad_float(content);
+}
+
 /// The least index that is out of range: one past the last, or 0 when none fits.
 Found find_bad_vertex_index(const Content& content) {
     const std::uint64_t vertices = content.header.vertex_count;
@@ -350,6 +361,12 @@ Found find_bad_content(const Content& content) {
         case SectionId::bvh_nodes:
             return counted(bvh_shape(content.header.triangle_count).node_count,
                            [&] { return find_bad_float(content); });
+        case SectionId::oriented_nodes:
+            return counted(bvh_shape(content.header.triangle_count).node_count,
+                           [&] { return find_bad_float(content); });
+        case SectionId::bvh_leaves:
+            return counted(bvh_shape(content.header.triangle_count).leaf_count,
+                           [&] { return find_bad_leaf(content); });
         case SectionId::degenerate_bits:
             return content.count_must_be((triangles + 63) / 64);
         case SectionId::components:
@@ -397,6 +414,10 @@ Found find_missing(Bytes file) {
     if (has(SectionId::triangles) && !f32 && !f64) return missing(SectionId::positions_f32);
     if (has(SectionId::bvh_nodes) && !has(SectionId::triangles)) {
         return missing(SectionId::triangles);
+    }
+    if ((has(SectionId::bvh_leaves) || has(SectionId::oriented_nodes)) &&
+        !has(SectionId::bvh_nodes)) {
+        return missing(SectionId::bvh_nodes);
     }
     return std::nullopt;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -123,6 +124,119 @@ Found find_loose_box(Bytes file, const Tree& tree) {
     return std::nullopt;
 }
 
+/// A position in the coordinates that leaves keep.
+double stored_in_leaf(const Tree& tree, const Double3& p, std::size_t axis) {
+    const double x = coordinate(p, axis);
+    if ((tree.header.flags & model_exact_leaves) != 0) return x;
+    return std::ldexp(x - coordinate(tree.header.frame_origin, axis), tree.header.frame_exponent);
+}
+
+bool leaf_matches(const Tree& tree, const BvhLeaf& leaf, std::uint64_t first) {
+    const bool exact = (tree.header.flags & model_exact_leaves) != 0;
+    const double scale = exact ? std::ldexp(1.0, tree.header.frame_exponent) : 1;
+    for (std::uint32_t lane = 0; lane < kBvhWidth; ++lane) {
+        const Triangle& t = tree.triangles[first + std::min(lane, leaf.count - 1)];
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double x = stored_in_leaf(tree, tree.positions[t.vertex[i]], axis);
+                const double local = x - double{leaf.origin[axis]};
+                const double reach = double{leaf.half[axis]} * (1 + 0x1p-40);
+                if (std::fabs(local * scale) > reach) return false;
+                const float kept = static_cast<float>(exact ? x : local);
+                if (leaf.corner[i][axis][lane] != kept) return false;
+            }
+        }
+    }
+    return true;
+}
+
+Found find_wrong_leaf(Bytes file, const Tree& tree) {
+    const auto leaves = copy_of<BvhLeaf>(file, SectionId::bvh_leaves);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        if (!leaf_matches(tree, leaves[i], i * kBvhWidth)) {
+            return Damage{DamageKind::bad_fact, SectionId::bvh_leaves,
+                          place_of(file, SectionId::bvh_leaves, i), i, 0};
+        }
+    }
+    return std::nullopt;
+}
+
+using Vector = std::array<double, 3>;
+
+double dot(const Vector& a, const Vector& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// One oriented box with its third axis.
+struct OrientedBox {
+    Vector centre;
+    Vector half;
+    std::array<Vector, 3> axis;
+};
+
+OrientedBox oriented_box(const OrientedNode& node, std::uint32_t box) {
+    OrientedBox result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        result.centre[i] = double{node.centre[i][box]};
+        result.half[i] = double{node.half[i][box]};
+        for (std::size_t k = 0; k < 2; ++k) result.axis[k][i] = double{node.axis[k][i][box]};
+    }
+    const auto& [a, b, c] = result.axis;
+    result.axis[2] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                      a[0] * b[1] - a[1] * b[0]};
+    return result;
+}
+
+/// Unit axes at right angles, and every vertex of the triangles inside.
+bool oriented_box_holds(const Tree& tree, const OrientedBox& box, std::uint64_t first,
+                        std::uint64_t last) {
+    constexpr double kAxisTolerance = 8 * 0x1p-24;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double wanted = i == k ? 1 : 0;
+            if (!(std::fabs(dot(box.axis[i], box.axis[k]) - wanted) <= kAxisTolerance))
+                return false;
+        }
+    }
+    for (std::uint64_t t = first; t < last; ++t) {
+        for (const std::uint32_t vertex : tree.triangles[t].vertex) {
+            Vector at{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double x = coordinate(tree.positions[vertex], i);
+                const double o = coordinate(tree.header.frame_origin, i);
+                at[i] = std::ldexp(x - o, tree.header.frame_exponent) - box.centre[i];
+            }
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (!(std::fabs(dot(at, box.axis[k])) <= box.half[k])) return false;
+            }
+        }
+    }
+    return true;
+}
+
+Found find_loose_oriented(Bytes file, const Tree& tree) {
+    const auto nodes = copy_of<OrientedNode>(file, SectionId::oriented_nodes);
+    if (nodes.empty()) return std::nullopt;
+    std::uint64_t triangles_per_box = kBvhWidth;
+    for (std::uint32_t level = 0; level < tree.shape.levels; ++level) {
+        for (std::uint32_t i = 0; i < tree.shape.count[level]; ++i) {
+            const std::uint32_t index = tree.shape.first[level] + i;
+            for (std::uint32_t box = 0; box < tree.shape.used_boxes(level, i); ++box) {
+                const std::uint64_t below = std::uint64_t{i} * kBvhWidth + box;
+                const std::uint64_t last =
+                    std::min<std::uint64_t>((below + 1) * triangles_per_box, tree.triangles.size());
+                if (!oriented_box_holds(tree, oriented_box(nodes[index], box),
+                                        below * triangles_per_box, last)) {
+                    return Damage{DamageKind::bad_box, SectionId::oriented_nodes,
+                                  place_of(file, SectionId::oriented_nodes, index), box, 0};
+                }
+            }
+        }
+        triangles_per_box *= kBvhWidth;
+    }
+    return std::nullopt;
+}
+
 Found find_repeated_source(Bytes file) {
     const auto source = copy_of<std::uint32_t>(file, SectionId::source_triangle);
     std::vector<bool> seen(source.size(), false);
@@ -192,6 +306,8 @@ std::optional<Damage> find_deep_damage(std::span<const std::byte> file) {
     if (!tree.nodes.empty()) {
         if (const Found damage = find_loose_box(file, tree)) return damage;
     }
+    if (const Found damage = find_wrong_leaf(file, tree)) return damage;
+    if (const Found damage = find_loose_oriented(file, tree)) return damage;
     if (const Found damage = find_unmarked_degenerate(file, tree)) return damage;
     return find_outside_bounds(file, tree);
 }

@@ -15,7 +15,7 @@ struct Kind {
     const char* name;
 };
 
-constexpr std::array<Kind, 18> kKinds = {{
+constexpr std::array<Kind, 20> kKinds = {{
     {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
     {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
     {SectionId::triangles, sizeof(Triangle), "triangles"},
@@ -34,6 +34,8 @@ constexpr std::array<Kind, 18> kKinds = {{
     {SectionId::material_runs, sizeof(NamedRun), "material_runs"},
     {SectionId::material_names, 1, "material_names"},
     {SectionId::provenance, 1, "provenance"},
+    {SectionId::bvh_leaves, sizeof(BvhLeaf), "bvh_leaves"},
+    {SectionId::oriented_nodes, sizeof(OrientedNode), "oriented_nodes"},
 }};
 
 const Kind* find_kind(SectionId id) noexcept {

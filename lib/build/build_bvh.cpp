@@ -7,6 +7,10 @@
 #include <cstddef>
 #include <limits>
 
+#include "chunks.h"
+#include "make_leaves.h"
+#include "make_oriented.h"
+
 // The builder works on boxes that are already rounded outwards into the frame,
 // so every union of them is exact and no later step can lose a vertex. All
 // decisions depend on sets (counts, least and greatest coordinates) and never on
@@ -23,7 +27,6 @@ using format::kBvhWidth;
 using format::Triangle;
 
 constexpr std::size_t kBins = 16;
-constexpr std::size_t kItemsPerTask = 4096;  ///< a smaller range is one task
 
 struct Box {
     std::array<float, 3> lower = {1, 1, 1};
@@ -368,13 +371,13 @@ Bvh build_bvh(std::span<const Double3> positions, std::span<const Triangle> tria
     bvh.frame = frame_of(extent_of(positions, triangles));
 
     std::vector<Item> items(triangles.size());
-    const std::size_t chunks = (items.size() - 1) / kItemsPerTask + 1;
-    options.parallel_for(chunks, [&](std::size_t chunk) {
-        const std::size_t last = std::min(items.size(), (chunk + 1) * kItemsPerTask);
-        for (std::size_t i = chunk * kItemsPerTask; i < last; ++i) {
-            items[i] = {box_of(triangles[i], positions, bvh.frame), static_cast<std::uint32_t>(i)};
-        }
-    });
+    for_chunks(items.size(), kItemsPerTask, options.parallel_for,
+               [&](std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                       items[i] = {box_of(triangles[i], positions, bvh.frame),
+                                   static_cast<std::uint32_t>(i)};
+                   }
+               });
     if (items.size() > kItemsPerTask) {
         split_in_parallel(items, options.parallel_for);
     } else {
@@ -383,6 +386,8 @@ Bvh build_bvh(std::span<const Double3> positions, std::span<const Triangle> tria
     bvh.order.reserve(items.size());
     for (const Item& item : items) bvh.order.push_back(item.triangle);
     bvh.nodes = make_nodes(items);
+    make_leaves(bvh, positions, triangles, options.parallel_for);
+    if (options.oriented) make_oriented(bvh, options.parallel_for);
     return bvh;
 }
 

@@ -26,6 +26,8 @@ struct Model::State {
     std::span<const std::uint32_t> source_vertex;
     std::span<const std::uint32_t> source_face;
     std::span<const format::BvhNode> nodes;
+    std::span<const format::BvhLeaf> leaves;
+    std::span<const format::OrientedNode> oriented_nodes;
     std::span<const std::uint64_t> degenerate_bits;
     std::span<const format::Component> components;
     std::span<const format::Bounds> bounds;
@@ -64,6 +66,8 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::source_vertex, wanted, source_vertex);
     view(SectionId::source_face, wanted, source_face);
     view(SectionId::bvh_nodes, wanted, nodes);
+    view(SectionId::bvh_leaves, wanted, leaves);
+    view(SectionId::oriented_nodes, wanted, oriented_nodes);
     view(SectionId::degenerate_bits, wanted, degenerate_bits);
     view(SectionId::components, wanted, components);
     view(SectionId::bounds, wanted, bounds);
@@ -160,6 +164,15 @@ std::span<const std::uint32_t> Model::source_face() const noexcept {
 }
 std::span<const format::BvhNode> Model::nodes() const noexcept {
     return state_->nodes;
+}
+std::span<const format::BvhLeaf> Model::leaves() const noexcept {
+    return state_->leaves;
+}
+bool Model::has_exact_leaves() const noexcept {
+    return !state_->leaves.empty() && (state_->header->flags & format::model_exact_leaves) != 0;
+}
+std::span<const format::OrientedNode> Model::oriented_nodes() const noexcept {
+    return state_->oriented_nodes;
 }
 std::span<const std::uint64_t> Model::degenerate_bits() const noexcept {
     return state_->degenerate_bits;

@@ -16,14 +16,15 @@ from shared_models import bake, must, run
 GEOMETRY = {"positions_f32", "triangles", "bvh_nodes", "degenerate_bits", "bounds", "provenance"}
 SOURCE = {"source_triangle", "source_vertex", "source_face", "group_runs", "group_names",
           "material_runs", "material_names", "instances", "instance_names"}
+PAIR = {"bvh_leaves", "oriented_nodes"}
 # What each effect may hold; sections that would say nothing are left out.
 ALLOWED = {
-    "collide": GEOMETRY | {"components"}, "inside": GEOMETRY | {"components"},
-    "overlap": GEOMETRY | SOURCE, "ray": GEOMETRY | SOURCE, "closest": GEOMETRY | SOURCE,
-    "distance": GEOMETRY | SOURCE, "within": GEOMETRY | SOURCE,
+    "collide": GEOMETRY | PAIR | {"components"}, "inside": GEOMETRY | {"components"},
+    "overlap": GEOMETRY | PAIR | SOURCE, "ray": GEOMETRY | SOURCE, "closest": GEOMETRY | SOURCE,
+    "distance": GEOMETRY | PAIR | SOURCE, "within": GEOMETRY | PAIR | SOURCE,
     "response": {"mass_properties", "bounds", "provenance"},
 }
-MUST_HAVE = {"collide": {"bvh_nodes", "components"}, "inside": {"components"},
+MUST_HAVE = {"collide": {"bvh_nodes", "bvh_leaves", "components"}, "inside": {"components"},
              "overlap": {"source_triangle"}, "response": {"bounds"}}
 
 

@@ -157,12 +157,15 @@ AlignedBytes bake_tiny(std::span<const Double3> positions, std::span<const Trian
         all.push_back(section(SectionId::degenerate_bits, bits));
     }
     all.push_back(section(SectionId::components, components(mesh, bvh.order)));
+    all.push_back(section(SectionId::bvh_leaves, bvh.leaves));
+    all.push_back(section(SectionId::oriented_nodes, bvh.oriented_nodes));
     std::erase_if(all, [&](const TinySection& s) { return options.leave_out.contains(s.id); });
 
     format::FileHeader facts{};
     facts.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
     facts.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
-    if (edges_cancel(mesh.triangles)) facts.flags = format::model_closed;
+    if (edges_cancel(mesh.triangles)) facts.flags |= format::model_closed;
+    if (bvh.exact_leaves) facts.flags |= format::model_exact_leaves;
     facts.frame_origin = bvh.frame.origin;
     facts.frame_exponent = bvh.frame.exponent;
     return assemble(facts, all, options.section_alignment);

@@ -16,6 +16,8 @@ using format::SectionSet;
 constexpr SectionSet kGeometry = {SectionId::positions_f32, SectionId::positions_f64,
                                   SectionId::triangles, SectionId::bvh_nodes,
                                   SectionId::degenerate_bits};
+/// What questions about two models need besides.
+constexpr SectionSet kPair = {SectionId::bvh_leaves, SectionId::oriented_nodes};
 /// Where in the imported file an answer lies.
 constexpr SectionSet kSource = {
     SectionId::source_triangle, SectionId::source_vertex,  SectionId::source_face,
@@ -36,13 +38,13 @@ constexpr SectionSet with(SectionSet a, SectionSet b) {
 
 constexpr std::array<Effect, 8> kEffects = {{
     {"closest", with(kGeometry, kSource)},
-    {"collide", with(kGeometry, {SectionId::components})},
-    {"distance", with(kGeometry, kSource)},
+    {"collide", with(with(kGeometry, kPair), {SectionId::components})},
+    {"distance", with(with(kGeometry, kPair), kSource)},
     {"inside", with(kGeometry, {SectionId::components})},
-    {"overlap", with(kGeometry, kSource)},
+    {"overlap", with(with(kGeometry, kPair), kSource)},
     {"ray", with(kGeometry, kSource)},
     {"response", {SectionId::mass_properties}},
-    {"within", with(kGeometry, kSource)},
+    {"within", with(with(kGeometry, kPair), kSource)},
 }};
 
 const Effect* find_effect(const std::string& name) {
@@ -99,9 +101,9 @@ SectionSet sections_for(const std::string& effect) {
 std::string missing_sections(SectionSet needed, SectionSet present) {
     // Only one kind of positions is in a file, and some sections are absent when
     // they would say nothing.
-    constexpr std::array<SectionId, 4> kDemanded = {SectionId::triangles, SectionId::bvh_nodes,
-                                                    SectionId::source_triangle,
-                                                    SectionId::components};
+    constexpr std::array<SectionId, 5> kDemanded = {
+        SectionId::triangles, SectionId::bvh_nodes, SectionId::bvh_leaves,
+        SectionId::source_triangle, SectionId::components};
     std::string names;
     const auto add = [&names](const char* name) {
         names += (names.empty() ? "" : ", ") + std::string(name);

@@ -163,6 +163,7 @@ format::FileHeader facts_of(const mesh::TriangleSoup& soup, const mesh::Mesh& me
     facts.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
     facts.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
     if (found.topology.closed) facts.flags |= format::model_closed;
+    if (found.bvh.exact_leaves) facts.flags |= format::model_exact_leaves;
     if (options.normalize) facts.flags |= format::model_normalized;
     facts.up_axis = soup.up_axis;
     facts.metres_per_unit = soup.metres_per_unit;

@@ -101,6 +101,26 @@ Handle node_type() {
                      {"upper", offsetof(BvhNode, upper), H5T_IEEE_F32LE, {3, format::kBvhWidth}}});
 }
 
+Handle oriented_type() {
+    using format::OrientedNode;
+    constexpr hsize_t kWidth = format::kBvhWidth;
+    return compound(sizeof(OrientedNode),
+                    {{"axis", offsetof(OrientedNode, axis), H5T_IEEE_F32LE, {2, 3, kWidth}},
+                     {"centre", offsetof(OrientedNode, centre), H5T_IEEE_F32LE, {3, kWidth}},
+                     {"half", offsetof(OrientedNode, half), H5T_IEEE_F32LE, {3, kWidth}}});
+}
+
+Handle leaf_type() {
+    using format::BvhLeaf;
+    return compound(
+        sizeof(BvhLeaf),
+        {{"corner", offsetof(BvhLeaf, corner), H5T_IEEE_F32LE, {3, 3, format::kBvhWidth}},
+         {"origin", offsetof(BvhLeaf, origin), H5T_IEEE_F32LE, {3}},
+         {"half", offsetof(BvhLeaf, half), H5T_IEEE_F32LE, {3}},
+         {"count", offsetof(BvhLeaf, count), H5T_STD_U32LE, {}},
+         {"reserved", offsetof(BvhLeaf, reserved), H5T_STD_U32LE, {}}});
+}
+
 Handle component_type() {
     using format::Component;
     return compound(sizeof(Component),
@@ -200,6 +220,10 @@ const std::vector<Look>& looks() {
          "material names, UTF-8, each ended by a zero"},
         {SectionId::provenance, [] { return scalar(H5T_STD_U8LE); }, 0, "1",
          "canonical JSON, UTF-8: versions, options, hash of the source"},
+        {SectionId::bvh_leaves, leaf_type, 0, "model units, or frame units less the origin",
+         "corners of the eight triangles of each leaf, [corner][axis][triangle]"},
+        {SectionId::oriented_nodes, oriented_type, 0, "frame coordinates",
+         "oriented boxes of the hierarchy, eight a node, root first"},
     };
     return all;
 }

@@ -32,10 +32,17 @@ struct Bvh {
     std::vector<std::uint32_t> order;
     /// As format::BvhNode and format::bvh_shape(order.size()) say.
     std::vector<format::BvhNode> nodes;
+    /// As format::BvhLeaf says; one per eight triangles of the tree order.
+    std::vector<format::BvhLeaf> leaves;
+    /// Whether the leaves hold model coordinates: every coordinate is a float.
+    bool exact_leaves = false;
+    /// As many as nodes, or none.
+    std::vector<format::OrientedNode> oriented_nodes;
 };
 
 struct BvhOptions {
     ParallelFor parallel_for = serial_for;
+    bool oriented = true;  ///< fit oriented boxes too
 };
 
 /// Builds the packed hierarchy of BvhNode.

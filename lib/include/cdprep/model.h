@@ -76,6 +76,11 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> source_vertex() const noexcept;
     [[nodiscard]] std::span<const std::uint32_t> source_face() const noexcept;
     [[nodiscard]] std::span<const format::BvhNode> nodes() const noexcept;  ///< root first
+    [[nodiscard]] std::span<const format::BvhLeaf> leaves() const noexcept;
+    /// True when leaves() are there and hold model coordinates without loss.
+    [[nodiscard]] bool has_exact_leaves() const noexcept;
+    /// Same numbers as nodes(); empty when the model was baked without.
+    [[nodiscard]] std::span<const format::OrientedNode> oriented_nodes() const noexcept;
     [[nodiscard]] std::span<const std::uint64_t> degenerate_bits() const noexcept;
     [[nodiscard]] std::span<const format::Component> components() const noexcept;
     [[nodiscard]] std::span<const format::Instance> instances() const noexcept;

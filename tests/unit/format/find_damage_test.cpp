@@ -227,6 +227,30 @@ TEST(FindDeepDamage, SeesABoxThatLostItsTriangle) {
     EXPECT_EQ(kind_of(find_deep_damage(with(file, upper, -2.0F).span())), DamageKind::bad_box);
 }
 
+TEST(FindDeepDamage, SeesALeafThatLostACorner) {
+    const AlignedBytes file = baked_cube();
+    const std::uint64_t leaf = start_of(file, SectionId::bvh_leaves);
+    EXPECT_EQ(kind_of(find_deep_damage(with(file, leaf, 0.25F).span())), DamageKind::bad_fact);
+    const std::uint64_t half = leaf + offsetof(BvhLeaf, half);
+    EXPECT_EQ(kind_of(find_deep_damage(with(file, half, 0.0F).span())), DamageKind::bad_fact);
+}
+
+TEST(FindDeepDamage, SeesAnOrientedBoxThatIsTooSmallOrCrooked) {
+    const AlignedBytes file = baked_cube();
+    const std::uint64_t node = start_of(file, SectionId::oriented_nodes);
+    const std::uint64_t half = node + offsetof(OrientedNode, half);
+    EXPECT_EQ(kind_of(find_deep_damage(with(file, half, 0.0F).span())), DamageKind::bad_box);
+    EXPECT_EQ(kind_of(find_deep_damage(with(file, node, 0.5F).span())), DamageKind::bad_box);
+}
+
+TEST(FindDamage, LeavesNameHowManyTrianglesTheyHold) {
+    const AlignedBytes file = baked_cube();
+    const std::uint64_t count = start_of(file, SectionId::bvh_leaves) + offsetof(BvhLeaf, count);
+    for (const std::uint32_t wrong : {0u, 7u, 9u, 0xffffffffu}) {
+        EXPECT_EQ(kind_of(check(with(file, count, wrong))), DamageKind::bad_count);
+    }
+}
+
 TEST(FindDeepDamage, SeesASourceTriangleNamedTwice) {
     const AlignedBytes file = baked_cube();
     const std::uint64_t at = start_of(file, SectionId::source_triangle);

@@ -9,8 +9,12 @@
 #include <numeric>
 #include <thread>
 
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/sections.h"
+#include "cdprep/pose.h"
 #include "support/exact_rational.h"
 #include "support/meshes.h"
+#include "support/tiny_baker.h"
 
 namespace cdprep::test {
 namespace {
@@ -33,6 +37,12 @@ std::vector<TestMesh> awkward_meshes() {
             moved_by(icosphere(2), 0x1p-1000, {}),
             moved_by(icosphere(2), 0x1p998, {}),
             moved_by(icosphere(2), 1e-3, {1e9, -1e9, 1e9})};
+}
+
+bool all_floats(const TestMesh& mesh) {
+    const auto same = [](double x) { return double{static_cast<float>(x)} == x; };
+    return std::all_of(mesh.positions.begin(), mesh.positions.end(),
+                       [&](const Double3& p) { return same(p.x) && same(p.y) && same(p.z); });
 }
 
 ExactNumber in_frame(double x, double origin, std::int32_t exponent) {
@@ -88,6 +98,44 @@ TEST(BuildBvh, EveryBoxHoldsItsTrianglesInExactArithmetic) {
     }
 }
 
+// Leaves hold the corners, oriented boxes the vertices: find_deep_damage() works
+// that out anew from positions and triangles.
+TEST(BuildBvh, LeavesAndOrientedBoxesHoldTheirTriangles) {
+    for (const TestMesh& mesh : awkward_meshes()) {
+        for (const bool double_precision : {false, true}) {
+            if (!double_precision && !all_floats(mesh)) continue;
+            const AlignedBytes file =
+                bake_tiny(mesh.positions, mesh.triangles, {.double_precision = double_precision});
+            const auto damage = format::find_deep_damage(file.span());
+            EXPECT_FALSE(damage) << format::section_name(damage->section) << " " << damage->at;
+        }
+    }
+}
+
+TEST(BuildBvh, LeavesAreExactWhereAllCoordinatesAreFloats) {
+    const TestMesh cube = unit_cube();
+    EXPECT_TRUE(build_bvh(cube.positions, cube.triangles).exact_leaves);
+    TestMesh tenths = cube;
+    tenths.positions[0].x = 0.1;
+    EXPECT_FALSE(build_bvh(tenths.positions, tenths.triangles).exact_leaves);
+    const TestMesh tiny = moved_by(cube, 0x1p-120, {});
+    EXPECT_FALSE(build_bvh(tiny.positions, tiny.triangles).exact_leaves);
+}
+
+TEST(BuildBvh, OrientedBoxesOfATurnedSheetAreThin) {
+    TestMesh sheet = grid_sheet(20, 30);
+    const Pose pose = Pose::from_quaternion(1, 2, 3, 4, {0, 0, 0}).value();
+    for (Double3& p : sheet.positions) p = moved(pose, p);
+    const Bvh bvh = build_bvh(sheet.positions, sheet.triangles);
+    ASSERT_FALSE(bvh.oriented_nodes.empty());
+    for (const format::OrientedNode& node : bvh.oriented_nodes) {
+        for (std::size_t box = 0; box < format::kBvhWidth; ++box) {
+            if (node.half[0][box] < 0) continue;  // unused
+            EXPECT_LT(node.half[0][box], 1e-4F * node.half[2][box]);
+        }
+    }
+}
+
 TEST(BuildBvh, TheOrderNamesEveryTriangleOnce) {
     for (const TestMesh& mesh : awkward_meshes()) {
         std::vector<std::uint32_t> order = build_bvh(mesh.positions, mesh.triangles).order;
@@ -121,6 +169,11 @@ TEST(BuildBvh, UsedBoxesLieInTheUnitFrameAndUnusedOnesAreEmpty) {
     }
 }
 
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
 /// Every body on a thread of its own, last first.
 void threads_for(std::size_t count, const std::function<void(std::size_t)>& body) {
     std::vector<std::thread> threads;
@@ -135,9 +188,9 @@ TEST(BuildBvh, ThreadsDoNotChangeTheResult) {
     const Bvh parallel = build_bvh(sphere.positions, sphere.triangles, {threads_for});
     EXPECT_EQ(serial.order, parallel.order);
     ASSERT_EQ(serial.nodes.size(), parallel.nodes.size());
-    EXPECT_EQ(std::memcmp(serial.nodes.data(), parallel.nodes.data(),
-                          serial.nodes.size() * sizeof(format::BvhNode)),
-              0);
+    EXPECT_TRUE(same_bytes(serial.nodes, parallel.nodes));
+    EXPECT_TRUE(same_bytes(serial.leaves, parallel.leaves));
+    EXPECT_TRUE(same_bytes(serial.oriented_nodes, parallel.oriented_nodes));
 }
 
 // The ideal leaf is a square patch; turned anyhow, its box has edges of one side's

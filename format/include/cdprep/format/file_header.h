@@ -50,6 +50,8 @@ enum class SectionId : std::uint32_t {
     material_runs = 16,    ///< NamedRun
     material_names = 17,   ///< uint8, as instance_names
     provenance = 18,       ///< uint8: canonical JSON, UTF-8: versions, options, source hash
+    bvh_leaves = 19,       ///< BvhLeaf per leaf
+    oriented_nodes = 20,   ///< OrientedNode per BvhNode
 };
 
 /// Where a section lies.
@@ -63,8 +65,9 @@ struct SectionEntry {
 
 /// Bits of FileHeader::flags.
 enum ModelFlags : std::uint32_t {
-    model_closed = 1,      ///< the oriented uses of every edge cancel: winding numbers are exact
-    model_normalized = 2,  ///< baked with --normalize
+    model_closed = 1,        ///< the oriented uses of every edge cancel: winding numbers are exact
+    model_normalized = 2,    ///< baked with --normalize
+    model_exact_leaves = 4,  ///< bvh_leaves hold model coordinates without loss
 };
 
 /// Direction that the imported file calls up. Data only: nothing is turned.

@@ -46,6 +46,36 @@ struct BvhNode {
     std::array<std::array<float, kBvhWidth>, 3> upper;  ///< [axis][box], frame coordinates
 };
 
+/// Eight oriented boxes side by side, around what the boxes of the BvhNode of the
+/// same number hold: row = component, column = box.
+///
+/// A box is centre + sum of t_k axis_k with |t_k| <= half_k. The third axis is
+/// axis[0] x axis[1]; axis 0 is the one along which the box is thinnest. Axes are
+/// unit and at right angles up to the rounding of float, and the half extents are
+/// enlarged so that the box, taken with the axes as stored and the third rounded
+/// either way, holds every vertex below. Frame coordinates. Unused boxes hold
+/// centre 0, axes x and y, half -1.
+struct OrientedNode {
+    std::array<std::array<std::array<float, kBvhWidth>, 3>, 2> axis;  ///< [axis][component][box]
+    std::array<std::array<float, kBvhWidth>, 3> centre;               ///< [component][box]
+    std::array<std::array<float, kBvhWidth>, 3> half;                 ///< [axis][box]
+};
+
+/// The corners of the eight triangles of one leaf, ready for eight lanes.
+///
+/// With model_exact_leaves (FileHeader), corners and origin are in model
+/// coordinates and the corners without loss: the very floats of positions_f32.
+/// Otherwise the origin is in frame coordinates and `corner` holds frame
+/// coordinates less the origin, rounded to float. Lanes past the last triangle
+/// repeat it.
+struct BvhLeaf {
+    std::array<std::array<std::array<float, kBvhWidth>, 3>, 3> corner;  ///< [corner][axis][lane]
+    std::array<float, 3> origin;                                        ///< near the leaf's middle
+    std::array<float, 3> half;  ///< >= |corner - origin| along each axis, frame units
+    std::uint32_t count;        ///< triangles, 1 to 8
+    std::uint32_t reserved;     ///< zero
+};
+
 /// The boxes of the whole model, in double precision and model units, both
 /// rounded outwards.
 struct Bounds {
@@ -118,6 +148,11 @@ static_assert(sizeof(Double3) == 24 && alignof(Double3) == 8);
 static_assert(sizeof(Triangle) == 12 && alignof(Triangle) == 4);
 static_assert(sizeof(BvhNode) == 192 && alignof(BvhNode) == 4);
 static_assert(offsetof(BvhNode, upper) == 96);
+static_assert(sizeof(OrientedNode) == 384 && alignof(OrientedNode) == 4);
+static_assert(offsetof(OrientedNode, centre) == 192);
+static_assert(sizeof(BvhLeaf) == 320 && alignof(BvhLeaf) == 4);
+static_assert(offsetof(BvhLeaf, origin) == 288);
+static_assert(offsetof(BvhLeaf, count) == 312);
 static_assert(sizeof(Bounds) == 168 && alignof(Bounds) == 8);
 static_assert(offsetof(Bounds, oriented_centre) == 48);
 static_assert(offsetof(Bounds, half_extent) == 144);
@@ -129,6 +164,9 @@ static_assert(sizeof(Instance) == 120 && alignof(Instance) == 8);
 static_assert(offsetof(Instance, mesh) == 96);
 static_assert(sizeof(NamedRun) == 16 && alignof(NamedRun) == 4);
 static_assert(std::is_trivially_copyable_v<BvhNode> && std::is_standard_layout_v<BvhNode>);
+static_assert(std::is_trivially_copyable_v<OrientedNode> &&
+              std::is_standard_layout_v<OrientedNode>);
+static_assert(std::is_trivially_copyable_v<BvhLeaf> && std::is_standard_layout_v<BvhLeaf>);
 static_assert(std::is_trivially_copyable_v<Instance> && std::is_standard_layout_v<Instance>);
 static_assert(std::is_trivially_copyable_v<Bounds> && std::is_standard_layout_v<Bounds>);
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+
+#include "cdprep/build_bvh.h"
+
+namespace cdprep::build {
+
+inline constexpr std::size_t kItemsPerTask = 4096;  ///< triangles
+inline constexpr std::size_t kLeavesPerTask = kItemsPerTask / format::kBvhWidth;
+
+/// Runs body(first, last) over consecutive parts of [0, count), `size` items each.
+template <class Body>
+void for_chunks(std::size_t count, std::size_t size, const ParallelFor& parallel_for,
+                const Body& body) {
+    parallel_for((count + size - 1) / size, [&](std::size_t chunk) {
+        const std::size_t first = chunk * size;
+        body(first, std::min(count, first + size));
+    });
+}
+
+}  // namespace cdprep::build
