@@ -6,114 +6,96 @@
 namespace cdprep::kernels {
 namespace {
 
-constexpr std::size_t kLanes = 8;
-
-__m256 absolute(__m256 x) noexcept {
-    return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), x);
-}
-
-/// (m0 x + m1 y) + m2 z, in the reference's order and without contraction.
-__m256 combined(float m0, float m1, float m2, const __m256* v) noexcept {
-    const __m256 sum = _mm256_add_ps(_mm256_mul_ps(_mm256_set1_ps(m0), v[0]),
-                                     _mm256_mul_ps(_mm256_set1_ps(m1), v[1]));
-    return _mm256_add_ps(sum, _mm256_mul_ps(_mm256_set1_ps(m2), v[2]));
-}
-
-struct Boxes {
-    __m256 centre[3];
-    __m256 half[3];
+/// Eight lanes that are all ones or all zeros.
+struct Mask8 {
+    __m256 x;
 };
-
-Boxes scaled_boxes(const float* node, float scale) noexcept {
-    Boxes boxes;
-    const __m256 factor = _mm256_set1_ps(0.5F * scale);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const __m256 lower = _mm256_loadu_ps(node + kLanes * axis);
-        const __m256 upper = _mm256_loadu_ps(node + kLanes * (3 + axis));
-        boxes.centre[axis] = _mm256_mul_ps(_mm256_add_ps(lower, upper), factor);
-        boxes.half[axis] = _mm256_mul_ps(_mm256_sub_ps(upper, lower), factor);
-    }
-    return boxes;
+inline Mask8 operator|(Mask8 a, Mask8 b) noexcept {
+    return {_mm256_or_ps(a.x, b.x)};
+}
+inline Mask8 operator&(Mask8 a, Mask8 b) noexcept {
+    return {_mm256_and_ps(a.x, b.x)};
+}
+inline Mask8 operator^(Mask8 a, Mask8 b) noexcept {
+    return {_mm256_xor_ps(a.x, b.x)};
+}
+inline Mask8 operator~(Mask8 a) noexcept {
+    return {_mm256_xor_ps(a.x, _mm256_castsi256_ps(_mm256_set1_epi32(-1)))};
+}
+inline unsigned bits(Mask8 a) noexcept {
+    return static_cast<unsigned>(_mm256_movemask_ps(a.x));
 }
 
-Boxes turned_to_b(const Boxes& boxes, const BoxPlacement& p) noexcept {
-    Boxes turned;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float* r = p.rotation + axis;
-        const float* q = p.abs_rotation + axis;
-        turned.centre[axis] = combined(r[0], r[3], r[6], boxes.centre);
-        turned.half[axis] = combined(q[0], q[3], q[6], boxes.half);
-    }
-    return turned;
-}
+/// Eight floats.
+struct F8 {
+    using Mask = Mask8;
+    using Index = __m256i;
+    static constexpr unsigned kCount = 8;
+    __m256 x;
 
-/// B's boxes as the tests along A's axes want them: shifted, with the slack.
-Boxes turned_to_a(const Boxes& boxes, const BoxPlacement& p) noexcept {
-    Boxes turned;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float* r = p.rotation + 3 * axis;
-        const float* q = p.abs_rotation + 3 * axis;
-        turned.centre[axis] =
-            _mm256_add_ps(combined(r[0], r[1], r[2], boxes.centre), _mm256_set1_ps(p.shift[axis]));
-        turned.half[axis] =
-            _mm256_add_ps(combined(q[0], q[1], q[2], boxes.half), _mm256_set1_ps(p.slack));
+    F8() noexcept = default;
+    F8(__m256 value) noexcept : x(value) {}  // NOLINT(google-explicit-constructor)
+    explicit F8(float value) noexcept : x(_mm256_set1_ps(value)) {}
+    static F8 load(const float* p) noexcept {
+        return _mm256_loadu_ps(p);
     }
-    return turned;
-}
-
-/// B's boxes as the tests along B's axes want them.
-Boxes shifted_in_b(const Boxes& boxes, const BoxPlacement& p) noexcept {
-    Boxes shifted;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        shifted.centre[axis] =
-            _mm256_add_ps(boxes.centre[axis], _mm256_set1_ps(p.shift_in_b[axis]));
-        shifted.half[axis] = _mm256_add_ps(boxes.half[axis], _mm256_set1_ps(p.slack));
+    static Index load_index(const std::int32_t* p) noexcept {
+        return _mm256_load_si256(reinterpret_cast<const __m256i*>(p));
     }
-    return shifted;
-}
-
-/// Rows of eight floats, so that one box can be broadcast.
-struct Rows {
-    alignas(32) float centre[3][kLanes];
-    alignas(32) float half[3][kLanes];
+    static F8 gather(const float* base, Index at) noexcept {
+        return _mm256_i32gather_ps(base, at, 4);
+    }
+    static Mask none() noexcept {
+        return {_mm256_setzero_ps()};
+    }
+    void store(float* p) const noexcept {
+        _mm256_storeu_ps(p, x);
+    }
 };
-
-void store(const Boxes& boxes, Rows& rows) noexcept {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        _mm256_store_ps(rows.centre[axis], boxes.centre[axis]);
-        _mm256_store_ps(rows.half[axis], boxes.half[axis]);
-    }
+inline F8 operator+(F8 a, F8 b) noexcept {
+    return _mm256_add_ps(a.x, b.x);
 }
-
-/// Lanes of `a` that box j of `rows` misses along one of three axes.
-__m256 apart(const Boxes& a, const Rows& rows, std::size_t j) noexcept {
-    __m256 result = _mm256_setzero_ps();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const __m256 gap =
-            absolute(_mm256_sub_ps(a.centre[axis], _mm256_broadcast_ss(&rows.centre[axis][j])));
-        const __m256 reach = _mm256_add_ps(a.half[axis], _mm256_broadcast_ss(&rows.half[axis][j]));
-        result = _mm256_or_ps(result, _mm256_cmp_ps(gap, reach, _CMP_GT_OQ));
-    }
-    return result;
+inline F8 operator-(F8 a, F8 b) noexcept {
+    return _mm256_sub_ps(a.x, b.x);
 }
-
-void overlap_masks(const BoxPlacement& p, const float* a, const float* b, std::size_t first_b,
-                   std::size_t last_b, std::uint8_t* masks) noexcept {
-    const Boxes boxes_a = scaled_boxes(a, p.scale_a);
-    const Boxes turned_a = turned_to_b(boxes_a, p);
-    const Boxes boxes_b = scaled_boxes(b, p.scale_b);
-    Rows along_a;
-    Rows along_b;
-    store(turned_to_a(boxes_b, p), along_a);
-    store(shifted_in_b(boxes_b, p), along_b);
-    for (std::size_t j = first_b; j < last_b; ++j) {
-        const __m256 out = _mm256_or_ps(apart(boxes_a, along_a, j), apart(turned_a, along_b, j));
-        masks[j] = static_cast<std::uint8_t>(~_mm256_movemask_ps(out));
-    }
+inline F8 operator*(F8 a, F8 b) noexcept {
+    return _mm256_mul_ps(a.x, b.x);
+}
+inline F8 operator-(F8 a) noexcept {
+    return _mm256_xor_ps(a.x, _mm256_set1_ps(-0.0F));
+}
+inline F8 fma(F8 a, F8 b, F8 c) noexcept {
+    return _mm256_fmadd_ps(a.x, b.x, c.x);
+}
+/// a b - c
+inline F8 fms(F8 a, F8 b, F8 c) noexcept {
+    return _mm256_fmsub_ps(a.x, b.x, c.x);
+}
+inline F8 min(F8 a, F8 b) noexcept {
+    return _mm256_min_ps(a.x, b.x);
+}
+inline F8 max(F8 a, F8 b) noexcept {
+    return _mm256_max_ps(a.x, b.x);
+}
+inline F8 abs(F8 a) noexcept {
+    return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), a.x);
+}
+inline Mask8 greater(F8 a, F8 b) noexcept {
+    return {_mm256_cmp_ps(a.x, b.x, _CMP_GT_OQ)};
+}
+inline F8 select(Mask8 where, F8 a, F8 b) noexcept {
+    return _mm256_blendv_ps(b.x, a.x, where.x);
 }
 
 }  // namespace
+}  // namespace cdprep::kernels
 
-const Table kAvx2 = {"avx2", overlap_masks};
+#include "box_overlap.h"
+#include "leaf_contacts.h"
+
+namespace cdprep::kernels {
+
+const Table kAvx2 = {"avx2", overlapping_boxes_of<F8, false>, overlapping_boxes_of<F8, true>,
+                     find_contacts_of<F8, F8>};
 
 }  // namespace cdprep::kernels

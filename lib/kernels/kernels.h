@@ -7,10 +7,15 @@
 /// The innermost loops, once per instruction set.
 ///
 /// A kernel sees raw arrays and returns plain numbers. It knows nothing of
-/// Model, allocates nothing and fails at nothing. This header is the only one
-/// that a kernel source may include besides the vendor's intrinsics: an inline
-/// function shared with the rest of the library could be emitted there with
-/// AVX2 inside, and then be the copy the linker keeps for everyone.
+/// Model, allocates nothing and fails at nothing. What a kernel leaves open may
+/// differ between instruction sets (one rounds a product and a sum at once,
+/// another one after the other), so everything it settles is settled with a
+/// proven margin: the answers of the queries are the same for every table.
+///
+/// A kernel source includes this header, the vendor's intrinsics, and the bodies
+/// that all share (box_overlap.h, leaf_contacts.h). Those stand in an unnamed
+/// namespace: an inline function with a name that the linker sees could be
+/// emitted with AVX2 inside and then be the copy it keeps for everyone.
 namespace cdprep::kernels {
 
 /// How the boxes of two hierarchies stand to each other: a box centre c of B
@@ -23,29 +28,107 @@ struct BoxPlacement {
     float shift_in_b[3];    ///< the same vector along B's axes
     float scale_a;
     float scale_b;
-    float slack;  ///< added to every sum of half extents; covers all rounding
+    float slack;       ///< added to every sum of half extents; covers all rounding
+    float edge_slack;  ///< the same along the cross product of two axes
+};
+
+/// The boxes of one node: 48 floats, lower x, y, z, then upper x, y, z, eight
+/// each; and, or null, its oriented boxes: 96 floats, as format::OrientedNode.
+struct NodeBoxes {
+    const float* boxes;
+    const float* oriented;
+};
+
+/// What of two nodes is to be tested: bit sets of boxes, and, or null, the box
+/// around all of A's: a pointer to its lower x in a node, the others at the
+/// strides of a node.
+struct BoxChoice {
+    std::uint8_t of_a;
+    std::uint8_t of_b;
+    const float* around_a;
+};
+
+inline constexpr std::size_t kLanes = 8;       ///< boxes of a node, triangles of a leaf
+inline constexpr std::size_t kLeafBatch = 16;  ///< leaf pairs that one call takes
+
+/// Which of the 64 pairs of boxes may overlap.
+struct BoxMasks {
+    std::uint8_t of_a[kLanes];  ///< for each box of B, the boxes of A
+    /// By how much the pair overlaps along the direction where it overlaps least
+    /// among the six face directions of the axis-aligned boxes; where asked for.
+    alignas(32) float depth[kLanes][kLanes];
+};
+
+/// A leaf of A and a leaf of B. B's corners lie at R (corner - middle_b) + offset
+/// relative to A's middle, R being LeafPlacement's.
+struct LeafPair {
+    const float* a;  ///< 72 floats: format::BvhLeaf::corner
+    const float* b;
+    float middle_a[3];  ///< taken from A's corners
+    float middle_b[3];
+    float half_a[3];      ///< box around A's corners less the middle, in pair units
+    float reach_b;        ///< the largest |corner - middle| of B along an axis, pair units
+    float offset[3];      ///< pair units
+    float error;          ///< how far offset and corners may be off before any rounding here
+    std::uint8_t used_a;  ///< bit set of triangles
+    std::uint8_t used_b;
+};
+
+/// From leaf coordinates to pair units.
+struct LeafPlacement {
+    float rotation[9];  ///< a_from_b times B's scale
+    float scale_a;
+};
+
+/// A pair of triangles that is not certainly disjoint.
+struct TriangleContactLanes {
+    std::uint8_t pair;  ///< index of the LeafPair
+    std::uint8_t a;     ///< lane
+    std::uint8_t b;     ///< lane
+    bool certain;       ///< they cross; else the kernel cannot tell
+};
+
+/// What find_contacts() works in and answers in. Need not be initialised.
+struct LeafScratch {
+    static constexpr std::size_t kRows = 39;
+    alignas(64) float block[kLeafBatch][kRows][kLanes];
+    std::uint16_t candidate[kLeafBatch * kLanes * kLanes + kLanes];
+    TriangleContactLanes found[kLeafBatch * kLanes * kLanes];
 };
 
 /// One instruction set's kernels.
 struct Table {
-    const char* name;  ///< "scalar", "avx2": shown in tests and benchmarks
+    const char* name;  ///< "scalar", "avx2", "avx512": shown in tests and benchmarks
 
-    /// Tests boxes of a node of B against the eight of a node of A: sets bit i
-    /// of masks[j] unless one of the six face directions separates box i of A
-    /// from box j of B, for each j in [first_b, last_b). Nodes are 48 floats:
-    /// lower x, y, z, then upper x, y, z, eight each. Unused boxes give any bits.
-    void (*overlap_masks)(const BoxPlacement& placement, const float* a, const float* b,
-                          std::size_t first_b, std::size_t last_b, std::uint8_t* masks) noexcept;
+    /// Finds the pairs of chosen boxes that no tested direction separates: the six
+    /// face directions of the axis-aligned boxes and, when both nodes have them,
+    /// the fifteen of the oriented ones. Returns the bit set of boxes of B with a
+    /// partner; masks.of_a is set for those alone.
+    unsigned (*overlapping_boxes)(const BoxPlacement& placement, const NodeBoxes& a,
+                                  const NodeBoxes& b, const BoxChoice& choice,
+                                  BoxMasks& masks) noexcept;
+
+    /// The same, and masks.depth.
+    unsigned (*overlap_depths)(const BoxPlacement& placement, const NodeBoxes& a,
+                               const NodeBoxes& b, const BoxChoice& choice,
+                               BoxMasks& masks) noexcept;
+
+    /// Finds the pairs of triangles, among at most kLeafBatch pairs of leaves,
+    /// that cross or whose contact rounding may hide. Returns their number; they
+    /// stand in scratch.found.
+    std::size_t (*find_contacts)(const LeafPlacement& placement, const LeafPair* pairs,
+                                 std::size_t count, LeafScratch& scratch) noexcept;
 };
 
-extern const Table kScalar;  ///< the reference: every other table agrees with it, bit for bit
+extern const Table kScalar;  ///< the reference, for any processor
 #ifdef CDPREP_HAVE_AVX2
-extern const Table kAvx2;  ///< call through it only if available() lists it
+extern const Table kAvx2;    ///< call through it only if available() lists it
+extern const Table kAvx512;  ///< likewise
 #endif
 
 /// The tables that this processor can run, the reference first.
 struct Available {
-    const Table* table[2];
+    const Table* table[3];
     std::size_t count;
 };
 [[nodiscard]] Available available() noexcept;

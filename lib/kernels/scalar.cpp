@@ -4,77 +4,118 @@
 namespace cdprep::kernels {
 namespace {
 
-constexpr std::size_t kLanes = 8;
-
-float absolute(float x) noexcept {
-    return x < 0 ? -x : x;
+/// One bit a lane.
+struct Mask8 {
+    unsigned x;
+};
+inline Mask8 operator|(Mask8 a, Mask8 b) noexcept {
+    return {a.x | b.x};
+}
+inline Mask8 operator&(Mask8 a, Mask8 b) noexcept {
+    return {a.x & b.x};
+}
+inline Mask8 operator^(Mask8 a, Mask8 b) noexcept {
+    return {a.x ^ b.x};
+}
+inline Mask8 operator~(Mask8 a) noexcept {
+    return {~a.x & 0xff};
+}
+inline unsigned bits(Mask8 a) noexcept {
+    return a.x;
 }
 
-/// Eight boxes by centre and half extent, along the axes of either model.
-struct Boxes {
-    float centre[3][kLanes];
-    float half[3][kLanes];
+/// Eight floats.
+struct F8 {
+    using Mask = Mask8;
+    struct Index {
+        std::int32_t x[8];
+    };
+    static constexpr unsigned kCount = 8;
+    float x[8];
+
+    F8() noexcept = default;
+    explicit F8(float value) noexcept {
+        for (float& lane : x) lane = value;
+    }
+    static F8 load(const float* p) noexcept {
+        F8 result;
+        for (unsigned i = 0; i < kCount; ++i) result.x[i] = p[i];
+        return result;
+    }
+    static Index load_index(const std::int32_t* p) noexcept {
+        Index result;
+        for (unsigned i = 0; i < kCount; ++i) result.x[i] = p[i];
+        return result;
+    }
+    static F8 gather(const float* base, const Index& at) noexcept {
+        F8 result;
+        for (unsigned i = 0; i < kCount; ++i) result.x[i] = base[at.x[i]];
+        return result;
+    }
+    static Mask none() noexcept {
+        return {0};
+    }
+    void store(float* p) const noexcept {
+        for (unsigned i = 0; i < kCount; ++i) p[i] = x[i];
+    }
 };
 
-Boxes scaled_boxes(const float* node, float scale) noexcept {
-    Boxes boxes;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            const float lower = node[kLanes * axis + i];
-            const float upper = node[kLanes * (3 + axis) + i];
-            boxes.centre[axis][i] = (lower + upper) * (0.5F * scale);
-            boxes.half[axis][i] = (upper - lower) * (0.5F * scale);
-        }
-    }
-    return boxes;
+/// operation(lane) for each lane.
+template <class Operation>
+F8 each(Operation operation) noexcept {
+    F8 result;
+    for (unsigned i = 0; i < F8::kCount; ++i) result.x[i] = operation(i);
+    return result;
 }
 
-/// A's boxes along B's axes: centre R^T c, half extent |R|^T h.
-Boxes turned_boxes(const Boxes& boxes, const BoxPlacement& p) noexcept {
-    Boxes turned;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            turned.centre[axis][i] = (p.rotation[axis] * boxes.centre[0][i] +
-                                      p.rotation[3 + axis] * boxes.centre[1][i]) +
-                                     p.rotation[6 + axis] * boxes.centre[2][i];
-            turned.half[axis][i] = (p.abs_rotation[axis] * boxes.half[0][i] +
-                                    p.abs_rotation[3 + axis] * boxes.half[1][i]) +
-                                   p.abs_rotation[6 + axis] * boxes.half[2][i];
-        }
-    }
-    return turned;
+inline F8 operator+(const F8& a, const F8& b) noexcept {
+    return each([&](unsigned i) { return a.x[i] + b.x[i]; });
 }
-
-void overlap_masks(const BoxPlacement& p, const float* a, const float* b, std::size_t first_b,
-                   std::size_t last_b, std::uint8_t* masks) noexcept {
-    const Boxes boxes_a = scaled_boxes(a, p.scale_a);
-    const Boxes turned_a = turned_boxes(boxes_a, p);
-    const Boxes boxes_b = scaled_boxes(b, p.scale_b);
-    for (std::size_t j = first_b; j < last_b; ++j) {
-        const float c[3] = {boxes_b.centre[0][j], boxes_b.centre[1][j], boxes_b.centre[2][j]};
-        const float h[3] = {boxes_b.half[0][j], boxes_b.half[1][j], boxes_b.half[2][j]};
-        std::uint8_t mask = 0;
-        for (std::size_t i = 0; i < kLanes; ++i) {
-            bool apart = false;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const float* r = p.rotation + 3 * axis;
-                const float* q = p.abs_rotation + 3 * axis;
-                const float centre = ((r[0] * c[0] + r[1] * c[1]) + r[2] * c[2]) + p.shift[axis];
-                const float half = ((q[0] * h[0] + q[1] * h[1]) + q[2] * h[2]) + p.slack;
-                apart |= absolute(boxes_a.centre[axis][i] - centre) > boxes_a.half[axis][i] + half;
-                const float centre_b = c[axis] + p.shift_in_b[axis];
-                const float half_b = h[axis] + p.slack;
-                apart |=
-                    absolute(turned_a.centre[axis][i] - centre_b) > turned_a.half[axis][i] + half_b;
-            }
-            mask = static_cast<std::uint8_t>(mask | (apart ? 0U : 1U) << i);
-        }
-        masks[j] = mask;
+inline F8 operator-(const F8& a, const F8& b) noexcept {
+    return each([&](unsigned i) { return a.x[i] - b.x[i]; });
+}
+inline F8 operator*(const F8& a, const F8& b) noexcept {
+    return each([&](unsigned i) { return a.x[i] * b.x[i]; });
+}
+inline F8 operator-(const F8& a) noexcept {
+    return each([&](unsigned i) { return -a.x[i]; });
+}
+inline F8 fma(const F8& a, const F8& b, const F8& c) noexcept {
+    return each([&](unsigned i) { return a.x[i] * b.x[i] + c.x[i]; });
+}
+/// a b - c
+inline F8 fms(const F8& a, const F8& b, const F8& c) noexcept {
+    return each([&](unsigned i) { return a.x[i] * b.x[i] - c.x[i]; });
+}
+inline F8 min(const F8& a, const F8& b) noexcept {
+    return each([&](unsigned i) { return a.x[i] < b.x[i] ? a.x[i] : b.x[i]; });
+}
+inline F8 max(const F8& a, const F8& b) noexcept {
+    return each([&](unsigned i) { return a.x[i] > b.x[i] ? a.x[i] : b.x[i]; });
+}
+inline F8 abs(const F8& a) noexcept {
+    return each([&](unsigned i) { return a.x[i] < 0 ? -a.x[i] : a.x[i]; });
+}
+inline Mask8 greater(const F8& a, const F8& b) noexcept {
+    unsigned mask = 0;
+    for (unsigned i = 0; i < F8::kCount; ++i) {
+        mask |= static_cast<unsigned>(a.x[i] > b.x[i]) << i;
     }
+    return {mask};
+}
+inline F8 select(Mask8 where, const F8& a, const F8& b) noexcept {
+    return each([&](unsigned i) { return ((where.x >> i) & 1) != 0 ? a.x[i] : b.x[i]; });
 }
 
 }  // namespace
+}  // namespace cdprep::kernels
 
-const Table kScalar = {"scalar", overlap_masks};
+#include "box_overlap.h"
+#include "leaf_contacts.h"
+
+namespace cdprep::kernels {
+
+const Table kScalar = {"scalar", overlapping_boxes_of<F8, false>, overlapping_boxes_of<F8, true>,
+                       find_contacts_of<F8, F8>};
 
 }  // namespace cdprep::kernels

@@ -20,9 +20,15 @@ const Table& choose() noexcept {
 }  // namespace
 
 Available available() noexcept {
-    Available tables = {{&kScalar, nullptr}, 1};
+    Available tables = {{&kScalar, nullptr, nullptr}, 1};
 #ifdef CDPREP_HAVE_AVX2
-    if (__builtin_cpu_supports("avx2")) tables.table[tables.count++] = &kAvx2;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) {
+        tables.table[tables.count++] = &kAvx2;
+    }
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+        __builtin_cpu_supports("avx512dq")) {
+        tables.table[tables.count++] = &kAvx512;
+    }
 #endif
     return tables;
 }

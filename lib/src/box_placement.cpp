@@ -15,20 +15,29 @@
 // Turning into A's axes multiplies by at most sqrt 3 and, because R^T R is the
 // identity only to 1e-12, shifts a point of A by up to 3e-12 rho when A moves. The
 // relative pose itself is rounded by at most 16 u (|Ta| + |Tb| + 3 rho_b + rho_a).
-// Together below kDoubleSlack (rho_a + rho_b + |Ta| + |Tb|) + 4e-12 rho_a.
+// The shift and the places of leaves are worked out from it: 16 u more of the
+// same. Together below kDoubleSlack (rho_a + rho_b + |Ta| + |Tb|) + 4e-12 rho_a.
 //
 // Float, in frame units, v = 2^-24. With boxes of A within s_a and of B within
 // s_b of their origins and the shift t: turning a centre costs at most 9 v s_b,
 // adding the shift 2 v (s_b + |t|), centres and half extents from lower and upper
 // 2 v (s_a + s_b), the difference and the sums 4 v (s_a + 2 s_b + |t|); along B's
 // axes the same with a and b exchanged. Together below 32 v (s_a + s_b + |t|).
+//
+// Oriented boxes: the difference of two centres is off as above, and by the dot
+// product with a unit axis, 5 v sqrt 3 of it: the same bound holds. Along a cross
+// product the gap is a difference of two products of such numbers with entries of
+// the relative rotation (each off by 12 v, 8 v of it because stored axes are not
+// quite at right angles): twice 32 v plus 40 v (s_a + s_b + |t|), and the four
+// half extents times 20 v: below 128 v (s_a + s_b + |t|).
 
 namespace cdprep {
 namespace {
 
-constexpr double kDoubleSlack = 64 * 0x1p-53;
+constexpr double kDoubleSlack = 96 * 0x1p-53;
 constexpr double kTurnSlack = 4 * Pose::kRotationTolerance;
 constexpr double kFloatSlack = 32 * 0x1p-24;
+constexpr double kEdgeSlack = 4 * kFloatSlack;
 
 double largest(const Double3& p) noexcept {
     return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
@@ -91,6 +100,13 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
     p.scale_a = static_cast<float>(scale_a);
     p.scale_b = static_cast<float>(scale_b);
     p.slack = float_above(slack);
+    p.edge_slack =
+        float_above(slack + (kEdgeSlack - kFloatSlack) * (scale_a + scale_b + largest(shift)));
+    placed.rotation = r;
+    placed.shift = along_a;
+    placed.scale_a = scale_a;
+    placed.scale_b = scale_b;
+    placed.double_slack = std::ldexp(double_slack, exponent);
     return placed;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+
 #include "cdprep/model.h"
 #include "cdprep/placement.h"
 #include "kernels.h"
@@ -13,6 +15,15 @@ namespace cdprep {
 struct PlacedBoxes {
     kernels::BoxPlacement placement;
     bool apart;  ///< the root boxes are too far from each other to overlap
+
+    /// The same map in double: pair = rotation * (scale_b * frame_b) + shift.
+    std::array<double, 9> rotation;
+    std::array<double, 3> shift;
+    double scale_a;
+    double scale_b;
+    /// How far vertices of the two models may be off, relative to each other,
+    /// before any rounding to float. Pair units.
+    double double_slack;
 };
 
 [[nodiscard]] PlacedBoxes place_boxes(const Model& a, const Model& b,

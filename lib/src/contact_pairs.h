@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cdprep/overlapping_triangles.h"
+#include "leaf_batch.h"
 #include "walk_pairs.h"
 
 namespace cdprep {
@@ -27,35 +28,32 @@ inline bool in_contact(const Corners& a, const Corners& b, Contact contact) noex
 
 /// Calls `found(pair)` for every pair of triangles in contact, in the walk's
 /// order, until it returns false; returns false when it did.
-template <class Found>
+template <Search kSearch, class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
                       Workspace& workspace, const OverlapOptions& options, Found&& found) noexcept {
     Workspace::Storage& scratch = workspace.storage();
     const MovedModel moved_a{&a, placement.a_is_moved() ? &placement.pose_a() : nullptr};
     const MovedModel moved_b{&b, placement.b_is_moved() ? &placement.pose_b() : nullptr};
-    scratch.leaf_a.leaf = scratch.leaf_b.leaf = MovedLeaf::kNone;
     const bool skips = options.degenerate == Degenerate::skip;
-
-    return walk_pairs(a, b, placement, scratch, [&](std::uint32_t at_a, std::uint32_t at_b) {
-        MovedLeaf& leaf_a = scratch.leaf_a;
-        MovedLeaf& leaf_b = scratch.leaf_b;
-        leaf_a.load(moved_a, at_a);
-        leaf_b.load(moved_b, at_b);
-        if (!overlap(leaf_a.all, leaf_b.all)) return true;
-        for (std::uint32_t j = 0; j < leaf_b.count; ++j) {
-            if (!overlap(leaf_a.all, leaf_b.box[j])) continue;
-            if (skips && is_marked_degenerate(b, leaf_b.first + j)) continue;
-            for (std::uint32_t i = 0; i < leaf_a.count; ++i) {
-                if (!overlap(leaf_a.box[i], leaf_b.box[j])) continue;
-                if (skips && is_marked_degenerate(a, leaf_a.first + i)) continue;
-                if (!in_contact(leaf_a.corners[i], leaf_b.corners[j], options.contact)) continue;
-                const TrianglePair pair{source_number(a, leaf_a.first + i),
-                                        source_number(b, leaf_b.first + j)};
-                if (!found(pair)) return false;
-            }
+    const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b, bool certain) {
+        if (skips && (is_marked_degenerate(a, at_a) || is_marked_degenerate(b, at_b))) return true;
+        if (!certain &&
+            !in_contact(moved_a.corners(at_a), moved_b.corners(at_b), options.contact)) {
+            return true;
         }
-        return true;
-    });
+        return static_cast<bool>(
+            found(TrianglePair{source_number(a, at_a), source_number(b, at_b)}));
+    };
+
+    const PlacedBoxes placed = place_boxes(a, b, placement);
+    LeafBatch batch(a, b, placed, scratch);
+    const bool whole =
+        walk_pairs<kSearch>(a, b, placed, scratch, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+            batch.add(leaf_a, leaf_b);
+            if (kSearch == Search::all && !batch.full()) return true;
+            return batch.flush(decide);
+        });
+    return whole && batch.flush(decide);
 }
 
 }  // namespace cdprep

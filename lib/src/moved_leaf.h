@@ -30,6 +30,11 @@ struct MovedModel {
     /// Corners of triangle `index` of the tree order. Exactly the points that
     /// the query answers for.
     [[nodiscard]] Corners corners(std::uint32_t index) const noexcept {
+        if (model->has_exact_leaves()) {
+            const format::BvhLeaf& leaf = model->leaves()[index / format::kBvhWidth];
+            const std::uint32_t lane = index % format::kBvhWidth;
+            return {at(leaf, 0, lane), at(leaf, 1, lane), at(leaf, 2, lane)};
+        }
         const format::Triangle& triangle = model->triangles()[index];
         return {position(triangle.vertex[0]), position(triangle.vertex[1]),
                 position(triangle.vertex[2])};
@@ -40,26 +45,18 @@ struct MovedModel {
     }
 
 private:
+    [[nodiscard]] Double3 at(const format::BvhLeaf& leaf, std::size_t corner,
+                             std::size_t lane) const noexcept {
+        const auto& rows = leaf.corner[corner];
+        const Double3 p = {rows[0][lane], rows[1][lane], rows[2][lane]};
+        return pose == nullptr ? p : moved(*pose, p);
+    }
     static Double3 stored_position(const Model& model, std::uint32_t vertex) noexcept {
         if (const auto floats = model.positions_f32(); !floats.empty()) {
             return {floats[vertex].x, floats[vertex].y, floats[vertex].z};
         }
         return model.positions_f64()[vertex];
     }
-};
-
-/// The triangles of one leaf, moved once and kept while pairs with it follow.
-struct MovedLeaf {
-    static constexpr std::uint32_t kNone = 0xffffffff;
-
-    std::uint32_t leaf = kNone;
-    std::uint32_t first = 0;  ///< tree order
-    std::uint32_t count = 0;
-    std::array<Corners, format::kBvhWidth> corners;
-    std::array<Box3, format::kBvhWidth> box;
-    Box3 all;  ///< of the whole leaf
-
-    void load(const MovedModel& model, std::uint32_t index) noexcept;
 };
 
 }  // namespace cdprep

@@ -48,10 +48,11 @@ std::size_t overlapping_triangles(const Model& a, const Model& b, const Placemen
                                   Workspace& workspace, std::span<TrianglePair> pairs,
                                   const OverlapOptions& options) noexcept {
     SmallestPairs smallest(pairs);
-    for_each_contact(a, b, placement, workspace, options, [&](const TrianglePair& pair) {
-        smallest.add(pair);
-        return true;
-    });
+    for_each_contact<Search::all>(a, b, placement, workspace, options,
+                                  [&](const TrianglePair& pair) {
+                                      smallest.add(pair);
+                                      return true;
+                                  });
     return smallest.finish();
 }
 

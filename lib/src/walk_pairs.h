@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <utility>
 
 #include "box_placement.h"
 #include "cdprep/model.h"
@@ -101,16 +102,43 @@ inline Descent choose_descent(const Model& a, const Model& b, const PendingPair&
     return {size_b <= kSimilar * size_a, size_a <= kSimilar * size_b};
 }
 
+/// Which hits a walk is after.
+enum class Search : std::uint8_t {
+    all,    ///< every pair of leaves; oriented boxes prune
+    first,  ///< deepest first, so that a hit comes early
+};
+
+/// Where the box around a place's children stands among its siblings, or null for
+/// a root.
+inline const float* box_around(const Model& model, const TreePlace& place) noexcept {
+    const format::BvhShape& shape = model.shape();
+    if (place.height == shape.levels) return nullptr;
+    const format::BvhNode& node =
+        model.nodes()[shape.first[place.height] + place.index / format::kBvhWidth];
+    return &node.lower[0][place.index % format::kBvhWidth];
+}
+
+inline kernels::NodeBoxes node_boxes(const Model& model, const TestedBoxes& side) noexcept {
+    const auto index = side.node - model.nodes().data();
+    const auto oriented = model.oriented_nodes();
+    return {
+        side.node->lower[0].data(),
+        oriented.empty() ? nullptr : oriented[static_cast<std::size_t>(index)].axis[0][0].data()};
+}
+
+inline std::uint8_t chosen(const TestedBoxes& side) noexcept {
+    return static_cast<std::uint8_t>((1U << side.last) - (1U << side.first));
+}
+
 /// Walks the two hierarchies depth first and calls `leaf(index_a, index_b)` for
-/// each pair of leaves whose boxes no face direction separates, until it returns
-/// false. Returns false when it did. Both models need nodes.
-template <class Leaf>
-bool walk_pairs(const Model& a, const Model& b, const Placement& placement,
+/// each pair of leaves that no box test separates, until it returns false.
+/// Returns false when it did. Both models need nodes.
+template <Search kSearch, class Leaf>
+bool walk_pairs(const Model& a, const Model& b, const PlacedBoxes& placed,
                 Workspace::Storage& scratch, Leaf&& leaf) noexcept {
-    if (a.triangle_count() == 0 || b.triangle_count() == 0) return true;
-    const PlacedBoxes placed = place_boxes(a, b, placement);
-    if (placed.apart) return true;
+    if (a.triangle_count() == 0 || b.triangle_count() == 0 || placed.apart) return true;
     const kernels::Table& kernel = kernels::active();
+    const auto test = kSearch == Search::first ? kernel.overlap_depths : kernel.overlapping_boxes;
 
     std::size_t depth = 0;
     scratch.pending[depth++] = PendingPair{{a.shape().levels, 0}, {b.shape().levels, 0}}.packed();
@@ -123,19 +151,27 @@ bool walk_pairs(const Model& a, const Model& b, const Placement& placement,
         const Descent descent = choose_descent(a, b, pair, placed.placement);
         const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
         const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
-        const std::uint32_t wanted_a = (1U << side_a.last) - (1U << side_a.first);
-        std::array<std::uint8_t, format::kBvhWidth> masks;
-        kernel.overlap_masks(placed.placement, side_a.node->lower[0].data(),
-                             side_b.node->lower[0].data(), side_b.first, side_b.last, masks.data());
-        for (std::uint32_t j = side_b.first; j < side_b.last; ++j) {
-            for (std::uint32_t bits = masks[j] & wanted_a; bits != 0; bits &= bits - 1) {
+        const kernels::BoxChoice choice = {chosen(side_a), chosen(side_b),
+                                           descent.a ? box_around(a, pair.a) : nullptr};
+        kernels::BoxMasks masks;
+        unsigned rows =
+            test(placed.placement, node_boxes(a, side_a), node_boxes(b, side_b), choice, masks);
+        const std::uint64_t base = PendingPair{side_a.first_below, side_b.first_below}.packed();
+        std::size_t deepest = depth;
+        float most = -1;
+        for (; rows != 0; rows &= rows - 1) {
+            const auto j = static_cast<std::uint32_t>(std::countr_zero(rows));
+            for (std::uint32_t bits = masks.of_a[j]; bits != 0; bits &= bits - 1) {
                 const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
-                scratch.pending[depth++] = PendingPair{
-                    {side_a.first_below.height, side_a.first_below.index + i},
-                    {side_b.first_below.height,
-                     side_b.first_below.index +
-                         j}}.packed();
+                if (kSearch == Search::first && masks.depth[j][i] > most) {
+                    most = masks.depth[j][i];
+                    deepest = depth;
+                }
+                scratch.pending[depth++] = base + (std::uint64_t{i} << 32) + j;
             }
+        }
+        if (kSearch == Search::first && most >= 0) {
+            std::swap(scratch.pending[deepest], scratch.pending[depth - 1]);
         }
     }
     return true;

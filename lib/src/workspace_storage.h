@@ -7,7 +7,7 @@
 
 #include "cdprep/format/limits.h"
 #include "cdprep/workspace.h"
-#include "moved_leaf.h"
+#include "kernels.h"
 
 namespace cdprep {
 
@@ -30,8 +30,9 @@ inline constexpr std::size_t kMaxBoundedPlaces =
 struct Workspace::Storage {
     std::array<std::uint64_t, kMaxPendingPairs> pending;
     std::array<BoundedPlace, kMaxBoundedPlaces> bounded;
-    MovedLeaf leaf_a;
-    MovedLeaf leaf_b;
+    std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
+    std::array<std::uint64_t, kernels::kLeafBatch> leaf_numbers;  ///< of A, then of B
+    kernels::LeafScratch leaf_scratch;
 };
 
 }  // namespace cdprep

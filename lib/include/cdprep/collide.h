@@ -33,7 +33,8 @@ struct Collision {
 /// As::solid they do, when a winding number other than 0 proves it: see
 /// find_containment() for open models. As exact as overlapping_triangles().
 ///
-/// Needs triangles, positions and bvh_nodes of both; As::solid also components.
+/// Needs of both what overlapping_triangles() needs; As::solid also triangles,
+/// positions and components.
 /// Costs O(log n) for most hits and misses. Never allocates.
 [[nodiscard]] Collision collide(const Model& a, const Model& b, const Placement& placement,
                                 Workspace& workspace, const CollideOptions& options = {}) noexcept;

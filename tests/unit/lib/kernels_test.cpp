@@ -3,86 +3,411 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <memory>
 #include <random>
+
+#include "support/random_pose.h"
+#include "triangle_contact.h"
 
 namespace cdprep::kernels {
 namespace {
 
 using Node = std::array<float, 48>;
+using OrientedNode = std::array<float, 96>;
 
-Node random_node(std::mt19937& random, bool coarse) {
-    std::uniform_int_distribution<int> grid(-4, 4);
-    std::uniform_real_distribution<float> fine(-1, 1);
+/// Runs `check(table)` for each instruction set of this machine.
+template <class Check>
+void for_each_table(Check check) {
+    const Available tables = available();
+    for (std::size_t i = 0; i < tables.count; ++i) {
+        SCOPED_TRACE(tables.table[i]->name);
+        check(*tables.table[i]);
+        if (::testing::Test::HasFatalFailure()) return;
+    }
+}
+
+Node random_node(std::mt19937& random) {
+    std::uniform_real_distribution<float> place(-1, 1);
+    std::uniform_real_distribution<float> size(0, 1);
     Node node;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t box = 0; box < 8; ++box) {
-            const float lower = coarse ? static_cast<float>(grid(random)) / 4 : fine(random);
-            const float size =
-                coarse ? static_cast<float>(grid(random) + 4) / 4 : std::fabs(fine(random));
+        for (std::size_t box = 0; box < kLanes; ++box) {
+            const float lower = place(random);
             node[8 * axis + box] = lower;
-            node[24 + 8 * axis + box] = lower + size;
+            node[24 + 8 * axis + box] = lower + size(random);
         }
     }
     return node;
 }
 
-BoxPlacement random_placement(std::mt19937& random, bool coarse) {
-    std::uniform_real_distribution<float> fine(-1, 1);
+BoxPlacement placement_of(const Pose& pose, float slack) {
     BoxPlacement p{};
+    const auto& r = pose.rotation();
+    const std::array<double, 3> t = {pose.translation().x, pose.translation().y,
+                                     pose.translation().z};
     for (std::size_t i = 0; i < 9; ++i) {
-        p.rotation[i] = coarse ? (i % 4 == 0 ? 1.0F : 0.0F) : fine(random);
+        p.rotation[i] = static_cast<float>(r[i]);
         p.abs_rotation[i] = std::fabs(p.rotation[i]);
     }
     for (std::size_t i = 0; i < 3; ++i) {
-        p.shift[i] = p.shift_in_b[i] = coarse ? std::round(4 * fine(random)) / 8 : fine(random) / 2;
+        p.shift[i] = static_cast<float>(t[i]);
+        p.shift_in_b[i] = static_cast<float>(r[i] * t[0] + r[3 + i] * t[1] + r[6 + i] * t[2]);
     }
-    p.scale_a = 1;
-    p.scale_b = coarse ? 1 : 0.5F;
-    p.slack = coarse ? 0 : 1e-6F;
+    p.scale_a = p.scale_b = 1;
+    p.slack = slack;
+    p.edge_slack = 4 * slack;
     return p;
 }
 
-// The scalar table is the specification. Coarse boxes often share a face exactly.
-TEST(Kernels, OverlapMasksAgreeWithScalarOnEveryInstructionSet) {
-    std::mt19937 random(20240601);
-    std::size_t set = 0, all = 0;
-    for (int round = 0; round < 20'000; ++round) {
-        const bool coarse = round % 2 == 0;
-        const Node a = random_node(random, coarse);
-        const Node b = random_node(random, coarse);
-        const BoxPlacement placement = random_placement(random, coarse);
-        std::array<std::uint8_t, 8> expected{};
-        kScalar.overlap_masks(placement, a.data(), b.data(), 0, 8, expected.data());
-        const Available tables = available();
-        for (std::size_t i = 0; i < tables.count; ++i) {
-            std::array<std::uint8_t, 8> found{};
-            tables.table[i]->overlap_masks(placement, a.data(), b.data(), 0, 8, found.data());
-            ASSERT_EQ(found, expected) << tables.table[i]->name << ", round " << round;
-        }
-        for (const std::uint8_t mask : expected)
-            set += static_cast<unsigned>(__builtin_popcount(mask));
-        all += 64;
+/// The least overlap of box i of A and box j of B along six face directions, in
+/// double.
+double face_overlap(const Pose& pose, const Node& a, std::size_t i, const Node& b, std::size_t j) {
+    const auto& r = pose.rotation();
+    const std::array<double, 3> t = {pose.translation().x, pose.translation().y,
+                                     pose.translation().z};
+    std::array<double, 3> ca{}, ha{}, cb{}, hb{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        ca[axis] = 0.5 * (double{a[8 * axis + i]} + double{a[24 + 8 * axis + i]});
+        ha[axis] = 0.5 * (double{a[24 + 8 * axis + i]} - double{a[8 * axis + i]});
+        cb[axis] = 0.5 * (double{b[8 * axis + j]} + double{b[24 + 8 * axis + j]});
+        hb[axis] = 0.5 * (double{b[24 + 8 * axis + j]} - double{b[8 * axis + j]});
     }
-    // Neither answer may be rare, or this test would prove nothing.
-    EXPECT_GT(set, all / 20);
-    EXPECT_LT(set, all * 19 / 20);
+    std::array<double, 3> d{};  // from A's centre to B's
+    for (std::size_t k = 0; k < 3; ++k) {
+        d[k] = r[3 * k] * cb[0] + r[3 * k + 1] * cb[1] + r[3 * k + 2] * cb[2] + t[k] - ca[k];
+    }
+    double least = 1e300;
+    for (std::size_t k = 0; k < 3; ++k) {
+        double reach_b = 0, reach_a = 0, along_b = 0;
+        for (std::size_t l = 0; l < 3; ++l) {
+            reach_b += std::fabs(r[3 * k + l]) * hb[l];
+            reach_a += std::fabs(r[3 * l + k]) * ha[l];
+            along_b += r[3 * l + k] * d[l];
+        }
+        least = std::min(least, ha[k] + reach_b - std::fabs(d[k]));
+        least = std::min(least, hb[k] + reach_a - std::fabs(along_b));
+    }
+    return least;
 }
 
-TEST(Kernels, RowsOutsideTheRangeStayUntouched) {
+// The oracle: the same directions in double, without a slack. Where the overlap is
+// larger than rounding, the answer is settled.
+TEST(Kernels, BoxesAreTestedAlongSixFaceDirections) {
+    constexpr float kSlack = 1e-5F;
+    std::mt19937 random(20240601);
+    std::size_t set = 0, all = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const Node a = random_node(random);
+        const Node b = random_node(random);
+        const Pose pose = test::random_pose(random, 0.7);
+        const BoxPlacement placement = placement_of(pose, kSlack);
+        for_each_table([&](const Table& table) {
+            for (const bool with_depth : {false, true}) {
+                BoxMasks masks{};
+                const auto test = with_depth ? table.overlap_depths : table.overlapping_boxes;
+                const unsigned rows = test(placement, {a.data(), nullptr}, {b.data(), nullptr},
+                                           {0xff, 0xff, nullptr}, masks);
+                for (std::size_t j = 0; j < kLanes; ++j) {
+                    for (std::size_t i = 0; i < kLanes; ++i) {
+                        const double overlap = face_overlap(pose, a, i, b, j);
+                        const bool found =
+                            ((rows >> j) & 1) != 0 && ((masks.of_a[j] >> i) & 1) != 0;
+                        if (overlap >= 0) {
+                            ASSERT_TRUE(found) << round << ": " << i << ", " << j;
+                        }
+                        if (overlap < -4e-5) {
+                            ASSERT_FALSE(found) << round << ": " << i << ", " << j;
+                        }
+                        if (with_depth) {
+                            ASSERT_NEAR(masks.depth[j][i], overlap, 4e-5);
+                        }
+                        set += found ? 1 : 0;
+                        ++all;
+                    }
+                }
+            }
+        });
+    }
+    // Neither answer may be rare, or this test would prove nothing.
+    EXPECT_GT(set, all / 30);
+    EXPECT_LT(set, all * 9 / 10);
+}
+
+TEST(Kernels, OnlyChosenBoxesAreAnswered) {
     std::mt19937 random(3);
-    const Node a = random_node(random, false), b = random_node(random, false);
-    const Available tables = available();
-    for (std::size_t i = 0; i < tables.count; ++i) {
-        std::array<std::uint8_t, 8> masks{};
-        masks.fill(0xa5);
-        tables.table[i]->overlap_masks(random_placement(random, false), a.data(), b.data(), 2, 5,
-                                       masks.data());
-        for (const std::size_t row : {0, 1, 5, 6, 7}) {
-            EXPECT_EQ(masks[row], 0xa5) << tables.table[i]->name << ", row " << row;
+    for (int round = 0; round < 200; ++round) {
+        const Node a = random_node(random), b = random_node(random);
+        const BoxPlacement placement = placement_of(test::random_pose(random, 0.2), 1e-5F);
+        const auto of_a = static_cast<std::uint8_t>(random());
+        const auto of_b = static_cast<std::uint8_t>(random());
+        for_each_table([&](const Table& table) {
+            BoxMasks whole{}, part{};
+            const NodeBoxes node_a{a.data(), nullptr}, node_b{b.data(), nullptr};
+            const unsigned all =
+                table.overlapping_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, whole);
+            const unsigned rows =
+                table.overlapping_boxes(placement, node_a, node_b, {of_a, of_b, nullptr}, part);
+            for (unsigned j = 0; j < kLanes; ++j) {
+                const unsigned expected = ((all & of_b) >> j & 1) != 0 ? whole.of_a[j] & of_a : 0u;
+                ASSERT_EQ((rows >> j) & 1, expected != 0 ? 1u : 0u);
+                if (expected != 0) {
+                    ASSERT_EQ(part.of_a[j], expected);
+                }
+            }
+        });
+    }
+}
+
+TEST(Kernels, TheBoxAroundANodeRulesOutNothingThatOverlapsItsBoxes) {
+    std::mt19937 random(4);
+    std::size_t ruled_out = 0;
+    for (int round = 0; round < 500; ++round) {
+        Node a = random_node(random);
+        const Node b = random_node(random);
+        Node around{};  // in lane 0: the union of A's boxes
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t box = 0; box < kLanes; ++box) {
+                a[8 * axis + box] *= 0.3F;  // small, so that B's boxes can miss it
+                a[24 + 8 * axis + box] *= 0.3F;
+                if (a[24 + 8 * axis + box] < a[8 * axis + box]) {
+                    std::swap(a[24 + 8 * axis + box], a[8 * axis + box]);
+                }
+            }
+            around[8 * axis] = *std::min_element(&a[8 * axis], &a[8 * axis] + 8);
+            around[24 + 8 * axis] = *std::max_element(&a[24 + 8 * axis], &a[24 + 8 * axis] + 8);
+        }
+        const BoxPlacement placement = placement_of(test::random_pose(random, 0.7), 1e-5F);
+        for_each_table([&](const Table& table) {
+            BoxMasks with{}, without{};
+            const NodeBoxes node_a{a.data(), nullptr}, node_b{b.data(), nullptr};
+            const unsigned rows = table.overlapping_boxes(placement, node_a, node_b,
+                                                          {0xff, 0xff, around.data()}, with);
+            const unsigned all =
+                table.overlapping_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, without);
+            ASSERT_EQ(rows, all);
+            for (unsigned j = 0; j < kLanes; ++j) {
+                if ((rows >> j & 1) != 0) {
+                    ASSERT_EQ(with.of_a[j], without.of_a[j]);
+                }
+            }
+            ruled_out += kLanes - static_cast<unsigned>(std::popcount(rows));
+        });
+    }
+    EXPECT_GT(ruled_out, 1000u);
+}
+
+/// Eight oriented boxes, each of which holds `point`.
+OrientedNode boxes_with(std::mt19937& random, const Double3& point) {
+    std::uniform_real_distribution<double> inside(-1, 1);
+    std::uniform_real_distribution<double> exponent(-4, -0.3);
+    OrientedNode node{};
+    for (std::size_t box = 0; box < kLanes; ++box) {
+        const auto r = test::random_pose(random, 0).rotation();
+        std::array<double, 3> centre = {point.x, point.y, point.z};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double half = std::pow(10, exponent(random));
+            const double t = half * (random() % 4 == 0 ? 1 : inside(random));  // often on a face
+            for (std::size_t i = 0; i < 3; ++i) {
+                centre[i] -= t * r[3 * k + i];
+                if (k < 2) node[24 * k + 8 * i + box] = static_cast<float>(r[3 * k + i]);
+            }
+            node[72 + 8 * k + box] = static_cast<float>(half * (1 + 0x1p-18) + 0x1p-20);
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            node[48 + 8 * i + box] = static_cast<float>(centre[i]);
         }
     }
+    return node;
+}
+
+Double3 moved_back(const Pose& pose, const Double3& p) {
+    const auto& r = pose.rotation();
+    const Double3 d = {p.x - pose.translation().x, p.y - pose.translation().y,
+                       p.z - pose.translation().z};
+    return {r[0] * d.x + r[3] * d.y + r[6] * d.z, r[1] * d.x + r[4] * d.y + r[7] * d.z,
+            r[2] * d.x + r[5] * d.y + r[8] * d.z};
+}
+
+// By construction: boxes that share a point overlap, whatever the axes.
+TEST(Kernels, OrientedBoxesWithACommonPointAreNeverSeparated) {
+    std::mt19937 random(5);
+    Node everything{};
+    for (std::size_t i = 0; i < 24; ++i) {
+        everything[i] = -2;
+        everything[24 + i] = 2;
+    }
+    std::size_t separated = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const Pose pose = test::random_pose(random, 0.5);
+        const Double3 point = {0.2, -0.3, 0.1};
+        const OrientedNode a = boxes_with(random, point);
+        const OrientedNode b = boxes_with(random, moved_back(pose, point));
+        const OrientedNode elsewhere = boxes_with(random, moved_back(pose, {0.5, 0.1, -0.4}));
+        const BoxPlacement placement = placement_of(pose, 6e-6F);
+        for_each_table([&](const Table& table) {
+            BoxMasks masks{};
+            ASSERT_EQ(table.overlapping_boxes(placement, {everything.data(), a.data()},
+                                              {everything.data(), b.data()}, {0xff, 0xff, nullptr},
+                                              masks),
+                      0xffu)
+                << round;
+            for (const std::uint8_t mask : masks.of_a) ASSERT_EQ(mask, 0xff) << round;
+            masks = {};
+            table.overlapping_boxes(placement, {everything.data(), a.data()},
+                                    {everything.data(), elsewhere.data()}, {0xff, 0xff, nullptr},
+                                    masks);
+            for (const std::uint8_t mask : masks.of_a) {
+                separated += kLanes - static_cast<unsigned>(std::popcount(mask));
+            }
+        });
+    }
+    EXPECT_GT(separated, 100'000u);  // boxes around another point are told apart
+}
+
+using Leaf = std::array<float, 72>;
+
+Corners corners_of(const Leaf& leaf, std::size_t lane, const Pose& pose) {
+    Corners corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        corners[i] =
+            moved(pose, {leaf[24 * i + lane], leaf[24 * i + 8 + lane], leaf[24 * i + 16 + lane]});
+    }
+    return corners;
+}
+
+/// Triangles with corners near the origin; coarse ones touch and share planes.
+Leaf random_leaf(std::mt19937& random, bool coarse) {
+    std::uniform_real_distribution<float> fine(-1, 1);
+    Leaf leaf;
+    for (float& x : leaf) {
+        x = coarse ? static_cast<float>(static_cast<int>(random() % 5) - 2) / 2 : fine(random);
+    }
+    return leaf;
+}
+
+LeafPair pair_of(const Leaf& a, const Leaf& b, const Double3& offset) {
+    LeafPair pair{};
+    pair.a = a.data();
+    pair.b = b.data();
+    pair.half_a[0] = pair.half_a[1] = pair.half_a[2] = pair.reach_b = 1;
+    pair.offset[0] = static_cast<float>(offset.x);
+    pair.offset[1] = static_cast<float>(offset.y);
+    pair.offset[2] = static_cast<float>(offset.z);
+    pair.error = 1e-15F;
+    pair.used_a = pair.used_b = 0xff;
+    return pair;
+}
+
+// The oracle: the exact test on corners moved in double.
+TEST(Kernels, TriangleContactsAreCertainOrLeftOpen) {
+    std::mt19937 random(6);
+    const auto scratch = std::make_unique<LeafScratch>();
+    std::size_t crossing = 0, open = 0, all = 0;
+    for (int round = 0; round < 1500; ++round) {
+        const bool coarse = round % 3 == 0;
+        const Leaf a = random_leaf(random, coarse), b = random_leaf(random, coarse);
+        const Pose pose = coarse ? Pose() : test::random_pose(random, 0.5);
+        LeafPlacement placement{};
+        for (std::size_t i = 0; i < 9; ++i) {
+            placement.rotation[i] = static_cast<float>(pose.rotation()[i]);
+        }
+        placement.scale_a = 1;
+        const LeafPair pair = pair_of(a, b, pose.translation());
+        for_each_table([&](const Table& table) {
+            const std::size_t count = table.find_contacts(placement, &pair, 1, *scratch);
+            std::array<std::array<int, 8>, 8> found{};  // 0: disjoint, 1: open, 2: crossing
+            for (std::size_t i = 0; i < count; ++i) {
+                const TriangleContactLanes& contact = scratch->found[i];
+                ASSERT_EQ(contact.pair, 0);
+                ASSERT_EQ(found[contact.a][contact.b], 0) << "named twice";
+                found[contact.a][contact.b] = contact.certain ? 2 : 1;
+                (contact.certain ? crossing : open) += 1;
+            }
+            for (std::size_t i = 0; i < kLanes; ++i) {
+                for (std::size_t j = 0; j < kLanes; ++j) {
+                    const TriangleContact exact =
+                        classify_contact(corners_of(a, i, Pose()), corners_of(b, j, pose));
+                    if (found[i][j] == 2) {
+                        ASSERT_EQ(exact, TriangleContact::cross) << round;
+                    }
+                    if (found[i][j] == 0) {
+                        ASSERT_EQ(exact, TriangleContact::disjoint) << round;
+                    }
+                    ++all;
+                }
+            }
+        });
+    }
+    EXPECT_GT(crossing, all / 50);
+    EXPECT_GT(open, 0u);
+    EXPECT_LT(open, all / 3);
+}
+
+TEST(Kernels, FewFineTrianglesAreLeftOpen) {
+    std::mt19937 random(7);
+    const auto scratch = std::make_unique<LeafScratch>();
+    for_each_table([&](const Table& table) {
+        std::size_t crossing = 0, open = 0;
+        for (int round = 0; round < 2000; ++round) {
+            const Leaf a = random_leaf(random, false), b = random_leaf(random, false);
+            LeafPlacement placement{{1, 0, 0, 0, 1, 0, 0, 0, 1}, 1};
+            const LeafPair pair = pair_of(a, b, {0.1, 0.2, 0.3});
+            const std::size_t count = table.find_contacts(placement, &pair, 1, *scratch);
+            for (std::size_t i = 0; i < count; ++i) {
+                (scratch->found[i].certain ? crossing : open) += 1;
+            }
+        }
+        EXPECT_GT(crossing, 5000u);
+        EXPECT_LT(open, crossing / 500);
+    });
+}
+
+TEST(Kernels, UnusedLanesAndOtherPairsStayOut) {
+    std::mt19937 random(8);
+    const auto scratch = std::make_unique<LeafScratch>();
+    std::array<Leaf, kLeafBatch> a, b;
+    std::array<LeafPair, kLeafBatch> pairs{};
+    for (std::size_t i = 0; i < kLeafBatch; ++i) {
+        a[i] = random_leaf(random, true);
+        b[i] = random_leaf(random, true);
+        pairs[i] = pair_of(a[i], b[i], {0, 0, 0});
+        pairs[i].used_a = static_cast<std::uint8_t>(random());
+        pairs[i].used_b = static_cast<std::uint8_t>(random());
+    }
+    const LeafPlacement placement{{1, 0, 0, 0, 1, 0, 0, 0, 1}, 1};
+    for_each_table([&](const Table& table) {
+        const std::size_t count =
+            table.find_contacts(placement, pairs.data(), kLeafBatch, *scratch);
+        std::size_t expected = 0;
+        for (std::size_t p = 0; p < kLeafBatch; ++p) {
+            for (std::size_t i = 0; i < kLanes; ++i) {
+                for (std::size_t j = 0; j < kLanes; ++j) {
+                    if ((pairs[p].used_a >> i & 1) == 0 || (pairs[p].used_b >> j & 1) == 0)
+                        continue;
+                    expected +=
+                        triangles_touch(corners_of(a[p], i, Pose()), corners_of(b[p], j, Pose()))
+                            ? 1
+                            : 0;
+                }
+            }
+        }
+        std::size_t touching = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const TriangleContactLanes& c = scratch->found[i];
+            ASSERT_NE(pairs[c.pair].used_a >> c.a & 1, 0);
+            ASSERT_NE(pairs[c.pair].used_b >> c.b & 1, 0);
+            touching += triangles_touch(corners_of(a[c.pair], c.a, Pose()),
+                                        corners_of(b[c.pair], c.b, Pose()))
+                            ? 1
+                            : 0;
+        }
+        EXPECT_EQ(touching, expected);
+        EXPECT_GT(expected, 50u);
+    });
 }
 
 TEST(Kernels, ScalarIsAlwaysAvailable) {

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include <immintrin.h>
+
+#include "kernels.h"
+
+namespace cdprep::kernels {
+namespace {
+
+/// One bit a lane.
+template <class Bits>
+struct LaneMask {
+    Bits x;
+};
+template <class Bits>
+LaneMask<Bits> operator|(LaneMask<Bits> a, LaneMask<Bits> b) noexcept {
+    return {static_cast<Bits>(a.x | b.x)};
+}
+template <class Bits>
+LaneMask<Bits> operator&(LaneMask<Bits> a, LaneMask<Bits> b) noexcept {
+    return {static_cast<Bits>(a.x & b.x)};
+}
+template <class Bits>
+LaneMask<Bits> operator^(LaneMask<Bits> a, LaneMask<Bits> b) noexcept {
+    return {static_cast<Bits>(a.x ^ b.x)};
+}
+template <class Bits>
+LaneMask<Bits> operator~(LaneMask<Bits> a) noexcept {
+    return {static_cast<Bits>(~a.x)};
+}
+template <class Bits>
+unsigned bits(LaneMask<Bits> a) noexcept {
+    return a.x;
+}
+
+/// Eight floats.
+struct F8 {
+    using Mask = LaneMask<__mmask8>;
+    __m256 x;
+
+    F8() noexcept = default;
+    F8(__m256 value) noexcept : x(value) {}  // NOLINT(google-explicit-constructor)
+    explicit F8(float value) noexcept : x(_mm256_set1_ps(value)) {}
+    static F8 load(const float* p) noexcept {
+        return _mm256_loadu_ps(p);
+    }
+    static Mask none() noexcept {
+        return {0};
+    }
+    void store(float* p) const noexcept {
+        _mm256_storeu_ps(p, x);
+    }
+};
+inline F8 operator+(F8 a, F8 b) noexcept {
+    return _mm256_add_ps(a.x, b.x);
+}
+inline F8 operator-(F8 a, F8 b) noexcept {
+    return _mm256_sub_ps(a.x, b.x);
+}
+inline F8 operator*(F8 a, F8 b) noexcept {
+    return _mm256_mul_ps(a.x, b.x);
+}
+inline F8 operator-(F8 a) noexcept {
+    return _mm256_xor_ps(a.x, _mm256_set1_ps(-0.0F));
+}
+inline F8 fma(F8 a, F8 b, F8 c) noexcept {
+    return _mm256_fmadd_ps(a.x, b.x, c.x);
+}
+/// a b - c
+inline F8 fms(F8 a, F8 b, F8 c) noexcept {
+    return _mm256_fmsub_ps(a.x, b.x, c.x);
+}
+inline F8 min(F8 a, F8 b) noexcept {
+    return _mm256_min_ps(a.x, b.x);
+}
+inline F8 max(F8 a, F8 b) noexcept {
+    return _mm256_max_ps(a.x, b.x);
+}
+inline F8 abs(F8 a) noexcept {
+    return _mm256_andnot_ps(_mm256_set1_ps(-0.0F), a.x);
+}
+inline F8::Mask greater(F8 a, F8 b) noexcept {
+    return {_mm256_cmp_ps_mask(a.x, b.x, _CMP_GT_OQ)};
+}
+
+/// Sixteen floats.
+struct F16 {
+    using Mask = LaneMask<__mmask16>;
+    using Index = __m512i;
+    static constexpr unsigned kCount = 16;
+    __m512 x;
+
+    F16() noexcept = default;
+    F16(__m512 value) noexcept : x(value) {}  // NOLINT(google-explicit-constructor)
+    explicit F16(float value) noexcept : x(_mm512_set1_ps(value)) {}
+    static Index load_index(const std::int32_t* p) noexcept {
+        return _mm512_load_si512(p);
+    }
+    static F16 gather(const float* base, Index at) noexcept {
+        return _mm512_i32gather_ps(at, base, 4);
+    }
+};
+inline F16 operator+(F16 a, F16 b) noexcept {
+    return _mm512_add_ps(a.x, b.x);
+}
+inline F16 operator-(F16 a, F16 b) noexcept {
+    return _mm512_sub_ps(a.x, b.x);
+}
+inline F16 operator*(F16 a, F16 b) noexcept {
+    return _mm512_mul_ps(a.x, b.x);
+}
+inline F16 operator-(F16 a) noexcept {
+    return _mm512_xor_ps(a.x, _mm512_set1_ps(-0.0F));
+}
+inline F16 fma(F16 a, F16 b, F16 c) noexcept {
+    return _mm512_fmadd_ps(a.x, b.x, c.x);
+}
+inline F16 fms(F16 a, F16 b, F16 c) noexcept {
+    return _mm512_fmsub_ps(a.x, b.x, c.x);
+}
+inline F16 max(F16 a, F16 b) noexcept {
+    return _mm512_max_ps(a.x, b.x);
+}
+inline F16 abs(F16 a) noexcept {
+    return _mm512_abs_ps(a.x);
+}
+inline F16::Mask greater(F16 a, F16 b) noexcept {
+    return {_mm512_cmp_ps_mask(a.x, b.x, _CMP_GT_OQ)};
+}
+inline F16 select(F16::Mask where, F16 a, F16 b) noexcept {
+    return _mm512_mask_blend_ps(where.x, b.x, a.x);
+}
+
+}  // namespace
+}  // namespace cdprep::kernels
+
+#include "box_overlap.h"
+#include "leaf_contacts.h"
+
+namespace cdprep::kernels {
+
+const Table kAvx512 = {"avx512", overlapping_boxes_of<F8, false>, overlapping_boxes_of<F8, true>,
+                       find_contacts_of<F8, F16>};
+
+}  // namespace cdprep::kernels

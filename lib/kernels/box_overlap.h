@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+// Box against box, eight at a time. Included by kernel sources alone, after they
+// have defined the lanes: a type F of eight floats with its mask type M.
+#pragma once
+
+#include "kernels.h"
+
+namespace cdprep::kernels {
+namespace {
+
+/// (m0 x + m1 y) + m2 z.
+template <class F>
+F combined(float m0, float m1, float m2, const F* v) noexcept {
+    return fma(F(m2), v[2], fma(F(m1), v[1], F(m0) * v[0]));
+}
+
+template <class F>
+F dot(const F* a, const F* b) noexcept {
+    return fma(a[2], b[2], fma(a[1], b[1], a[0] * b[0]));
+}
+
+template <class F>
+void cross(const F* a, const F* b, F* result) noexcept {
+    result[0] = fms(a[1], b[2], a[2] * b[1]);
+    result[1] = fms(a[2], b[0], a[0] * b[2]);
+    result[2] = fms(a[0], b[1], a[1] * b[0]);
+}
+
+/// Eight axis-aligned boxes.
+template <class F>
+struct Boxes {
+    F centre[3];
+    F half[3];
+};
+
+template <class F>
+Boxes<F> scaled_boxes(const float* node, float scale) noexcept {
+    Boxes<F> boxes;
+    const F factor(0.5F * scale);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const F lower = F::load(node + kLanes * axis);
+        const F upper = F::load(node + kLanes * (3 + axis));
+        boxes.centre[axis] = (lower + upper) * factor;
+        boxes.half[axis] = (upper - lower) * factor;
+    }
+    return boxes;
+}
+
+template <class F>
+Boxes<F> turned_to_b(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
+    Boxes<F> turned;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float* r = p.rotation + axis;
+        const float* q = p.abs_rotation + axis;
+        turned.centre[axis] = combined(r[0], r[3], r[6], boxes.centre);
+        turned.half[axis] = combined(q[0], q[3], q[6], boxes.half);
+    }
+    return turned;
+}
+
+/// B's boxes as the tests along A's axes want them: shifted, with the slack.
+template <class F>
+Boxes<F> turned_to_a(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
+    Boxes<F> turned;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float* r = p.rotation + 3 * axis;
+        const float* q = p.abs_rotation + 3 * axis;
+        turned.centre[axis] = combined(r[0], r[1], r[2], boxes.centre) + F(p.shift[axis]);
+        turned.half[axis] = combined(q[0], q[1], q[2], boxes.half) + F(p.slack);
+    }
+    return turned;
+}
+
+/// B's boxes as the tests along B's axes want them.
+template <class F>
+Boxes<F> shifted_in_b(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
+    Boxes<F> shifted;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        shifted.centre[axis] = boxes.centre[axis] + F(p.shift_in_b[axis]);
+        shifted.half[axis] = boxes.half[axis] + F(p.slack);
+    }
+    return shifted;
+}
+
+/// Rows of eight floats, so that one box can be spread over all lanes.
+struct BoxRows {
+    alignas(32) float centre[3][kLanes];
+    alignas(32) float half[3][kLanes];
+};
+
+template <class F>
+void store(const Boxes<F>& boxes, BoxRows& rows) noexcept {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        boxes.centre[axis].store(rows.centre[axis]);
+        boxes.half[axis].store(rows.half[axis]);
+    }
+}
+
+/// Boxes of B that the box around all of A's reaches along A's axes.
+template <class F>
+unsigned boxes_within(const Boxes<F>& turned_b, const BoxPlacement& p,
+                      const float* around_a) noexcept {
+    typename F::Mask out = F::none();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float lower = around_a[kLanes * axis] * p.scale_a;
+        const float upper = around_a[kLanes * (3 + axis)] * p.scale_a;
+        const F gap = abs(turned_b.centre[axis] - F(0.5F * (lower + upper)));
+        out = out | greater(gap, turned_b.half[axis] + F(0.5F * (upper - lower)));
+    }
+    return ~bits(out);
+}
+
+/// By how much box j of `rows` overlaps each of `a` along one of three axes, at least.
+template <class F>
+F least_overlap(const Boxes<F>& a, const BoxRows& rows, std::size_t j) noexcept {
+    F least = (a.half[0] + F(rows.half[0][j])) - abs(a.centre[0] - F(rows.centre[0][j]));
+    for (std::size_t axis = 1; axis < 3; ++axis) {
+        least = min(least, (a.half[axis] + F(rows.half[axis][j])) -
+                               abs(a.centre[axis] - F(rows.centre[axis][j])));
+    }
+    return least;
+}
+
+/// Lanes of `a` that box j of `rows` misses along one of three axes.
+template <class F>
+typename F::Mask apart(const Boxes<F>& a, const BoxRows& rows, std::size_t j) noexcept {
+    typename F::Mask out = F::none();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const F gap = abs(a.centre[axis] - F(rows.centre[axis][j]));
+        out = out | greater(gap, a.half[axis] + F(rows.half[axis][j]));
+    }
+    return out;
+}
+
+/// Eight oriented boxes with their third axes.
+template <class F>
+struct OrientedBoxes {
+    F axis[3][3];  ///< [axis][component]
+    F centre[3];
+    F half[3];
+};
+
+template <class F>
+void load_oriented(const float* node, float scale, OrientedBoxes<F>& boxes) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+        boxes.axis[0][i] = F::load(node + kLanes * i);
+        boxes.axis[1][i] = F::load(node + kLanes * (3 + i));
+        boxes.centre[i] = F::load(node + kLanes * (6 + i)) * F(scale);
+        boxes.half[i] = F::load(node + kLanes * (9 + i)) * F(scale);
+    }
+    cross(boxes.axis[0], boxes.axis[1], boxes.axis[2]);
+}
+
+/// Oriented boxes of B along A's axes, one to be spread over all lanes.
+struct OrientedRows {
+    alignas(32) float axis[3][3][kLanes];
+    alignas(32) float centre[3][kLanes];
+    alignas(32) float half[3][kLanes];
+};
+
+template <class F>
+void turn_oriented(const float* node, const BoxPlacement& p, OrientedRows& rows) noexcept {
+    OrientedBoxes<F> boxes;
+    load_oriented(node, p.scale_b, boxes);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float* r = p.rotation + 3 * i;
+        for (std::size_t k = 0; k < 3; ++k) {
+            combined(r[0], r[1], r[2], boxes.axis[k]).store(rows.axis[k][i]);
+        }
+        (combined(r[0], r[1], r[2], boxes.centre) + F(p.shift[i])).store(rows.centre[i]);
+        boxes.half[i].store(rows.half[i]);
+    }
+}
+
+/// Lanes of `a` that oriented box j of `rows` misses along one of fifteen
+/// directions (Gottschalk, Lin and Manocha 1996), the thinnest first.
+template <class F>
+unsigned oriented_apart(const OrientedBoxes<F>& a, const OrientedRows& rows, std::size_t j,
+                        const BoxPlacement& p, unsigned wanted) noexcept {
+    F b[3][3];
+    F half_b[3];
+    F t[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 3; ++k) b[k][i] = F(rows.axis[k][i][j]);
+        half_b[i] = F(rows.half[i][j]);
+        t[i] = F(rows.centre[i][j]) - a.centre[i];
+    }
+    F r[3][3];
+    F q[3][3];
+    F ta[3];
+    F tb[3];
+    const F slack(p.slack);
+    typename F::Mask out = F::none();
+    for (std::size_t i = 0; i < 3; ++i) {
+        ta[i] = dot(t, a.axis[i]);
+        for (std::size_t k = 0; k < 3; ++k) {
+            r[i][k] = dot(a.axis[i], b[k]);
+            q[i][k] = abs(r[i][k]);
+        }
+        const F reach = fma(q[i][2], half_b[2], fma(q[i][1], half_b[1], q[i][0] * half_b[0]));
+        out = out | greater(abs(ta[i]), a.half[i] + slack + reach);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        tb[k] = dot(t, b[k]);
+        const F reach = fma(q[2][k], a.half[2], fma(q[1][k], a.half[1], q[0][k] * a.half[0]));
+        out = out | greater(abs(tb[k]), half_b[k] + slack + reach);
+    }
+    if ((wanted & ~bits(out)) == 0) return bits(out);
+    const F edge_slack(p.edge_slack);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t i1 = (i + 1) % 3;
+        const std::size_t i2 = (i + 2) % 3;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t k1 = (k + 1) % 3;
+            const std::size_t k2 = (k + 2) % 3;
+            const F gap = abs(fms(ta[i2], r[i1][k], ta[i1] * r[i2][k]));
+            const F reach_a = fma(a.half[i1], q[i2][k], a.half[i2] * q[i1][k]);
+            const F reach_b = fma(half_b[k1], q[i][k2], half_b[k2] * q[i][k1]);
+            out = out | greater(gap, (reach_a + reach_b) + edge_slack);
+        }
+    }
+    return bits(out);
+}
+
+/// Both nodes have oriented boxes: keeps of the masks what they do not separate.
+template <class F>
+unsigned keep_oriented(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b, unsigned rows,
+                       BoxMasks& masks) noexcept {
+    OrientedBoxes<F> oriented_a;
+    load_oriented(a.oriented, p.scale_a, oriented_a);
+    OrientedRows oriented_b;
+    turn_oriented<F>(b.oriented, p, oriented_b);
+    unsigned kept = 0;
+    for (; rows != 0; rows &= rows - 1) {
+        const auto j = static_cast<std::size_t>(__builtin_ctz(rows));
+        const unsigned mask =
+            masks.of_a[j] & ~oriented_apart(oriented_a, oriented_b, j, p, masks.of_a[j]);
+        masks.of_a[j] = static_cast<std::uint8_t>(mask);
+        kept |= static_cast<unsigned>(mask != 0) << j;
+    }
+    return kept;
+}
+
+/// The body of overlapping_boxes() and of overlap_depths().
+template <class F, bool kDepths>
+unsigned overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
+                              const BoxChoice& choice, BoxMasks& masks) noexcept {
+    const Boxes<F> boxes_a = scaled_boxes<F>(a.boxes, p.scale_a);
+    const Boxes<F> boxes_b = scaled_boxes<F>(b.boxes, p.scale_b);
+    const Boxes<F> turned_b = turned_to_a(boxes_b, p);
+    unsigned live = choice.of_b;
+    if (choice.around_a != nullptr) live &= boxes_within(turned_b, p, choice.around_a);
+    if (live == 0) return 0;
+    const Boxes<F> turned_a = turned_to_b(boxes_a, p);
+    BoxRows along_a;
+    BoxRows along_b;
+    store(turned_b, along_a);
+    store(shifted_in_b(boxes_b, p), along_b);
+    unsigned rows = 0;
+    for (; live != 0; live &= live - 1) {
+        const auto j = static_cast<std::size_t>(__builtin_ctz(live));
+        unsigned out;
+        if constexpr (kDepths) {
+            const F depth =
+                min(least_overlap(boxes_a, along_a, j), least_overlap(turned_a, along_b, j));
+            depth.store(masks.depth[j]);
+            out = bits(greater(F(0.0F), depth));
+        } else {
+            out = bits(apart(boxes_a, along_a, j) | apart(turned_a, along_b, j));
+        }
+        const unsigned mask = choice.of_a & ~out;
+        masks.of_a[j] = static_cast<std::uint8_t>(mask);
+        rows |= static_cast<unsigned>(mask != 0) << j;
+    }
+    if (a.oriented == nullptr || b.oriented == nullptr || rows == 0) return rows;
+    return keep_oriented<F>(p, a, b, rows, masks);
+}
+
+}  // namespace
+}  // namespace cdprep::kernels

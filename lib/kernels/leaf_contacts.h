@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+// Triangle against triangle, eight pairs and more at a time. Included by kernel
+// sources alone, after they have defined the lanes: F of eight floats, W of eight
+// or more, each with its mask type.
+//
+// Rounding. Let u = 2^-24 and d the error of a pair: no corner, in the coordinates
+// computed here, is further than d from where the question has it along any axis.
+// A determinant of three differences U, V, W of corners is then off
+//   - by the corners: each row moves by 2d per component, and the cross product of
+//     two rows has components of at most 2|V||W| (largest components), six such
+//     terms in all: 12 d (|V||W| + |U||W| + |U||V|), where each norm already
+//     counts the other rows' motion and is therefore taken 3d too large;
+//   - by rounding: six products of three, each of a difference (u), two products
+//     (2u), and up to three sums of terms below 6|U||V||W| in all: 48 u |U||V||W|.
+// Underflow moves a product by 2^-126 at most, even where the processor flushes
+// subnormal numbers to zero; components are at most 4, so 1e-35 covers it.
+#pragma once
+
+#include "box_overlap.h"
+#include "kernels.h"
+
+namespace cdprep::kernels {
+namespace {
+
+constexpr float kUlp = 0x1p-24F;
+constexpr float kUnderflow = 1e-35F;
+
+/// Rows of a block: corners, normals, tolerance, box of the eight triangles of
+/// each side, then the pair's error.
+enum Row : std::size_t {
+    kCorner = 0,
+    kNormal = 9,
+    kTolerance = 12,
+    kLower = 13,
+    kUpper = 16,
+    kSide = 19,
+    kError = 2 * kSide,
+};
+static_assert(LeafScratch::kRows == kError + 1);
+
+using Block = float[LeafScratch::kRows][kLanes];
+
+template <class F>
+F largest(const F* v) noexcept {
+    return max(max(abs(v[0]), abs(v[1])), abs(v[2]));
+}
+
+template <class F>
+void subtract(const F* a, const F* b, F* result) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) result[i] = a[i] - b[i];
+}
+
+/// How far a determinant of rows with these largest components may be off.
+template <class F>
+F determinant_error(F u, F v, F w, F error) noexcept {
+    const F more = F(3.0F) * error;
+    u = u + more;
+    v = v + more;
+    w = w + more;
+    const F uv = u * v;
+    const F moved = fma(F(12.1F) * error, uv + w * (u + v), F(kUnderflow));
+    return fma(F(64 * kUlp) * uv, w, moved);
+}
+
+/// What the row test needs of eight triangles; `reach` is the largest component
+/// of any corner of the other leaf less one of theirs.
+template <class F>
+void describe(const F corner[3][3], float reach, float error, float (*rows)[kLanes]) noexcept {
+    F edge1[3];
+    F edge2[3];
+    subtract(corner[1], corner[0], edge1);
+    subtract(corner[2], corner[0], edge2);
+    F normal[3];
+    cross(edge1, edge2, normal);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t i = 0; i < 3; ++i) corner[i][axis].store(rows[kCorner + 3 * i + axis]);
+        normal[axis].store(rows[kNormal + axis]);
+        min(min(corner[0][axis], corner[1][axis]), corner[2][axis]).store(rows[kLower + axis]);
+        max(max(corner[0][axis], corner[1][axis]), corner[2][axis]).store(rows[kUpper + axis]);
+    }
+    determinant_error(largest(edge1), largest(edge2), F(reach), F(error)).store(rows[kTolerance]);
+}
+
+/// Brings the triangles of both leaves into one place. Returns the triangles of B
+/// whose boxes reach the box of A's leaf; without any, the block stays unfinished.
+template <class F>
+unsigned place_leaves(const LeafPlacement& placement, const LeafPair& pair, Block& block) noexcept {
+    const float* r = placement.rotation;
+    F b[3][3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        F local[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            local[axis] = F::load(pair.b + kLanes * (3 * i + axis)) - F(pair.middle_b[axis]);
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float* row = r + 3 * axis;
+            b[i][axis] =
+                fma(F(row[0]), local[0],
+                    fma(F(row[1]), local[1], fma(F(row[2]), local[2], F(pair.offset[axis]))));
+        }
+    }
+    // A corner of B: rounded when baked and when the middle is taken off (u each),
+    // three rounded factors, products and sums: below 12 u sqrt 3 reach_b in all,
+    // and 5 u |offset|. A's corners: 2 u half_a.
+    float far = 0;
+    float half = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float at = pair.offset[axis] < 0 ? -pair.offset[axis] : pair.offset[axis];
+        far = at > far ? at : far;
+        half = pair.half_a[axis] > half ? pair.half_a[axis] : half;
+    }
+    const float reach = far + half + 1.75F * pair.reach_b;
+    const float error =
+        pair.error + kUlp * (21.0F * pair.reach_b + 6.0F * far + 3.0F * half) + kUnderflow;
+    typename F::Mask out = F::none();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const F limit(pair.half_a[axis] + 2 * error);
+        const F lower = min(min(b[0][axis], b[1][axis]), b[2][axis]);
+        const F upper = max(max(b[0][axis], b[1][axis]), b[2][axis]);
+        out = out | greater(lower, limit) | greater(-limit, upper);
+    }
+    const unsigned live = pair.used_b & ~bits(out);
+    if (live == 0) return 0;
+    F a[3][3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            a[i][axis] = (F::load(pair.a + kLanes * (3 * i + axis)) - F(pair.middle_a[axis])) *
+                         F(placement.scale_a);
+        }
+    }
+    describe(a, reach, error, block);
+    describe(b, reach, error, block + kSide);
+    F(error).store(block[kError]);
+    return live;
+}
+
+/// Triangles of A that triangle j of B may meet: boxes, then the sides of both
+/// planes.
+template <class F>
+unsigned row_candidates(const Block& block, std::size_t j) noexcept {
+    const float(*a)[kLanes] = block;
+    const float(*b)[kLanes] = block + kSide;
+    const F twice_error = F(2.0F) * F::load(block[kError]);
+    typename F::Mask out = F::none();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        out = out | greater(F::load(a[kLower + axis]), F(b[kUpper + axis][j]) + twice_error) |
+              greater(F(b[kLower + axis][j]), F::load(a[kUpper + axis]) + twice_error);
+    }
+    F normal_a[3];
+    F normal_b[3];
+    F corner_a[3][3];
+    F corner_b[3][3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        normal_a[axis] = F::load(a[kNormal + axis]);
+        normal_b[axis] = F(b[kNormal + axis][j]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            corner_a[i][axis] = F::load(a[kCorner + 3 * i + axis]);
+            corner_b[i][axis] = F(b[kCorner + 3 * i + axis][j]);
+        }
+    }
+    F side_a[3];
+    F side_b[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        F difference[3];
+        subtract(corner_b[i], corner_a[0], difference);
+        side_b[i] = dot(difference, normal_a);
+        subtract(corner_a[i], corner_b[0], difference);
+        side_a[i] = dot(difference, normal_b);
+    }
+    const F tolerance_a = F::load(a[kTolerance]);
+    const F tolerance_b(b[kTolerance][j]);
+    out = out | greater(min(min(side_b[0], side_b[1]), side_b[2]), tolerance_a) |
+          greater(-tolerance_a, max(max(side_b[0], side_b[1]), side_b[2])) |
+          greater(min(min(side_a[0], side_a[1]), side_a[2]), tolerance_b) |
+          greater(-tolerance_b, max(max(side_a[0], side_a[1]), side_a[2]));
+    return ~bits(out);
+}
+
+/// One triangle of each lane.
+template <class W>
+struct LaneTriangle {
+    W corner[3][3];  ///< [corner][axis]
+};
+
+template <class W>
+LaneTriangle<W> gathered(const float* base, typename W::Index at) noexcept {
+    LaneTriangle<W> triangle;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            triangle.corner[i][axis] = W::gather(base + kLanes * (kCorner + 3 * i + axis), at);
+        }
+    }
+    return triangle;
+}
+
+/// On which side of a plane three corners lie.
+template <class W>
+struct Sides {
+    typename W::Mask plus[3];
+    typename W::Mask minus[3];
+
+    [[nodiscard]] typename W::Mask all_certain() const noexcept {
+        return (plus[0] | minus[0]) & (plus[1] | minus[1]) & (plus[2] | minus[2]);
+    }
+    [[nodiscard]] typename W::Mask one_side() const noexcept {
+        return (plus[0] & plus[1] & plus[2]) | (minus[0] & minus[1] & minus[2]);
+    }
+};
+
+/// Sides as orient3d() gives them: plus is behind the plane.
+template <class W>
+Sides<W> sides_of(const LaneTriangle<W>& plane, const LaneTriangle<W>& points, W error) noexcept {
+    W edge1[3];
+    W edge2[3];
+    subtract(plane.corner[1], plane.corner[0], edge1);
+    subtract(plane.corner[2], plane.corner[0], edge2);
+    W normal[3];
+    cross(edge1, edge2, normal);
+    W signed_volume[3];
+    W reach(0.0F);
+    for (std::size_t i = 0; i < 3; ++i) {
+        W difference[3];
+        subtract(points.corner[i], plane.corner[0], difference);
+        signed_volume[i] = dot(difference, normal);
+        reach = max(reach, largest(difference));
+    }
+    const W limit = determinant_error(largest(edge1), largest(edge2), reach, error);
+    Sides<W> sides;
+    for (std::size_t i = 0; i < 3; ++i) {
+        sides.plus[i] = greater(-limit, signed_volume[i]);
+        sides.minus[i] = greater(signed_volume[i], limit);
+    }
+    return sides;
+}
+
+/// A triangle turned so that it starts with the corner that is alone on its side.
+template <class W>
+LaneTriangle<W> turned(const LaneTriangle<W>& t, const Sides<W>& sides,
+                       typename W::Mask& lone_is_minus) noexcept {
+    using Mask = typename W::Mask;
+    const Mask last = ~(sides.minus[0] ^ sides.minus[1]);
+    const Mask middle = ~(sides.minus[0] ^ sides.minus[2]) & ~last;
+    lone_is_minus =
+        (last & sides.minus[2]) | (middle & sides.minus[1]) | (~last & ~middle & sides.minus[0]);
+    LaneTriangle<W> result;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const W c0 = t.corner[0][axis];
+        const W c1 = t.corner[1][axis];
+        const W c2 = t.corner[2][axis];
+        result.corner[0][axis] = select(last, c2, select(middle, c1, c0));
+        result.corner[1][axis] = select(last, c0, select(middle, c2, c1));
+        result.corner[2][axis] = select(last, c1, select(middle, c0, c2));
+    }
+    return result;
+}
+
+template <class W>
+void swap_where(typename W::Mask where, LaneTriangle<W>& t) noexcept {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const W c1 = t.corner[1][axis];
+        t.corner[1][axis] = select(where, t.corner[2][axis], c1);
+        t.corner[2][axis] = select(where, c1, t.corner[2][axis]);
+    }
+}
+
+/// orient3d(a, b, c, d) and how far it may be off.
+template <class W>
+struct Orientation {
+    W determinant;
+    W error;
+};
+
+template <class W>
+Orientation<W> orientation(const W* a, const W* b, const W* c, const W* d, W error) noexcept {
+    W u[3];
+    W v[3];
+    W w[3];
+    subtract(a, d, u);
+    subtract(b, d, v);
+    subtract(c, d, w);
+    W normal[3];
+    cross(v, w, normal);
+    return {dot(u, normal), determinant_error(largest(u), largest(v), largest(w), error)};
+}
+
+/// Bit sets of lanes.
+struct Verdict {
+    unsigned crossing;
+    unsigned unknown;
+};
+
+/// Guigue and Devillers 2003: three signs each way, then two that order the
+/// intervals on the common line.
+template <class W>
+Verdict judge(const LaneTriangle<W>& a, const LaneTriangle<W>& b, W error) noexcept {
+    using Mask = typename W::Mask;
+    const Sides<W> sides_a = sides_of(b, a, error);
+    const Sides<W> sides_b = sides_of(a, b, error);
+    const Mask apart = sides_a.one_side() | sides_b.one_side();
+    const Mask certain = sides_a.all_certain() & sides_b.all_certain();
+    Mask minus_a;
+    Mask minus_b;
+    LaneTriangle<W> p = turned(a, sides_a, minus_a);
+    LaneTriangle<W> q = turned(b, sides_b, minus_b);
+    swap_where(minus_a, q);
+    swap_where(minus_b, p);
+    const Orientation<W> first =
+        orientation(p.corner[0], p.corner[1], q.corner[0], q.corner[1], error);
+    const Orientation<W> second =
+        orientation(p.corner[0], p.corner[2], q.corner[2], q.corner[0], error);
+    const Mask beyond =
+        greater(first.determinant, first.error) | greater(second.determinant, second.error);
+    const Mask within =
+        greater(-first.error, first.determinant) & greater(-second.error, second.determinant);
+    const unsigned crossing = bits(certain & within & ~apart);
+    return {crossing, ~(crossing | bits(apart | (certain & beyond)))};
+}
+
+/// Judges the candidates, W::kCount at a time.
+template <class W>
+std::size_t judge_all(std::size_t candidates, LeafScratch& scratch) noexcept {
+    // A candidate is (pair << 6 | b << 3 | a).
+    const float* base = scratch.block[0][0];
+    std::size_t found = 0;
+    for (std::size_t first = 0; first < candidates; first += W::kCount) {
+        const std::size_t count =
+            candidates - first < W::kCount ? candidates - first : std::size_t{W::kCount};
+        alignas(64) std::int32_t at_a[W::kCount];
+        alignas(64) std::int32_t at_b[W::kCount];
+        for (std::size_t i = 0; i < W::kCount; ++i) {
+            const unsigned candidate = scratch.candidate[first + (i < count ? i : 0)];
+            const auto block =
+                static_cast<std::int32_t>((candidate >> 6) * LeafScratch::kRows * kLanes);
+            at_a[i] = block + static_cast<std::int32_t>(candidate & 7);
+            at_b[i] = block + static_cast<std::int32_t>(kSide * kLanes + ((candidate >> 3) & 7));
+        }
+        const auto index_a = W::load_index(at_a);
+        const W error = W::gather(base + kError * kLanes, index_a);
+        const Verdict verdict =
+            judge(gathered<W>(base, index_a), gathered<W>(base, W::load_index(at_b)), error);
+        const unsigned kept = (verdict.crossing | verdict.unknown) & ((1U << count) - 1);
+        for (unsigned rest = kept; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<unsigned>(__builtin_ctz(rest));
+            const unsigned candidate = scratch.candidate[first + i];
+            scratch.found[found++] = {static_cast<std::uint8_t>(candidate >> 6),
+                                      static_cast<std::uint8_t>(candidate & 7),
+                                      static_cast<std::uint8_t>((candidate >> 3) & 7),
+                                      ((verdict.crossing >> i) & 1) != 0};
+        }
+    }
+    return found;
+}
+
+/// The body of find_contacts().
+template <class F, class W>
+std::size_t find_contacts_of(const LeafPlacement& placement, const LeafPair* pairs,
+                             std::size_t count, LeafScratch& scratch) noexcept {
+    std::size_t candidates = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        unsigned rows = place_leaves<F>(placement, pairs[i], scratch.block[i]);
+        for (; rows != 0; rows &= rows - 1) {
+            const auto j = static_cast<unsigned>(__builtin_ctz(rows));
+            unsigned mask = pairs[i].used_a & row_candidates<F>(scratch.block[i], j);
+            for (; mask != 0; mask &= mask - 1) {
+                const auto a = static_cast<unsigned>(__builtin_ctz(mask));
+                scratch.candidate[candidates++] = static_cast<std::uint16_t>(i << 6 | j << 3 | a);
+            }
+        }
+    }
+    return judge_all<W>(candidates, scratch);
+}
+
+}  // namespace
+}  // namespace cdprep::kernels
