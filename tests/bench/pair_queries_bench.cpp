@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+// How fast two models answer "do they touch?" and "which triangles overlap?", beside
+// FCL where it was found at configure time. For each pair of models and each set
+// of poses (light, deep, near) every contender asks the whole set, contenders take
+// turns, and that several times; the time of a pose is the median of its rounds.
+// The cold rounds flush the caches before every question. One thread.
+//
+// Usage: pair_queries_bench BAKES POSES [ROUNDS [PAIR...]]
+// BAKES holds NAME.cdp.h5, baked with --normalize; POSES holds A-B.pose files of 12
+// numbers a line, R row by row, then T; line i is of kind i mod 3. PAIR is A-B;
+// without, all files of POSES are taken.
+//
+// Prints a CSV table, microseconds; `times` is the peer's median by ours.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cdprep/collide.h"
+#include "cdprep/overlapping_triangles.h"
+
+#ifdef CDPREP_HAVE_FCL
+#include <fcl/fcl.h>
+#endif
+
+namespace cdprep {
+namespace {
+
+constexpr std::size_t kMostPairs = 1U << 22;
+constexpr std::array<const char*, 3> kKinds = {"light", "deep", "near"};
+constexpr std::array<const char*, 2> kQuestions = {"overlap", "collide"};
+
+[[noreturn]] void stop(const std::string& message) {
+    std::fprintf(stderr, "pair_queries_bench: %s\n", message.c_str());
+    std::exit(2);
+}
+
+Model open_or_stop(const std::filesystem::path& path) {
+    auto opened = Model::open(path);
+    if (!opened) stop(opened.error().message);
+    return std::move(opened).value();
+}
+
+std::vector<Pose> read_poses(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::vector<Pose> poses;
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; file >> rows[i % 12]; ++i) {
+        if (i % 12 != 11) continue;
+        auto pose = Pose::from_rows(rows);
+        if (!pose) stop(path.string() + ": " + pose.error().message);
+        poses.push_back(pose.value());
+    }
+    return poses;
+}
+
+class Contender {
+public:
+    virtual ~Contender() = default;
+    [[nodiscard]] virtual const char* name() const = 0;
+    /// Returns the number of pairs, or 1 for a collision.
+    virtual std::size_t ask(std::size_t question, const Pose& pose) = 0;
+};
+
+class Ours final : public Contender {
+public:
+    Ours(const Model& a, const Model& b) : a_(a), b_(b), pairs_(kMostPairs) {}
+    [[nodiscard]] const char* name() const override {
+        return "cdprep";
+    }
+    std::size_t ask(std::size_t question, const Pose& pose) override {
+        const Placement placement = Placement::b_moves(pose);
+        if (question == 0) return overlapping_triangles(a_, b_, placement, workspace_, pairs_);
+        return collide(a_, b_, placement, workspace_).hit ? 1 : 0;
+    }
+
+private:
+    const Model& a_;
+    const Model& b_;
+    Workspace workspace_;
+    std::vector<TrianglePair> pairs_;
+};
+
+#ifdef CDPREP_HAVE_FCL
+using FclModel = fcl::BVHModel<fcl::OBBd>;
+
+FclModel fcl_model(const Model& model) {
+    std::vector<fcl::Vector3d> points;
+    for (const Float3& p : model.positions_f32()) points.emplace_back(p.x, p.y, p.z);
+    for (const Double3& p : model.positions_f64()) points.emplace_back(p.x, p.y, p.z);
+    std::vector<fcl::Triangle> triangles;
+    for (const format::Triangle& t : model.triangles()) {
+        triangles.emplace_back(t.vertex[0], t.vertex[1], t.vertex[2]);
+    }
+    FclModel made;
+    made.beginModel(static_cast<int>(triangles.size()), static_cast<int>(points.size()));
+    made.addSubModel(points, triangles);
+    made.endModel();
+    return made;
+}
+
+class Fcl final : public Contender {
+public:
+    Fcl(const Model& a, const Model& b) : a_(fcl_model(a)), b_(fcl_model(b)) {}
+    [[nodiscard]] const char* name() const override {
+        return "fcl_obb";
+    }
+    std::size_t ask(std::size_t question, const Pose& pose) override {
+        fcl::Transform3d a_from_b = fcl::Transform3d::Identity();
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column) {
+                a_from_b.linear()(row, column) =
+                    pose.rotation()[static_cast<std::size_t>(3 * row + column)];
+            }
+        }
+        const Double3& t = pose.translation();
+        a_from_b.translation() = fcl::Vector3d(t.x, t.y, t.z);
+        fcl::CollisionResultd result;
+        fcl::collide(&a_, fcl::Transform3d::Identity(), &b_, a_from_b,
+                     fcl::CollisionRequestd(question == 0 ? kMostPairs : 1, false), result);
+        return result.numContacts();
+    }
+
+private:
+    FclModel a_;
+    FclModel b_;
+};
+#endif
+
+/// Writes over more memory than any cache holds.
+void flush_caches() {
+    static std::vector<char> memory(std::size_t{256} << 20);
+    for (std::size_t i = 0; i < memory.size(); i += 64) ++memory[i];
+}
+
+double median(std::vector<double> values, double share = 0.5) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+/// What one contender took for one question over one set.
+struct Times {
+    std::vector<std::vector<double>> us;  ///< [pose][round]
+    std::size_t pairs = 0;                ///< of all poses
+
+    [[nodiscard]] std::vector<double> by_pose() const {
+        std::vector<double> result;
+        for (const auto& rounds : us) result.push_back(median(rounds));
+        return result;
+    }
+};
+
+void ask_set(Contender& contender, std::size_t question, const std::vector<Pose>& poses, bool cold,
+             Times& times) {
+    times.us.resize(poses.size());
+    times.pairs = 0;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (cold) flush_caches();
+        const auto begun = std::chrono::steady_clock::now();
+        times.pairs += contender.ask(question, poses[i]);
+        const std::chrono::duration<double, std::micro> taken =
+            std::chrono::steady_clock::now() - begun;
+        times.us[i].push_back(taken.count());
+    }
+}
+
+/// Medians of a pair of models, for the summary.
+using Ratios = std::map<std::string, std::vector<double>>;
+
+void compare(const std::string& pair, const std::vector<std::unique_ptr<Contender>>& contenders,
+             const std::vector<Pose>& all, int rounds, bool cold, Ratios& ratios) {
+    for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+        std::vector<Pose> poses;
+        for (std::size_t i = kind; i < all.size(); i += kKinds.size()) poses.push_back(all[i]);
+        for (std::size_t question = 0; question < kQuestions.size(); ++question) {
+            if (question == 0 && kind == 2) continue;  // nothing overlaps near
+            std::vector<Times> times(contenders.size());
+            for (int round = 0; round < rounds; ++round) {
+                for (std::size_t c = 0; c < contenders.size(); ++c) {
+                    ask_set(*contenders[c], question, poses, cold, times[c]);
+                }
+            }
+            const double ours = median(times[0].by_pose());
+            const double ours95 = median(times[0].by_pose(), 0.95);
+            for (std::size_t c = 0; c < contenders.size(); ++c) {
+                const std::vector<double> us = times[c].by_pose();
+                const std::string key = std::string(kQuestions[question]) + "/" + kKinds[kind] +
+                                        (cold ? "/cold," : "/warm,") + contenders[c]->name();
+                std::printf("%s,%s,%zu,%zu,%.2f,%.2f,%.2f,%.2f\n", pair.c_str(), key.c_str(),
+                            poses.size(), times[c].pairs, median(us), median(us, 0.95),
+                            median(us) / ours, median(us, 0.95) / ours95);
+                if (c > 0) ratios[key].push_back(median(us) / ours);
+            }
+            std::fflush(stdout);
+        }
+    }
+}
+
+void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_folder,
+         const std::vector<std::string>& pairs, int rounds) {
+    std::printf("pair,question,contender,poses,pairs,median_us,p95_us,times,times_p95\n");
+    Ratios ratios;
+    for (const std::string& pair : pairs) {
+        const std::size_t dash = pair.find('-');
+        if (dash == std::string::npos) stop("'" + pair + "' is not two names with a dash between");
+        const Model a = open_or_stop(bakes / (pair.substr(0, dash) + ".cdp.h5"));
+        const Model b = open_or_stop(bakes / (pair.substr(dash + 1) + ".cdp.h5"));
+        const std::vector<Pose> poses = read_poses(poses_folder / (pair + ".pose"));
+        if (poses.empty()) stop("no poses for " + pair);
+        std::vector<std::unique_ptr<Contender>> contenders;
+        contenders.push_back(std::make_unique<Ours>(a, b));
+#ifdef CDPREP_HAVE_FCL
+        contenders.push_back(std::make_unique<Fcl>(a, b));
+#endif
+        compare(pair, contenders, poses, rounds, false, ratios);
+        compare(pair, contenders, poses, 1, true, ratios);
+    }
+    for (const auto& [key, values] : ratios) {
+        std::printf("median of %zu pairs,%s,,,,,%.2f,\n", values.size(), key.c_str(),
+                    median(values));
+        std::printf("worst of %zu pairs,%s,,,,,%.2f,\n", values.size(), key.c_str(),
+                    *std::min_element(values.begin(), values.end()));
+    }
+}
+
+}  // namespace
+}  // namespace cdprep
+
+int main(int count, char** arguments) {
+    if (count < 3) {
+        std::fprintf(stderr, "usage: %s BAKES POSES [ROUNDS [PAIR...]]\n", arguments[0]);
+        return 2;
+    }
+    const std::filesystem::path poses = arguments[2];
+    std::vector<std::string> pairs(arguments + std::min(count, 4), arguments + count);
+    if (pairs.empty()) {
+        for (const auto& entry : std::filesystem::directory_iterator(poses)) {
+            if (entry.path().extension() == ".pose") pairs.push_back(entry.path().stem().string());
+        }
+        std::sort(pairs.begin(), pairs.end());
+    }
+    const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 5;
+    cdprep::run(arguments[1], poses, pairs, rounds);
+}
