@@ -22,8 +22,8 @@
 namespace cdprep::kernels {
 namespace {
 
-constexpr float kUlp = 0x1p-24F;
-constexpr float kUnderflow = 1e-35F;
+inline constexpr float kUlp = 0x1p-24F;
+inline constexpr float kUnderflow = 1e-35F;
 
 /// Rows of a block: corners, normals, tolerance, box of the eight triangles of
 /// each side, then the pair's error.
