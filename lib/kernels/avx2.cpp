@@ -31,6 +31,7 @@ struct F8 {
     using Mask = Mask8;
     using Index = __m256i;
     static constexpr unsigned kCount = 8;
+    static constexpr unsigned kRows = 1;
     __m256 x;
 
     F8() noexcept = default;
@@ -44,6 +45,14 @@ struct F8 {
     }
     static F8 gather(const float* base, Index at) noexcept {
         return _mm256_i32gather_ps(base, at, 4);
+    }
+    /// One of eight, the same for all lanes.
+    template <class Rows>
+    static F8 spread(const float* p, const Rows& at) noexcept {
+        return F8(p[at.first]);
+    }
+    void store_rows(float* first, float* /*second*/) const noexcept {
+        store(first);
     }
     static Mask none() noexcept {
         return {_mm256_setzero_ps()};
@@ -95,7 +104,7 @@ inline F8 select(Mask8 where, F8 a, F8 b) noexcept {
 
 namespace cdprep::kernels {
 
-const Table kAvx2 = {"avx2", overlapping_boxes_of<F8, false>, overlapping_boxes_of<F8, true>,
-                     find_contacts_of<F8, F8>};
+const Table kAvx2 = {"avx2", overlapping_boxes_of<F8, F8, false>,
+                     overlapping_boxes_of<F8, F8, true>, find_contacts_of<F8, F8, F8>};
 
 }  // namespace cdprep::kernels

@@ -87,11 +87,30 @@ struct F16 {
     using Mask = LaneMask<__mmask16>;
     using Index = __m512i;
     static constexpr unsigned kCount = 16;
+    static constexpr unsigned kRows = 2;
     __m512 x;
 
     F16() noexcept = default;
     F16(__m512 value) noexcept : x(value) {}  // NOLINT(google-explicit-constructor)
     explicit F16(float value) noexcept : x(_mm512_set1_ps(value)) {}
+    /// Eight floats, twice.
+    static F16 load(const float* p) noexcept {
+        return _mm512_broadcast_f32x8(_mm256_loadu_ps(p));
+    }
+    /// One of eight for the lower lanes, one for the upper.
+    template <class Rows>
+    static F16 spread(const float* p, const Rows& at) noexcept {
+        constexpr __mmask16 kUpper = 0xff00;
+        return _mm512_mask_broadcastss_ps(_mm512_set1_ps(p[at.first]), kUpper,
+                                          _mm_load_ss(p + at.second));
+    }
+    void store_rows(float* first, float* second) const noexcept {
+        _mm256_storeu_ps(second, _mm512_extractf32x8_ps(x, 1));
+        _mm256_storeu_ps(first, _mm512_castps512_ps256(x));
+    }
+    static Mask none() noexcept {
+        return {0};
+    }
     static Index load_index(const std::int32_t* p) noexcept {
         return _mm512_load_si512(p);
     }
@@ -117,6 +136,9 @@ inline F16 fma(F16 a, F16 b, F16 c) noexcept {
 inline F16 fms(F16 a, F16 b, F16 c) noexcept {
     return _mm512_fmsub_ps(a.x, b.x, c.x);
 }
+inline F16 min(F16 a, F16 b) noexcept {
+    return _mm512_min_ps(a.x, b.x);
+}
 inline F16 max(F16 a, F16 b) noexcept {
     return _mm512_max_ps(a.x, b.x);
 }
@@ -138,7 +160,7 @@ inline F16 select(F16::Mask where, F16 a, F16 b) noexcept {
 
 namespace cdprep::kernels {
 
-const Table kAvx512 = {"avx512", overlapping_boxes_of<F8, false>, overlapping_boxes_of<F8, true>,
-                       find_contacts_of<F8, F16>};
+const Table kAvx512 = {"avx512", overlapping_boxes_of<F8, F16, false>,
+                       overlapping_boxes_of<F8, F16, true>, find_contacts_of<F8, F16, F16>};
 
 }  // namespace cdprep::kernels

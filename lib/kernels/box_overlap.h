@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Box against box, eight at a time. Included by kernel sources alone, after they
-// have defined the lanes: a type F of eight floats with its mask type M.
+// have defined the lanes: a type F of eight floats, and a type R of the same eight
+// once or twice, so that R::kRows rows are tested at once; each with a mask type.
 #pragma once
 
 #include "kernels.h"
@@ -110,26 +111,59 @@ unsigned boxes_within(const Boxes<F>& turned_b, const BoxPlacement& p,
     return ~bits(out);
 }
 
-/// By how much box j of `rows` overlaps each of `a` along one of three axes, at least.
-template <class F>
-F least_overlap(const Boxes<F>& a, const BoxRows& rows, std::size_t j) noexcept {
-    F least = (a.half[0] + F(rows.half[0][j])) - abs(a.centre[0] - F(rows.centre[0][j]));
+/// The rows that are tested together: the second repeats the first when one is
+/// left over.
+struct RowPair {
+    std::size_t first;
+    std::size_t second;
+};
+
+/// Takes as many rows from a bit set as R tests at once.
+template <class R>
+RowPair take_rows(unsigned& rows) noexcept {
+    const auto first = static_cast<std::size_t>(__builtin_ctz(rows));
+    rows &= rows - 1;
+    if (R::kRows == 1 || rows == 0) return {first, first};
+    const auto second = static_cast<std::size_t>(__builtin_ctz(rows));
+    rows &= rows - 1;
+    return {first, second};
+}
+
+/// By how much boxes of `rows` overlap each of `a` along one of three axes, at least.
+template <class R>
+R least_overlap(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
+    R least = (a.half[0] + R::spread(rows.half[0], at)) -
+              abs(a.centre[0] - R::spread(rows.centre[0], at));
     for (std::size_t axis = 1; axis < 3; ++axis) {
-        least = min(least, (a.half[axis] + F(rows.half[axis][j])) -
-                               abs(a.centre[axis] - F(rows.centre[axis][j])));
+        least = min(least, (a.half[axis] + R::spread(rows.half[axis], at)) -
+                               abs(a.centre[axis] - R::spread(rows.centre[axis], at)));
     }
     return least;
 }
 
-/// Lanes of `a` that box j of `rows` misses along one of three axes.
-template <class F>
-typename F::Mask apart(const Boxes<F>& a, const BoxRows& rows, std::size_t j) noexcept {
-    typename F::Mask out = F::none();
+/// Lanes of `a` that boxes of `rows` miss along one of three axes.
+template <class R>
+typename R::Mask apart(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
+    typename R::Mask out = R::none();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const F gap = abs(a.centre[axis] - F(rows.centre[axis][j]));
-        out = out | greater(gap, a.half[axis] + F(rows.half[axis][j]));
+        const R gap = abs(a.centre[axis] - R::spread(rows.centre[axis], at));
+        out = out | greater(gap, a.half[axis] + R::spread(rows.half[axis], at));
     }
     return out;
+}
+
+/// Writes one bit set a row and returns which of the rows have any.
+template <class R>
+unsigned note_rows(unsigned found, RowPair at, unsigned wanted, BoxMasks& masks) noexcept {
+    const unsigned first = found & wanted & 0xff;
+    masks.of_a[at.first] = static_cast<std::uint8_t>(first);
+    unsigned rows = static_cast<unsigned>(first != 0) << at.first;
+    if (R::kRows == 2 && at.second != at.first) {
+        const unsigned second = (found >> kLanes) & wanted & 0xff;
+        masks.of_a[at.second] = static_cast<std::uint8_t>(second);
+        rows |= static_cast<unsigned>(second != 0) << at.second;
+    }
+    return rows;
 }
 
 /// Eight oriented boxes with their third axes.
@@ -172,50 +206,50 @@ void turn_oriented(const float* node, const BoxPlacement& p, OrientedRows& rows)
     }
 }
 
-/// Lanes of `a` that oriented box j of `rows` misses along one of fifteen
-/// directions (Gottschalk, Lin and Manocha 1996), the thinnest first.
-template <class F>
-unsigned oriented_apart(const OrientedBoxes<F>& a, const OrientedRows& rows, std::size_t j,
-                        const BoxPlacement& p, unsigned wanted) noexcept {
-    F b[3][3];
-    F half_b[3];
-    F t[3];
+/// Lanes of `a` that oriented boxes of `rows` miss along one of fifteen directions
+/// (Gottschalk, Lin and Manocha 1996); the edges are left out where the faces
+/// separate all.
+template <class R>
+unsigned oriented_apart(const OrientedBoxes<R>& a, const OrientedRows& rows, RowPair at,
+                        const BoxPlacement& p) noexcept {
+    R b[3][3];
+    R half_b[3];
+    R t[3];
     for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) b[k][i] = F(rows.axis[k][i][j]);
-        half_b[i] = F(rows.half[i][j]);
-        t[i] = F(rows.centre[i][j]) - a.centre[i];
+        for (std::size_t k = 0; k < 3; ++k) b[k][i] = R::spread(rows.axis[k][i], at);
+        half_b[i] = R::spread(rows.half[i], at);
+        t[i] = R::spread(rows.centre[i], at) - a.centre[i];
     }
-    F r[3][3];
-    F q[3][3];
-    F ta[3];
-    F tb[3];
-    const F slack(p.slack);
-    typename F::Mask out = F::none();
+    R r[3][3];
+    R q[3][3];
+    R ta[3];
+    const R slack(p.slack);
+    typename R::Mask out = R::none();
     for (std::size_t i = 0; i < 3; ++i) {
         ta[i] = dot(t, a.axis[i]);
         for (std::size_t k = 0; k < 3; ++k) {
             r[i][k] = dot(a.axis[i], b[k]);
             q[i][k] = abs(r[i][k]);
         }
-        const F reach = fma(q[i][2], half_b[2], fma(q[i][1], half_b[1], q[i][0] * half_b[0]));
+        const R reach = fma(q[i][2], half_b[2], fma(q[i][1], half_b[1], q[i][0] * half_b[0]));
         out = out | greater(abs(ta[i]), a.half[i] + slack + reach);
     }
     for (std::size_t k = 0; k < 3; ++k) {
-        tb[k] = dot(t, b[k]);
-        const F reach = fma(q[2][k], a.half[2], fma(q[1][k], a.half[1], q[0][k] * a.half[0]));
-        out = out | greater(abs(tb[k]), half_b[k] + slack + reach);
+        const R tb = dot(t, b[k]);
+        const R reach = fma(q[2][k], a.half[2], fma(q[1][k], a.half[1], q[0][k] * a.half[0]));
+        out = out | greater(abs(tb), half_b[k] + slack + reach);
     }
-    if ((wanted & ~bits(out)) == 0) return bits(out);
-    const F edge_slack(p.edge_slack);
+    if (bits(~out) == 0) return bits(out);
+    const R edge_slack(p.edge_slack);
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t i1 = (i + 1) % 3;
         const std::size_t i2 = (i + 2) % 3;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t k1 = (k + 1) % 3;
             const std::size_t k2 = (k + 2) % 3;
-            const F gap = abs(fms(ta[i2], r[i1][k], ta[i1] * r[i2][k]));
-            const F reach_a = fma(a.half[i1], q[i2][k], a.half[i2] * q[i1][k]);
-            const F reach_b = fma(half_b[k1], q[i][k2], half_b[k2] * q[i][k1]);
+            const R gap = abs(fms(ta[i2], r[i1][k], ta[i1] * r[i2][k]));
+            const R reach_a = fma(a.half[i1], q[i2][k], a.half[i2] * q[i1][k]);
+            const R reach_b = fma(half_b[k1], q[i][k2], half_b[k2] * q[i][k1]);
             out = out | greater(gap, (reach_a + reach_b) + edge_slack);
         }
     }
@@ -223,57 +257,54 @@ unsigned oriented_apart(const OrientedBoxes<F>& a, const OrientedRows& rows, std
 }
 
 /// Both nodes have oriented boxes: keeps of the masks what they do not separate.
-template <class F>
+template <class F, class R>
 unsigned keep_oriented(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b, unsigned rows,
                        BoxMasks& masks) noexcept {
-    OrientedBoxes<F> oriented_a;
+    OrientedBoxes<R> oriented_a;
     load_oriented(a.oriented, p.scale_a, oriented_a);
     OrientedRows oriented_b;
     turn_oriented<F>(b.oriented, p, oriented_b);
     unsigned kept = 0;
-    for (; rows != 0; rows &= rows - 1) {
-        const auto j = static_cast<std::size_t>(__builtin_ctz(rows));
-        const unsigned mask =
-            masks.of_a[j] & ~oriented_apart(oriented_a, oriented_b, j, p, masks.of_a[j]);
-        masks.of_a[j] = static_cast<std::uint8_t>(mask);
-        kept |= static_cast<unsigned>(mask != 0) << j;
+    while (rows != 0) {
+        const RowPair at = take_rows<R>(rows);
+        const unsigned wanted = masks.of_a[at.first] | unsigned{masks.of_a[at.second]} << kLanes;
+        kept |=
+            note_rows<R>(wanted & ~oriented_apart(oriented_a, oriented_b, at, p), at, 0xff, masks);
     }
     return kept;
 }
 
 /// The body of overlapping_boxes() and of overlap_depths().
-template <class F, bool kDepths>
+template <class F, class R, bool kDepths>
 unsigned overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
                               const BoxChoice& choice, BoxMasks& masks) noexcept {
-    const Boxes<F> boxes_a = scaled_boxes<F>(a.boxes, p.scale_a);
     const Boxes<F> boxes_b = scaled_boxes<F>(b.boxes, p.scale_b);
     const Boxes<F> turned_b = turned_to_a(boxes_b, p);
     unsigned live = choice.of_b;
     if (choice.around_a != nullptr) live &= boxes_within(turned_b, p, choice.around_a);
     if (live == 0) return 0;
-    const Boxes<F> turned_a = turned_to_b(boxes_a, p);
+    const Boxes<R> boxes_a = scaled_boxes<R>(a.boxes, p.scale_a);
+    const Boxes<R> turned_a = turned_to_b(boxes_a, p);
     BoxRows along_a;
     BoxRows along_b;
     store(turned_b, along_a);
     store(shifted_in_b(boxes_b, p), along_b);
     unsigned rows = 0;
-    for (; live != 0; live &= live - 1) {
-        const auto j = static_cast<std::size_t>(__builtin_ctz(live));
+    while (live != 0) {
+        const RowPair at = take_rows<R>(live);
         unsigned out;
         if constexpr (kDepths) {
-            const F depth =
-                min(least_overlap(boxes_a, along_a, j), least_overlap(turned_a, along_b, j));
-            depth.store(masks.depth[j]);
-            out = bits(greater(F(0.0F), depth));
+            const R depth =
+                min(least_overlap(boxes_a, along_a, at), least_overlap(turned_a, along_b, at));
+            depth.store_rows(masks.depth[at.first], masks.depth[at.second]);
+            out = bits(greater(R(0.0F), depth));
         } else {
-            out = bits(apart(boxes_a, along_a, j) | apart(turned_a, along_b, j));
+            out = bits(apart(boxes_a, along_a, at) | apart(turned_a, along_b, at));
         }
-        const unsigned mask = choice.of_a & ~out;
-        masks.of_a[j] = static_cast<std::uint8_t>(mask);
-        rows |= static_cast<unsigned>(mask != 0) << j;
+        rows |= note_rows<R>(~out, at, choice.of_a, masks);
     }
     if (a.oriented == nullptr || b.oriented == nullptr || rows == 0) return rows;
-    return keep_oriented<F>(p, a, b, rows, masks);
+    return keep_oriented<F, R>(p, a, b, rows, masks);
 }
 
 }  // namespace

@@ -59,25 +59,38 @@ struct BoxMasks {
     alignas(32) float depth[kLanes][kLanes];
 };
 
-/// A leaf of A and a leaf of B. B's corners lie at R (corner - middle_b) + offset
-/// relative to A's middle, R being LeafPlacement's.
+/// A leaf is 78 floats: corners as in format::BvhLeaf, its origin, and the half
+/// extents of the box around it.
+inline constexpr std::size_t kLeafOrigin = 72;
+inline constexpr std::size_t kLeafHalf = 75;
+
+/// A leaf of A and a leaf of B.
 struct LeafPair {
-    const float* a;  ///< 72 floats: format::BvhLeaf::corner
+    const float* a;
     const float* b;
-    float middle_a[3];  ///< taken from A's corners
-    float middle_b[3];
-    float half_a[3];      ///< box around A's corners less the middle, in pair units
-    float reach_b;        ///< the largest |corner - middle| of B along an axis, pair units
-    float offset[3];      ///< pair units
-    float error;          ///< how far offset and corners may be off before any rounding here
     std::uint8_t used_a;  ///< bit set of triangles
     std::uint8_t used_b;
 };
 
-/// From leaf coordinates to pair units.
+/// What stored coordinates of one model's leaves mean. A leaf's middle m is at
+/// (origin - frame_origin) * scale in pair units; its corners at m plus
+/// (corner - middle) * scale, middle being its origin or, for corners that are
+/// stored without it, 0.
+struct LeafFrame {
+    double frame_origin[3];
+    double scale;
+    float box_scale;     ///< from half extents to pair units
+    float takes_origin;  ///< 1 or 0: middle = takes_origin * origin
+};
+
+/// Where B's leaves lie among A's: rotation * b + shift, pair units.
 struct LeafPlacement {
-    float rotation[9];  ///< a_from_b times B's scale
-    float scale_a;
+    LeafFrame a;
+    LeafFrame b;
+    double rotation[9];
+    double shift[3];
+    float corner_rotation[9];  ///< rotation times b.scale
+    float error;  ///< how far corners may be off, relative to each other, before any rounding here
 };
 
 /// A pair of triangles that is not certainly disjoint.

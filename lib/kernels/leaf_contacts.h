@@ -81,94 +81,133 @@ void describe(const F corner[3][3], float reach, float error, float (*rows)[kLan
     determinant_error(largest(edge1), largest(edge2), F(reach), F(error)).store(rows[kTolerance]);
 }
 
+/// B's leaf in the coordinates around the middle of A's.
+struct LeafOffset {
+    float offset[3];    ///< of B's middle
+    float middle_a[3];  ///< to be taken off the stored corners
+    float middle_b[3];
+    float half_a[3];
+    float reach;  ///< the largest difference of two corners along an axis, at least
+    float error;
+};
+
+inline float absolute(float x) noexcept {
+    return x < 0 ? -x : x;
+}
+
+inline float largest(float x, float y, float z) noexcept {
+    const float xy = x > y ? x : y;
+    return xy > z ? xy : z;
+}
+
+inline LeafOffset offset_of(const LeafPlacement& p, const LeafPair& pair) noexcept {
+    const float* origin_a = pair.a + kLeafOrigin;
+    const float* origin_b = pair.b + kLeafOrigin;
+    double b[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+        b[i] = (double{origin_b[i]} - p.b.frame_origin[i]) * p.b.scale;
+    }
+    LeafOffset leaf;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double* r = p.rotation + 3 * i;
+        const double a = (double{origin_a[i]} - p.a.frame_origin[i]) * p.a.scale;
+        const double at = ((r[0] * b[0] + r[1] * b[1]) + r[2] * b[2]) + p.shift[i];
+        leaf.offset[i] = static_cast<float>(at - a);
+        leaf.middle_a[i] = origin_a[i] * p.a.takes_origin;
+        leaf.middle_b[i] = origin_b[i] * p.b.takes_origin;
+        leaf.half_a[i] = pair.a[kLeafHalf + i] * p.a.box_scale;
+    }
+    const float far =
+        largest(absolute(leaf.offset[0]), absolute(leaf.offset[1]), absolute(leaf.offset[2]));
+    const float half = largest(leaf.half_a[0], leaf.half_a[1], leaf.half_a[2]);
+    const float* half_b = pair.b + kLeafHalf;
+    const float reach_b = largest(half_b[0], half_b[1], half_b[2]) * p.b.box_scale;
+    // A corner of B: rounded when baked and when the middle is taken off (u each),
+    // three rounded factors, products and sums: below 12 u sqrt 3 reach_b in all,
+    // and 5 u |offset|. A's corners: 2 u half_a.
+    leaf.error = p.error + kUlp * (21.0F * reach_b + 6.0F * far + 3.0F * half) + kUnderflow;
+    leaf.reach = far + half + 1.75F * reach_b;
+    return leaf;
+}
+
 /// Brings the triangles of both leaves into one place. Returns the triangles of B
 /// whose boxes reach the box of A's leaf; without any, the block stays unfinished.
 template <class F>
 unsigned place_leaves(const LeafPlacement& placement, const LeafPair& pair, Block& block) noexcept {
-    const float* r = placement.rotation;
+    const LeafOffset leaf = offset_of(placement, pair);
+    const float* r = placement.corner_rotation;
     F b[3][3];
     for (std::size_t i = 0; i < 3; ++i) {
         F local[3];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            local[axis] = F::load(pair.b + kLanes * (3 * i + axis)) - F(pair.middle_b[axis]);
+            local[axis] = F::load(pair.b + kLanes * (3 * i + axis)) - F(leaf.middle_b[axis]);
         }
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const float* row = r + 3 * axis;
             b[i][axis] =
                 fma(F(row[0]), local[0],
-                    fma(F(row[1]), local[1], fma(F(row[2]), local[2], F(pair.offset[axis]))));
+                    fma(F(row[1]), local[1], fma(F(row[2]), local[2], F(leaf.offset[axis]))));
         }
     }
-    // A corner of B: rounded when baked and when the middle is taken off (u each),
-    // three rounded factors, products and sums: below 12 u sqrt 3 reach_b in all,
-    // and 5 u |offset|. A's corners: 2 u half_a.
-    float far = 0;
-    float half = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const float at = pair.offset[axis] < 0 ? -pair.offset[axis] : pair.offset[axis];
-        far = at > far ? at : far;
-        half = pair.half_a[axis] > half ? pair.half_a[axis] : half;
-    }
-    const float reach = far + half + 1.75F * pair.reach_b;
-    const float error =
-        pair.error + kUlp * (21.0F * pair.reach_b + 6.0F * far + 3.0F * half) + kUnderflow;
     typename F::Mask out = F::none();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const F limit(pair.half_a[axis] + 2 * error);
+        const F limit(leaf.half_a[axis] + 2 * leaf.error);
         const F lower = min(min(b[0][axis], b[1][axis]), b[2][axis]);
         const F upper = max(max(b[0][axis], b[1][axis]), b[2][axis]);
         out = out | greater(lower, limit) | greater(-limit, upper);
     }
     const unsigned live = pair.used_b & ~bits(out);
     if (live == 0) return 0;
+    const F scale_a(static_cast<float>(placement.a.scale));
     F a[3][3];
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            a[i][axis] = (F::load(pair.a + kLanes * (3 * i + axis)) - F(pair.middle_a[axis])) *
-                         F(placement.scale_a);
+            a[i][axis] =
+                (F::load(pair.a + kLanes * (3 * i + axis)) - F(leaf.middle_a[axis])) * scale_a;
         }
     }
-    describe(a, reach, error, block);
-    describe(b, reach, error, block + kSide);
-    F(error).store(block[kError]);
+    describe(a, leaf.reach, leaf.error, block);
+    describe(b, leaf.reach, leaf.error, block + kSide);
+    F(leaf.error).store(block[kError]);
     return live;
 }
 
-/// Triangles of A that triangle j of B may meet: boxes, then the sides of both
-/// planes.
-template <class F>
-unsigned row_candidates(const Block& block, std::size_t j) noexcept {
+/// Triangles of A that triangles of B may meet: boxes, then the sides of both
+/// planes. Eight bits a row.
+template <class R>
+unsigned row_candidates(const Block& block, RowPair at) noexcept {
     const float(*a)[kLanes] = block;
     const float(*b)[kLanes] = block + kSide;
-    const F twice_error = F(2.0F) * F::load(block[kError]);
-    typename F::Mask out = F::none();
+    const R twice_error = R(2.0F * block[kError][0]);
+    typename R::Mask out = R::none();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        out = out | greater(F::load(a[kLower + axis]), F(b[kUpper + axis][j]) + twice_error) |
-              greater(F(b[kLower + axis][j]), F::load(a[kUpper + axis]) + twice_error);
+        out = out |
+              greater(R::load(a[kLower + axis]), R::spread(b[kUpper + axis], at) + twice_error) |
+              greater(R::spread(b[kLower + axis], at), R::load(a[kUpper + axis]) + twice_error);
     }
-    F normal_a[3];
-    F normal_b[3];
-    F corner_a[3][3];
-    F corner_b[3][3];
+    R normal_a[3];
+    R normal_b[3];
+    R corner_a[3][3];
+    R corner_b[3][3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        normal_a[axis] = F::load(a[kNormal + axis]);
-        normal_b[axis] = F(b[kNormal + axis][j]);
+        normal_a[axis] = R::load(a[kNormal + axis]);
+        normal_b[axis] = R::spread(b[kNormal + axis], at);
         for (std::size_t i = 0; i < 3; ++i) {
-            corner_a[i][axis] = F::load(a[kCorner + 3 * i + axis]);
-            corner_b[i][axis] = F(b[kCorner + 3 * i + axis][j]);
+            corner_a[i][axis] = R::load(a[kCorner + 3 * i + axis]);
+            corner_b[i][axis] = R::spread(b[kCorner + 3 * i + axis], at);
         }
     }
-    F side_a[3];
-    F side_b[3];
+    R side_a[3];
+    R side_b[3];
     for (std::size_t i = 0; i < 3; ++i) {
-        F difference[3];
+        R difference[3];
         subtract(corner_b[i], corner_a[0], difference);
         side_b[i] = dot(difference, normal_a);
         subtract(corner_a[i], corner_b[0], difference);
         side_a[i] = dot(difference, normal_b);
     }
-    const F tolerance_a = F::load(a[kTolerance]);
-    const F tolerance_b(b[kTolerance][j]);
+    const R tolerance_a = R::load(a[kTolerance]);
+    const R tolerance_b = R::spread(b[kTolerance], at);
     out = out | greater(min(min(side_b[0], side_b[1]), side_b[2]), tolerance_a) |
           greater(-tolerance_a, max(max(side_b[0], side_b[1]), side_b[2])) |
           greater(min(min(side_a[0], side_a[1]), side_a[2]), tolerance_b) |
@@ -351,19 +390,32 @@ std::size_t judge_all(std::size_t candidates, LeafScratch& scratch) noexcept {
     return found;
 }
 
+/// Appends the triangles of A in a bit set, each with triangle b of B.
+inline std::size_t append(unsigned pair, std::size_t b, unsigned mask, std::uint16_t* candidate,
+                          std::size_t count) noexcept {
+    const unsigned base = pair << 6 | static_cast<unsigned>(b) << 3;
+    for (; mask != 0; mask &= mask - 1) {
+        candidate[count++] =
+            static_cast<std::uint16_t>(base | static_cast<unsigned>(__builtin_ctz(mask)));
+    }
+    return count;
+}
+
 /// The body of find_contacts().
-template <class F, class W>
+template <class F, class R, class W>
 std::size_t find_contacts_of(const LeafPlacement& placement, const LeafPair* pairs,
                              std::size_t count, LeafScratch& scratch) noexcept {
     std::size_t candidates = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (unsigned i = 0; i < count; ++i) {
         unsigned rows = place_leaves<F>(placement, pairs[i], scratch.block[i]);
-        for (; rows != 0; rows &= rows - 1) {
-            const auto j = static_cast<unsigned>(__builtin_ctz(rows));
-            unsigned mask = pairs[i].used_a & row_candidates<F>(scratch.block[i], j);
-            for (; mask != 0; mask &= mask - 1) {
-                const auto a = static_cast<unsigned>(__builtin_ctz(mask));
-                scratch.candidate[candidates++] = static_cast<std::uint16_t>(i << 6 | j << 3 | a);
+        while (rows != 0) {
+            const RowPair at = take_rows<R>(rows);
+            const unsigned found = row_candidates<R>(scratch.block[i], at);
+            candidates =
+                append(i, at.first, found & pairs[i].used_a, scratch.candidate, candidates);
+            if (R::kRows == 2 && at.second != at.first) {
+                candidates = append(i, at.second, (found >> kLanes) & pairs[i].used_a,
+                                    scratch.candidate, candidates);
             }
         }
     }

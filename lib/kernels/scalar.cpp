@@ -31,6 +31,7 @@ struct F8 {
         std::int32_t x[8];
     };
     static constexpr unsigned kCount = 8;
+    static constexpr unsigned kRows = 1;
     float x[8];
 
     F8() noexcept = default;
@@ -51,6 +52,14 @@ struct F8 {
         F8 result;
         for (unsigned i = 0; i < kCount; ++i) result.x[i] = base[at.x[i]];
         return result;
+    }
+    /// One of eight, the same for all lanes.
+    template <class Rows>
+    static F8 spread(const float* p, const Rows& at) noexcept {
+        return F8(p[at.first]);
+    }
+    void store_rows(float* first, float* /*second*/) const noexcept {
+        store(first);
     }
     static Mask none() noexcept {
         return {0};
@@ -115,7 +124,7 @@ inline F8 select(Mask8 where, const F8& a, const F8& b) noexcept {
 
 namespace cdprep::kernels {
 
-const Table kScalar = {"scalar", overlapping_boxes_of<F8, false>, overlapping_boxes_of<F8, true>,
-                       find_contacts_of<F8, F8>};
+const Table kScalar = {"scalar", overlapping_boxes_of<F8, F8, false>,
+                       overlapping_boxes_of<F8, F8, true>, find_contacts_of<F8, F8, F8>};
 
 }  // namespace cdprep::kernels

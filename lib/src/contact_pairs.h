@@ -47,12 +47,13 @@ bool for_each_contact(const Model& a, const Model& b, const Placement& placement
 
     const PlacedBoxes placed = place_boxes(a, b, placement);
     LeafBatch batch(a, b, placed, scratch);
-    const bool whole =
-        walk_pairs<kSearch>(a, b, placed, scratch, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
-            batch.add(leaf_a, leaf_b);
-            if (kSearch == Search::all && !batch.full()) return true;
-            return batch.flush(decide);
-        });
+    const bool whole = walk_pairs<kSearch>(Tree(a), Tree(b), placed, scratch,
+                                           [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+                                               batch.add(leaf_a, leaf_b);
+                                               if (kSearch == Search::all && !batch.full())
+                                                   return true;
+                                               return batch.flush(decide);
+                                           });
     return whole && batch.flush(decide);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "box_placement.h"
@@ -19,7 +18,14 @@ public:
     [[nodiscard]] bool full() const noexcept {
         return count_ == kernels::kLeafBatch;
     }
-    void add(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept;
+    void add(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
+        const format::BvhLeaf& a = leaves_a_[leaf_a];
+        const format::BvhLeaf& b = leaves_b_[leaf_b];
+        scratch_.leaf_pairs[count_] = {a.corner[0][0].data(), b.corner[0][0].data(), used_lanes(a),
+                                       used_lanes(b)};
+        scratch_.leaf_numbers[count_] = std::uint64_t{leaf_a} << 32 | leaf_b;
+        ++count_;
+    }
 
     /// Calls found(triangle_a, triangle_b, certain), in tree order, for every pair
     /// of triangles that crosses for certain or may touch, until it returns
@@ -40,24 +46,13 @@ public:
     }
 
 private:
-    /// A model's leaves as the kernel wants them.
-    struct Side {
-        const format::BvhLeaf* leaves;
-        bool exact;
-        double frame_scale;                  ///< from stored coordinates to pair units
-        std::array<double, 3> frame_origin;  ///< in stored coordinates
-        float box_scale;                     ///< from frame units to pair units
-
-        Side(const Model& model, double scale) noexcept;
-        [[nodiscard]] std::array<double, 3> origin(const format::BvhLeaf& leaf) const noexcept;
-    };
+    static std::uint8_t used_lanes(const format::BvhLeaf& leaf) noexcept {
+        return static_cast<std::uint8_t>((1U << leaf.count) - 1);
+    }
 
     Workspace::Storage& scratch_;
-    Side a_;
-    Side b_;
-    std::array<double, 9> rotation_;
-    std::array<double, 3> shift_;
-    float error_;
+    const format::BvhLeaf* leaves_a_;
+    const format::BvhLeaf* leaves_b_;
     kernels::LeafPlacement placement_;
     std::size_t count_ = 0;
 };

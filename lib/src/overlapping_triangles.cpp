@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "contact_pairs.h"
+#include "sort_pairs.h"
 
 namespace cdprep {
 namespace {
@@ -25,9 +26,8 @@ public:
     }
 
     /// Sorts what was kept; returns how many were added.
-    std::size_t finish() noexcept {
-        const std::size_t stored = std::min(count_, kept_.size());
-        std::sort(kept_.begin(), kept_.begin() + static_cast<std::ptrdiff_t>(stored));
+    std::size_t finish(SortScratch& scratch) noexcept {
+        sort_pairs(kept_.first(std::min(count_, kept_.size())), scratch);
         return count_;
     }
 
@@ -53,7 +53,7 @@ std::size_t overlapping_triangles(const Model& a, const Model& b, const Placemen
                                       smallest.add(pair);
                                       return true;
                                   });
-    return smallest.finish();
+    return smallest.finish(workspace.storage().sort_scratch);
 }
 
 }  // namespace cdprep

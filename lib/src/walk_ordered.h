@@ -15,9 +15,10 @@ namespace cdprep {
 template <class Bound, class Leaf>
 void walk_ordered(const Model& model, Workspace::Storage& scratch, double limit, Bound&& bound,
                   Leaf&& leaf) noexcept {
-    if (model.triangle_count() == 0) return;
+    const Tree tree(model);
+    if (tree.triangles == 0) return;
     std::size_t depth = 0;
-    scratch.bounded[depth++] = {0, model.shape().levels, 0};
+    scratch.bounded[depth++] = {0, tree.shape.levels, 0};
     while (depth > 0) {
         const BoundedPlace top = scratch.bounded[--depth];
         if (top.bound > limit) continue;
@@ -25,7 +26,7 @@ void walk_ordered(const Model& model, Workspace::Storage& scratch, double limit,
             limit = std::min(limit, leaf(top.index));
             continue;
         }
-        const TestedBoxes boxes = boxes_of(model, {top.height, top.index}, true);
+        const TestedBoxes boxes = boxes_of(tree, {top.height, top.index}, true);
         const auto first = scratch.bounded.begin() + static_cast<std::ptrdiff_t>(depth);
         auto last = first;
         for (std::uint32_t box = boxes.first; box < boxes.last; ++box) {

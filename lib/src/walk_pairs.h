@@ -39,6 +39,20 @@ struct PendingPair {
 static_assert(format::kMaxTriangles / format::kBvhWidth < (1U << 28));
 static_assert(format::kMaxBvhLevels < 16);
 
+/// A hierarchy as a walk sees it.
+struct Tree {
+    const format::BvhNode* nodes;
+    const format::OrientedNode* oriented;  ///< or null
+    format::BvhShape shape;
+    std::uint32_t triangles;
+
+    explicit Tree(const Model& model) noexcept
+        : nodes(model.nodes().data()),
+          oriented(model.oriented_nodes().data()),
+          shape(model.shape()),
+          triangles(model.triangle_count()) {}
+};
+
 /// One side of a step: the node whose boxes are tested, and which of them.
 struct TestedBoxes {
     const format::BvhNode* node;
@@ -49,29 +63,29 @@ struct TestedBoxes {
 
 /// The children of a place, or, when it is to stay, its own box among its
 /// siblings.
-inline TestedBoxes boxes_of(const Model& model, const TreePlace& place, bool descend) noexcept {
-    const format::BvhShape& shape = model.shape();
+inline TestedBoxes boxes_of(const Tree& tree, const TreePlace& place, bool descend) noexcept {
+    const format::BvhShape& shape = tree.shape;
     if (descend) {
         const std::uint32_t level = place.height - 1;
-        return {&model.nodes()[shape.first[level] + place.index],
+        return {&tree.nodes[shape.first[level] + place.index],
                 0,
                 shape.used_boxes(level, place.index),
                 {level, place.index * format::kBvhWidth}};
     }
     const std::uint32_t box = place.index % format::kBvhWidth;
     const std::uint32_t parent = place.index / format::kBvhWidth;
-    return {&model.nodes()[shape.first[place.height] + parent],
+    return {&tree.nodes[shape.first[place.height] + parent],
             box,
             box + 1,
             {place.height, parent * format::kBvhWidth}};
 }
 
 /// Half the sum of the edges of a place's box, in the frame of the walk.
-inline float box_size(const Model& model, const TreePlace& place, float scale) noexcept {
-    const format::BvhShape& shape = model.shape();
+inline float box_size(const Tree& tree, const TreePlace& place, float scale) noexcept {
+    const format::BvhShape& shape = tree.shape;
     if (place.height == shape.levels) return 3 * scale;  // the root fills the frame
     const format::BvhNode& node =
-        model.nodes()[shape.first[place.height] + place.index / format::kBvhWidth];
+        tree.nodes[shape.first[place.height] + place.index / format::kBvhWidth];
     const std::uint32_t box = place.index % format::kBvhWidth;
     float size = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -88,12 +102,12 @@ struct Descent {
 
 /// Both when their boxes are of similar size, else the larger; a leaf never, a
 /// root always (it has no siblings to be tested among).
-inline Descent choose_descent(const Model& a, const Model& b, const PendingPair& pair,
+inline Descent choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
                               const kernels::BoxPlacement& placement) noexcept {
     constexpr float kSimilar = 2.5F;
     const bool a_can = pair.a.height > 0;
     const bool b_can = pair.b.height > 0;
-    if (pair.a.height == a.shape().levels || pair.b.height == b.shape().levels) {
+    if (pair.a.height == a.shape.levels || pair.b.height == b.shape.levels) {
         return {a_can, b_can};
     }
     if (!a_can || !b_can) return {a_can, b_can};
@@ -110,20 +124,19 @@ enum class Search : std::uint8_t {
 
 /// Where the box around a place's children stands among its siblings, or null for
 /// a root.
-inline const float* box_around(const Model& model, const TreePlace& place) noexcept {
-    const format::BvhShape& shape = model.shape();
+inline const float* box_around(const Tree& tree, const TreePlace& place) noexcept {
+    const format::BvhShape& shape = tree.shape;
     if (place.height == shape.levels) return nullptr;
     const format::BvhNode& node =
-        model.nodes()[shape.first[place.height] + place.index / format::kBvhWidth];
+        tree.nodes[shape.first[place.height] + place.index / format::kBvhWidth];
     return &node.lower[0][place.index % format::kBvhWidth];
 }
 
-inline kernels::NodeBoxes node_boxes(const Model& model, const TestedBoxes& side) noexcept {
-    const auto index = side.node - model.nodes().data();
-    const auto oriented = model.oriented_nodes();
-    return {
-        side.node->lower[0].data(),
-        oriented.empty() ? nullptr : oriented[static_cast<std::size_t>(index)].axis[0][0].data()};
+inline kernels::NodeBoxes node_boxes(const Tree& tree, const TestedBoxes& side) noexcept {
+    const float* oriented = tree.oriented == nullptr
+                                ? nullptr
+                                : tree.oriented[side.node - tree.nodes].axis[0][0].data();
+    return {side.node->lower[0].data(), oriented};
 }
 
 inline std::uint8_t chosen(const TestedBoxes& side) noexcept {
@@ -134,14 +147,14 @@ inline std::uint8_t chosen(const TestedBoxes& side) noexcept {
 /// each pair of leaves that no box test separates, until it returns false.
 /// Returns false when it did. Both models need nodes.
 template <Search kSearch, class Leaf>
-bool walk_pairs(const Model& a, const Model& b, const PlacedBoxes& placed,
+bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
                 Workspace::Storage& scratch, Leaf&& leaf) noexcept {
-    if (a.triangle_count() == 0 || b.triangle_count() == 0 || placed.apart) return true;
+    if (a.triangles == 0 || b.triangles == 0 || placed.apart) return true;
     const kernels::Table& kernel = kernels::active();
     const auto test = kSearch == Search::first ? kernel.overlap_depths : kernel.overlapping_boxes;
 
     std::size_t depth = 0;
-    scratch.pending[depth++] = PendingPair{{a.shape().levels, 0}, {b.shape().levels, 0}}.packed();
+    scratch.pending[depth++] = PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed();
     while (depth > 0) {
         const PendingPair pair = PendingPair::unpacked(scratch.pending[--depth]);
         if (pair.a.height == 0 && pair.b.height == 0) {

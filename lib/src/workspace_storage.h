@@ -8,6 +8,7 @@
 #include "cdprep/format/limits.h"
 #include "cdprep/workspace.h"
 #include "kernels.h"
+#include "sort_pairs.h"
 
 namespace cdprep {
 
@@ -33,6 +34,7 @@ struct Workspace::Storage {
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     std::array<std::uint64_t, kernels::kLeafBatch> leaf_numbers;  ///< of A, then of B
     kernels::LeafScratch leaf_scratch;
+    SortScratch sort_scratch;
 };
 
 }  // namespace cdprep

@@ -268,7 +268,7 @@ TEST(Kernels, OrientedBoxesWithACommonPointAreNeverSeparated) {
     EXPECT_GT(separated, 100'000u);  // boxes around another point are told apart
 }
 
-using Leaf = std::array<float, 72>;
+using Leaf = std::array<float, 78>;
 
 Corners corners_of(const Leaf& leaf, std::size_t lane, const Pose& pose) {
     Corners corners{};
@@ -282,24 +282,32 @@ Corners corners_of(const Leaf& leaf, std::size_t lane, const Pose& pose) {
 /// Triangles with corners near the origin; coarse ones touch and share planes.
 Leaf random_leaf(std::mt19937& random, bool coarse) {
     std::uniform_real_distribution<float> fine(-1, 1);
-    Leaf leaf;
-    for (float& x : leaf) {
-        x = coarse ? static_cast<float>(static_cast<int>(random() % 5) - 2) / 2 : fine(random);
+    Leaf leaf{};
+    for (std::size_t i = 0; i < kLeafOrigin; ++i) {
+        leaf[i] =
+            coarse ? static_cast<float>(static_cast<int>(random() % 5) - 2) / 2 : fine(random);
     }
+    for (std::size_t i = kLeafHalf; i < leaf.size(); ++i) leaf[i] = 1;
     return leaf;
 }
 
-LeafPair pair_of(const Leaf& a, const Leaf& b, const Double3& offset) {
-    LeafPair pair{};
-    pair.a = a.data();
-    pair.b = b.data();
-    pair.half_a[0] = pair.half_a[1] = pair.half_a[2] = pair.reach_b = 1;
-    pair.offset[0] = static_cast<float>(offset.x);
-    pair.offset[1] = static_cast<float>(offset.y);
-    pair.offset[2] = static_cast<float>(offset.z);
-    pair.error = 1e-15F;
-    pair.used_a = pair.used_b = 0xff;
-    return pair;
+LeafPair pair_of(const Leaf& a, const Leaf& b) {
+    return {a.data(), b.data(), 0xff, 0xff};
+}
+
+/// Corners stored with the origin taken off, at (0, 0, 0).
+LeafPlacement leaf_placement(const Pose& pose) {
+    LeafPlacement placement{};
+    placement.a = placement.b = {{0, 0, 0}, 1, 1, 0};
+    for (std::size_t i = 0; i < 9; ++i) {
+        placement.rotation[i] = pose.rotation()[i];
+        placement.corner_rotation[i] = static_cast<float>(pose.rotation()[i]);
+    }
+    placement.shift[0] = pose.translation().x;
+    placement.shift[1] = pose.translation().y;
+    placement.shift[2] = pose.translation().z;
+    placement.error = 1e-15F;
+    return placement;
 }
 
 // The oracle: the exact test on corners moved in double.
@@ -311,12 +319,8 @@ TEST(Kernels, TriangleContactsAreCertainOrLeftOpen) {
         const bool coarse = round % 3 == 0;
         const Leaf a = random_leaf(random, coarse), b = random_leaf(random, coarse);
         const Pose pose = coarse ? Pose() : test::random_pose(random, 0.5);
-        LeafPlacement placement{};
-        for (std::size_t i = 0; i < 9; ++i) {
-            placement.rotation[i] = static_cast<float>(pose.rotation()[i]);
-        }
-        placement.scale_a = 1;
-        const LeafPair pair = pair_of(a, b, pose.translation());
+        const LeafPlacement placement = leaf_placement(pose);
+        const LeafPair pair = pair_of(a, b);
         for_each_table([&](const Table& table) {
             const std::size_t count = table.find_contacts(placement, &pair, 1, *scratch);
             std::array<std::array<int, 8>, 8> found{};  // 0: disjoint, 1: open, 2: crossing
@@ -350,12 +354,13 @@ TEST(Kernels, TriangleContactsAreCertainOrLeftOpen) {
 TEST(Kernels, FewFineTrianglesAreLeftOpen) {
     std::mt19937 random(7);
     const auto scratch = std::make_unique<LeafScratch>();
+    const LeafPlacement placement =
+        leaf_placement(Pose::from_quaternion(4, 1, 2, 3, {0.1, 0.2, 0.3}).value());
     for_each_table([&](const Table& table) {
         std::size_t crossing = 0, open = 0;
         for (int round = 0; round < 2000; ++round) {
             const Leaf a = random_leaf(random, false), b = random_leaf(random, false);
-            LeafPlacement placement{{1, 0, 0, 0, 1, 0, 0, 0, 1}, 1};
-            const LeafPair pair = pair_of(a, b, {0.1, 0.2, 0.3});
+            const LeafPair pair = pair_of(a, b);
             const std::size_t count = table.find_contacts(placement, &pair, 1, *scratch);
             for (std::size_t i = 0; i < count; ++i) {
                 (scratch->found[i].certain ? crossing : open) += 1;
@@ -374,11 +379,11 @@ TEST(Kernels, UnusedLanesAndOtherPairsStayOut) {
     for (std::size_t i = 0; i < kLeafBatch; ++i) {
         a[i] = random_leaf(random, true);
         b[i] = random_leaf(random, true);
-        pairs[i] = pair_of(a[i], b[i], {0, 0, 0});
+        pairs[i] = pair_of(a[i], b[i]);
         pairs[i].used_a = static_cast<std::uint8_t>(random());
         pairs[i].used_b = static_cast<std::uint8_t>(random());
     }
-    const LeafPlacement placement{{1, 0, 0, 0, 1, 0, 0, 0, 1}, 1};
+    const LeafPlacement placement = leaf_placement(Pose());
     for_each_table([&](const Table& table) {
         const std::size_t count =
             table.find_contacts(placement, pairs.data(), kLeafBatch, *scratch);
