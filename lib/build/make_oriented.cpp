@@ -105,8 +105,9 @@ std::array<Vector, 3> eigenvectors(std::array<Vector, 3> m) {
         }
     }
     std::array<std::size_t, 3> order = {0, 1, 2};
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return m[a][a] < m[b][b]; });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return m[a][a] != m[b][b] ? m[a][a] < m[b][b] : a < b;
+    });
     return {v[order[0]], v[order[1]], v[order[2]]};
 }
 

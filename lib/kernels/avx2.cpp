@@ -51,6 +51,9 @@ struct F8 {
     static F8 spread(const float* p, const Rows& at) noexcept {
         return F8(p[at.first]);
     }
+    void store_all(float* p) const noexcept {
+        store(p);
+    }
     void store_rows(float* first, float* /*second*/) const noexcept {
         store(first);
     }
@@ -72,6 +75,12 @@ inline F8 operator*(F8 a, F8 b) noexcept {
 }
 inline F8 operator-(F8 a) noexcept {
     return _mm256_xor_ps(a.x, _mm256_set1_ps(-0.0F));
+}
+inline F8 operator/(F8 a, F8 b) noexcept {
+    return _mm256_div_ps(a.x, b.x);
+}
+inline F8 root(F8 a) noexcept {
+    return _mm256_sqrt_ps(a.x);
 }
 inline F8 fma(F8 a, F8 b, F8 c) noexcept {
     return _mm256_fmadd_ps(a.x, b.x, c.x);
@@ -99,12 +108,15 @@ inline F8 select(Mask8 where, F8 a, F8 b) noexcept {
 }  // namespace
 }  // namespace cdprep::kernels
 
-#include "box_overlap.h"
-#include "leaf_contacts.h"
+#include "distances.h"
 
 namespace cdprep::kernels {
 
-const Table kAvx2 = {"avx2", overlapping_boxes_of<F8, F8, false>,
-                     overlapping_boxes_of<F8, F8, true>, find_contacts_of<F8, F8, F8>};
+const Table kAvx2 = {"avx2",
+                     overlapping_boxes_of<F8, F8, false>,
+                     overlapping_boxes_of<F8, F8, true>,
+                     near_boxes_of<F8, F8>,
+                     near_triangles_of<F8, F8, F8>,
+                     find_contacts_of<F8, F8, F8>};
 
 }  // namespace cdprep::kernels

@@ -104,6 +104,9 @@ struct F16 {
         return _mm512_mask_broadcastss_ps(_mm512_set1_ps(p[at.first]), kUpper,
                                           _mm_load_ss(p + at.second));
     }
+    void store_all(float* p) const noexcept {
+        _mm512_storeu_ps(p, x);
+    }
     void store_rows(float* first, float* second) const noexcept {
         _mm256_storeu_ps(second, _mm512_extractf32x8_ps(x, 1));
         _mm256_storeu_ps(first, _mm512_castps512_ps256(x));
@@ -130,6 +133,12 @@ inline F16 operator*(F16 a, F16 b) noexcept {
 inline F16 operator-(F16 a) noexcept {
     return _mm512_xor_ps(a.x, _mm512_set1_ps(-0.0F));
 }
+inline F16 operator/(F16 a, F16 b) noexcept {
+    return _mm512_div_ps(a.x, b.x);
+}
+inline F16 root(F16 a) noexcept {
+    return _mm512_sqrt_ps(a.x);
+}
 inline F16 fma(F16 a, F16 b, F16 c) noexcept {
     return _mm512_fmadd_ps(a.x, b.x, c.x);
 }
@@ -155,12 +164,15 @@ inline F16 select(F16::Mask where, F16 a, F16 b) noexcept {
 }  // namespace
 }  // namespace cdprep::kernels
 
-#include "box_overlap.h"
-#include "leaf_contacts.h"
+#include "distances.h"
 
 namespace cdprep::kernels {
 
-const Table kAvx512 = {"avx512", overlapping_boxes_of<F8, F16, false>,
-                       overlapping_boxes_of<F8, F16, true>, find_contacts_of<F8, F16, F16>};
+const Table kAvx512 = {"avx512",
+                       overlapping_boxes_of<F8, F16, false>,
+                       overlapping_boxes_of<F8, F16, true>,
+                       near_boxes_of<F8, F16>,
+                       near_triangles_of<F8, F16, F16>,
+                       find_contacts_of<F8, F16, F16>};
 
 }  // namespace cdprep::kernels

@@ -93,6 +93,13 @@ struct LeafPlacement {
     float error;  ///< how far corners may be off, relative to each other, before any rounding here
 };
 
+/// How far two triangles are apart, at least.
+struct TriangleGap {
+    float lower;     ///< pair units
+    std::uint8_t a;  ///< lane
+    std::uint8_t b;  ///< lane
+};
+
 /// A pair of triangles that is not certainly disjoint.
 struct TriangleContactLanes {
     std::uint8_t pair;  ///< index of the LeafPair
@@ -107,6 +114,7 @@ struct LeafScratch {
     alignas(64) float block[kLeafBatch][kRows][kLanes];
     std::uint16_t candidate[kLeafBatch * kLanes * kLanes + kLanes];
     TriangleContactLanes found[kLeafBatch * kLanes * kLanes];
+    TriangleGap gap[kLanes * kLanes];
 };
 
 /// One instruction set's kernels.
@@ -125,6 +133,19 @@ struct Table {
     unsigned (*overlap_depths)(const BoxPlacement& placement, const NodeBoxes& a,
                                const NodeBoxes& b, const BoxChoice& choice,
                                BoxMasks& masks) noexcept;
+
+    /// Finds the pairs of chosen boxes that are at most `limit` apart. masks.depth
+    /// is a lower bound of their distance: the length of the gaps along three
+    /// directions at right angles, the best of A's, B's and those of the oriented
+    /// boxes.
+    unsigned (*near_boxes)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
+                           const BoxChoice& choice, float limit, BoxMasks& masks) noexcept;
+
+    /// Finds the pairs of triangles of one pair of leaves that may be at most
+    /// `limit` apart. Returns their number; they stand in scratch.gap. A pair
+    /// that touches has a lower bound of 0.
+    std::size_t (*near_triangles)(const LeafPlacement& placement, const LeafPair& pair, float limit,
+                                  LeafScratch& scratch) noexcept;
 
     /// Finds the pairs of triangles, among at most kLeafBatch pairs of leaves,
     /// that cross or whose contact rounding may hide. Returns their number; they

@@ -131,9 +131,11 @@ inline LeafOffset offset_of(const LeafPlacement& p, const LeafPair& pair) noexce
 }
 
 /// Brings the triangles of both leaves into one place. Returns the triangles of B
-/// whose boxes reach the box of A's leaf; without any, the block stays unfinished.
+/// whose boxes come within `margin` of the box of A's leaf; without any, the block
+/// stays unfinished.
 template <class F>
-unsigned place_leaves(const LeafPlacement& placement, const LeafPair& pair, Block& block) noexcept {
+unsigned place_leaves(const LeafPlacement& placement, const LeafPair& pair, float margin,
+                      Block& block) noexcept {
     const LeafOffset leaf = offset_of(placement, pair);
     const float* r = placement.corner_rotation;
     F b[3][3];
@@ -151,7 +153,7 @@ unsigned place_leaves(const LeafPlacement& placement, const LeafPair& pair, Bloc
     }
     typename F::Mask out = F::none();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const F limit(leaf.half_a[axis] + 2 * leaf.error);
+        const F limit(leaf.half_a[axis] + 2 * leaf.error + margin);
         const F lower = min(min(b[0][axis], b[1][axis]), b[2][axis]);
         const F upper = max(max(b[0][axis], b[1][axis]), b[2][axis]);
         out = out | greater(lower, limit) | greater(-limit, upper);
@@ -355,30 +357,49 @@ Verdict judge(const LaneTriangle<W>& a, const LaneTriangle<W>& b, W error) noexc
     return {crossing, ~(crossing | bits(apart | (certain & beyond)))};
 }
 
+/// Where the blocks keep some of the candidates, (pair << 6 | b << 3 | a) each;
+/// lanes past the last repeat the first.
+template <class W>
+class LaneIndices {
+public:
+    LaneIndices(const std::uint16_t* candidate, std::size_t first, std::size_t end) noexcept
+        : count_(end - first < W::kCount ? end - first : std::size_t{W::kCount}) {
+        for (std::size_t i = 0; i < W::kCount; ++i) {
+            const unsigned at = candidate[first + (i < count_ ? i : 0)];
+            const auto block = static_cast<std::int32_t>((at >> 6) * LeafScratch::kRows * kLanes);
+            a_[i] = block + static_cast<std::int32_t>(at & 7);
+            b_[i] = block + static_cast<std::int32_t>(kSide * kLanes + ((at >> 3) & 7));
+        }
+    }
+    [[nodiscard]] std::size_t count() const noexcept {
+        return count_;
+    }
+    [[nodiscard]] typename W::Index of_a() const noexcept {
+        return W::load_index(a_);
+    }
+    [[nodiscard]] typename W::Index of_b() const noexcept {
+        return W::load_index(b_);
+    }
+
+private:
+    std::size_t count_;
+    alignas(64) std::int32_t a_[W::kCount];
+    alignas(64) std::int32_t b_[W::kCount];
+};
+
 /// Judges the candidates, W::kCount at a time.
 template <class W>
 std::size_t judge_all(std::size_t candidates, LeafScratch& scratch) noexcept {
-    // A candidate is (pair << 6 | b << 3 | a).
     const float* base = scratch.block[0][0];
     std::size_t found = 0;
     for (std::size_t first = 0; first < candidates; first += W::kCount) {
-        const std::size_t count =
-            candidates - first < W::kCount ? candidates - first : std::size_t{W::kCount};
-        alignas(64) std::int32_t at_a[W::kCount];
-        alignas(64) std::int32_t at_b[W::kCount];
-        for (std::size_t i = 0; i < W::kCount; ++i) {
-            const unsigned candidate = scratch.candidate[first + (i < count ? i : 0)];
-            const auto block =
-                static_cast<std::int32_t>((candidate >> 6) * LeafScratch::kRows * kLanes);
-            at_a[i] = block + static_cast<std::int32_t>(candidate & 7);
-            at_b[i] = block + static_cast<std::int32_t>(kSide * kLanes + ((candidate >> 3) & 7));
-        }
-        const auto index_a = W::load_index(at_a);
-        const W error = W::gather(base + kError * kLanes, index_a);
+        const LaneIndices<W> lanes(scratch.candidate, first, candidates);
+        const W error = W::gather(base + kError * kLanes, lanes.of_a());
         const Verdict verdict =
-            judge(gathered<W>(base, index_a), gathered<W>(base, W::load_index(at_b)), error);
-        const unsigned kept = (verdict.crossing | verdict.unknown) & ((1U << count) - 1);
-        for (unsigned rest = kept; rest != 0; rest &= rest - 1) {
+            judge(gathered<W>(base, lanes.of_a()), gathered<W>(base, lanes.of_b()), error);
+        const unsigned used = (1U << lanes.count()) - 1;
+        for (unsigned rest = (verdict.crossing | verdict.unknown) & used; rest != 0;
+             rest &= rest - 1) {
             const auto i = static_cast<unsigned>(__builtin_ctz(rest));
             const unsigned candidate = scratch.candidate[first + i];
             scratch.found[found++] = {static_cast<std::uint8_t>(candidate >> 6),
@@ -407,7 +428,7 @@ std::size_t find_contacts_of(const LeafPlacement& placement, const LeafPair* pai
                              std::size_t count, LeafScratch& scratch) noexcept {
     std::size_t candidates = 0;
     for (unsigned i = 0; i < count; ++i) {
-        unsigned rows = place_leaves<F>(placement, pairs[i], scratch.block[i]);
+        unsigned rows = place_leaves<F>(placement, pairs[i], 0, scratch.block[i]);
         while (rows != 0) {
             const RowPair at = take_rows<R>(rows);
             const unsigned found = row_candidates<R>(scratch.block[i], at);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "kernels.h"
 
+#include <cmath>
+
 namespace cdprep::kernels {
 namespace {
 
@@ -58,6 +60,9 @@ struct F8 {
     static F8 spread(const float* p, const Rows& at) noexcept {
         return F8(p[at.first]);
     }
+    void store_all(float* p) const noexcept {
+        store(p);
+    }
     void store_rows(float* first, float* /*second*/) const noexcept {
         store(first);
     }
@@ -89,6 +94,12 @@ inline F8 operator*(const F8& a, const F8& b) noexcept {
 inline F8 operator-(const F8& a) noexcept {
     return each([&](unsigned i) { return -a.x[i]; });
 }
+inline F8 operator/(const F8& a, const F8& b) noexcept {
+    return each([&](unsigned i) { return a.x[i] / b.x[i]; });
+}
+inline F8 root(const F8& a) noexcept {
+    return each([&](unsigned i) { return std::sqrt(a.x[i]); });
+}
 inline F8 fma(const F8& a, const F8& b, const F8& c) noexcept {
     return each([&](unsigned i) { return a.x[i] * b.x[i] + c.x[i]; });
 }
@@ -119,12 +130,15 @@ inline F8 select(Mask8 where, const F8& a, const F8& b) noexcept {
 }  // namespace
 }  // namespace cdprep::kernels
 
-#include "box_overlap.h"
-#include "leaf_contacts.h"
+#include "distances.h"
 
 namespace cdprep::kernels {
 
-const Table kScalar = {"scalar", overlapping_boxes_of<F8, F8, false>,
-                       overlapping_boxes_of<F8, F8, true>, find_contacts_of<F8, F8, F8>};
+const Table kScalar = {"scalar",
+                       overlapping_boxes_of<F8, F8, false>,
+                       overlapping_boxes_of<F8, F8, true>,
+                       near_boxes_of<F8, F8>,
+                       near_triangles_of<F8, F8, F8>,
+                       find_contacts_of<F8, F8, F8>};
 
 }  // namespace cdprep::kernels

@@ -106,6 +106,7 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
     placed.shift = along_a;
     placed.scale_a = scale_a;
     placed.scale_b = scale_b;
+    placed.exponent = exponent;
     placed.double_slack = std::ldexp(double_slack, exponent);
     return placed;
 }

@@ -21,6 +21,7 @@ struct PlacedBoxes {
     std::array<double, 3> shift;
     double scale_a;
     double scale_b;
+    int exponent;  ///< of two: a pair unit is 2^-exponent model units
     /// How far vertices of the two models may be off, relative to each other,
     /// before any rounding to float. Pair units.
     double double_slack;

@@ -9,8 +9,8 @@ Collision collide(const Model& a, const Model& b, const Placement& placement, Wo
                   const CollideOptions& options) noexcept {
     Collision collision;
     const OverlapOptions pairs = {options.contact, options.degenerate};
-    collision.hit = !for_each_contact<Search::first>(a, b, placement, workspace, pairs,
-                                                     [](const TrianglePair&) { return false; });
+    collision.hit = !for_each_contact<Search::first>(
+        a, b, placement, workspace, pairs, [](std::uint32_t, std::uint32_t) { return false; });
     if (collision.hit || options.as == As::surface) return collision;
     collision.containment = find_containment(a, b, placement, workspace);
     collision.hit = collision.containment.answer == Answer::yes;

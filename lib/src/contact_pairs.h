@@ -26,8 +26,8 @@ inline bool in_contact(const Corners& a, const Corners& b, Contact contact) noex
     return kind == TriangleContact::cross || kind == TriangleContact::coplanar_overlap;
 }
 
-/// Calls `found(pair)` for every pair of triangles in contact, in the walk's
-/// order, until it returns false; returns false when it did.
+/// Calls `found(a, b)`, tree order, for every pair of triangles in contact until it returns false;
+/// returns false when it did.
 template <Search kSearch, class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
                       Workspace& workspace, const OverlapOptions& options, Found&& found) noexcept {
@@ -41,8 +41,7 @@ bool for_each_contact(const Model& a, const Model& b, const Placement& placement
             !in_contact(moved_a.corners(at_a), moved_b.corners(at_b), options.contact)) {
             return true;
         }
-        return static_cast<bool>(
-            found(TrianglePair{source_number(a, at_a), source_number(b, at_b)}));
+        return static_cast<bool>(found(at_a, at_b));
     };
 
     const PlacedBoxes placed = place_boxes(a, b, placement);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "box_placement.h"
 #include "moved_leaf.h"
@@ -43,6 +44,17 @@ public:
             if (!found(first_a + contact.a, first_b + contact.b, contact.certain)) return false;
         }
         return true;
+    }
+
+    /// Triangles of one pair of leaves that may be at most `limit` (pair units)
+    /// apart. Valid until the next call.
+    std::span<kernels::TriangleGap> near_triangles(std::uint32_t leaf_a, std::uint32_t leaf_b,
+                                                   float limit) noexcept {
+        add(leaf_a, leaf_b);
+        count_ = 0;
+        const std::size_t found = kernels::active().near_triangles(
+            placement_, scratch_.leaf_pairs[0], limit, scratch_.leaf_scratch);
+        return std::span(scratch_.leaf_scratch.gap, found);
     }
 
 private:

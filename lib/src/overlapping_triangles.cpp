@@ -48,11 +48,11 @@ std::size_t overlapping_triangles(const Model& a, const Model& b, const Placemen
                                   Workspace& workspace, std::span<TrianglePair> pairs,
                                   const OverlapOptions& options) noexcept {
     SmallestPairs smallest(pairs);
-    for_each_contact<Search::all>(a, b, placement, workspace, options,
-                                  [&](const TrianglePair& pair) {
-                                      smallest.add(pair);
-                                      return true;
-                                  });
+    for_each_contact<Search::all>(
+        a, b, placement, workspace, options, [&](std::uint32_t at_a, std::uint32_t at_b) {
+            smallest.add({source_number(a, at_a), source_number(b, at_b)});
+            return true;
+        });
     return smallest.finish(workspace.storage().sort_scratch);
 }
 

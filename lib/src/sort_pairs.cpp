@@ -46,7 +46,7 @@ void sort_pairs(std::span<TrianglePair> pairs, SortScratch& scratch) noexcept {
     std::span<TrianglePair> from = pairs;
     std::span<TrianglePair> to(scratch.data(), pairs.size());
     const auto pass = [&](std::uint32_t bits, auto number) {
-        for (int shift = 0; shift < std::bit_width(bits); shift += kDigitBits) {
+        for (int shift = 0; shift < static_cast<int>(std::bit_width(bits)); shift += kDigitBits) {
             sort_by_digit(from, to.data(), shift, number);
             std::swap(from, to);
         }

@@ -28,8 +28,15 @@ struct BoundedPlace {
 inline constexpr std::size_t kMaxBoundedPlaces =
     std::size_t{format::kMaxBvhLevels + 1} * format::kBvhWidth;
 
+/// A pair of places with a lower bound of their distance, pair units.
+struct NearPair {
+    float bound;
+    std::uint64_t pair;  ///< PendingPair::packed()
+};
+
 struct Workspace::Storage {
     std::array<std::uint64_t, kMaxPendingPairs> pending;
+    std::array<NearPair, kMaxPendingPairs> near;
     std::array<BoundedPlace, kMaxBoundedPlaces> bounded;
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     std::array<std::uint64_t, kernels::kLeafBatch> leaf_numbers;  ///< of A, then of B

@@ -11,4 +11,7 @@ namespace cdprep::test {
 /// Corners may be collinear or equal.
 [[nodiscard]] ExactRational exact_squared_distance(const Double3& q, const Corners& corners);
 
+/// The square of the distance between two closed triangles, without rounding.
+[[nodiscard]] ExactRational exact_squared_distance(const Corners& a, const Corners& b);
+
 }  // namespace cdprep::test

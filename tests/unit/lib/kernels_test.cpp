@@ -12,6 +12,7 @@
 
 #include "support/random_pose.h"
 #include "triangle_contact.h"
+#include "triangle_distance.h"
 
 namespace cdprep::kernels {
 namespace {
@@ -413,6 +414,101 @@ TEST(Kernels, UnusedLanesAndOtherPairsStayOut) {
         EXPECT_EQ(touching, expected);
         EXPECT_GT(expected, 50u);
     });
+}
+
+// By construction: boxes that hold a point each are no further apart than the points.
+TEST(Kernels, BoxesAreNoFurtherApartThanPointsInThem) {
+    std::mt19937 random(9);
+    Node everything{};
+    for (std::size_t i = 0; i < 24; ++i) {
+        everything[i] = -2;
+        everything[24 + i] = 2;
+    }
+    const Double3 at_a = {0.2, -0.3, 0.1};
+    const Double3 at_b = {0.9, 0.5, -0.6};
+    const double between = std::hypot(0.7, 0.8, 0.7);
+    double tightest = 0;
+    for (int round = 0; round < 2000; ++round) {
+        const Pose pose = test::random_pose(random, 0.5);
+        const OrientedNode a = boxes_with(random, at_a);
+        const OrientedNode b = boxes_with(random, moved_back(pose, at_b));
+        const BoxPlacement placement = placement_of(pose, 6e-6F);
+        for_each_table([&](const Table& table) {
+            BoxMasks masks{};
+            const NodeBoxes node_a{everything.data(), a.data()};
+            const NodeBoxes node_b{everything.data(), b.data()};
+            ASSERT_EQ(table.near_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr},
+                                       static_cast<float>(between), masks),
+                      0xffu);
+            for (std::size_t j = 0; j < kLanes; ++j) {
+                ASSERT_EQ(masks.of_a[j], 0xff);
+                for (std::size_t i = 0; i < kLanes; ++i) {
+                    ASSERT_LE(masks.depth[j][i], between);
+                    tightest = std::max(tightest, double{masks.depth[j][i]});
+                }
+            }
+            // What is farther than the limit is left out, and nothing else.
+            BoxMasks fewer{};
+            const float limit = static_cast<float>(between) / 2;
+            const unsigned rows =
+                table.near_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, limit, fewer);
+            for (std::size_t j = 0; j < kLanes; ++j) {
+                unsigned expected = 0;
+                for (std::size_t i = 0; i < kLanes; ++i) {
+                    expected |= static_cast<unsigned>(masks.depth[j][i] <= limit) << i;
+                }
+                ASSERT_EQ((rows >> j) & 1, expected != 0 ? 1u : 0u);
+                if (expected != 0) {
+                    ASSERT_EQ(fewer.of_a[j], expected);
+                }
+            }
+        });
+    }
+    EXPECT_GT(tightest, 0.9 * between);
+}
+
+// The oracle: the distance in double, whose interval is proved elsewhere.
+TEST(Kernels, TrianglesAreNoNearerThanTheirGaps) {
+    std::mt19937 random(10);
+    const auto scratch = std::make_unique<LeafScratch>();
+    std::size_t near = 0, all = 0;
+    double worst = 0;
+    for (int round = 0; round < 600; ++round) {
+        const bool coarse = round % 3 == 0;
+        const Leaf a = random_leaf(random, coarse), b = random_leaf(random, coarse);
+        const Pose pose = test::random_pose(random, 4);
+        const LeafPlacement placement = leaf_placement(pose);
+        const LeafPair pair = pair_of(a, b);
+        const float limit = 1 + static_cast<float>(round % 5);
+        for_each_table([&](const Table& table) {
+            const std::size_t count = table.near_triangles(placement, pair, limit, *scratch);
+            std::array<std::array<float, 8>, 8> lower{};
+            for (auto& row : lower) row.fill(1e30F);
+            for (std::size_t i = 0; i < count; ++i) {
+                const TriangleGap& gap = scratch->gap[i];
+                ASSERT_LE(gap.lower, limit);
+                lower[gap.a][gap.b] = gap.lower;
+            }
+            for (std::size_t i = 0; i < kLanes; ++i) {
+                for (std::size_t j = 0; j < kLanes; ++j) {
+                    const Corners s = corners_of(a, i, Pose()), t = corners_of(b, j, pose);
+                    const bool touch = triangles_touch(s, t);
+                    const double distance = touch ? 0 : triangle_distance(s, t, true).upper;
+                    ++all;
+                    if (lower[i][j] > 1e29F) {
+                        ASSERT_GT(distance, limit) << round;
+                        continue;
+                    }
+                    ++near;
+                    ASSERT_LE(lower[i][j], distance) << round;
+                    if (distance > 0.5) worst = std::max(worst, distance - lower[i][j]);
+                }
+            }
+        });
+    }
+    EXPECT_GT(near, all / 10);
+    EXPECT_LT(near, all * 9 / 10);
+    EXPECT_LT(worst, 1e-3);  // a bound of 0 would hold too, and prune nothing
 }
 
 TEST(Kernels, ScalarIsAlwaysAvailable) {

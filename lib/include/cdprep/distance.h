@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "cdprep/model.h"
+#include "cdprep/pair_cache.h"
+#include "cdprep/placement.h"
+#include "cdprep/workspace.h"
+
+namespace cdprep {
+
+/// How near is near enough. Either permitted error suffices to end the search; 0
+/// asks for all that double can tell.
+struct DistanceOptions {
+    double relative_error = 0;  ///< upper may exceed lower by this share of lower
+    double absolute_error = 0;  ///< or by this, model units
+    /// Beyond, nothing is of interest; inclusive.
+    double max_distance = std::numeric_limits<double>::infinity();
+};
+
+/// The distance of two surfaces, and where it is taken.
+struct Distance {
+    double lower;              ///< the distance is at least this, model units
+    double upper;              ///< and at most this: [lower, upper] holds the exact one
+    Double3 witness_a;         ///< on A as moved, up to rounding; nearest to B
+    Double3 witness_b;         ///< on B as moved, up to rounding; `upper` from witness_a
+    std::uint32_t triangle_a;  ///< that witness_a lies on; source numbering
+    std::uint32_t triangle_b;  ///< likewise
+};
+
+/// Returns how far two surfaces are apart, or nothing when that is more than
+/// `max_distance` or a model is empty.
+///
+/// Surfaces that touch are 0 apart, exactly, with a common point as witness; so
+/// are none else. Of several nearest pairs of triangles the one with the lowest
+/// numbers answers, as far as double can tell them apart. Distance is between the
+/// surfaces: a small model inside a large one is as far away as its walls are.
+///
+/// The interval holds the distance between the vertices as `placement` moves them
+/// (level E1). Without permitted errors it is at most 1e-12 of the distance plus
+/// 1e-15 of the largest coordinate wide (triangle_distance_laws_test); with them
+/// at most that wide or as permitted.
+///
+/// Needs what overlapping_triangles() needs. Never allocates. Costs O(log n) for
+/// compact surfaces; every triangle in the worst case, such as concentric spheres.
+/// `cache` may be null.
+[[nodiscard]] std::optional<Distance> distance(const Model& a, const Model& b,
+                                               const Placement& placement, Workspace& workspace,
+                                               const DistanceOptions& options = {},
+                                               PairCache* cache = nullptr) noexcept;
+
+/// Returns whether two surfaces are at most `tolerance` apart: the tolerance
+/// belongs to it, and 0 asks whether they touch. False for a negative tolerance or
+/// NaN, and when a model is empty.
+///
+/// Decided for the vertices as `placement` moves them, in up to 100 bits: only a
+/// distance that agrees with the tolerance to 2^-90 of the triangles' size counts
+/// as equal to it. Stops at the first pair of triangles that is near enough.
+/// Needs and costs as distance(), less where the answer is clear.
+[[nodiscard]] bool is_within(const Model& a, const Model& b, const Placement& placement,
+                             double tolerance, Workspace& workspace,
+                             PairCache* cache = nullptr) noexcept;
+
+}  // namespace cdprep

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contact_pairs.h"
+#include "triangle_distance.h"
+
+namespace cdprep {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// A pair of triangles, tree order.
+struct At {
+    std::uint32_t a;
+    std::uint32_t b;
+};
+
+/// A branch and bound over both hierarchies, nearest boxes first. Bounds are taken
+/// in pair units and in float, each with its proven error; what they leave is
+/// measured in double.
+class NearestSearch {
+public:
+    NearestSearch(const Model& a, const Model& b, const Placement& placement,
+                  Workspace& workspace) noexcept
+        : a_(a),
+          b_(b),
+          moved_a_{&a, placement.a_is_moved() ? &placement.pose_a() : nullptr},
+          moved_b_{&b, placement.b_is_moved() ? &placement.pose_b() : nullptr},
+          placed_(place_boxes(a, b, placement)),
+          scratch_(workspace.storage()),
+          leaves_(a, b, placed_, scratch_) {}
+
+    [[nodiscard]] TriangleDistance measure(const At& at, bool tight) const noexcept {
+        return triangle_distance(moved_a_.corners(at.a), moved_b_.corners(at.b), tight);
+    }
+
+    /// Calls `near(at)` for pairs of triangles that may be at most the limit apart;
+    /// it returns the new limit, in model units, negative to end the search.
+    template <class Near>
+    void run(double limit, Near&& near) noexcept;
+
+private:
+    /// In pair units, rounded up.
+    [[nodiscard]] float in_pair_units(double limit) const noexcept {
+        const double scaled = std::ldexp(limit, placed_.exponent);
+        constexpr float kMost = std::numeric_limits<float>::max();
+        if (!(scaled < static_cast<double>(kMost))) return kMost;
+        return std::nextafter(static_cast<float>(scaled), kMost);
+    }
+    /// Pushes the children of a pair that are near enough, the nearest last.
+    std::size_t push_children(const Tree& a, const Tree& b, const PendingPair& pair, float limit,
+                              std::size_t depth) noexcept;
+
+    const Model& a_;
+    const Model& b_;
+    MovedModel moved_a_;
+    MovedModel moved_b_;
+    PlacedBoxes placed_;
+    Workspace::Storage& scratch_;
+    LeafBatch leaves_;
+};
+
+std::size_t NearestSearch::push_children(const Tree& a, const Tree& b, const PendingPair& pair,
+                                         float limit, std::size_t depth) noexcept {
+    const Descent descent = choose_descent(a, b, pair, placed_.placement);
+    const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
+    const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
+    kernels::BoxMasks masks;
+    unsigned rows = kernels::active().near_boxes(
+        placed_.placement, node_boxes(a, side_a), node_boxes(b, side_b),
+        {chosen(side_a), chosen(side_b), nullptr}, limit, masks);
+    const std::uint64_t base = PendingPair{side_a.first_below, side_b.first_below}.packed();
+    const std::size_t first = depth;
+    for (; rows != 0; rows &= rows - 1) {
+        const auto j = static_cast<std::uint32_t>(std::countr_zero(rows));
+        for (std::uint32_t bits = masks.of_a[j]; bits != 0; bits &= bits - 1) {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
+            scratch_.near[depth++] = {masks.depth[j][i], base + (std::uint64_t{i} << 32) + j};
+        }
+    }
+    const auto begin = scratch_.near.begin();
+    std::sort(begin + static_cast<std::ptrdiff_t>(first),
+              begin + static_cast<std::ptrdiff_t>(depth),
+              [](const NearPair& x, const NearPair& y) { return x.bound > y.bound; });
+    return depth;
+}
+
+template <class Near>
+void NearestSearch::run(double limit, Near&& near) noexcept {
+    const Tree a(a_);
+    const Tree b(b_);
+    if (a.triangles == 0 || b.triangles == 0) return;
+    float pair_limit = in_pair_units(limit);
+    std::size_t depth = 0;
+    scratch_.near[depth++] = {0, PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed()};
+    while (depth > 0) {
+        const NearPair top = scratch_.near[--depth];
+        if (top.bound > pair_limit) continue;
+        const PendingPair pair = PendingPair::unpacked(top.pair);
+        if (pair.a.height > 0 || pair.b.height > 0) {
+            depth = push_children(a, b, pair, pair_limit, depth);
+            continue;
+        }
+        std::span<kernels::TriangleGap> gaps =
+            leaves_.near_triangles(pair.a.index, pair.b.index, pair_limit);
+        std::sort(gaps.begin(), gaps.end(), [](const auto& x, const auto& y) {
+            if (x.lower != y.lower) return x.lower < y.lower;
+            return x.b != y.b ? x.b < y.b : x.a < y.a;
+        });
+        for (const kernels::TriangleGap& gap : gaps) {
+            if (gap.lower > pair_limit) break;
+            limit = near(At{pair.a.index * format::kBvhWidth + gap.a,
+                            pair.b.index * format::kBvhWidth + gap.b});
+            if (limit < 0) return;
+            pair_limit = in_pair_units(limit);
+        }
+    }
+}
+
+/// The nearest pairs so far: those that may still turn out to be the nearest.
+class Nearest {
+public:
+    Nearest(const Model& a, const Model& b, const NearestSearch& search,
+            const DistanceOptions& options) noexcept
+        : a_(a), b_(b), search_(search), options_(options) {}
+
+    /// Takes a pair; returns the limit beyond which nothing is of interest.
+    double take(const At& at) noexcept {
+        const TriangleDistance d = search_.measure(at, false);
+        if (d.lower > limit()) return limit();
+        upper_ = std::min(upper_, d.upper);
+        if (count_ == contenders_.size()) settle();
+        contenders_[count_++] = {at, d.lower};
+        return limit();
+    }
+
+    [[nodiscard]] double limit() const noexcept {
+        if (upper_ == kInfinity) return options_.max_distance;
+        const double nearer =
+            std::min(upper_ / (1 + options_.relative_error), upper_ - options_.absolute_error);
+        return std::min(options_.max_distance, std::max(0.0, nearer));
+    }
+
+    /// The answer once the search is over.
+    [[nodiscard]] std::optional<Distance> answer() noexcept {
+        settle();
+        if (!found_ || best_.lower > options_.max_distance) return std::nullopt;
+        const double unseen =
+            options_.relative_error > 0 || options_.absolute_error > 0 ? limit() : best_.upper;
+        best_.lower = std::min({best_.lower, lower_, unseen});
+        return best_;
+    }
+    [[nodiscard]] const At& nearest() const noexcept {
+        return nearest_;
+    }
+
+private:
+    struct Contender {
+        At at;
+        double lower;
+    };
+
+    /// Measures what may be the nearest once more, as well as can be.
+    void settle() noexcept {
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (contenders_[i].lower > upper_) continue;
+            const At at = contenders_[i].at;
+            const TriangleDistance d = search_.measure(at, true);
+            lower_ = std::min(lower_, d.lower);
+            const Distance found = {
+                d.lower, d.upper, d.on_a, d.on_b, source_number(a_, at.a), source_number(b_, at.b)};
+            if (found_ && !precedes(found, best_)) continue;
+            best_ = found;
+            nearest_ = at;
+            found_ = true;
+            upper_ = std::min(upper_, d.upper);
+        }
+        count_ = 0;
+    }
+    static bool precedes(const Distance& x, const Distance& y) noexcept {
+        if (x.upper != y.upper) return x.upper < y.upper;
+        return x.triangle_a != y.triangle_a ? x.triangle_a < y.triangle_a
+                                            : x.triangle_b < y.triangle_b;
+    }
+
+    const Model& a_;
+    const Model& b_;
+    const NearestSearch& search_;
+    const DistanceOptions& options_;
+    std::array<Contender, 64> contenders_;
+    std::size_t count_ = 0;
+    double upper_ = kInfinity;
+    double lower_ = kInfinity;
+    bool found_ = false;
+    Distance best_{};
+    At nearest_{};
+};
+
+bool is_usable(const PairCache* cache, const Model& a, const Model& b) noexcept {
+    return cache != nullptr && cache->triangle_a < a.triangle_count() &&
+           cache->triangle_b < b.triangle_count();
+}
+
+/// The first pair of triangles in contact.
+std::optional<At> find_contact(const Model& a, const Model& b, const Placement& placement,
+                               Workspace& workspace) noexcept {
+    std::optional<At> contact;
+    for_each_contact<Search::first>(a, b, placement, workspace, {},
+                                    [&](std::uint32_t at_a, std::uint32_t at_b) {
+                                        contact = At{at_a, at_b};
+                                        return false;
+                                    });
+    return contact;
+}
+
+Distance touching(const Model& a, const Model& b, const Placement& placement,
+                  const At& at) noexcept {
+    const MovedModel moved_a{&a, placement.a_is_moved() ? &placement.pose_a() : nullptr};
+    const MovedModel moved_b{&b, placement.b_is_moved() ? &placement.pose_b() : nullptr};
+    const Double3 point = common_point(moved_a.corners(at.a), moved_b.corners(at.b));
+    return {0, 0, point, point, source_number(a, at.a), source_number(b, at.b)};
+}
+
+}  // namespace
+
+std::optional<Distance> distance(const Model& a, const Model& b, const Placement& placement,
+                                 Workspace& workspace, const DistanceOptions& options,
+                                 PairCache* cache) noexcept {
+    if (!(options.max_distance >= 0)) return std::nullopt;
+    if (const std::optional<At> at = find_contact(a, b, placement, workspace)) {
+        if (cache != nullptr) *cache = {at->a, at->b};
+        return touching(a, b, placement, *at);
+    }
+    NearestSearch search(a, b, placement, workspace);
+    Nearest nearest(a, b, search, options);
+    if (is_usable(cache, a, b)) nearest.take({cache->triangle_a, cache->triangle_b});
+    search.run(nearest.limit(), [&](const At& at) { return nearest.take(at); });
+    const std::optional<Distance> found = nearest.answer();
+    if (found && cache != nullptr) *cache = {nearest.nearest().a, nearest.nearest().b};
+    return found;
+}
+
+bool is_within(const Model& a, const Model& b, const Placement& placement, double tolerance,
+               Workspace& workspace, PairCache* cache) noexcept {
+    if (!(tolerance >= 0)) return false;
+    if (tolerance == 0) return find_contact(a, b, placement, workspace).has_value();
+    NearestSearch search(a, b, placement, workspace);
+    bool within = false;
+    const auto look = [&](const At& at) {
+        TriangleDistance d = search.measure(at, false);
+        if (d.lower <= tolerance && d.upper > tolerance) d = search.measure(at, true);
+        if (d.lower > tolerance) return tolerance;
+        within = true;
+        if (cache != nullptr) *cache = {at.a, at.b};
+        return -1.0;
+    };
+    if (is_usable(cache, a, b) && look({cache->triangle_a, cache->triangle_b}) < 0) return true;
+    if (find_contact(a, b, placement, workspace)) return true;
+    search.run(tolerance, look);
+    return within;
+}
+
+}  // namespace cdprep
