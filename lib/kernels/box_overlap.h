@@ -193,9 +193,8 @@ struct OrientedRows {
 };
 
 template <class F>
-void turn_oriented(const float* node, const BoxPlacement& p, OrientedRows& rows) noexcept {
-    OrientedBoxes<F> boxes;
-    load_oriented(node, p.scale_b, boxes);
+void turn_oriented(const OrientedBoxes<F>& boxes, const BoxPlacement& p,
+                   OrientedRows& rows) noexcept {
     for (std::size_t i = 0; i < 3; ++i) {
         const float* r = p.rotation + 3 * i;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -262,8 +261,10 @@ unsigned keep_oriented(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxe
                        BoxMasks& masks) noexcept {
     OrientedBoxes<R> oriented_a;
     load_oriented(a.oriented, p.scale_a, oriented_a);
+    OrientedBoxes<F> unturned_b;
+    load_oriented(b.oriented, p.scale_b, unturned_b);
     OrientedRows oriented_b;
-    turn_oriented<F>(b.oriented, p, oriented_b);
+    turn_oriented(unturned_b, p, oriented_b);
     unsigned kept = 0;
     while (rows != 0) {
         const RowPair at = take_rows<R>(rows);

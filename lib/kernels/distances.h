@@ -63,10 +63,49 @@ R squared_oriented_gap(const OrientedBoxes<R>& a, const OrientedRows& rows, RowP
 /// length of gaps is too great by less than this, in relative terms.
 inline constexpr float kGapRounding = 1 - 0x1p-18F;
 
+/// Where boxes lie along a direction: the middle, and how far they reach from it.
+template <class F>
+struct Span {
+    F middle;
+    F half;
+};
+
+template <class F>
+Span<F> span_of(const Boxes<F>& boxes, const float* direction) noexcept {
+    F middle(0.0F);
+    F half(0.0F);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const F d(direction[i]);
+        middle = fma(boxes.centre[i], d, middle);
+        half = fma(boxes.half[i], abs(d), half);
+    }
+    return {middle, half};
+}
+
+template <class F>
+Span<F> span_of(const OrientedBoxes<F>& boxes, const float* direction) noexcept {
+    const F d[3] = {F(direction[0]), F(direction[1]), F(direction[2])};
+    F half(0.0F);
+    for (std::size_t k = 0; k < 3; ++k) {
+        half = fma(abs(dot(boxes.axis[k], d)), boxes.half[k], half);
+    }
+    return {dot(boxes.centre, d), half};
+}
+
+/// Boxes of B along the direction: where each begins, less the slack in all three
+/// components and the shift's place.
+template <class F>
+void store_begins(const Span<F>& span, const BoxPlacement& p, const Reach& reach,
+                  float* begins) noexcept {
+    const float* d = reach.direction;
+    const float shift = p.shift[0] * d[0] + p.shift[1] * d[1] + p.shift[2] * d[2];
+    ((span.middle - span.half) + F(shift - 2 * p.slack)).store(begins);
+}
+
 /// The body of near_boxes().
 template <class F, class R>
 unsigned near_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
-                       const BoxChoice& choice, float limit, BoxMasks& masks) noexcept {
+                       const BoxChoice& choice, const Reach& reach, BoxMasks& masks) noexcept {
     const Boxes<F> boxes_b = scaled_boxes<F>(b.boxes, p.scale_b);
     const Boxes<R> boxes_a = scaled_boxes<R>(a.boxes, p.scale_a);
     const Boxes<R> turned_a = turned_to_b(boxes_a, p);
@@ -77,25 +116,59 @@ unsigned near_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxe
     const bool oriented = a.oriented != nullptr && b.oriented != nullptr;
     OrientedBoxes<R> oriented_a;
     OrientedRows oriented_b;
+    Span<R> span_a = span_of(boxes_a, reach.direction);
+    Span<F> span_b = span_of(boxes_b, reach.direction_in_b);
     if (oriented) {
+        OrientedBoxes<F> unturned_b;
         load_oriented(a.oriented, p.scale_a, oriented_a);
-        turn_oriented<F>(b.oriented, p, oriented_b);
+        load_oriented(b.oriented, p.scale_b, unturned_b);
+        turn_oriented(unturned_b, p, oriented_b);
+        span_a = span_of(oriented_a, reach.direction);
+        span_b = span_of(unturned_b, reach.direction_in_b);
     }
+    alignas(32) float begins[kLanes];
+    store_begins(span_b, p, reach, begins);
+    const R ends = span_a.middle + span_a.half;
     unsigned rows = 0;
     for (unsigned rest = choice.of_b; rest != 0;) {
         const RowPair at = take_rows<R>(rest);
         R squared = max(squared_gap(boxes_a, along_a, at), squared_gap(turned_a, along_b, at));
         if (oriented) squared = max(squared, squared_oriented_gap(oriented_a, oriented_b, at, p));
-        const R gap = root(squared) * R(kGapRounding);
+        const R gap = max(root(squared) * R(kGapRounding), R::spread(begins, at) - ends);
         gap.store_rows(masks.depth[at.first], masks.depth[at.second]);
-        rows |= note_rows<R>(~bits(greater(gap, R(limit))), at, choice.of_a, masks);
+        rows |= note_rows<R>(~bits(greater(gap, R(reach.limit))), at, choice.of_a, masks);
     }
     return rows;
 }
 
-/// Triangles of A whose boxes come within `limit` of triangles of B. Eight bits a row.
+template <class F>
+struct Range {
+    F least;
+    F greatest;
+};
+
+/// Where eight triangles lie along a direction.
+template <class F>
+Range<F> corner_range(const float (*rows)[kLanes], const float* direction) noexcept {
+    const F d[3] = {F(direction[0]), F(direction[1]), F(direction[2])};
+    F least;
+    F greatest;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const F corner[3] = {F::load(rows[kCorner + 3 * i]), F::load(rows[kCorner + 3 * i + 1]),
+                             F::load(rows[kCorner + 3 * i + 2])};
+        const F at = dot(corner, d);
+        least = i == 0 ? at : min(least, at);
+        greatest = i == 0 ? at : max(greatest, at);
+    }
+    return {least, greatest};
+}
+
+/// Triangles of A that come within the limit of triangles of B, by their boxes and
+/// along the direction: `ends` is where A's triangles end, `begins` where B's begin.
+/// Eight bits a row.
 template <class R>
-unsigned near_rows(const Block& block, RowPair at, float limit) noexcept {
+unsigned near_rows(const Block& block, RowPair at, R ends, const float* begins,
+                   float limit) noexcept {
     const float(*a)[kLanes] = block;
     const float(*b)[kLanes] = block + kSide;
     const R twice_error = R(2.0F * block[kError][0]);
@@ -106,7 +179,10 @@ unsigned near_rows(const Block& block, RowPair at, float limit) noexcept {
         gap[axis] = max(above, below) - twice_error;
     }
     const R squared = length_of_gaps(gap) * R(kGapRounding);
-    return ~bits(greater(squared, R(limit * limit)));
+    // The error of a corner is more than 3 u times any coordinate: 12 of them cover
+    // the corners' own and the rounding of two dot products.
+    const R along = (R::spread(begins, at) - ends) - R(12.0F * block[kError][0]);
+    return ~bits(greater(squared, R(limit * limit)) | greater(along, R(limit)));
 }
 
 /// The nearest pair of points found so far, in each lane.
@@ -233,14 +309,19 @@ W support_gap(const LaneTriangle<W>& a, const LaneTriangle<W>& b, const LaneNear
 
 /// The body of near_triangles().
 template <class F, class R, class W>
-std::size_t near_triangles_of(const LeafPlacement& placement, const LeafPair& pair, float limit,
-                              LeafScratch& scratch) noexcept {
+std::size_t near_triangles_of(const LeafPlacement& placement, const LeafPair& pair,
+                              const Reach& reach, LeafScratch& scratch) noexcept {
     Block& block = scratch.block[0];
+    const float limit = reach.limit;
     unsigned rows = place_leaves<F>(placement, pair, limit, block);
+    if (rows == 0) return 0;
+    alignas(32) float begins[kLanes];
+    corner_range<F>(block + kSide, reach.direction).least.store(begins);
+    const R ends = corner_range<R>(block, reach.direction).greatest;
     std::size_t candidates = 0;
     while (rows != 0) {
         const RowPair at = take_rows<R>(rows);
-        const unsigned found = near_rows<R>(block, at, limit);
+        const unsigned found = near_rows<R>(block, at, ends, begins, limit);
         candidates = append(0, at.first, found & pair.used_a, scratch.candidate, candidates);
         if (R::kRows == 2 && at.second != at.first) {
             candidates = append(0, at.second, (found >> kLanes) & pair.used_a, scratch.candidate,

@@ -93,6 +93,15 @@ struct LeafPlacement {
     float error;  ///< how far corners may be off, relative to each other, before any rounding here
 };
 
+/// What a search for the nearest pair knows already.
+struct Reach {
+    float limit;  ///< pair units: nothing farther apart is of interest
+    /// Of a length below 1, from A to B along A's axes; the better it points along
+    /// the shortest way, the more it rules out. 0, 0, 0 rules out nothing.
+    float direction[3];
+    float direction_in_b[3];  ///< the same along B's axes
+};
+
 /// How far two triangles are apart, at least.
 struct TriangleGap {
     float lower;     ///< pair units
@@ -134,18 +143,18 @@ struct Table {
                                const NodeBoxes& b, const BoxChoice& choice,
                                BoxMasks& masks) noexcept;
 
-    /// Finds the pairs of chosen boxes that are at most `limit` apart. masks.depth
-    /// is a lower bound of their distance: the length of the gaps along three
-    /// directions at right angles, the best of A's, B's and those of the oriented
-    /// boxes.
+    /// Finds the pairs of chosen boxes that may be at most reach.limit apart.
+    /// masks.depth is a lower bound of their distance: the length of the gaps along
+    /// three directions at right angles, the best of A's, B's and those of the
+    /// oriented boxes, and the gap along reach.direction.
     unsigned (*near_boxes)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
-                           const BoxChoice& choice, float limit, BoxMasks& masks) noexcept;
+                           const BoxChoice& choice, const Reach& reach, BoxMasks& masks) noexcept;
 
     /// Finds the pairs of triangles of one pair of leaves that may be at most
-    /// `limit` apart. Returns their number; they stand in scratch.gap. A pair
+    /// reach.limit apart. Returns their number; they stand in scratch.gap. A pair
     /// that touches has a lower bound of 0.
-    std::size_t (*near_triangles)(const LeafPlacement& placement, const LeafPair& pair, float limit,
-                                  LeafScratch& scratch) noexcept;
+    std::size_t (*near_triangles)(const LeafPlacement& placement, const LeafPair& pair,
+                                  const Reach& reach, LeafScratch& scratch) noexcept;
 
     /// Finds the pairs of triangles, among at most kLeafBatch pairs of leaves,
     /// that cross or whose contact rounding may hide. Returns their number; they

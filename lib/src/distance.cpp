@@ -43,6 +43,10 @@ public:
     template <class Near>
     void run(double limit, Near&& near) noexcept;
 
+    /// Tells the search where two near points lie: most others are farther apart
+    /// along the line through them. In the query's coordinates.
+    void point(const Double3& on_a, const Double3& on_b) noexcept;
+
 private:
     /// In pair units, rounded up.
     [[nodiscard]] float in_pair_units(double limit) const noexcept {
@@ -52,7 +56,7 @@ private:
         return std::nextafter(static_cast<float>(scaled), kMost);
     }
     /// Pushes the children of a pair that are near enough, the nearest last.
-    std::size_t push_children(const Tree& a, const Tree& b, const PendingPair& pair, float limit,
+    std::size_t push_children(const Tree& a, const Tree& b, const PendingPair& pair,
                               std::size_t depth) noexcept;
 
     const Model& a_;
@@ -62,17 +66,36 @@ private:
     PlacedBoxes placed_;
     Workspace::Storage& scratch_;
     LeafBatch leaves_;
+    kernels::Reach reach_{};
 };
 
+void NearestSearch::point(const Double3& on_a, const Double3& on_b) noexcept {
+    const std::array<double, 3> w = {on_b.x - on_a.x, on_b.y - on_a.y, on_b.z - on_a.z};
+    const double length = std::hypot(w[0], w[1], w[2]);
+    // A little short of 1, so that no rounding makes it longer.
+    const double scale = (1 - 0x1p-20) / length;
+    if (!std::isfinite(scale)) return;
+    constexpr std::array<double, 9> kStill = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const auto turned_back = [&](const Pose* pose, float* direction) {
+        const std::array<double, 9>& r = pose == nullptr ? kStill : pose->rotation();
+        for (std::size_t i = 0; i < 3; ++i) {
+            direction[i] =
+                static_cast<float>(scale * (r[i] * w[0] + r[3 + i] * w[1] + r[6 + i] * w[2]));
+        }
+    };
+    turned_back(moved_a_.pose, reach_.direction);
+    turned_back(moved_b_.pose, reach_.direction_in_b);
+}
+
 std::size_t NearestSearch::push_children(const Tree& a, const Tree& b, const PendingPair& pair,
-                                         float limit, std::size_t depth) noexcept {
+                                         std::size_t depth) noexcept {
     const Descent descent = choose_descent(a, b, pair, placed_.placement);
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     kernels::BoxMasks masks;
     unsigned rows = kernels::active().near_boxes(
         placed_.placement, node_boxes(a, side_a), node_boxes(b, side_b),
-        {chosen(side_a), chosen(side_b), nullptr}, limit, masks);
+        {chosen(side_a), chosen(side_b), nullptr}, reach_, masks);
     const std::uint64_t base = PendingPair{side_a.first_below, side_b.first_below}.packed();
     const std::size_t first = depth;
     for (; rows != 0; rows &= rows - 1) {
@@ -94,29 +117,29 @@ void NearestSearch::run(double limit, Near&& near) noexcept {
     const Tree a(a_);
     const Tree b(b_);
     if (a.triangles == 0 || b.triangles == 0) return;
-    float pair_limit = in_pair_units(limit);
+    reach_.limit = in_pair_units(limit);
     std::size_t depth = 0;
     scratch_.near[depth++] = {0, PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed()};
     while (depth > 0) {
         const NearPair top = scratch_.near[--depth];
-        if (top.bound > pair_limit) continue;
+        if (top.bound > reach_.limit) continue;
         const PendingPair pair = PendingPair::unpacked(top.pair);
         if (pair.a.height > 0 || pair.b.height > 0) {
-            depth = push_children(a, b, pair, pair_limit, depth);
+            depth = push_children(a, b, pair, depth);
             continue;
         }
         std::span<kernels::TriangleGap> gaps =
-            leaves_.near_triangles(pair.a.index, pair.b.index, pair_limit);
+            leaves_.near_triangles(pair.a.index, pair.b.index, reach_);
         std::sort(gaps.begin(), gaps.end(), [](const auto& x, const auto& y) {
             if (x.lower != y.lower) return x.lower < y.lower;
             return x.b != y.b ? x.b < y.b : x.a < y.a;
         });
         for (const kernels::TriangleGap& gap : gaps) {
-            if (gap.lower > pair_limit) break;
+            if (gap.lower > reach_.limit) break;
             limit = near(At{pair.a.index * format::kBvhWidth + gap.a,
                             pair.b.index * format::kBvhWidth + gap.b});
             if (limit < 0) return;
-            pair_limit = in_pair_units(limit);
+            reach_.limit = in_pair_units(limit);
         }
     }
 }
@@ -124,7 +147,7 @@ void NearestSearch::run(double limit, Near&& near) noexcept {
 /// The nearest pairs so far: those that may still turn out to be the nearest.
 class Nearest {
 public:
-    Nearest(const Model& a, const Model& b, const NearestSearch& search,
+    Nearest(const Model& a, const Model& b, NearestSearch& search,
             const DistanceOptions& options) noexcept
         : a_(a), b_(b), search_(search), options_(options) {}
 
@@ -132,7 +155,10 @@ public:
     double take(const At& at) noexcept {
         const TriangleDistance d = search_.measure(at, false);
         if (d.lower > limit()) return limit();
-        upper_ = std::min(upper_, d.upper);
+        if (d.upper < upper_) {
+            upper_ = d.upper;
+            search_.point(d.on_a, d.on_b);
+        }
         if (count_ == contenders_.size()) settle();
         contenders_[count_++] = {at, d.lower};
         return limit();
@@ -189,7 +215,7 @@ private:
 
     const Model& a_;
     const Model& b_;
-    const NearestSearch& search_;
+    NearestSearch& search_;
     const DistanceOptions& options_;
     std::array<Contender, 64> contenders_;
     std::size_t count_ = 0;
@@ -250,10 +276,17 @@ bool is_within(const Model& a, const Model& b, const Placement& placement, doubl
     if (tolerance == 0) return find_contact(a, b, placement, workspace).has_value();
     NearestSearch search(a, b, placement, workspace);
     bool within = false;
+    double nearest = kInfinity;
     const auto look = [&](const At& at) {
         TriangleDistance d = search.measure(at, false);
         if (d.lower <= tolerance && d.upper > tolerance) d = search.measure(at, true);
-        if (d.lower > tolerance) return tolerance;
+        if (d.lower > tolerance) {
+            if (d.upper < nearest) {
+                nearest = d.upper;
+                search.point(d.on_a, d.on_b);
+            }
+            return tolerance;
+        }
         within = true;
         if (cache != nullptr) *cache = {at.a, at.b};
         return -1.0;

@@ -46,14 +46,14 @@ public:
         return true;
     }
 
-    /// Triangles of one pair of leaves that may be at most `limit` (pair units)
-    /// apart. Valid until the next call.
+    /// Triangles of one pair of leaves that may be as near as reach.limit. Valid
+    /// until the next call.
     std::span<kernels::TriangleGap> near_triangles(std::uint32_t leaf_a, std::uint32_t leaf_b,
-                                                   float limit) noexcept {
+                                                   const kernels::Reach& reach) noexcept {
         add(leaf_a, leaf_b);
         count_ = 0;
         const std::size_t found = kernels::active().near_triangles(
-            placement_, scratch_.leaf_pairs[0], limit, scratch_.leaf_scratch);
+            placement_, scratch_.leaf_pairs[0], reach, scratch_.leaf_scratch);
         return std::span(scratch_.leaf_scratch.gap, found);
     }
 

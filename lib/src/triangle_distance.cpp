@@ -159,12 +159,27 @@ Interval interval_of(const Triangle<T>& a, const Triangle<T>& b, const Nearest<T
     return {std::max(0.0, lower), upper};
 }
 
+/// Multiplies by a power of two, in two steps because one may leave the range.
+class Scale {
+public:
+    explicit Scale(int exponent) noexcept
+        : first_(std::ldexp(1.0, exponent / 2)),
+          second_(std::ldexp(1.0, exponent - exponent / 2)) {}
+    double operator()(double x) const noexcept {
+        return x * first_ * second_;
+    }
+
+private:
+    double first_;
+    double second_;
+};
+
 template <class T>
-Triangle<T> scaled(const Corners& corners, const Double3& origin, int exponent) {
+Triangle<T> scaled(const Corners& corners, const Double3& origin, const Scale& scale) {
     const auto at = [&](double x, double from) {
         // Scaled before the difference: exact, and so is the difference in twice
         // the precision.
-        return T(std::ldexp(x, exponent)) - T(std::ldexp(from, exponent));
+        return T(scale(x)) - T(scale(from));
     };
     Triangle<T> result{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -176,20 +191,22 @@ Triangle<T> scaled(const Corners& corners, const Double3& origin, int exponent) 
 
 template <class T>
 TriangleDistance measured(const Corners& a, const Corners& b, int exponent, double error) {
-    const Triangle<T> at_a = scaled<T>(a, a[0], exponent);
-    const Triangle<T> at_b = scaled<T>(b, a[0], exponent);
+    const Scale scale(exponent);
+    const Scale unscale(-exponent);
+    const Triangle<T> at_a = scaled<T>(a, a[0], scale);
+    const Triangle<T> at_b = scaled<T>(b, a[0], scale);
     const Nearest<T> nearest = nearest_points(at_a, at_b);
     const Interval interval = interval_of(at_a, at_b, nearest, error);
     const auto back = [&](const Vector<T>& p) {
         const auto moved = [&](const T& x, double from) {
-            return std::ldexp(static_cast<double>(x + T(std::ldexp(from, exponent))), -exponent);
+            return unscale(static_cast<double>(x + T(scale(from))));
         };
         return Double3{moved(p.x, a[0].x), moved(p.y, a[0].y), moved(p.z, a[0].z)};
     };
     // Scaling back may round a subnormal: one step outwards covers that.
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    const double lower = std::nextafter(std::ldexp(interval.lower, -exponent), -kInfinity);
-    return {std::max(0.0, lower), std::nextafter(std::ldexp(interval.upper, -exponent), kInfinity),
+    const double lower = std::nextafter(unscale(interval.lower), -kInfinity);
+    return {std::max(0.0, lower), std::nextafter(unscale(interval.upper), kInfinity),
             back(nearest.on_a), back(nearest.on_b)};
 }
 
@@ -224,8 +241,10 @@ bool crossing(const Vector<double>& p, const Vector<double>& q, const Triangle<d
 
 Double3 common_point(const Corners& a, const Corners& b) noexcept {
     const int exponent = exponent_of(a, b);
-    const Triangle<double> at_a = scaled<double>(a, a[0], exponent);
-    const Triangle<double> at_b = scaled<double>(b, a[0], exponent);
+    const Scale scale(exponent);
+    const Scale unscale(-exponent);
+    const Triangle<double> at_a = scaled<double>(a, a[0], scale);
+    const Triangle<double> at_b = scaled<double>(b, a[0], scale);
     // Crossing triangles: an edge of one pierces the other. Else they touch where
     // they are nearest.
     Vector<double> point = nearest_points(at_a, at_b).on_a;
@@ -235,8 +254,7 @@ Double3 common_point(const Corners& a, const Corners& b) noexcept {
             break;
         }
     }
-    return {a[0].x + std::ldexp(point.x, -exponent), a[0].y + std::ldexp(point.y, -exponent),
-            a[0].z + std::ldexp(point.z, -exponent)};
+    return {a[0].x + unscale(point.x), a[0].y + unscale(point.y), a[0].z + unscale(point.z)};
 }
 
 TriangleDistance triangle_distance(const Corners& a, const Corners& b, bool tight) noexcept {

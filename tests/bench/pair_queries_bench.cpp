@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// How fast two models answer "do they touch?" and "which triangles overlap?", beside
-// FCL where it was found at configure time. For each pair of models and each set
+// How fast two models answer "do they touch?", "which triangles overlap?", "how far
+// apart?" and "within a tolerance?", beside FCL (boxes for the first two, swept spheres
+// for the others) where it was found at configure time. For each pair of models and each set
 // of poses (light, deep, near) every contender asks the whole set, contenders take
 // turns, and that several times; the time of a pose is the median of its rounds.
 // The cold rounds flush the caches before every question. One thread.
@@ -24,6 +25,7 @@
 #include <vector>
 
 #include "cdprep/collide.h"
+#include "cdprep/distance.h"
 #include "cdprep/overlapping_triangles.h"
 
 #ifdef CDPREP_HAVE_FCL
@@ -35,7 +37,13 @@ namespace {
 
 constexpr std::size_t kMostPairs = 1U << 22;
 constexpr std::array<const char*, 3> kKinds = {"light", "deep", "near"};
-constexpr std::array<const char*, 2> kQuestions = {"overlap", "collide"};
+
+enum Question : std::size_t { overlap, collides, how_far, within_true, within_false };
+constexpr std::array<const char*, 5> kQuestions = {"overlap", "collide", "distance", "within_true",
+                                                   "within_false"};
+/// The gap of the near poses is 1 % of the diagonal: these two lie around it.
+constexpr double kTrueTolerance = 0.012;
+constexpr double kFalseTolerance = 0.008;
 
 [[noreturn]] void stop(const std::string& message) {
     std::fprintf(stderr, "pair_queries_bench: %s\n", message.c_str());
@@ -77,8 +85,18 @@ public:
     }
     std::size_t ask(std::size_t question, const Pose& pose) override {
         const Placement placement = Placement::b_moves(pose);
-        if (question == 0) return overlapping_triangles(a_, b_, placement, workspace_, pairs_);
-        return collide(a_, b_, placement, workspace_).hit ? 1 : 0;
+        switch (question) {
+            case overlap:
+                return overlapping_triangles(a_, b_, placement, workspace_, pairs_);
+            case collides:
+                return collide(a_, b_, placement, workspace_).hit ? 1 : 0;
+            case how_far:
+                return distance(a_, b_, placement, workspace_)->upper > 0 ? 1 : 0;
+            case within_true:
+                return is_within(a_, b_, placement, kTrueTolerance, workspace_) ? 1 : 0;
+            default:
+                return is_within(a_, b_, placement, kFalseTolerance, workspace_) ? 1 : 0;
+        }
     }
 
 private:
@@ -89,9 +107,8 @@ private:
 };
 
 #ifdef CDPREP_HAVE_FCL
-using FclModel = fcl::BVHModel<fcl::OBBd>;
-
-FclModel fcl_model(const Model& model) {
+template <class Volume>
+fcl::BVHModel<Volume> fcl_model(const Model& model) {
     std::vector<fcl::Vector3d> points;
     for (const Float3& p : model.positions_f32()) points.emplace_back(p.x, p.y, p.z);
     for (const Double3& p : model.positions_f64()) points.emplace_back(p.x, p.y, p.z);
@@ -99,7 +116,7 @@ FclModel fcl_model(const Model& model) {
     for (const format::Triangle& t : model.triangles()) {
         triangles.emplace_back(t.vertex[0], t.vertex[1], t.vertex[2]);
     }
-    FclModel made;
+    fcl::BVHModel<Volume> made;
     made.beginModel(static_cast<int>(triangles.size()), static_cast<int>(points.size()));
     made.addSubModel(points, triangles);
     made.endModel();
@@ -108,9 +125,13 @@ FclModel fcl_model(const Model& model) {
 
 class Fcl final : public Contender {
 public:
-    Fcl(const Model& a, const Model& b) : a_(fcl_model(a)), b_(fcl_model(b)) {}
+    Fcl(const Model& a, const Model& b)
+        : a_(fcl_model<fcl::OBBd>(a)),
+          b_(fcl_model<fcl::OBBd>(b)),
+          spheres_a_(fcl_model<fcl::RSSd>(a)),
+          spheres_b_(fcl_model<fcl::RSSd>(b)) {}
     [[nodiscard]] const char* name() const override {
-        return "fcl_obb";
+        return "fcl";
     }
     std::size_t ask(std::size_t question, const Pose& pose) override {
         fcl::Transform3d a_from_b = fcl::Transform3d::Identity();
@@ -122,15 +143,29 @@ public:
         }
         const Double3& t = pose.translation();
         a_from_b.translation() = fcl::Vector3d(t.x, t.y, t.z);
+        if (question >= how_far) return far_apart(question, a_from_b);
         fcl::CollisionResultd result;
         fcl::collide(&a_, fcl::Transform3d::Identity(), &b_, a_from_b,
-                     fcl::CollisionRequestd(question == 0 ? kMostPairs : 1, false), result);
+                     fcl::CollisionRequestd(question == overlap ? kMostPairs : 1, false), result);
         return result.numContacts();
     }
 
 private:
-    FclModel a_;
-    FclModel b_;
+    /// FCL has no tolerance query: its distance answers that too.
+    std::size_t far_apart(std::size_t question, const fcl::Transform3d& a_from_b) {
+        fcl::DistanceRequestd request(false, false, 0, 0);
+        fcl::DistanceResultd result;
+        fcl::distance(&spheres_a_, fcl::Transform3d::Identity(), &spheres_b_, a_from_b, request,
+                      result);
+        const double d = result.min_distance;
+        if (question == how_far) return d > 0 ? 1 : 0;
+        return d <= (question == within_true ? kTrueTolerance : kFalseTolerance) ? 1 : 0;
+    }
+
+    fcl::BVHModel<fcl::OBBd> a_;
+    fcl::BVHModel<fcl::OBBd> b_;
+    fcl::BVHModel<fcl::RSSd> spheres_a_;
+    fcl::BVHModel<fcl::RSSd> spheres_b_;
 };
 #endif
 
@@ -180,7 +215,9 @@ void compare(const std::string& pair, const std::vector<std::unique_ptr<Contende
         std::vector<Pose> poses;
         for (std::size_t i = kind; i < all.size(); i += kKinds.size()) poses.push_back(all[i]);
         for (std::size_t question = 0; question < kQuestions.size(); ++question) {
-            if (question == 0 && kind == 2) continue;  // nothing overlaps near
+            const bool is_near = kind == 2;
+            if (question == overlap && is_near) continue;   // nothing overlaps
+            if (question >= how_far && !is_near) continue;  // 0
             std::vector<Times> times(contenders.size());
             for (int round = 0; round < rounds; ++round) {
                 for (std::size_t c = 0; c < contenders.size(); ++c) {

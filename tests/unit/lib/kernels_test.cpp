@@ -416,6 +416,23 @@ TEST(Kernels, UnusedLanesAndOtherPairsStayOut) {
     });
 }
 
+/// A limit and a direction of unit length, or none.
+Reach reach_along(const Pose& pose, const Double3& direction, double limit) {
+    Reach reach{};
+    reach.limit = static_cast<float>(limit);
+    const double length = std::hypot(direction.x, direction.y, direction.z);
+    if (length == 0) return reach;
+    const std::array<double, 3> d = {direction.x / length, direction.y / length,
+                                     direction.z / length};
+    const auto& r = pose.rotation();
+    for (std::size_t i = 0; i < 3; ++i) {
+        reach.direction[i] = static_cast<float>(d[i] * (1 - 0x1p-20));
+        reach.direction_in_b[i] =
+            static_cast<float>((r[i] * d[0] + r[3 + i] * d[1] + r[6 + i] * d[2]) * (1 - 0x1p-20));
+    }
+    return reach;
+}
+
 // By construction: boxes that hold a point each are no further apart than the points.
 TEST(Kernels, BoxesAreNoFurtherApartThanPointsInThem) {
     std::mt19937 random(9);
@@ -437,9 +454,10 @@ TEST(Kernels, BoxesAreNoFurtherApartThanPointsInThem) {
             BoxMasks masks{};
             const NodeBoxes node_a{everything.data(), a.data()};
             const NodeBoxes node_b{everything.data(), b.data()};
-            ASSERT_EQ(table.near_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr},
-                                       static_cast<float>(between), masks),
-                      0xffu);
+            Reach reach = reach_along(pose, {0.7, 0.8, -0.7}, between);
+            ASSERT_EQ(
+                table.near_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, reach, masks),
+                0xffu);
             for (std::size_t j = 0; j < kLanes; ++j) {
                 ASSERT_EQ(masks.of_a[j], 0xff);
                 for (std::size_t i = 0; i < kLanes; ++i) {
@@ -449,9 +467,9 @@ TEST(Kernels, BoxesAreNoFurtherApartThanPointsInThem) {
             }
             // What is farther than the limit is left out, and nothing else.
             BoxMasks fewer{};
-            const float limit = static_cast<float>(between) / 2;
+            const float limit = reach.limit /= 2;
             const unsigned rows =
-                table.near_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, limit, fewer);
+                table.near_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, reach, fewer);
             for (std::size_t j = 0; j < kLanes; ++j) {
                 unsigned expected = 0;
                 for (std::size_t i = 0; i < kLanes; ++i) {
@@ -479,9 +497,12 @@ TEST(Kernels, TrianglesAreNoNearerThanTheirGaps) {
         const Pose pose = test::random_pose(random, 4);
         const LeafPlacement placement = leaf_placement(pose);
         const LeafPair pair = pair_of(a, b);
-        const float limit = 1 + static_cast<float>(round % 5);
+        const Reach reach =
+            reach_along(pose, round % 2 == 0 ? pose.translation() : Double3{0, 0, 0},
+                        1 + static_cast<double>(round % 5));
+        const float limit = reach.limit;
         for_each_table([&](const Table& table) {
-            const std::size_t count = table.near_triangles(placement, pair, limit, *scratch);
+            const std::size_t count = table.near_triangles(placement, pair, reach, *scratch);
             std::array<std::array<float, 8>, 8> lower{};
             for (auto& row : lower) row.fill(1e30F);
             for (std::size_t i = 0; i < count; ++i) {
