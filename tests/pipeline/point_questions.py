@@ -9,27 +9,8 @@ import pathlib
 import sys
 import tempfile
 
+from known_meshes import CUBE
 from shared_models import answers, bake, must, run
-
-# The cube [0, 2]^3, closed and outward.
-CUBE = """OFF
-8 6 0
-0 0 0
-2 0 0
-2 2 0
-0 2 0
-0 0 2
-2 0 2
-2 2 2
-0 2 2
-4 0 3 2 1
-4 4 5 6 7
-4 0 1 5 4
-4 1 2 6 5
-4 2 3 7 6
-4 3 0 4 7
-"""
-
 
 def box_distance(p):
     """To the surface of [0, 2]^3, from inside or outside."""

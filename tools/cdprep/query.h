@@ -8,7 +8,7 @@
 
 namespace cdprep::cli {
 
-/// Adds the questions about two models: collide, overlap.
+/// Adds the questions about two models: collide, overlap, distance, within.
 void add_pair_questions(CLI::App& query, Exit& exit);
 
 /// Adds the questions about one model: inside, closest, ray.

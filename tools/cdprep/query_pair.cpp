@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <iomanip>
 #include <iostream>
 #include <memory>
+#include <sstream>
+#include <type_traits>
 #include <vector>
 
 #include "cdprep/collide.h"
+#include "cdprep/distance.h"
 #include "effects.h"
 #include "interrupt.h"
 #include "open_for.h"
@@ -14,7 +20,7 @@
 namespace cdprep::cli {
 namespace {
 
-enum class Question : std::uint8_t { collide, overlap };
+enum class Question : std::uint8_t { collide, overlap, distance, within };
 
 struct Arguments {
     Question question = Question::collide;
@@ -29,6 +35,10 @@ struct Arguments {
     std::string format = "text";
     std::string as = "surface";
     std::string contact = "closed";
+    double tolerance = 0;
+    DistanceOptions errors;
+    std::size_t repeat = 1;
+    bool timings = false;
     bool count = false;
     bool skip_degenerate = false;
 };
@@ -75,6 +85,57 @@ public:
         options_.degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
     }
 
+    /// Asks one placement, `--repeat` times, and writes the answer once. Every time
+    /// starts where the placement before ended.
+    void answer(std::size_t number, const Placement& placement, report::Answers& answers) {
+        const PairCache before = cache_;
+        switch (arguments_.question) {
+            case Question::distance:
+                return answers.add(timed([&] {
+                    cache_ = before;
+                    return report::DistanceAnswer{number, distance(a_, b_, placement, workspace_,
+                                                                   arguments_.errors, &cache_)};
+                }));
+            case Question::within:
+                return answers.add(timed([&] {
+                    cache_ = before;
+                    const bool within =
+                        is_within(a_, b_, placement, arguments_.tolerance, workspace_, &cache_);
+                    return report::WithinAnswer{number, within};
+                }));
+            default:
+                return answers.add(timed([&] { return ask(number, placement); }));
+        }
+    }
+
+    /// What the questions took, for people: one line.
+    [[nodiscard]] std::string timings() {
+        if (microseconds_.empty()) return "";
+        std::sort(microseconds_.begin(), microseconds_.end());
+        const auto at = [&](double share) {
+            return microseconds_[static_cast<std::size_t>(
+                share * static_cast<double>(microseconds_.size() - 1))];
+        };
+        std::ostringstream line;
+        line << microseconds_.size() << " questions: median " << std::fixed << std::setprecision(2)
+             << at(0.5) << " us, 95 % below " << at(0.95) << " us, most " << at(1) << " us\n";
+        return line.str();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    template <class Ask>
+    std::invoke_result_t<Ask> timed(Ask ask) {
+        for (std::size_t i = 1;; ++i) {
+            const Clock::time_point begin = Clock::now();
+            auto answer = ask();
+            const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
+            if (arguments_.timings) microseconds_.push_back(taken.count());
+            if (i >= arguments_.repeat) return answer;
+        }
+    }
+
     /// The answer's pairs stay valid until the next call.
     report::PairAnswer ask(std::size_t number, const Placement& placement) {
         report::PairAnswer answer;
@@ -92,7 +153,6 @@ public:
         return answer;
     }
 
-private:
     /// Asks again with more room when the pairs did not fit.
     std::size_t find_pairs(const Placement& placement) {
         const OverlapOptions options = {options_.contact, options_.degenerate};
@@ -112,16 +172,24 @@ private:
     CollideOptions options_;
     Workspace workspace_;
     std::vector<TrianglePair> pairs_ = std::vector<TrianglePair>(4096);
+    PairCache cache_;
+    std::vector<double> microseconds_;
 };
+
+format::SectionSet needed_for(const Arguments& arguments) {
+    format::SectionSet needed = sections_for("collide");
+    if (arguments.question == Question::overlap) needed.insert(sections_for("overlap"));
+    if (arguments.question == Question::distance) needed.insert(sections_for("distance"));
+    if (arguments.as == "surface") needed.erase(format::SectionId::components);
+    return needed;
+}
 
 Exit run(const Arguments& arguments) {
     if (arguments.structure != "bvh") {
         return fail("query", {ErrorCode::bad_argument, "--structure is '" + arguments.structure +
                                                            "', but this version has bvh only."});
     }
-    format::SectionSet needed = sections_for("collide");
-    if (arguments.question == Question::overlap) needed.insert(sections_for("overlap"));
-    if (arguments.as == "surface") needed.erase(format::SectionId::components);
+    const format::SectionSet needed = needed_for(arguments);
     const Result<Model> a = open_for(arguments.a, needed);
     if (!a) return fail("query", a.error());
     const Result<Model> b = open_for(arguments.b, needed);
@@ -132,10 +200,47 @@ Exit run(const Arguments& arguments) {
     Asker asker(arguments, a.value(), b.value());
     report::Answers answers(std::cout, parse_answer_format(arguments.format));
     for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
-        answers.add(asker.ask(i, placements.value()[i]));
+        asker.answer(i, placements.value()[i], answers);
     }
     answers.finish();
+    if (arguments.timings) std::cerr << asker.timings();
     return Exit::success;
+}
+
+void add_contact_options(CLI::App& command, Arguments& arguments) {
+    command.add_option("--as", arguments.as, "surface or solid")
+        ->check(CLI::IsMember({"surface", "solid"}))
+        ->capture_default_str();
+    command.add_option("--contact", arguments.contact, "closed: touching counts; or proper")
+        ->check(CLI::IsMember({"closed", "proper"}))
+        ->capture_default_str();
+    command.add_flag("--skip-degenerate", arguments.skip_degenerate,
+                     "Leave triangles with collinear corners out of answers");
+}
+
+void add_distance_options(CLI::App& command, Arguments& arguments) {
+    if (arguments.question == Question::within) {
+        command
+            .add_option("--tolerance", arguments.tolerance,
+                        "The distance that still counts, model units")
+            ->check(CLI::NonNegativeNumber)
+            ->required();
+        return;
+    }
+    command
+        .add_option("--relative-error", arguments.errors.relative_error,
+                    "Upper may exceed lower by this share of lower")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command
+        .add_option("--absolute-error", arguments.errors.absolute_error,
+                    "Upper may exceed lower by this, model units")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command
+        .add_option("--max-distance", arguments.errors.max_distance,
+                    "Nothing beyond is of interest, model units")
+        ->check(CLI::NonNegativeNumber);
 }
 
 void add_question(CLI::App& query, Question question, const char* name, const char* description,
@@ -162,15 +267,16 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
         ->check(CLI::IsMember({"relative", "world"}))
         ->capture_default_str();
     command->add_option("--structure", arguments->structure, "bvh")->capture_default_str();
-    command->add_option("--as", arguments->as, "surface or solid")
-        ->check(CLI::IsMember({"surface", "solid"}))
-        ->capture_default_str();
-    command->add_option("--contact", arguments->contact, "closed: touching counts; or proper")
-        ->check(CLI::IsMember({"closed", "proper"}))
-        ->capture_default_str();
     add_answer_format(*command, arguments->format);
-    command->add_flag("--skip-degenerate", arguments->skip_degenerate,
-                      "Leave triangles with collinear corners out of answers");
+    command->add_option("--repeat", arguments->repeat, "Ask each pose this often, for --timings")
+        ->check(CLI::Range(1, 1'000'000'000))
+        ->capture_default_str();
+    command->add_flag("--timings", arguments->timings, "What the questions took, to stderr");
+    if (question == Question::collide || question == Question::overlap) {
+        add_contact_options(*command, *arguments);
+    } else {
+        add_distance_options(*command, *arguments);
+    }
     if (question == Question::overlap) {
         command->add_flag("--count", arguments->count, "Count the pairs, do not list them");
     }
@@ -182,6 +288,8 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
 void add_pair_questions(CLI::App& query, Exit& exit) {
     add_question(query, Question::collide, "collide", "Do A and B touch?", exit);
     add_question(query, Question::overlap, "overlap", "Which triangles of A and B overlap?", exit);
+    add_question(query, Question::distance, "distance", "How far are A and B apart?", exit);
+    add_question(query, Question::within, "within", "Are A and B within a tolerance?", exit);
 }
 
 }  // namespace cdprep::cli

@@ -89,6 +89,36 @@ std::string as_text(const PairAnswer& answer) {
     return text;
 }
 
+std::string as_json(const DistanceAnswer& answer) {
+    std::string text =
+        "{\"pose\": " + number(answer.pose) + ", \"found\": " + word(answer.distance.has_value());
+    if (answer.distance) {
+        const Distance& d = *answer.distance;
+        text += ", \"lower\": " + number(d.lower) + ", \"upper\": " + number(d.upper) +
+                ", \"witness_a\": [" + place(d.witness_a, ", ") + "], \"witness_b\": [" +
+                place(d.witness_b, ", ") + "], \"triangle_a\": " + number(d.triangle_a) +
+                ", \"triangle_b\": " + number(d.triangle_b);
+    }
+    return text + "}";
+}
+
+std::string as_text(const DistanceAnswer& answer) {
+    const std::string text = "pose " + number(answer.pose) + ": ";
+    if (!answer.distance) return text + "nothing that near";
+    const Distance& d = *answer.distance;
+    return text + "distance " + number(d.lower) + " to " + number(d.upper) + ", triangles " +
+           number(d.triangle_a) + " and " + number(d.triangle_b) + ", at " +
+           place(d.witness_a, " ") + " and " + place(d.witness_b, " ");
+}
+
+std::string as_json(const WithinAnswer& answer) {
+    return "{\"pose\": " + number(answer.pose) + ", \"within\": " + word(answer.within) + "}";
+}
+
+std::string as_text(const WithinAnswer& answer) {
+    return "pose " + number(answer.pose) + (answer.within ? ": within" : ": farther");
+}
+
 std::string as_json(const InsideAnswer& answer) {
     return "{\"point\": " + number(answer.point) + ", \"inside\": \"" +
            word(answer.inclusion.answer) +
@@ -143,6 +173,14 @@ std::string as_text(const RayAnswer& answer) {
 }  // namespace
 
 void Answers::add(const PairAnswer& answer) {
+    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
+}
+
+void Answers::add(const DistanceAnswer& answer) {
+    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
+}
+
+void Answers::add(const WithinAnswer& answer) {
     write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
 }
 

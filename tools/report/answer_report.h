@@ -10,6 +10,7 @@
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/distance.h"
 
 namespace cdprep::report {
 
@@ -22,6 +23,18 @@ struct PairAnswer {
     std::optional<std::size_t> count;                    ///< overlap only
     std::optional<std::span<const TrianglePair>> pairs;  ///< overlap without --count
     std::optional<Containment> containment;              ///< solid only
+};
+
+/// How far two models are apart in one pose; nothing when farther than asked for.
+struct DistanceAnswer {
+    std::size_t pose = 0;
+    std::optional<Distance> distance;
+};
+
+/// Whether two models are within the tolerance in one pose.
+struct WithinAnswer {
+    std::size_t pose = 0;
+    bool within = false;
 };
 
 /// Whether point number `point` is inside.
@@ -52,6 +65,8 @@ public:
     Answers(std::ostream& out, AnswerFormat format) : out_(out), format_(format) {}
 
     void add(const PairAnswer& answer);
+    void add(const DistanceAnswer& answer);
+    void add(const WithinAnswer& answer);
     void add(const InsideAnswer& answer);
     void add(const ClosestAnswer& answer);
     void add(const RayAnswer& answer);
