@@ -12,6 +12,7 @@ import tempfile
 from known_meshes import CUBE
 from shared_models import answers, bake, must, run
 
+
 def box_distance(p):
     """To the surface of [0, 2]^3, from inside or outside."""
     outside = math.sqrt(sum(max(0 - x, 0, x - 2) ** 2 for x in p))
