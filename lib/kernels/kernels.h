@@ -28,8 +28,7 @@ struct BoxPlacement {
     float shift_in_b[3];    ///< the same vector along B's axes
     float scale_a;
     float scale_b;
-    float slack;       ///< added to every sum of half extents; covers all rounding
-    float edge_slack;  ///< the same along the cross product of two axes
+    float slack;  ///< added to every sum of half extents; covers all rounding
 };
 
 /// The boxes of one node: 48 floats, lower x, y, z, then upper x, y, z, eight
@@ -130,9 +129,9 @@ struct LeafScratch {
 struct Table {
     const char* name;  ///< "scalar", "avx2", "avx512": shown in tests and benchmarks
 
-    /// Finds the pairs of chosen boxes that no tested direction separates: the six
-    /// face directions of the axis-aligned boxes and, when both nodes have them,
-    /// the fifteen of the oriented ones. Returns the bit set of boxes of B with a
+    /// Finds the pairs of chosen boxes that none of their face directions separates:
+    /// six of the axis-aligned boxes and, when both nodes have them, six of the
+    /// oriented ones. Returns the bit set of boxes of B with a
     /// partner; masks.of_a is set for those alone.
     unsigned (*overlapping_boxes)(const BoxPlacement& placement, const NodeBoxes& a,
                                   const NodeBoxes& b, const BoxChoice& choice,

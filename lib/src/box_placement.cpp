@@ -24,12 +24,9 @@
 // 2 v (s_a + s_b), the difference and the sums 4 v (s_a + 2 s_b + |t|); along B's
 // axes the same with a and b exchanged. Together below 32 v (s_a + s_b + |t|).
 //
-// Oriented boxes: the difference of two centres is off as above, and by the dot
-// product with a unit axis, 5 v sqrt 3 of it: the same bound holds. Along a cross
-// product the gap is a difference of two products of such numbers with entries of
-// the relative rotation (each off by 12 v, 8 v of it because stored axes are not
-// quite at right angles): twice 32 v plus 40 v (s_a + s_b + |t|), and the four
-// half extents times 20 v: below 128 v (s_a + s_b + |t|).
+// Oriented boxes: the difference of two centres is off as above, and its product
+// with a unit axis by 5 v sqrt 3 of it: the same bound holds. That stored axes are
+// not quite at right angles is covered where the boxes are made.
 
 namespace cdprep {
 namespace {
@@ -37,7 +34,6 @@ namespace {
 constexpr double kDoubleSlack = 96 * 0x1p-53;
 constexpr double kTurnSlack = 4 * Pose::kRotationTolerance;
 constexpr double kFloatSlack = 32 * 0x1p-24;
-constexpr double kEdgeSlack = 4 * kFloatSlack;
 
 double largest(const Double3& p) noexcept {
     return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
@@ -100,8 +96,6 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
     p.scale_a = static_cast<float>(scale_a);
     p.scale_b = static_cast<float>(scale_b);
     p.slack = float_above(slack);
-    p.edge_slack =
-        float_above(slack + (kEdgeSlack - kFloatSlack) * (scale_a + scale_b + largest(shift)));
     placed.rotation = r;
     placed.shift = along_a;
     placed.scale_a = scale_a;

@@ -6,6 +6,7 @@
 
 #include "box_placement.h"
 #include "moved_leaf.h"
+#include "prefetch.h"
 #include "workspace_storage.h"
 
 namespace cdprep {
@@ -22,6 +23,8 @@ public:
     void add(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
         const format::BvhLeaf& a = leaves_a_[leaf_a];
         const format::BvhLeaf& b = leaves_b_[leaf_b];
+        prefetch(&a);
+        prefetch(&b);
         scratch_.leaf_pairs[count_] = {a.corner[0][0].data(), b.corner[0][0].data(), used_lanes(a),
                                        used_lanes(b)};
         scratch_.leaf_numbers[count_] = std::uint64_t{leaf_a} << 32 | leaf_b;

@@ -8,6 +8,7 @@
 
 #include "box_placement.h"
 #include "cdprep/model.h"
+#include "prefetch.h"
 #include "workspace_storage.h"
 
 namespace cdprep {
@@ -116,6 +117,18 @@ inline Descent choose_descent(const Tree& a, const Tree& b, const PendingPair& p
     return {size_b <= kSimilar * size_a, size_a <= kSimilar * size_b};
 }
 
+/// Asks ahead for what the walk will read of some children: nodes of `below`, one a
+/// bit.
+inline void prefetch_children(const Tree& tree, const TreePlace& below, unsigned bits) noexcept {
+    if (below.height == 0) return;
+    const std::uint32_t first = tree.shape.first[below.height - 1] + below.index;
+    for (; bits != 0; bits &= bits - 1) {
+        const std::uint32_t index = first + static_cast<std::uint32_t>(std::countr_zero(bits));
+        prefetch(&tree.nodes[index]);
+        if (tree.oriented != nullptr) prefetch(&tree.oriented[index]);
+    }
+}
+
 /// Which hits a walk is after.
 enum class Search : std::uint8_t {
     all,    ///< every pair of leaves; oriented boxes prune
@@ -125,11 +138,9 @@ enum class Search : std::uint8_t {
 /// Where the box around a place's children stands among its siblings, or null for
 /// a root.
 inline const float* box_around(const Tree& tree, const TreePlace& place) noexcept {
-    const format::BvhShape& shape = tree.shape;
-    if (place.height == shape.levels) return nullptr;
-    const format::BvhNode& node =
-        tree.nodes[shape.first[place.height] + place.index / format::kBvhWidth];
-    return &node.lower[0][place.index % format::kBvhWidth];
+    if (place.height == tree.shape.levels) return nullptr;
+    const std::uint32_t node = tree.shape.first[place.height] + place.index / format::kBvhWidth;
+    return &tree.nodes[node].lower[0][place.index % format::kBvhWidth];
 }
 
 inline kernels::NodeBoxes node_boxes(const Tree& tree, const TestedBoxes& side) noexcept {
@@ -171,9 +182,12 @@ bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
             test(placed.placement, node_boxes(a, side_a), node_boxes(b, side_b), choice, masks);
         const std::uint64_t base = PendingPair{side_a.first_below, side_b.first_below}.packed();
         std::size_t deepest = depth;
+        unsigned columns = 0;
+        if (kSearch == Search::all) prefetch_children(b, side_b.first_below, rows);
         float most = -1;
         for (; rows != 0; rows &= rows - 1) {
             const auto j = static_cast<std::uint32_t>(std::countr_zero(rows));
+            columns |= masks.of_a[j];
             for (std::uint32_t bits = masks.of_a[j]; bits != 0; bits &= bits - 1) {
                 const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
                 if (kSearch == Search::first && masks.depth[j][i] > most) {
@@ -183,6 +197,7 @@ bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
                 scratch.pending[depth++] = base + (std::uint64_t{i} << 32) + j;
             }
         }
+        if (kSearch == Search::all) prefetch_children(a, side_a.first_below, columns);
         if (kSearch == Search::first && most >= 0) {
             std::swap(scratch.pending[deepest], scratch.pending[depth - 1]);
         }

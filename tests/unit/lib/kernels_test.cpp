@@ -60,7 +60,6 @@ BoxPlacement placement_of(const Pose& pose, float slack) {
     }
     p.scale_a = p.scale_b = 1;
     p.slack = slack;
-    p.edge_slack = 4 * slack;
     return p;
 }
 
