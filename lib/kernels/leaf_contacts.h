@@ -382,9 +382,9 @@ public:
     }
 
 private:
-    std::size_t count_;
     alignas(64) std::int32_t a_[W::kCount];
     alignas(64) std::int32_t b_[W::kCount];
+    std::size_t count_;
 };
 
 /// Judges the candidates, W::kCount at a time.

@@ -26,17 +26,18 @@ kernels::LeafFrame leaf_frame(const Model& model, double scale) noexcept {
 
 }  // namespace
 
-LeafBatch::LeafBatch(const Model& a, const Model& b, const PlacedBoxes& placed,
-                     Workspace::Storage& scratch) noexcept
-    : scratch_(scratch), leaves_a_(a.leaves().data()), leaves_b_(b.leaves().data()), placement_{} {
-    placement_.a = leaf_frame(a, placed.scale_a);
-    placement_.b = leaf_frame(b, placed.scale_b);
-    std::copy(placed.rotation.begin(), placed.rotation.end(), placement_.rotation);
-    std::copy(placed.shift.begin(), placed.shift.end(), placement_.shift);
+kernels::LeafPlacement place_leaves(const Model& a, const Model& b,
+                                    const PlacedBoxes& placed) noexcept {
+    kernels::LeafPlacement placement{};
+    placement.a = leaf_frame(a, placed.scale_a);
+    placement.b = leaf_frame(b, placed.scale_b);
+    std::copy(placed.rotation.begin(), placed.rotation.end(), placement.rotation);
+    std::copy(placed.shift.begin(), placed.shift.end(), placement.shift);
     for (std::size_t i = 0; i < 9; ++i) {
-        placement_.corner_rotation[i] = static_cast<float>(placed.rotation[i] * placement_.b.scale);
+        placement.corner_rotation[i] = static_cast<float>(placed.rotation[i] * placement.b.scale);
     }
-    placement_.error = static_cast<float>(placed.double_slack * (1 + 0x1p-20));
+    placement.error = static_cast<float>(placed.double_slack * (1 + 0x1p-20));
+    return placement;
 }
 
 }  // namespace cdprep

@@ -11,11 +11,19 @@
 
 namespace cdprep {
 
+/// How the leaves of two models stand to each other.
+[[nodiscard]] kernels::LeafPlacement place_leaves(const Model& a, const Model& b,
+                                                  const PlacedBoxes& placed) noexcept;
+
 /// Collects pairs of leaves and tests their triangles many at a time.
 class LeafBatch {
 public:
     LeafBatch(const Model& a, const Model& b, const PlacedBoxes& placed,
-              Workspace::Storage& scratch) noexcept;
+              Workspace::Storage& scratch) noexcept
+        : scratch_(scratch),
+          leaves_a_(a.leaves().data()),
+          leaves_b_(b.leaves().data()),
+          placement_(place_leaves(a, b, placed)) {}
 
     [[nodiscard]] bool full() const noexcept {
         return count_ == kernels::kLeafBatch;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "cdprep/model.h"
 #include "cdprep/placement.h"
@@ -54,5 +56,47 @@ struct OverlapOptions {
                                                 const Placement& placement, Workspace& workspace,
                                                 std::span<TrianglePair> pairs,
                                                 const OverlapOptions& options = {}) noexcept;
+
+/// Something to be called with each pair; false ends the search. Refers to the
+/// callable and copies nothing, which must outlive the call it is handed to.
+class PairVisitor {
+public:
+    template <class Visit>
+    requires(!std::is_same_v<std::remove_const_t<Visit>, PairVisitor>) PairVisitor(Visit& visit)
+    noexcept  // NOLINT(google-explicit-constructor)
+        : context_(const_cast<void*>(static_cast<const void*>(&visit))),
+          call_([](void* context, const TrianglePair& pair) {
+              return static_cast<bool>((*static_cast<Visit*>(context))(pair));
+          }) {}
+    bool operator()(const TrianglePair& pair) const {
+        return call_(context_, pair);
+    }
+
+private:
+    void* context_;
+    bool (*call_)(void*, const TrianglePair&);
+};
+
+/// Calls `visit` with every pair that overlapping_triangles() finds, each once, as
+/// it is found: no room for pairs is needed, and nothing is sorted. The order is the
+/// same for equal input on equal processors and means nothing. `visit` may not
+/// throw and may not use the workspace. Returns false when `visit` ended the search.
+///
+///     std::size_t count = 0;
+///     const auto visit = [&](const cdprep::TrianglePair&) { return ++count < 1000; };
+///     cdprep::visit_overlapping_triangles(a, b, placement, workspace, visit);
+bool visit_overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
+                                 Workspace& workspace, PairVisitor visit,
+                                 const OverlapOptions& options = {}) noexcept;
+
+/// Marks the triangles of either model that overlap any of the other: bit i % 64 of
+/// element i / 64 for source triangle i. Clears `bits_a` and `bits_b` first; each
+/// must have an element for every 64 triangles of its model, or nothing is marked
+/// for it. Returns the number of pairs. Less than overlapping_triangles() where
+/// many pairs share few triangles: nothing is stored or sorted.
+std::size_t mark_overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
+                                       Workspace& workspace, std::span<std::uint64_t> bits_a,
+                                       std::span<std::uint64_t> bits_b,
+                                       const OverlapOptions& options = {}) noexcept;
 
 }  // namespace cdprep

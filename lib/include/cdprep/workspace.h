@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
+#include <span>
 
 namespace cdprep {
 
@@ -12,6 +15,13 @@ namespace cdprep {
 class Workspace {
 public:
     Workspace();
+
+    /// A workspace in the caller's memory, which outlives it; allocates nothing.
+    /// Nothing when the memory is smaller than size() or not aligned to alignment().
+    [[nodiscard]] static std::optional<Workspace> in(std::span<std::byte> memory) noexcept;
+    [[nodiscard]] static std::size_t size() noexcept;       ///< bytes
+    [[nodiscard]] static std::size_t alignment() noexcept;  ///< bytes, a power of two
+
     Workspace(Workspace&&) noexcept;
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
@@ -22,7 +32,14 @@ public:
     }
 
 private:
-    std::unique_ptr<Storage> storage_;
+    /// Frees what was allocated and leaves the caller's memory alone.
+    struct Release {
+        bool owns;
+        void operator()(Storage* storage) const noexcept;
+    };
+    explicit Workspace(std::unique_ptr<Storage, Release> storage) noexcept;
+
+    std::unique_ptr<Storage, Release> storage_;
 };
 
 }  // namespace cdprep

@@ -46,6 +46,56 @@ TEST(OverlappingTrianglesLaws, AgreesWithBruteForce) {
     EXPECT_LT(touching, asked / 2);
 }
 
+// Pairs one by one, and the two sets alone, say the same as the sorted pairs.
+TEST(OverlappingTrianglesLaws, EveryFormGivesTheSameSet) {
+    std::mt19937 random(13);
+    const TestMesh a = icosphere(3), b = torus(1, 0.25, 24, 12);
+    const OpenModel model_a = open_tiny(a, {.double_precision = true});
+    const OpenModel model_b = open_tiny(b, {.double_precision = true});
+    Workspace workspace;
+    std::vector<std::uint64_t> bits_a(a.triangles.size() / 64 + 1, ~std::uint64_t{0});
+    std::vector<std::uint64_t> bits_b(b.triangles.size() / 64 + 1, ~std::uint64_t{0});
+    std::size_t total = 0;
+    for (int round = 0; round < 30; ++round) {
+        const Placement placement = Placement::b_moves(random_pose(random, 0.5));
+        const auto pairs = all_pairs(model_a.model, model_b.model, placement, workspace);
+        std::vector<TrianglePair> visited;
+        const auto visit = [&](const TrianglePair& pair) {
+            visited.push_back(pair);
+            return true;
+        };
+        EXPECT_TRUE(
+            visit_overlapping_triangles(model_a.model, model_b.model, placement, workspace, visit));
+        std::sort(visited.begin(), visited.end());
+        ASSERT_EQ(visited, pairs);
+
+        std::vector<std::uint64_t> expected_a(bits_a.size()), expected_b(bits_b.size());
+        for (const TrianglePair& pair : pairs) {
+            expected_a[pair.a / 64] |= std::uint64_t{1} << (pair.a % 64);
+            expected_b[pair.b / 64] |= std::uint64_t{1} << (pair.b % 64);
+        }
+        ASSERT_EQ(mark_overlapping_triangles(model_a.model, model_b.model, placement, workspace,
+                                             bits_a, bits_b),
+                  pairs.size());
+        ASSERT_EQ(bits_a, expected_a);
+        ASSERT_EQ(bits_b, expected_b);
+        total += pairs.size();
+
+        std::size_t seen = 0;
+        const auto stop_early = [&](const TrianglePair&) { return ++seen < 5; };
+        EXPECT_EQ(visit_overlapping_triangles(model_a.model, model_b.model, placement, workspace,
+                                              stop_early),
+                  pairs.size() < 5);
+        EXPECT_EQ(seen, std::min<std::size_t>(5, pairs.size()));
+    }
+    EXPECT_GT(total, 1000u);
+    std::span<std::uint64_t> nothing;
+    const Placement still = Placement::b_moves(Pose());
+    EXPECT_EQ(
+        mark_overlapping_triangles(model_a.model, model_b.model, still, workspace, nothing, bits_b),
+        all_pairs(model_a.model, model_b.model, still, workspace).size());
+}
+
 TEST(OverlappingTrianglesLaws, SwappingTheModelsSwapsThePairs) {
     std::mt19937 random(7);
     const TestMesh a = icosphere(2), b = torus(1, 0.25, 20, 10);

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef CDPREP_CDPREP_H
+#define CDPREP_CDPREP_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The C face: every question of the C++ headers, for C99 and for languages that
+ * call C. What a question means, costs and needs stands in the header of the same
+ * name: collide.h, overlapping_triangles.h, distance.h, cast_ray.h,
+ * closest_point.h, containment.h.
+ *
+ * Every function returns CDPREP_OK or a code, and then fills `error`, which may be
+ * null. No exception leaves a function. A struct that may grow starts with its
+ * size, which the caller sets to sizeof: older programs keep working with newer
+ * libraries. Null stands for default options.
+ *
+ * Models are read-only and may serve any number of threads; a workspace serves one
+ * question at a time. */
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Codes; numbers are never reused. */
+enum {
+    CDPREP_OK = 0,
+    CDPREP_BAD_ARGUMENT = 1, /* asked wrongly: a null, a size, a pose that is none */
+    CDPREP_UNREADABLE = 2,   /* a file that is missing, malformed or damaged */
+    CDPREP_OVER_BUDGET = 4,  /* no memory */
+    CDPREP_INTERNAL = 5      /* our own mistake */
+};
+
+/* Why something could not be done: a whole sentence for a person, cut to fit. */
+typedef struct cdprep_error {
+    int code;
+    char message[508]; /* ends with a zero */
+} cdprep_error;
+
+typedef struct cdprep_model cdprep_model;
+typedef struct cdprep_workspace cdprep_workspace;
+
+/* --- Models ----------------------------------------------------------------- */
+
+/* Maps a baked file and checks all of it. Close with cdprep_close(). */
+int cdprep_open(const char* path, cdprep_model** model, cdprep_error* error);
+
+/* The same for bytes in memory, which start at a multiple of 64 and outlive the
+ * model; `name` is for messages. */
+int cdprep_open_memory(const void* bytes, size_t size, const char* name, cdprep_model** model,
+                       cdprep_error* error);
+
+/* Checks the header alone: for bytes that the caller trusts. */
+int cdprep_open_trusted(const char* path, cdprep_model** model, cdprep_error* error);
+
+void cdprep_close(cdprep_model* model); /* null does nothing */
+
+uint32_t cdprep_triangle_count(const cdprep_model* model);
+uint32_t cdprep_vertex_count(const cdprep_model* model);
+int cdprep_is_closed(const cdprep_model* model);
+
+/* --- Scratch ------------------------------------------------------------------ */
+
+/* Bytes that a workspace takes, and what their address must be a multiple of. */
+size_t cdprep_workspace_size(void);
+size_t cdprep_workspace_alignment(void);
+
+/* Makes a workspace in the caller's memory, or returns null when that is null, too
+ * small or not aligned. Nothing to free: it ends with the memory. */
+cdprep_workspace* cdprep_make_workspace(void* memory, size_t size);
+
+/* --- Placement ------------------------------------------------------------------ */
+
+enum {
+    CDPREP_B_MOVES = 0,  /* `b` is a_from_b; A stays */
+    CDPREP_A_MOVES = 1,  /* `a` is b_from_a; B stays */
+    CDPREP_RELATIVE = 2, /* two world poses; B moves by the relative one */
+    CDPREP_WORLD = 3     /* two world poses; both move */
+};
+
+/* R row by row, then T; model units. |R^T R - I| at most 1e-12, no mirror. */
+typedef struct cdprep_pose {
+    double rows[12];
+} cdprep_pose;
+
+typedef struct cdprep_placement {
+    uint32_t size;
+    uint32_t kind;
+    cdprep_pose a; /* read when the kind says so */
+    cdprep_pose b;
+} cdprep_placement;
+
+/* --- Two models ------------------------------------------------------------------ */
+
+enum { CDPREP_CLOSED = 0, CDPREP_PROPER = 1 };
+enum { CDPREP_KEEP_DEGENERATE = 0, CDPREP_SKIP_DEGENERATE = 1 };
+enum { CDPREP_SURFACE = 0, CDPREP_SOLID = 1 };
+enum { CDPREP_NO = 0, CDPREP_YES = 1, CDPREP_UNKNOWN = 2 };
+
+typedef struct cdprep_contact_options {
+    uint32_t size;
+    uint32_t contact;    /* CDPREP_CLOSED */
+    uint32_t degenerate; /* CDPREP_KEEP_DEGENERATE */
+    uint32_t as;         /* CDPREP_SURFACE; cdprep_collide() alone reads it */
+} cdprep_contact_options;
+
+typedef struct cdprep_collision {
+    int hit;
+    int containment; /* CDPREP_NO, _YES, _UNKNOWN; solids alone */
+    int a_inside_b;
+    double winding;
+} cdprep_collision;
+
+int cdprep_collide(const cdprep_model* a, const cdprep_model* b, const cdprep_placement* placement,
+                   cdprep_workspace* workspace, const cdprep_contact_options* options,
+                   cdprep_collision* collision, cdprep_error* error);
+
+typedef struct cdprep_triangle_pair {
+    uint32_t a;
+    uint32_t b;
+} cdprep_triangle_pair;
+
+/* Writes at most `room` pairs, the smallest, sorted; `count` is how many there are.
+ * `pairs` may be null when `room` is 0. */
+int cdprep_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
+                                 const cdprep_placement* placement, cdprep_workspace* workspace,
+                                 const cdprep_contact_options* options, cdprep_triangle_pair* pairs,
+                                 size_t room, size_t* count, cdprep_error* error);
+
+/* Both 0xffffffff before the first use. */
+typedef struct cdprep_pair_cache {
+    uint32_t triangle_a;
+    uint32_t triangle_b;
+} cdprep_pair_cache;
+
+typedef struct cdprep_distance_options {
+    uint32_t size;
+    double relative_error;
+    double absolute_error;
+    double max_distance; /* inclusive; HUGE_VAL for none */
+} cdprep_distance_options;
+
+typedef struct cdprep_distance {
+    double lower;
+    double upper;
+    double witness_a[3];
+    double witness_b[3];
+    uint32_t triangle_a;
+    uint32_t triangle_b;
+} cdprep_distance;
+
+/* `found` is 0 when nothing is within max_distance. `cache` may be null. */
+int cdprep_distance_between(const cdprep_model* a, const cdprep_model* b,
+                            const cdprep_placement* placement, cdprep_workspace* workspace,
+                            const cdprep_distance_options* options, cdprep_pair_cache* cache,
+                            int* found, cdprep_distance* distance, cdprep_error* error);
+
+int cdprep_is_within(const cdprep_model* a, const cdprep_model* b,
+                     const cdprep_placement* placement, cdprep_workspace* workspace,
+                     double tolerance, cdprep_pair_cache* cache, int* within, cdprep_error* error);
+
+/* --- One model ------------------------------------------------------------------ */
+
+typedef struct cdprep_ray_hit {
+    double t;
+    double point[3];
+    uint32_t triangle;
+} cdprep_ray_hit;
+
+int cdprep_cast_ray(const cdprep_model* model, const double origin[3], const double direction[3],
+                    double max_t, cdprep_workspace* workspace, int* found, cdprep_ray_hit* hit,
+                    cdprep_error* error);
+
+typedef struct cdprep_closest_point {
+    double point[3];
+    double lower;
+    double upper;
+    uint32_t triangle;
+} cdprep_closest_point;
+
+int cdprep_find_closest_point(const cdprep_model* model, const double query[3], double max_distance,
+                              cdprep_workspace* workspace, int* found,
+                              cdprep_closest_point* closest, cdprep_error* error);
+
+typedef struct cdprep_inclusion {
+    int inside; /* CDPREP_NO, _YES, _UNKNOWN */
+    int on_surface;
+    double winding;
+} cdprep_inclusion;
+
+int cdprep_includes(const cdprep_model* model, const double point[3], cdprep_workspace* workspace,
+                    cdprep_inclusion* inclusion, cdprep_error* error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* CDPREP_CDPREP_H */

@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/cdprep.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "cdprep/cast_ray.h"
+#include "cdprep/closest_point.h"
+#include "cdprep/collide.h"
+#include "cdprep/distance.h"
+
+struct cdprep_model {
+    cdprep::Model model;
+};
+
+struct cdprep_workspace {
+    cdprep::Workspace workspace;
+};
+
+namespace cdprep {
+namespace {
+
+static_assert(sizeof(cdprep_triangle_pair) == sizeof(TrianglePair) &&
+              offsetof(cdprep_triangle_pair, b) == offsetof(TrianglePair, b));
+static_assert(CDPREP_BAD_ARGUMENT == static_cast<int>(ErrorCode::bad_argument) &&
+              CDPREP_UNREADABLE == static_cast<int>(ErrorCode::unreadable) &&
+              CDPREP_OVER_BUDGET == static_cast<int>(ErrorCode::over_budget) &&
+              CDPREP_INTERNAL == static_cast<int>(ErrorCode::internal));
+
+int fail(cdprep_error* error, int code, std::string_view message) noexcept {
+    if (error == nullptr) return code;
+    error->code = code;
+    const std::size_t length = std::min(message.size(), sizeof error->message - 1);
+    std::memcpy(error->message, message.data(), length);
+    error->message[length] = 0;
+    return code;
+}
+
+int fail(cdprep_error* error, const Error& why) noexcept {
+    return fail(error, static_cast<int>(why.code), why.message);
+}
+
+/// Runs `ask`, which returns a code, and lets no exception out.
+template <class Ask>
+int guarded(cdprep_error* error, Ask ask) noexcept {
+    try {
+        return ask();
+    } catch (const std::bad_alloc&) {
+        return fail(error, CDPREP_OVER_BUDGET, "There is not enough memory.");
+    } catch (const std::exception& thrown) {
+        return fail(error, CDPREP_INTERNAL, thrown.what());
+    } catch (...) {
+        return fail(error, CDPREP_INTERNAL, "An unknown exception was thrown.");
+    }
+}
+
+template <class... Pointers>
+bool any_null(Pointers... pointers) noexcept {
+    return ((pointers == nullptr) || ...);
+}
+
+int null_argument(cdprep_error* error) noexcept {
+    return fail(error, CDPREP_BAD_ARGUMENT, "An argument is null that must not be.");
+}
+
+/// Copies as much of a sized struct as its maker knew; the rest stays at default.
+template <class Options>
+bool read_sized(const Options* from, Options& to) noexcept {
+    if (from == nullptr) return true;
+    if (from->size < sizeof from->size) return false;
+    const std::uint32_t size = std::min<std::uint32_t>(from->size, sizeof to);
+    std::memcpy(&to, from, size);
+    return true;
+}
+
+int bad_size(cdprep_error* error) noexcept {
+    return fail(error, CDPREP_BAD_ARGUMENT, "The size of a struct is not set; it must be sizeof.");
+}
+
+Result<Pose> pose_of(const cdprep_pose& pose) {
+    std::array<double, 12> rows{};
+    std::copy(std::begin(pose.rows), std::end(pose.rows), rows.begin());
+    return Pose::from_rows(rows);
+}
+
+/// The placement, or a code with `error` filled.
+int read_placement(const cdprep_placement& given, std::optional<Placement>& placement,
+                   cdprep_error* error) {
+    if (given.size < sizeof given) return bad_size(error);
+    const bool reads_a = given.kind != CDPREP_B_MOVES;
+    const bool reads_b = given.kind != CDPREP_A_MOVES;
+    const Result<Pose> a = reads_a ? pose_of(given.a) : Result<Pose>(Pose());
+    if (!a) return fail(error, a.error());
+    const Result<Pose> b = reads_b ? pose_of(given.b) : Result<Pose>(Pose());
+    if (!b) return fail(error, b.error());
+    switch (given.kind) {
+        case CDPREP_B_MOVES:
+            placement = Placement::b_moves(b.value());
+            return CDPREP_OK;
+        case CDPREP_A_MOVES:
+            placement = Placement::a_moves(a.value());
+            return CDPREP_OK;
+        case CDPREP_RELATIVE:
+            placement = Placement::relative(a.value(), b.value());
+            return CDPREP_OK;
+        case CDPREP_WORLD:
+            placement = Placement::world(a.value(), b.value());
+            return CDPREP_OK;
+        default:
+            return fail(error, CDPREP_BAD_ARGUMENT, "The kind of a placement is not 0 to 3.");
+    }
+}
+
+CollideOptions contact_options(const cdprep_contact_options& given) noexcept {
+    CollideOptions options;
+    if (given.as == CDPREP_SOLID) options.as = As::solid;
+    if (given.contact == CDPREP_PROPER) options.contact = Contact::proper;
+    if (given.degenerate == CDPREP_SKIP_DEGENERATE) options.degenerate = Degenerate::skip;
+    return options;
+}
+
+int word(Answer answer) noexcept {
+    switch (answer) {
+        case Answer::no:
+            return CDPREP_NO;
+        case Answer::yes:
+            return CDPREP_YES;
+        default:
+            return CDPREP_UNKNOWN;
+    }
+}
+
+void store(const Double3& p, double* numbers) noexcept {
+    numbers[0] = p.x;
+    numbers[1] = p.y;
+    numbers[2] = p.z;
+}
+
+int opened(Result<Model> result, cdprep_model** model, cdprep_error* error) {
+    if (!result) return fail(error, result.error());
+    *model = new cdprep_model{std::move(result).value()};
+    return CDPREP_OK;
+}
+
+/// A question about two models: checks what every such question checks, then asks.
+template <class Ask>
+int ask_pair(const cdprep_model* a, const cdprep_model* b, const cdprep_placement* placement,
+             cdprep_workspace* workspace, cdprep_error* error, Ask ask) noexcept {
+    if (any_null(a, b, placement, workspace)) return null_argument(error);
+    return guarded(error, [&]() -> int {
+        std::optional<Placement> placed;
+        if (const int code = read_placement(*placement, placed, error)) return code;
+        return ask(a->model, b->model, *placed, workspace->workspace);
+    });
+}
+
+/// Where the C++ questions keep their cache, from and back to the C struct.
+class CacheCopy {
+public:
+    explicit CacheCopy(cdprep_pair_cache* cache) noexcept : outer_(cache) {
+        if (cache != nullptr) inner_ = {cache->triangle_a, cache->triangle_b};
+    }
+    CacheCopy(const CacheCopy&) = delete;
+    CacheCopy& operator=(const CacheCopy&) = delete;
+    ~CacheCopy() {
+        if (outer_ != nullptr) *outer_ = {inner_.triangle_a, inner_.triangle_b};
+    }
+    [[nodiscard]] PairCache* get() noexcept {
+        return outer_ == nullptr ? nullptr : &inner_;
+    }
+
+private:
+    cdprep_pair_cache* outer_;
+    PairCache inner_;
+};
+
+}  // namespace
+}  // namespace cdprep
+
+using cdprep::Model;
+using cdprep::Placement;
+using cdprep::Workspace;
+
+int cdprep_open(const char* path, cdprep_model** model, cdprep_error* error) {
+    if (cdprep::any_null(path, model)) return cdprep::null_argument(error);
+    *model = nullptr;
+    return cdprep::guarded(error, [&] { return cdprep::opened(Model::open(path), model, error); });
+}
+
+int cdprep_open_memory(const void* bytes, size_t size, const char* name, cdprep_model** model,
+                       cdprep_error* error) {
+    if (cdprep::any_null(bytes, name, model)) {
+        return cdprep::null_argument(error);
+    }
+    *model = nullptr;
+    return cdprep::guarded(error, [&] {
+        const std::span<const std::byte> file(static_cast<const std::byte*>(bytes), size);
+        return cdprep::opened(Model::open(file, cdprep::SectionSet::all(), name), model, error);
+    });
+}
+
+int cdprep_open_trusted(const char* path, cdprep_model** model, cdprep_error* error) {
+    if (cdprep::any_null(path, model)) return cdprep::null_argument(error);
+    *model = nullptr;
+    return cdprep::guarded(error,
+                           [&] { return cdprep::opened(Model::open_trusted(path), model, error); });
+}
+
+void cdprep_close(cdprep_model* model) {
+    delete model;
+}
+
+uint32_t cdprep_triangle_count(const cdprep_model* model) {
+    return model == nullptr ? 0 : model->model.triangle_count();
+}
+
+uint32_t cdprep_vertex_count(const cdprep_model* model) {
+    return model == nullptr ? 0 : model->model.vertex_count();
+}
+
+int cdprep_is_closed(const cdprep_model* model) {
+    return model != nullptr && model->model.is_closed() ? 1 : 0;
+}
+
+// The workspace's own object lies behind its scratch.
+size_t cdprep_workspace_size(void) {
+    return Workspace::size() + Workspace::alignment() + sizeof(cdprep_workspace);
+}
+
+size_t cdprep_workspace_alignment(void) {
+    return Workspace::alignment();
+}
+
+cdprep_workspace* cdprep_make_workspace(void* memory, size_t size) {
+    if (memory == nullptr || size < cdprep_workspace_size()) return nullptr;
+    const std::span<std::byte> bytes(static_cast<std::byte*>(memory), size);
+    std::optional<Workspace> workspace = Workspace::in(bytes);
+    if (!workspace) return nullptr;
+    const std::size_t behind = (Workspace::size() + Workspace::alignment() - 1) /
+                               Workspace::alignment() * Workspace::alignment();
+    return new (bytes.data() + behind) cdprep_workspace{std::move(*workspace)};
+}
+
+int cdprep_collide(const cdprep_model* a, const cdprep_model* b, const cdprep_placement* placement,
+                   cdprep_workspace* workspace, const cdprep_contact_options* options,
+                   cdprep_collision* collision, cdprep_error* error) {
+    if (collision == nullptr) return cdprep::null_argument(error);
+    cdprep_contact_options given{};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    return cdprep::ask_pair(
+        a, b, placement, workspace, error,
+        [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            const cdprep::Collision found =
+                cdprep::collide(ma, mb, placed, scratch, cdprep::contact_options(given));
+            *collision = {found.hit ? 1 : 0, cdprep::word(found.containment.answer),
+                          found.containment.a_inside_b ? 1 : 0, found.containment.winding};
+            return CDPREP_OK;
+        });
+}
+
+int cdprep_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
+                                 const cdprep_placement* placement, cdprep_workspace* workspace,
+                                 const cdprep_contact_options* options, cdprep_triangle_pair* pairs,
+                                 size_t room, size_t* count, cdprep_error* error) {
+    if (count == nullptr || (pairs == nullptr && room > 0)) return cdprep::null_argument(error);
+    cdprep_contact_options given{};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    return cdprep::ask_pair(
+        a, b, placement, workspace, error,
+        [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            const cdprep::CollideOptions wanted = cdprep::contact_options(given);
+            const std::span<cdprep::TrianglePair> kept(
+                reinterpret_cast<cdprep::TrianglePair*>(pairs), room);
+            *count = cdprep::overlapping_triangles(ma, mb, placed, scratch, kept,
+                                                   {wanted.contact, wanted.degenerate});
+            return CDPREP_OK;
+        });
+}
+
+int cdprep_distance_between(const cdprep_model* a, const cdprep_model* b,
+                            const cdprep_placement* placement, cdprep_workspace* workspace,
+                            const cdprep_distance_options* options, cdprep_pair_cache* cache,
+                            int* found, cdprep_distance* distance, cdprep_error* error) {
+    if (cdprep::any_null(found, distance)) return cdprep::null_argument(error);
+    const cdprep::DistanceOptions defaults;
+    cdprep_distance_options given{sizeof given, defaults.relative_error, defaults.absolute_error,
+                                  defaults.max_distance};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    return cdprep::ask_pair(
+        a, b, placement, workspace, error,
+        [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            cdprep::CacheCopy copy(cache);
+            const auto result = cdprep::distance(
+                ma, mb, placed, scratch,
+                {given.relative_error, given.absolute_error, given.max_distance}, copy.get());
+            *found = result ? 1 : 0;
+            *distance = {};
+            if (!result) return CDPREP_OK;
+            distance->lower = result->lower;
+            distance->upper = result->upper;
+            cdprep::store(result->witness_a, distance->witness_a);
+            cdprep::store(result->witness_b, distance->witness_b);
+            distance->triangle_a = result->triangle_a;
+            distance->triangle_b = result->triangle_b;
+            return CDPREP_OK;
+        });
+}
+
+int cdprep_is_within(const cdprep_model* a, const cdprep_model* b,
+                     const cdprep_placement* placement, cdprep_workspace* workspace,
+                     double tolerance, cdprep_pair_cache* cache, int* within, cdprep_error* error) {
+    if (within == nullptr) return cdprep::null_argument(error);
+    return cdprep::ask_pair(
+        a, b, placement, workspace, error,
+        [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            cdprep::CacheCopy copy(cache);
+            *within = cdprep::is_within(ma, mb, placed, tolerance, scratch, copy.get()) ? 1 : 0;
+            return CDPREP_OK;
+        });
+}
+
+int cdprep_cast_ray(const cdprep_model* model, const double origin[3], const double direction[3],
+                    double max_t, cdprep_workspace* workspace, int* found, cdprep_ray_hit* hit,
+                    cdprep_error* error) {
+    if (cdprep::any_null(model, origin, direction, workspace, found, hit)) {
+        return cdprep::null_argument(error);
+    }
+    const cdprep::Ray ray = {{origin[0], origin[1], origin[2]},
+                             {direction[0], direction[1], direction[2]}};
+    const auto result = cdprep::cast_ray(model->model, ray, workspace->workspace, {max_t});
+    *found = result ? 1 : 0;
+    *hit = {};
+    if (!result) return CDPREP_OK;
+    hit->t = result->t;
+    hit->triangle = result->triangle;
+    cdprep::store(result->point, hit->point);
+    return CDPREP_OK;
+}
+
+int cdprep_find_closest_point(const cdprep_model* model, const double query[3], double max_distance,
+                              cdprep_workspace* workspace, int* found,
+                              cdprep_closest_point* closest, cdprep_error* error) {
+    if (cdprep::any_null(model, query, workspace, found, closest)) {
+        return cdprep::null_argument(error);
+    }
+    const auto result = cdprep::closest_point(model->model, {query[0], query[1], query[2]},
+                                              workspace->workspace, max_distance);
+    *found = result ? 1 : 0;
+    *closest = {};
+    if (!result) return CDPREP_OK;
+    cdprep::store(result->point, closest->point);
+    closest->lower = result->lower;
+    closest->upper = result->upper;
+    closest->triangle = result->triangle;
+    return CDPREP_OK;
+}
+
+int cdprep_includes(const cdprep_model* model, const double point[3], cdprep_workspace* workspace,
+                    cdprep_inclusion* inclusion, cdprep_error* error) {
+    if (cdprep::any_null(model, point, workspace, inclusion)) {
+        return cdprep::null_argument(error);
+    }
+    const cdprep::Inclusion result =
+        cdprep::includes(model->model, {point[0], point[1], point[2]}, workspace->workspace);
+    *inclusion = {cdprep::word(result.answer), result.on_surface ? 1 : 0, result.winding};
+    return CDPREP_OK;
+}

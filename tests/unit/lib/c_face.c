@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+#include "c_face.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cdprep/cdprep.h"
+
+#define TEXT(x) #x
+#define LINE(x) TEXT(x)
+#define MUST(condition)                                                      \
+    do {                                                                     \
+        if (!(condition)) return "line " LINE(__LINE__) ": not " #condition; \
+    } while (0)
+
+static cdprep_placement moved_by(double x) {
+    cdprep_placement placement = {sizeof placement,
+                                  CDPREP_B_MOVES,
+                                  {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}},
+                                  {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}}};
+    placement.b.rows[9] = x;
+    return placement;
+}
+
+static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) {
+    cdprep_error error;
+    cdprep_placement near = moved_by(0.5);
+    cdprep_placement far = moved_by(3);
+    cdprep_contact_options solid = {sizeof solid, CDPREP_CLOSED, CDPREP_KEEP_DEGENERATE,
+                                    CDPREP_SOLID};
+    cdprep_collision collision;
+    MUST(cdprep_collide(cube, cube, &near, scratch, NULL, &collision, &error) == CDPREP_OK);
+    MUST(collision.hit == 1);
+    MUST(cdprep_collide(cube, cube, &far, scratch, &solid, &collision, NULL) == CDPREP_OK);
+    MUST(collision.hit == 0 && collision.containment == CDPREP_NO);
+
+    cdprep_triangle_pair pairs[144];
+    size_t count = 0;
+    size_t counted = 0;
+    MUST(cdprep_overlapping_triangles(cube, cube, &near, scratch, NULL, pairs, 144, &count,
+                                      &error) == CDPREP_OK);
+    MUST(count > 0 && count <= 144);
+    for (size_t i = 1; i < count; ++i) {
+        MUST(pairs[i - 1].a < pairs[i].a ||
+             (pairs[i - 1].a == pairs[i].a && pairs[i - 1].b < pairs[i].b));
+    }
+    MUST(cdprep_overlapping_triangles(cube, cube, &near, scratch, NULL, NULL, 0, &counted, NULL) ==
+         CDPREP_OK);
+    MUST(counted == count);
+
+    cdprep_pair_cache cache = {0xffffffffu, 0xffffffffu};
+    cdprep_distance distance;
+    int found = 0;
+    MUST(cdprep_distance_between(cube, cube, &far, scratch, NULL, &cache, &found, &distance,
+                                 &error) == CDPREP_OK);
+    MUST(found == 1 && distance.lower <= 2 && distance.upper >= 2);
+    MUST(distance.upper - distance.lower < 1e-12);
+    MUST(fabs(distance.witness_b[0] - distance.witness_a[0] - 2) < 1e-12);
+    MUST(cache.triangle_a < 12 && cache.triangle_b < 12);
+    cdprep_distance_options nearby = {sizeof nearby, 0, 0, 1};
+    MUST(cdprep_distance_between(cube, cube, &far, scratch, &nearby, &cache, &found, &distance,
+                                 &error) == CDPREP_OK);
+    MUST(found == 0);
+    int within = 0;
+    MUST(cdprep_is_within(cube, cube, &far, scratch, 2, NULL, &within, NULL) == CDPREP_OK);
+    MUST(within == 1);
+    MUST(cdprep_is_within(cube, cube, &far, scratch, 1.99, &cache, &within, NULL) == CDPREP_OK);
+    MUST(within == 0);
+
+    /* All four kinds of placement say the same where nothing turns. */
+    for (uint32_t kind = CDPREP_B_MOVES; kind <= CDPREP_WORLD; ++kind) {
+        cdprep_placement same = moved_by(0.5);
+        same.kind = kind;
+        if (kind == CDPREP_A_MOVES) same.a.rows[9] = -0.5;
+        MUST(cdprep_overlapping_triangles(cube, cube, &same, scratch, NULL, NULL, 0, &counted,
+                                          NULL) == CDPREP_OK);
+        MUST(counted == count);
+    }
+    return NULL;
+}
+
+static const char* ask_one(const cdprep_model* cube, cdprep_workspace* scratch) {
+    const double middle[3] = {0.5, 0.5, 0.5};
+    const double beside[3] = {-2, 0.5, 0.25};
+    const double along_x[3] = {1, 0, 0};
+    const double away[3] = {-1, 0, 0};
+    int found = 0;
+    cdprep_ray_hit hit;
+    MUST(cdprep_cast_ray(cube, beside, along_x, HUGE_VAL, scratch, &found, &hit, NULL) ==
+         CDPREP_OK);
+    MUST(found == 1 && hit.t == 2 && hit.point[0] == 0 && hit.triangle < 12);
+    MUST(cdprep_cast_ray(cube, beside, away, HUGE_VAL, scratch, &found, &hit, NULL) == CDPREP_OK);
+    MUST(found == 0);
+    cdprep_closest_point closest;
+    MUST(cdprep_find_closest_point(cube, beside, HUGE_VAL, scratch, &found, &closest, NULL) ==
+         CDPREP_OK);
+    MUST(found == 1 && closest.lower <= 2 && closest.upper >= 2 && closest.point[0] == 0);
+    MUST(cdprep_find_closest_point(cube, beside, 1, scratch, &found, &closest, NULL) == CDPREP_OK);
+    MUST(found == 0);
+    cdprep_inclusion inclusion;
+    MUST(cdprep_includes(cube, middle, scratch, &inclusion, NULL) == CDPREP_OK);
+    MUST(inclusion.inside == CDPREP_YES && !inclusion.on_surface && inclusion.winding == 1);
+    MUST(cdprep_includes(cube, beside, scratch, &inclusion, NULL) == CDPREP_OK);
+    MUST(inclusion.inside == CDPREP_NO);
+    return NULL;
+}
+
+static const char* ask_wrongly(const cdprep_model* cube, cdprep_workspace* scratch) {
+    cdprep_error error;
+    cdprep_collision collision;
+    cdprep_placement placement = moved_by(0);
+    MUST(cdprep_collide(NULL, cube, &placement, scratch, NULL, &collision, &error) ==
+         CDPREP_BAD_ARGUMENT);
+    MUST(error.code == CDPREP_BAD_ARGUMENT && strlen(error.message) > 10);
+    MUST(cdprep_collide(cube, cube, &placement, NULL, NULL, &collision, NULL) ==
+         CDPREP_BAD_ARGUMENT);
+    placement.size = 0;
+    MUST(cdprep_collide(cube, cube, &placement, scratch, NULL, &collision, &error) ==
+         CDPREP_BAD_ARGUMENT);
+    placement = moved_by(0);
+    placement.kind = 4;
+    MUST(cdprep_collide(cube, cube, &placement, scratch, NULL, &collision, &error) ==
+         CDPREP_BAD_ARGUMENT);
+    placement = moved_by(0);
+    placement.b.rows[0] = 2;
+    MUST(cdprep_collide(cube, cube, &placement, scratch, NULL, &collision, &error) ==
+         CDPREP_BAD_ARGUMENT);
+    MUST(strstr(error.message, "turn") != NULL);
+    cdprep_model* none = NULL;
+    MUST(cdprep_open("no such file", &none, &error) == CDPREP_UNREADABLE);
+    MUST(none == NULL && strstr(error.message, "no such file") != NULL);
+    MUST(cdprep_open_memory("short", 5, "bytes", &none, &error) != CDPREP_OK && none == NULL);
+    MUST(cdprep_triangle_count(NULL) == 0 && !cdprep_is_closed(NULL));
+    cdprep_close(NULL);
+    return NULL;
+}
+
+static const char* ask_with(const cdprep_model* cube, cdprep_workspace* scratch) {
+    const char* wrong = ask_two(cube, scratch);
+    if (wrong == NULL) wrong = ask_one(cube, scratch);
+    if (wrong == NULL) wrong = ask_wrongly(cube, scratch);
+    return wrong;
+}
+
+const char* ask_everything(const void* bytes, size_t size, const char* path) {
+    cdprep_error error;
+    cdprep_model* cube = NULL;
+    MUST(cdprep_open_memory(bytes, size, "cube", &cube, &error) == CDPREP_OK);
+    MUST(cdprep_triangle_count(cube) == 12 && cdprep_vertex_count(cube) == 8);
+    MUST(cdprep_is_closed(cube));
+
+    const size_t alignment = cdprep_workspace_alignment();
+    char* memory = malloc(cdprep_workspace_size() + alignment);
+    char* aligned = memory + (alignment - (uintptr_t)memory % alignment) % alignment;
+    MUST(cdprep_make_workspace(NULL, 1000000) == NULL);
+    MUST(cdprep_make_workspace(aligned, cdprep_workspace_size() - 1) == NULL);
+    cdprep_workspace* scratch = cdprep_make_workspace(aligned, cdprep_workspace_size());
+    MUST(scratch != NULL);
+
+    const char* wrong = ask_with(cube, scratch);
+    cdprep_close(cube);
+    cdprep_model* again = NULL;
+    if (wrong == NULL && cdprep_open(path, &again, &error) != CDPREP_OK) wrong = "cdprep_open";
+    if (wrong == NULL) wrong = ask_with(again, scratch);
+    cdprep_close(again);
+    if (wrong == NULL && cdprep_open_trusted(path, &again, &error) != CDPREP_OK) {
+        wrong = "cdprep_open_trusted";
+    }
+    if (wrong == NULL) wrong = ask_with(again, scratch);
+    cdprep_close(again);
+    free(memory);
+    return wrong;
+}
