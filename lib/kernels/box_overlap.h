@@ -258,6 +258,13 @@ unsigned keep_oriented(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxe
 template <class F, class R, bool kDepths>
 unsigned overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
                               const BoxChoice& choice, BoxMasks& masks) noexcept {
+    const bool oriented = a.oriented != nullptr && b.oriented != nullptr;
+    const bool one_row = (choice.of_b & (choice.of_b - 1)) == 0;
+    if (oriented && one_row && !kDepths) {
+        // Turning the axis-aligned boxes would cost more than it saves.
+        masks.of_a[__builtin_ctz(choice.of_b)] = choice.of_a;
+        return keep_oriented<F, R>(p, a, b, choice.of_b, masks);
+    }
     const Boxes<F> boxes_b = scaled_boxes<F>(b.boxes, p.scale_b);
     const Boxes<F> turned_b = turned_to_a(boxes_b, p);
     unsigned live = choice.of_b;
@@ -283,7 +290,7 @@ unsigned overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const N
         }
         rows |= note_rows<R>(~out, at, choice.of_a, masks);
     }
-    if (a.oriented == nullptr || b.oriented == nullptr || rows == 0) return rows;
+    if (!oriented || rows == 0) return rows;
     return keep_oriented<F, R>(p, a, b, rows, masks);
 }
 
