@@ -175,8 +175,9 @@ bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
         const Descent descent = choose_descent(a, b, pair, placed.placement);
         const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
         const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
-        const kernels::BoxChoice choice = {chosen(side_a), chosen(side_b),
-                                           descent.a && descent.b ? box_around(a, pair.a) : nullptr};
+        const kernels::BoxChoice choice = {
+            chosen(side_a), chosen(side_b),
+            descent.a && descent.b ? box_around(a, pair.a) : nullptr};
         kernels::BoxMasks masks;
         unsigned rows =
             test(placed.placement, node_boxes(a, side_a), node_boxes(b, side_b), choice, masks);

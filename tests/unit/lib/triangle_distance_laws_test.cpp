@@ -60,8 +60,7 @@ TEST_P(TriangleDistanceLaws, TheIntervalHoldsTheTruth) {
             const double dx = d.on_b.x - d.on_a.x, dy = d.on_b.y - d.on_a.y,
                          dz = d.on_b.z - d.on_a.z;
             const double slack = 3e-15 * (std::fabs(family.offset) + family.size + family.gap);
-            ASSERT_NEAR(std::hypot(dx, dy, dz), d.upper,
-                        1e-12 * d.upper + 4 * slack);
+            ASSERT_NEAR(std::hypot(dx, dy, dz), d.upper, 1e-12 * d.upper + 4 * slack);
             if (tight) {
                 const double largest = std::fabs(family.offset) + family.size + family.gap;
                 narrow += d.upper - d.lower <= 1e-12 * d.lower + 1e-15 * largest ? 1 : 0;
