@@ -55,9 +55,12 @@ private:
         if (!(scaled < static_cast<double>(kMost))) return kMost;
         return std::nextafter(static_cast<float>(scaled), kMost);
     }
-    /// Pushes the children of a pair that are near enough, the nearest last.
+    /// Appends the children of a pair that are near enough; returns the new end.
     std::size_t push_children(const Tree& a, const Tree& b, const PendingPair& pair,
-                              std::size_t depth) noexcept;
+                              std::size_t end) noexcept;
+    /// Returns false when `near` ended the search.
+    template <class Near>
+    bool look_at_leaves(const PendingPair& pair, Near&& near) noexcept;
 
     const Model& a_;
     const Model& b_;
@@ -88,7 +91,7 @@ void NearestSearch::point(const Double3& on_a, const Double3& on_b) noexcept {
 }
 
 std::size_t NearestSearch::push_children(const Tree& a, const Tree& b, const PendingPair& pair,
-                                         std::size_t depth) noexcept {
+                                         std::size_t end) noexcept {
     const Descent descent = choose_descent(a, b, pair, placed_.placement);
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
@@ -97,49 +100,68 @@ std::size_t NearestSearch::push_children(const Tree& a, const Tree& b, const Pen
         placed_.placement, node_boxes(a, side_a), node_boxes(b, side_b),
         {chosen(side_a), chosen(side_b), nullptr}, reach_, masks);
     const std::uint64_t base = PendingPair{side_a.first_below, side_b.first_below}.packed();
-    const std::size_t first = depth;
     for (; rows != 0; rows &= rows - 1) {
         const auto j = static_cast<std::uint32_t>(std::countr_zero(rows));
         for (std::uint32_t bits = masks.of_a[j]; bits != 0; bits &= bits - 1) {
             const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
-            scratch_.near[depth++] = {masks.depth[j][i], base + (std::uint64_t{i} << 32) + j};
+            scratch_.near[end++] = {masks.depth[j][i], base + (std::uint64_t{i} << 32) + j};
         }
     }
-    const auto begin = scratch_.near.begin();
-    std::sort(begin + static_cast<std::ptrdiff_t>(first),
-              begin + static_cast<std::ptrdiff_t>(depth),
-              [](const NearPair& x, const NearPair& y) { return x.bound > y.bound; });
-    return depth;
+    return end;
 }
 
+template <class Near>
+bool NearestSearch::look_at_leaves(const PendingPair& pair, Near&& near) noexcept {
+    const std::span<kernels::TriangleGap> gaps =
+        leaves_.near_triangles(pair.a.index, pair.b.index, reach_);
+    std::sort(gaps.begin(), gaps.end(), [](const auto& x, const auto& y) {
+        if (x.lower != y.lower) return x.lower < y.lower;
+        return x.b != y.b ? x.b < y.b : x.a < y.a;
+    });
+    for (const kernels::TriangleGap& gap : gaps) {
+        if (gap.lower > reach_.limit) break;
+        const double limit = near(
+            At{pair.a.index * format::kBvhWidth + gap.a, pair.b.index * format::kBvhWidth + gap.b});
+        if (limit < 0) return false;
+        reach_.limit = in_pair_units(limit);
+    }
+    return true;
+}
+
+/// Best first: a heap of pairs of places, the nearest boxes on top. What the heap
+/// has no room for is searched depth first, nearest children first, on a stack
+/// above it.
 template <class Near>
 void NearestSearch::run(double limit, Near&& near) noexcept {
     const Tree a(a_);
     const Tree b(b_);
     if (a.triangles == 0 || b.triangles == 0) return;
     reach_.limit = in_pair_units(limit);
-    std::size_t depth = 0;
-    scratch_.near[depth++] = {0, PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed()};
-    while (depth > 0) {
-        const NearPair top = scratch_.near[--depth];
-        if (top.bound > reach_.limit) continue;
-        const PendingPair pair = PendingPair::unpacked(top.pair);
-        if (pair.a.height > 0 || pair.b.height > 0) {
-            depth = push_children(a, b, pair, depth);
-            continue;
-        }
-        std::span<kernels::TriangleGap> gaps =
-            leaves_.near_triangles(pair.a.index, pair.b.index, reach_);
-        std::sort(gaps.begin(), gaps.end(), [](const auto& x, const auto& y) {
-            if (x.lower != y.lower) return x.lower < y.lower;
-            return x.b != y.b ? x.b < y.b : x.a < y.a;
-        });
-        for (const kernels::TriangleGap& gap : gaps) {
-            if (gap.lower > reach_.limit) break;
-            limit = near(At{pair.a.index * format::kBvhWidth + gap.a,
-                            pair.b.index * format::kBvhWidth + gap.b});
-            if (limit < 0) return;
-            reach_.limit = in_pair_units(limit);
+    const auto farther = [](const NearPair& x, const NearPair& y) { return x.bound > y.bound; };
+    const auto at = [&](std::size_t index) {
+        return scratch_.near.begin() + static_cast<std::ptrdiff_t>(index);
+    };
+    std::size_t heap = 0;
+    scratch_.near[heap++] = {0, PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed()};
+    while (heap > 0) {
+        std::pop_heap(at(0), at(heap), farther);
+        std::size_t end = heap--;
+        if (scratch_.near[heap].bound > reach_.limit) return;  // and so is all else
+        while (end > heap) {
+            const NearPair top = scratch_.near[--end];
+            if (top.bound > reach_.limit) continue;
+            const PendingPair pair = PendingPair::unpacked(top.pair);
+            if (pair.a.height == 0 && pair.b.height == 0) {
+                if (!look_at_leaves(pair, near)) return;
+                continue;
+            }
+            const std::size_t first = end;
+            end = push_children(a, b, pair, end);
+            if (first == heap && end <= kMaxNearHeap) {
+                for (; heap < end; ++heap) std::push_heap(at(0), at(heap + 1), farther);
+            } else {
+                std::sort(at(first), at(end), farther);
+            }
         }
     }
 }

@@ -34,9 +34,12 @@ struct NearPair {
     std::uint64_t pair;  ///< PendingPair::packed()
 };
 
+/// Most pairs of places that a search for the nearest keeps in order.
+inline constexpr std::size_t kMaxNearHeap = 4096;
+
 struct Workspace::Storage {
     std::array<std::uint64_t, kMaxPendingPairs> pending;
-    std::array<NearPair, kMaxPendingPairs> near;
+    std::array<NearPair, kMaxNearHeap + kMaxPendingPairs> near;
     std::array<BoundedPlace, kMaxBoundedPlaces> bounded;
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     std::array<std::uint64_t, kernels::kLeafBatch> leaf_numbers;  ///< of A, then of B
