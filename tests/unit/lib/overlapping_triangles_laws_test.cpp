@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <thread>
-
 #include "cdprep/collide.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
@@ -148,32 +146,6 @@ TEST(OverlappingTrianglesLaws, OrderOfTrianglesDoesNotMatter) {
     std::sort(pairs.begin(), pairs.end());
     EXPECT_EQ(pairs, expected);
     EXPECT_FALSE(pairs.empty());
-}
-
-TEST(OverlappingTrianglesLaws, ThreadsShareModelsAndAgree) {
-    const OpenModel sphere = open_tiny(icosphere(3));
-    const OpenModel ring = open_tiny(torus(1, 0.25, 24, 12));
-    std::mt19937 random(17);
-    std::vector<Placement> placements;
-    for (int i = 0; i < 40; ++i) placements.push_back(Placement::b_moves(random_pose(random, 0.5)));
-    std::vector<std::vector<TrianglePair>> expected;
-    Workspace serial;
-    for (const Placement& p : placements) {
-        expected.push_back(all_pairs(sphere.model, ring.model, p, serial));
-    }
-    std::vector<std::size_t> mismatches(8, 0);
-    std::vector<std::thread> threads;
-    for (std::size_t t = 0; t < mismatches.size(); ++t) {
-        threads.emplace_back([&, t] {
-            Workspace workspace;
-            for (std::size_t i = 0; i < placements.size(); ++i) {
-                const auto pairs = all_pairs(sphere.model, ring.model, placements[i], workspace);
-                mismatches[t] += pairs == expected[i] ? 0 : 1;
-            }
-        });
-    }
-    for (std::thread& thread : threads) thread.join();
-    EXPECT_EQ(mismatches, std::vector<std::size_t>(8, 0));
 }
 
 }  // namespace

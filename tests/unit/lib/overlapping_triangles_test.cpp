@@ -3,28 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-// Counts every allocation of this program.
-void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-    std::free(memory);
-}
 
 namespace cdprep::test {
 namespace {
@@ -129,19 +109,6 @@ TEST(OverlappingTriangles, MeetsAcrossScales) {
         EXPECT_EQ(pairs, brute_force_pairs(a, b, same));
         EXPECT_FALSE(pairs.empty());
     }
-}
-
-TEST(OverlappingTriangles, NeverAllocates) {
-    const OpenModel sphere = open_tiny(icosphere(4));
-    Workspace workspace;
-    std::vector<TrianglePair> pairs(100000);
-    const Placement placement = shifted(0.5, 0.25, 0);
-    const std::size_t before = allocations;
-    const std::size_t count =
-        overlapping_triangles(sphere.model, sphere.model, placement, workspace, pairs);
-    EXPECT_EQ(allocations, before);
-    EXPECT_GT(count, 0u);
-    EXPECT_LE(count, pairs.size());
 }
 
 }  // namespace

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "cdprep/cast_ray.h"
+#include "cdprep/closest_point.h"
+#include "cdprep/collide.h"
+#include "cdprep/distance.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+
+namespace {
+std::atomic<std::size_t> allocations = 0;
+
+void* counted(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size)) return memory;
+    throw std::bad_alloc();
+}
+}  // namespace
+
+// Counts every allocation of this program.
+void* operator new(std::size_t size) {
+    return counted(size);
+}
+void* operator new[](std::size_t size) {
+    return counted(size);
+}
+void* operator new(std::size_t size, const std::nothrow_t& /*unused*/) noexcept {
+    ++allocations;
+    return std::malloc(size);
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*unused*/) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::size_t /*unused*/) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, const std::nothrow_t& /*unused*/) noexcept {
+    std::free(memory);
+}
+
+namespace cdprep::test {
+namespace {
+
+// Every question, near, far, touching and nested; what they answer is for other tests.
+TEST(Allocations, NoQuestionAllocates) {
+    const OpenModel sphere = open_tiny(icosphere(4));
+    const OpenModel ring = open_tiny(torus(1, 0.25, 40, 20), {.double_precision = true});
+    const Model& a = sphere.model;
+    const Model& b = ring.model;
+    Workspace workspace;
+    PairCache cache;
+    std::vector<TrianglePair> pairs(100'000);
+    std::vector<std::uint64_t> bits_a(a.triangle_count() / 64 + 1);
+    std::vector<std::uint64_t> bits_b(b.triangle_count() / 64 + 1);
+    const auto visit = [](const TrianglePair&) { return true; };
+    std::vector<Placement> placements = {Placement::b_moves(Pose())};
+    std::mt19937 random(1);
+    for (const double reach : {0.1, 1.0, 3.0, 100.0}) {
+        const Pose p = random_pose(random, reach), q = random_pose(random, reach);
+        placements.push_back(Placement::b_moves(p));
+        placements.push_back(Placement::a_moves(p));
+        placements.push_back(Placement::relative(p, q));
+        placements.push_back(Placement::world(p, q));
+    }
+    std::size_t hits = 0, misses = 0;
+    const std::size_t before = allocations;
+    for (const Placement& placement : placements) {
+        const bool hit = collide(a, b, placement, workspace, {.as = As::solid}).hit;
+        (hit ? hits : misses) += 1;
+        static_cast<void>(overlapping_triangles(a, b, placement, workspace, pairs));
+        static_cast<void>(
+            overlapping_triangles(a, b, placement, workspace, std::span(pairs).first(10)));
+        visit_overlapping_triangles(a, b, placement, workspace, visit);
+        mark_overlapping_triangles(a, b, placement, workspace, bits_a, bits_b);
+        static_cast<void>(distance(a, b, placement, workspace));
+        static_cast<void>(distance(a, b, placement, workspace, {.relative_error = 0.1}, &cache));
+        static_cast<void>(is_within(a, b, placement, 0.5, workspace, &cache));
+        static_cast<void>(find_containment(a, b, placement, workspace));
+    }
+    for (const double x : {0.0, 0.5, 1.0, 7.0}) {
+        static_cast<void>(includes(a, {x, 0.1, 0.2}, workspace));
+        static_cast<void>(closest_point(a, {x, 0.1, 0.2}, workspace));
+        static_cast<void>(cast_ray(b, {{x, 0.1, 5}, {0.1, 0, -1}}, workspace));
+    }
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(hits, 2u);
+    EXPECT_GT(misses, 2u);
+}
+
+}  // namespace
+}  // namespace cdprep::test
