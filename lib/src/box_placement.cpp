@@ -2,7 +2,9 @@
 #include "box_placement.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 // Box tests run in float in the frame of A's boxes, scaled down further when B is
@@ -39,9 +41,22 @@ double largest(const Double3& p) noexcept {
     return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
 }
 
+/// 2^exponent; without a call for exponents that give a normal number.
+double power_of_two(int exponent) noexcept {
+    constexpr int kBias = 1023;
+    if (exponent <= -kBias || exponent > kBias) return std::ldexp(1.0, exponent);
+    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + kBias) << 52);
+}
+
+/// x * 2^exponent in two steps, of which none leaves the range when the result does
+/// not.
+double scaled(double x, int exponent) noexcept {
+    return x * power_of_two(exponent / 2) * power_of_two(exponent - exponent / 2);
+}
+
 /// Largest |coordinate| that a vertex of the model can have.
 double reach(const format::FileHeader& header) noexcept {
-    return largest(header.frame_origin) + std::ldexp(1.0, -header.frame_exponent);
+    return largest(header.frame_origin) + power_of_two(-header.frame_exponent);
 }
 
 Double3 rotated(const std::array<double, 9>& r, const Double3& p) noexcept {
@@ -59,16 +74,18 @@ float float_above(double x) noexcept {
 PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placement) noexcept {
     const format::FileHeader& head_a = a.header();
     const format::FileHeader& head_b = b.header();
-    const Pose a_from_b = relative_pose(placement.pose_a(), placement.pose_b());
+    const Pose a_from_b = placement.a_is_moved()
+                              ? relative_pose(placement.pose_a(), placement.pose_b())
+                              : placement.pose_b();
     const int exponent = std::min(head_a.frame_exponent, head_b.frame_exponent);
-    const double scale_a = std::ldexp(1.0, exponent - head_a.frame_exponent);
-    const double scale_b = std::ldexp(1.0, exponent - head_b.frame_exponent);
+    const double scale_a = power_of_two(exponent - head_a.frame_exponent);
+    const double scale_b = power_of_two(exponent - head_b.frame_exponent);
 
     const Double3 turned = rotated(a_from_b.rotation(), head_b.frame_origin);
     const Double3& t = a_from_b.translation();
-    const Double3 shift = {std::ldexp((turned.x + t.x) - head_a.frame_origin.x, exponent),
-                           std::ldexp((turned.y + t.y) - head_a.frame_origin.y, exponent),
-                           std::ldexp((turned.z + t.z) - head_a.frame_origin.z, exponent)};
+    const Double3 shift = {scaled((turned.x + t.x) - head_a.frame_origin.x, exponent),
+                           scaled((turned.y + t.y) - head_a.frame_origin.y, exponent),
+                           scaled((turned.z + t.z) - head_a.frame_origin.z, exponent)};
 
     const double reaches = reach(head_a) + reach(head_b) +
                            largest(placement.pose_a().translation()) +
@@ -76,7 +93,7 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
     double double_slack = kDoubleSlack * reaches;
     if (placement.a_is_moved()) double_slack += kTurnSlack * reach(head_a);
     const double slack =
-        std::ldexp(double_slack, exponent) + kFloatSlack * (scale_a + scale_b + largest(shift));
+        scaled(double_slack, exponent) + kFloatSlack * (scale_a + scale_b + largest(shift));
 
     PlacedBoxes placed{};
     // Two balls of radius sqrt 3 times the scale hold all boxes.
@@ -101,7 +118,7 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
     placed.scale_a = scale_a;
     placed.scale_b = scale_b;
     placed.exponent = exponent;
-    placed.double_slack = std::ldexp(double_slack, exponent);
+    placed.double_slack = scaled(double_slack, exponent);
     return placed;
 }
 
