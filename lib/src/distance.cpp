@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <functional>
 
 #include "contact_pairs.h"
 #include "triangle_distance.h"
@@ -58,7 +60,9 @@ private:
     /// Appends the children of a pair that are near enough; returns the new end.
     std::size_t push_children(const Tree& a, const Tree& b, const PendingPair& pair,
                               std::size_t end) noexcept;
-    /// Returns false when `near` ended the search.
+    /// These two return false when `near` ended the search.
+    template <class Near>
+    bool dive(const Tree& a, const Tree& b, Near&& near) noexcept;
     template <class Near>
     bool look_at_leaves(const PendingPair& pair, Near&& near) noexcept;
 
@@ -128,40 +132,90 @@ bool NearestSearch::look_at_leaves(const PendingPair& pair, Near&& near) noexcep
     return true;
 }
 
-/// Best first: a heap of pairs of places, the nearest boxes on top. What the heap
-/// has no room for is searched depth first, nearest children first, on a stack
-/// above it.
+/// The nearest box pair first. A heap entry is one number: the bound's bits, which
+/// order as the bound does because it is not negative, then where the pair stands.
+class Frontier {
+public:
+    explicit Frontier(Workspace::Storage& scratch) noexcept
+        : entries_(scratch.frontier), pairs_(scratch.frontier_pairs) {}
+
+    [[nodiscard]] bool empty() const noexcept {
+        return size_ == 0;
+    }
+    [[nodiscard]] bool has_room_for(std::size_t count) const noexcept {
+        return used_ + count <= pairs_.size();
+    }
+    void push(const NearPair& pair) noexcept {
+        pairs_[used_] = pair.pair;
+        entries_[size_++] = std::uint64_t{std::bit_cast<std::uint32_t>(pair.bound)} << 32 | used_++;
+        std::push_heap(begin(), begin() + static_cast<std::ptrdiff_t>(size_), std::greater());
+    }
+    NearPair pop() noexcept {
+        std::pop_heap(begin(), begin() + static_cast<std::ptrdiff_t>(size_), std::greater());
+        const std::uint64_t entry = entries_[--size_];
+        return {std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32)),
+                pairs_[static_cast<std::uint32_t>(entry)]};
+    }
+
+private:
+    [[nodiscard]] std::uint64_t* begin() const noexcept {
+        return entries_.data();
+    }
+    std::span<std::uint64_t> entries_;
+    std::span<std::uint64_t> pairs_;
+    std::size_t size_ = 0;
+    std::uint32_t used_ = 0;
+};
+
+/// Goes straight down, each time to the nearest child: a limit from the start keeps
+/// most of the frontier out.
+template <class Near>
+bool NearestSearch::dive(const Tree& a, const Tree& b, Near&& near) noexcept {
+    PendingPair pair{{a.shape.levels, 0}, {b.shape.levels, 0}};
+    while (pair.a.height > 0 || pair.b.height > 0) {
+        const std::size_t end = push_children(a, b, pair, 0);
+        if (end == 0) return true;
+        const auto nearest = std::min_element(
+            scratch_.near.begin(), scratch_.near.begin() + static_cast<std::ptrdiff_t>(end),
+            [](const NearPair& x, const NearPair& y) { return x.bound < y.bound; });
+        pair = PendingPair::unpacked(nearest->pair);
+    }
+    return look_at_leaves(pair, near);
+}
+
+/// Best first. What the frontier has no room for is searched depth first, nearest
+/// children first.
 template <class Near>
 void NearestSearch::run(double limit, Near&& near) noexcept {
     const Tree a(a_);
     const Tree b(b_);
     if (a.triangles == 0 || b.triangles == 0) return;
     reach_.limit = in_pair_units(limit);
-    const auto farther = [](const NearPair& x, const NearPair& y) { return x.bound > y.bound; };
     const auto at = [&](std::size_t index) {
         return scratch_.near.begin() + static_cast<std::ptrdiff_t>(index);
     };
-    std::size_t heap = 0;
-    scratch_.near[heap++] = {0, PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed()};
-    while (heap > 0) {
-        std::pop_heap(at(0), at(heap), farther);
-        std::size_t end = heap--;
-        if (scratch_.near[heap].bound > reach_.limit) return;  // and so is all else
-        while (end > heap) {
-            const NearPair top = scratch_.near[--end];
+    if (!dive(a, b, near)) return;
+    Frontier frontier(scratch_);
+    frontier.push({0, PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed()});
+    while (!frontier.empty()) {
+        scratch_.near[0] = frontier.pop();
+        if (scratch_.near[0].bound > reach_.limit) return;  // and so is all else
+        for (std::size_t depth = 1; depth > 0;) {
+            const NearPair top = scratch_.near[--depth];
             if (top.bound > reach_.limit) continue;
             const PendingPair pair = PendingPair::unpacked(top.pair);
             if (pair.a.height == 0 && pair.b.height == 0) {
                 if (!look_at_leaves(pair, near)) return;
                 continue;
             }
-            const std::size_t first = end;
-            end = push_children(a, b, pair, end);
-            if (first == heap && end <= kMaxNearHeap) {
-                for (; heap < end; ++heap) std::push_heap(at(0), at(heap + 1), farther);
-            } else {
-                std::sort(at(first), at(end), farther);
+            const std::size_t end = push_children(a, b, pair, depth);
+            if (depth == 0 && frontier.has_room_for(end)) {
+                for (std::size_t i = 0; i < end; ++i) frontier.push(scratch_.near[i]);
+                continue;
             }
+            std::sort(at(depth), at(end),
+                      [](const NearPair& x, const NearPair& y) { return x.bound > y.bound; });
+            depth = end;
         }
     }
 }

@@ -34,12 +34,14 @@ struct NearPair {
     std::uint64_t pair;  ///< PendingPair::packed()
 };
 
-/// Most pairs of places that a search for the nearest keeps in order.
-inline constexpr std::size_t kMaxNearHeap = 4096;
+/// Pairs of places that a search for the nearest keeps in order.
+inline constexpr std::size_t kMaxFrontier = 8192;
 
 struct Workspace::Storage {
     std::array<std::uint64_t, kMaxPendingPairs> pending;
-    std::array<NearPair, kMaxNearHeap + kMaxPendingPairs> near;
+    std::array<NearPair, kMaxPendingPairs> near;
+    std::array<std::uint64_t, kMaxFrontier> frontier;
+    std::array<std::uint64_t, kMaxFrontier> frontier_pairs;
     std::array<BoundedPlace, kMaxBoundedPlaces> bounded;
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     std::array<std::uint64_t, kernels::kLeafBatch> leaf_numbers;  ///< of A, then of B

@@ -11,7 +11,7 @@ namespace cdprep {
 /// Scratch memory for queries, owned by the caller: queries never allocate.
 ///
 /// One workspace serves any number of queries, models and questions, one at a
-/// time; threads need one each. Allocates once, when made; about 170 KiB.
+/// time; threads need one each. Allocates once, when made; about 230 KiB.
 class Workspace {
 public:
     Workspace();
