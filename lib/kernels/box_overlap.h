@@ -205,12 +205,25 @@ void turn_oriented(const OrientedBoxes<F>& boxes, const BoxPlacement& p,
     }
 }
 
-/// Lanes of `a` that oriented boxes of `rows` miss along one of six of the fifteen
-/// directions of Gottschalk, Lin and Manocha 1996. The nine cross products of edges
-/// separate a few boxes more and cost as much again.
+/// How far boxes are apart along the three axes of either; negative: by how much
+/// they overlap. The slack is taken off.
 template <class R>
-unsigned oriented_apart(const OrientedBoxes<R>& a, const OrientedRows& rows, RowPair at,
-                        const BoxPlacement& p) noexcept {
+struct FaceGaps {
+    R of_a[3];
+    R of_b[3];
+};
+
+template <class R>
+R largest(const FaceGaps<R>& gaps) noexcept {
+    return max(max(max(gaps.of_a[0], gaps.of_a[1]), gaps.of_a[2]),
+               max(max(gaps.of_b[0], gaps.of_b[1]), gaps.of_b[2]));
+}
+
+/// Six of the fifteen directions of Gottschalk, Lin and Manocha 1996. The nine cross
+/// products of edges separate a few boxes more and cost as much again.
+template <class R>
+FaceGaps<R> oriented_gaps(const OrientedBoxes<R>& a, const OrientedRows& rows, RowPair at,
+                          const BoxPlacement& p) noexcept {
     R b[3][3];
     R half_b[3];
     R t[3];
@@ -221,21 +234,21 @@ unsigned oriented_apart(const OrientedBoxes<R>& a, const OrientedRows& rows, Row
     }
     R q[3][3];
     const R slack(p.slack);
-    typename R::Mask out = R::none();
+    FaceGaps<R> gaps;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k < 3; ++k) q[i][k] = abs(dot(a.axis[i], b[k]));
         const R reach = fma(q[i][2], half_b[2], fma(q[i][1], half_b[1], q[i][0] * half_b[0]));
-        out = out | greater(abs(dot(t, a.axis[i])), a.half[i] + slack + reach);
+        gaps.of_a[i] = abs(dot(t, a.axis[i])) - (a.half[i] + slack + reach);
     }
     for (std::size_t k = 0; k < 3; ++k) {
         const R reach = fma(q[2][k], a.half[2], fma(q[1][k], a.half[1], q[0][k] * a.half[0]));
-        out = out | greater(abs(dot(t, b[k])), half_b[k] + slack + reach);
+        gaps.of_b[k] = abs(dot(t, b[k])) - (half_b[k] + slack + reach);
     }
-    return bits(out);
+    return gaps;
 }
 
 /// Both nodes have oriented boxes: keeps of the masks what they do not separate.
-template <class F, class R>
+template <class F, class R, bool kDepths>
 unsigned keep_oriented(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b, unsigned rows,
                        BoxMasks& masks) noexcept {
     OrientedBoxes<R> oriented_a;
@@ -248,8 +261,9 @@ unsigned keep_oriented(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxe
     while (rows != 0) {
         const RowPair at = take_rows<R>(rows);
         const unsigned wanted = masks.of_a[at.first] | unsigned{masks.of_a[at.second]} << kLanes;
-        kept |=
-            note_rows<R>(wanted & ~oriented_apart(oriented_a, oriented_b, at, p), at, 0xff, masks);
+        const R gap = largest(oriented_gaps(oriented_a, oriented_b, at, p));
+        if (kDepths) (-gap).store_rows(masks.depth[at.first], masks.depth[at.second]);
+        kept |= note_rows<R>(wanted & ~bits(greater(gap, R(0.0F))), at, 0xff, masks);
     }
     return kept;
 }
@@ -263,7 +277,7 @@ unsigned overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const N
     if (oriented && one_row && !kDepths) {
         // Turning the axis-aligned boxes would cost more than it saves.
         masks.of_a[__builtin_ctz(choice.of_b)] = choice.of_a;
-        return keep_oriented<F, R>(p, a, b, choice.of_b, masks);
+        return keep_oriented<F, R, false>(p, a, b, choice.of_b, masks);
     }
     const Boxes<F> boxes_b = scaled_boxes<F>(b.boxes, p.scale_b);
     const Boxes<F> turned_b = turned_to_a(boxes_b, p);
@@ -291,7 +305,7 @@ unsigned overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const N
         rows |= note_rows<R>(~out, at, choice.of_a, masks);
     }
     if (!oriented || rows == 0) return rows;
-    return keep_oriented<F, R>(p, a, b, rows, masks);
+    return keep_oriented<F, R, kDepths>(p, a, b, rows, masks);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@ namespace {
 
 /// Squares and adds up what is positive.
 template <class R>
-R length_of_gaps(const R* gap) noexcept {
+R squared_length(const R* gap) noexcept {
     const R zero(0.0F);
     R sum = zero;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -28,35 +28,7 @@ R squared_gap(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
         gap[axis] = abs(a.centre[axis] - R::spread(rows.centre[axis], at)) -
                     (a.half[axis] + R::spread(rows.half[axis], at));
     }
-    return length_of_gaps(gap);
-}
-
-/// The greater of the squared gaps along the axes of either oriented box.
-template <class R>
-R squared_oriented_gap(const OrientedBoxes<R>& a, const OrientedRows& rows, RowPair at,
-                       const BoxPlacement& p) noexcept {
-    R b[3][3];
-    R half_b[3];
-    R t[3];
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) b[k][i] = R::spread(rows.axis[k][i], at);
-        half_b[i] = R::spread(rows.half[i], at);
-        t[i] = R::spread(rows.centre[i], at) - a.centre[i];
-    }
-    R q[3][3];
-    R gap_a[3];
-    R gap_b[3];
-    const R slack(p.slack);
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) q[i][k] = abs(dot(a.axis[i], b[k]));
-        const R reach = fma(q[i][2], half_b[2], fma(q[i][1], half_b[1], q[i][0] * half_b[0]));
-        gap_a[i] = abs(dot(t, a.axis[i])) - (a.half[i] + slack + reach);
-    }
-    for (std::size_t k = 0; k < 3; ++k) {
-        const R reach = fma(q[2][k], a.half[2], fma(q[1][k], a.half[1], q[0][k] * a.half[0]));
-        gap_b[k] = abs(dot(t, b[k])) - (half_b[k] + slack + reach);
-    }
-    return max(length_of_gaps(gap_a), length_of_gaps(gap_b));
+    return squared_length(gap);
 }
 
 /// Axes are at right angles up to 2^-21, and squares, sums and the root round: a
@@ -133,7 +105,10 @@ unsigned near_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxe
     for (unsigned rest = choice.of_b; rest != 0;) {
         const RowPair at = take_rows<R>(rest);
         R squared = max(squared_gap(boxes_a, along_a, at), squared_gap(turned_a, along_b, at));
-        if (oriented) squared = max(squared, squared_oriented_gap(oriented_a, oriented_b, at, p));
+        if (oriented) {
+            const FaceGaps<R> gaps = oriented_gaps(oriented_a, oriented_b, at, p);
+            squared = max(squared, max(squared_length(gaps.of_a), squared_length(gaps.of_b)));
+        }
         const R gap = max(root(squared) * R(kGapRounding), R::spread(begins, at) - ends);
         gap.store_rows(masks.depth[at.first], masks.depth[at.second]);
         rows |= note_rows<R>(~bits(greater(gap, R(reach.limit))), at, choice.of_a, masks);
@@ -178,7 +153,7 @@ unsigned near_rows(const Block& block, RowPair at, R ends, const float* begins,
         const R below = R::spread(b[kLower + axis], at) - R::load(a[kUpper + axis]);
         gap[axis] = max(above, below) - twice_error;
     }
-    const R squared = length_of_gaps(gap) * R(kGapRounding);
+    const R squared = squared_length(gap) * R(kGapRounding);
     // The error of a corner is more than 3 u times any coordinate: 12 of them cover
     // the corners' own and the rounding of two dot products.
     const R along = (R::spread(begins, at) - ends) - R(12.0F * block[kError][0]);
