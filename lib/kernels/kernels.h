@@ -53,8 +53,9 @@ inline constexpr std::size_t kLeafBatch = 16;  ///< leaf pairs that one call tak
 /// Which of the 64 pairs of boxes may overlap.
 struct BoxMasks {
     std::uint8_t of_a[kLanes];  ///< for each box of B, the boxes of A
-    /// By how much the pair overlaps along the direction where it overlaps least
-    /// among the six face directions of the axis-aligned boxes; where asked for.
+    /// By how much a pair overlaps along the face direction where it overlaps least,
+    /// of the oriented boxes when both nodes have them; or how far it is apart, at
+    /// least. Where asked for.
     alignas(32) float depth[kLanes][kLanes];
 };
 
