@@ -108,7 +108,9 @@ std::size_t NearestSearch::push_children(const Tree& a, const Tree& b, const Pen
         const auto j = static_cast<std::uint32_t>(std::countr_zero(rows));
         for (std::uint32_t bits = masks.of_a[j]; bits != 0; bits &= bits - 1) {
             const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
-            scratch_.near[end++] = {masks.depth[j][i], base + (std::uint64_t{i} << 32) + j};
+            // Also where absurd boxes gave no number: what sorts must be ordered.
+            const float bound = masks.depth[j][i] > 0 ? masks.depth[j][i] : 0;
+            scratch_.near[end++] = {bound, base + (std::uint64_t{i} << 32) + j};
         }
     }
     return end;

@@ -17,6 +17,7 @@
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 #include "cdprep/containment.h"
+#include "cdprep/distance.h"
 #include "cdprep/format/find_damage.h"
 
 namespace {
@@ -33,15 +34,30 @@ bool can_answer(const Model& model) {
             !model.positions_f64().empty());
 }
 
-void ask(const Model& model) {
-    static Workspace workspace;
+/// What questions about two models need besides.
+bool can_answer_pairs(const Model& model) {
+    return model.leaves().size() == model.shape().leaf_count;
+}
+
+void ask_pair(const Model& model, Workspace& workspace) {
     static std::vector<TrianglePair> pairs(256);
     const Pose turned = Pose::from_quaternion(1, 2, 3, 4, {0.25, 0, 0}).value();
     for (const Placement& placement :
          {Placement::b_moves(Pose()), Placement::world(turned, Pose())}) {
         (void)overlapping_triangles(model, model, placement, workspace, pairs);
         (void)collide(model, model, placement, workspace, {.as = As::solid});
+        (void)distance(model, model, placement, workspace);
+        (void)is_within(model, model, placement, 0.125, workspace);
     }
+    const Placement apart =
+        Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {3, 0.25, 0.5}).value());
+    (void)distance(model, model, apart, workspace);
+    (void)is_within(model, model, apart, 0.5, workspace);
+}
+
+void ask(const Model& model) {
+    static Workspace workspace;
+    if (can_answer_pairs(model)) ask_pair(model, workspace);
     (void)cast_ray(model, {{0.5, 0.25, -3}, {0.125, 0, 1}}, workspace);
     (void)closest_point(model, {0.25, 0.5, 2}, workspace);
     (void)includes(model, {0.5, 0.5, 0.5}, workspace);
