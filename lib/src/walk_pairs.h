@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
@@ -112,9 +113,11 @@ inline Descent choose_descent(const Tree& a, const Tree& b, const PendingPair& p
         return {a_can, b_can};
     }
     if (!a_can || !b_can) return {a_can, b_can};
-    const float size_a = box_size(a, pair.a, placement.scale_a);
-    const float size_b = box_size(b, pair.b, placement.scale_b);
-    return {size_b <= kSimilar * size_a, size_a <= kSimilar * size_b};
+    // Absolute, and asked so that absurd sizes of a damaged file (negative, not a
+    // number) still take one side down: else the walk would not end.
+    const float size_a = std::fabs(box_size(a, pair.a, placement.scale_a));
+    const float size_b = std::fabs(box_size(b, pair.b, placement.scale_b));
+    return {!(kSimilar * size_a < size_b), !(kSimilar * size_b < size_a)};
 }
 
 /// Asks ahead for what the walk will read of some children: nodes of `below`, one a

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "cdprep/cast_ray.h"
+#include "cdprep/closest_point.h"
+#include "cdprep/collide.h"
+#include "cdprep/distance.h"
+#include "cdprep/format/sections.h"
+#include "support/meshes.h"
+#include "support/random_pose.h"
+#include "support/reseal.h"
+#include "support/tiny_baker.h"
+
+namespace cdprep::test {
+namespace {
+
+/// Overwrites every float of a section of boxes with one of a few absurd numbers.
+void spoil(AlignedBytes& file, SectionId id, std::mt19937& random) {
+    constexpr std::array<float, 8> kAbsurd = {3e38F, -3e38F, 0, -1, 1, 1e-38F, -1e-40F, 2};
+    const auto entry = format::find_section(file.span(), id).value();
+    for (std::uint64_t at = 0; at < entry.count * entry.element_size; at += sizeof(float)) {
+        if (random() % 2 == 0) continue;
+        const float x = kAbsurd[random() % kAbsurd.size()];
+        std::memcpy(file.span().data() + entry.offset + at, &x, sizeof x);
+    }
+}
+
+// A file whose checksums are right may still hold boxes that make no sense: the
+// answers are then worth nothing, but every question ends and stays in the file.
+TEST(AbsurdBoxes, EveryQuestionEnds) {
+    std::mt19937 random(1);
+    for (int round = 0; round < 200; ++round) {
+        const TestMesh mesh = random_soup(random(), 150, 0.3);
+        AlignedBytes file = bake_tiny(mesh.positions, mesh.triangles);
+        if (round % 3 != 0) spoil(file, SectionId::bvh_nodes, random);
+        if (round % 3 != 1) spoil(file, SectionId::oriented_nodes, random);
+        reseal(file.span());
+        const auto model = Model::open(file.span());
+        ASSERT_TRUE(model) << model.error().message;
+        Workspace workspace;
+        std::vector<TrianglePair> pairs(100);
+        const Model& m = model.value();
+        for (const Placement& placement :
+             {Placement::b_moves(Pose()), Placement::b_moves(random_pose(random, 1)),
+              Placement::world(random_pose(random, 9), Pose())}) {
+            const std::size_t all = m.triangle_count() * std::size_t{m.triangle_count()};
+            EXPECT_LE(overlapping_triangles(m, m, placement, workspace, pairs), all);
+            static_cast<void>(collide(m, m, placement, workspace, {.as = As::solid}));
+            static_cast<void>(distance(m, m, placement, workspace));
+            static_cast<void>(is_within(m, m, placement, 0.5, workspace));
+        }
+        static_cast<void>(cast_ray(m, {{0, 0, 5}, {0.1, 0, -1}}, workspace));
+        static_cast<void>(closest_point(m, {0, 0, 5}, workspace));
+        static_cast<void>(includes(m, {0, 0, 0}, workspace));
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::test
