@@ -32,13 +32,12 @@ template <Search kSearch, class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
                       Workspace& workspace, const OverlapOptions& options, Found&& found) noexcept {
     Workspace::Storage& scratch = workspace.storage();
-    const MovedModel moved_a{&a, placement.a_is_moved() ? &placement.pose_a() : nullptr};
-    const MovedModel moved_b{&b, placement.b_is_moved() ? &placement.pose_b() : nullptr};
+    const MovedModel in_a = moved_a(a, placement);
+    const MovedModel in_b = moved_b(b, placement);
     const bool skips = options.degenerate == Degenerate::skip;
     const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b, bool certain) {
         if (skips && (is_marked_degenerate(a, at_a) || is_marked_degenerate(b, at_b))) return true;
-        if (!certain &&
-            !in_contact(moved_a.corners(at_a), moved_b.corners(at_b), options.contact)) {
+        if (!certain && !in_contact(in_a.corners(at_a), in_b.corners(at_b), options.contact)) {
             return true;
         }
         return static_cast<bool>(found(at_a, at_b));

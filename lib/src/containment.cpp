@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "moved_leaf.h"
+#include "moved_model.h"
 #include "walk_model.h"
 #include "winding.h"
 
@@ -166,12 +166,12 @@ Containment find_inside(const MovedModel& inner, const MovedModel& outer,
 
 Containment find_containment(const Model& a, const Model& b, const Placement& placement,
                              Workspace& workspace) noexcept {
-    const MovedModel moved_a{&a, placement.a_is_moved() ? &placement.pose_a() : nullptr};
-    const MovedModel moved_b{&b, placement.b_is_moved() ? &placement.pose_b() : nullptr};
+    const MovedModel in_a = moved_a(a, placement);
+    const MovedModel in_b = moved_b(b, placement);
     Workspace::Storage& scratch = workspace.storage();
-    const Containment a_in_b = find_inside(moved_a, moved_b, scratch, true);
+    const Containment a_in_b = find_inside(in_a, in_b, scratch, true);
     if (a_in_b.answer == Answer::yes) return a_in_b;
-    const Containment b_in_a = find_inside(moved_b, moved_a, scratch, false);
+    const Containment b_in_a = find_inside(in_b, in_a, scratch, false);
     if (b_in_a.answer == Answer::yes || a_in_b.answer == Answer::no) return b_in_a;
     return a_in_b;
 }

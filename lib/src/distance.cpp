@@ -30,8 +30,8 @@ public:
                   Workspace& workspace) noexcept
         : a_(a),
           b_(b),
-          moved_a_{&a, placement.a_is_moved() ? &placement.pose_a() : nullptr},
-          moved_b_{&b, placement.b_is_moved() ? &placement.pose_b() : nullptr},
+          moved_a_(moved_a(a, placement)),
+          moved_b_(moved_b(b, placement)),
           placed_(place_boxes(a, b, placement)),
           scratch_(workspace.storage()),
           leaves_(a, b, placed_, scratch_) {}
@@ -323,9 +323,9 @@ std::optional<At> find_contact(const Model& a, const Model& b, const Placement& 
 
 Distance touching(const Model& a, const Model& b, const Placement& placement,
                   const At& at) noexcept {
-    const MovedModel moved_a{&a, placement.a_is_moved() ? &placement.pose_a() : nullptr};
-    const MovedModel moved_b{&b, placement.b_is_moved() ? &placement.pose_b() : nullptr};
-    const Double3 point = common_point(moved_a.corners(at.a), moved_b.corners(at.b));
+    const MovedModel in_a = moved_a(a, placement);
+    const MovedModel in_b = moved_b(b, placement);
+    const Double3 point = common_point(in_a.corners(at.a), in_b.corners(at.b));
     return {0, 0, point, point, source_number(a, at.a), source_number(b, at.b)};
 }
 

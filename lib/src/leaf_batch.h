@@ -5,7 +5,7 @@
 #include <span>
 
 #include "box_placement.h"
-#include "moved_leaf.h"
+#include "moved_model.h"
 #include "prefetch.h"
 #include "workspace_storage.h"
 

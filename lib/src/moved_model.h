@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "cdprep/model.h"
-#include "cdprep/pose.h"
+#include "cdprep/placement.h"
 #include "triangle_contact.h"
 
 namespace cdprep {
@@ -58,5 +58,13 @@ private:
         return model.positions_f64()[vertex];
     }
 };
+
+/// The two models of a question, each with the pose that moves it.
+inline MovedModel moved_a(const Model& a, const Placement& placement) noexcept {
+    return {&a, placement.a_is_moved() ? &placement.pose_a() : nullptr};
+}
+inline MovedModel moved_b(const Model& b, const Placement& placement) noexcept {
+    return {&b, placement.b_is_moved() ? &placement.pose_b() : nullptr};
+}
 
 }  // namespace cdprep
