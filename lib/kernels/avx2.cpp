@@ -60,6 +60,9 @@ struct F8 {
     static Mask none() noexcept {
         return {_mm256_setzero_ps()};
     }
+    void store_row(float* p) const noexcept {
+        store(p);
+    }
     void store(float* p) const noexcept {
         _mm256_storeu_ps(p, x);
     }
@@ -113,8 +116,8 @@ inline F8 select(Mask8 where, F8 a, F8 b) noexcept {
 namespace cdprep::kernels {
 
 const Table kAvx2 = {"avx2",
-                     overlapping_boxes_of<F8, F8, false>,
-                     overlapping_boxes_of<F8, F8, true>,
+                     overlapping_boxes_of<F8, F8>,
+                     overlap_depths_of<F8, F8>,
                      near_boxes_of<F8, F8>,
                      near_triangles_of<F8, F8, F8>,
                      find_contacts_of<F8, F8, F8>};

@@ -49,6 +49,9 @@ struct F8 {
     void store(float* p) const noexcept {
         _mm256_storeu_ps(p, x);
     }
+    void store_row(float* p) const noexcept {
+        store(p);
+    }
 };
 inline F8 operator+(F8 a, F8 b) noexcept {
     return _mm256_add_ps(a.x, b.x);
@@ -106,6 +109,10 @@ struct F16 {
     }
     void store_all(float* p) const noexcept {
         _mm512_storeu_ps(p, x);
+    }
+    /// The lower eight.
+    void store_row(float* p) const noexcept {
+        _mm256_storeu_ps(p, _mm512_castps512_ps256(x));
     }
     void store_rows(float* first, float* second) const noexcept {
         _mm256_storeu_ps(second, _mm512_extractf32x8_ps(x, 1));
@@ -169,8 +176,8 @@ inline F16 select(F16::Mask where, F16 a, F16 b) noexcept {
 namespace cdprep::kernels {
 
 const Table kAvx512 = {"avx512",
-                       overlapping_boxes_of<F8, F16, false>,
-                       overlapping_boxes_of<F8, F16, true>,
+                       overlapping_boxes_of<F8, F16>,
+                       overlap_depths_of<F8, F16>,
                        near_boxes_of<F8, F16>,
                        near_triangles_of<F8, F16, F16>,
                        find_contacts_of<F8, F16, F16>};

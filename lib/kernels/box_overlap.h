@@ -59,6 +59,11 @@ Boxes<F> turned_to_b(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
     return turned;
 }
 
+template <class F>
+F sum_of(const F* v) noexcept {
+    return v[0] + v[1] + v[2];
+}
+
 /// B's boxes as the tests along A's axes want them: shifted, with the slack.
 template <class F>
 Boxes<F> turned_to_a(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
@@ -152,18 +157,19 @@ typename R::Mask apart(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexc
     return out;
 }
 
-/// Writes one bit set a row and returns which of the rows have any.
+/// The pairs of two rows, from eight bits of each; a row that repeats repeats its bits.
 template <class R>
-unsigned note_rows(unsigned found, RowPair at, unsigned wanted, BoxMasks& masks) noexcept {
-    const unsigned first = found & wanted & 0xff;
-    masks.of_a[at.first] = static_cast<std::uint8_t>(first);
-    unsigned rows = static_cast<unsigned>(first != 0) << at.first;
-    if (R::kRows == 2 && at.second != at.first) {
-        const unsigned second = (found >> kLanes) & wanted & 0xff;
-        masks.of_a[at.second] = static_cast<std::uint8_t>(second);
-        rows |= static_cast<unsigned>(second != 0) << at.second;
-    }
-    return rows;
+BoxPairs pairs_in_rows(unsigned found, RowPair at) noexcept {
+    const BoxPairs first = BoxPairs{found & 0xff} << (kLanes * at.first);
+    if (R::kRows == 1) return first;
+    return first | BoxPairs{(found >> kLanes) & 0xff} << (kLanes * at.second);
+}
+
+/// Eight bits of either row.
+inline unsigned bits_of_rows(BoxPairs pairs, RowPair at) noexcept {
+    const auto first = static_cast<unsigned>(pairs >> (kLanes * at.first)) & 0xff;
+    const auto second = static_cast<unsigned>(pairs >> (kLanes * at.second)) & 0xff;
+    return first | second << kLanes;
 }
 
 /// Eight oriented boxes with their third axes.
@@ -247,38 +253,36 @@ FaceGaps<R> oriented_gaps(const OrientedBoxes<R>& a, const OrientedRows& rows, R
     return gaps;
 }
 
-/// Both nodes have oriented boxes: keeps of the masks what they do not separate.
-template <class F, class R, bool kDepths>
-unsigned keep_oriented(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b, unsigned rows,
-                       BoxMasks& masks) noexcept {
+/// Both nodes have oriented boxes: keeps of the pairs what they do not separate.
+/// Sets `depths` unless that is null.
+template <class F, class R>
+BoxPairs keep_oriented(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
+                       BoxPairs pairs, BoxSizes& sizes, BoxPairFloats* depths) noexcept {
     OrientedBoxes<R> oriented_a;
     load_oriented(a.oriented, p.scale_a, oriented_a);
     OrientedBoxes<F> unturned_b;
     load_oriented(b.oriented, p.scale_b, unturned_b);
     OrientedRows oriented_b;
     turn_oriented(unturned_b, p, oriented_b);
-    unsigned kept = 0;
-    while (rows != 0) {
+    sum_of(oriented_a.half).store_row(sizes.a);
+    sum_of(unturned_b.half).store_row(sizes.b);
+    BoxPairs kept = 0;
+    for (unsigned rows = boxes_of_b(pairs); rows != 0;) {
         const RowPair at = take_rows<R>(rows);
-        const unsigned wanted = masks.of_a[at.first] | unsigned{masks.of_a[at.second]} << kLanes;
         const R gap = largest(oriented_gaps(oriented_a, oriented_b, at, p));
-        if (kDepths) (-gap).store_rows(masks.depth[at.first], masks.depth[at.second]);
-        kept |= note_rows<R>(wanted & ~bits(greater(gap, R(0.0F))), at, 0xff, masks);
+        if (depths != nullptr) {
+            (-gap).store_rows(depths->value[at.first], depths->value[at.second]);
+        }
+        kept |= pairs_in_rows<R>(bits_of_rows(pairs, at) & ~bits(greater(gap, R(0.0F))), at);
     }
     return kept;
 }
 
-/// The body of overlapping_boxes() and of overlap_depths().
-template <class F, class R, bool kDepths>
-unsigned overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
-                              const BoxChoice& choice, BoxMasks& masks) noexcept {
-    const bool oriented = a.oriented != nullptr && b.oriented != nullptr;
-    const bool one_row = (choice.of_b & (choice.of_b - 1)) == 0;
-    if (oriented && one_row && !kDepths) {
-        // Turning the axis-aligned boxes would cost more than it saves.
-        masks.of_a[__builtin_ctz(choice.of_b)] = choice.of_a;
-        return keep_oriented<F, R, false>(p, a, b, choice.of_b, masks);
-    }
+/// The pairs of chosen boxes that the axes of either node do not separate. Sets
+/// `depths` unless that is null.
+template <class F, class R>
+BoxPairs keep_aligned(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
+                      const BoxChoice& choice, BoxSizes& sizes, BoxPairFloats* depths) noexcept {
     const Boxes<F> boxes_b = scaled_boxes<F>(b.boxes, p.scale_b);
     const Boxes<F> turned_b = turned_to_a(boxes_b, p);
     unsigned live = choice.of_b;
@@ -286,26 +290,57 @@ unsigned overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const N
     if (live == 0) return 0;
     const Boxes<R> boxes_a = scaled_boxes<R>(a.boxes, p.scale_a);
     const Boxes<R> turned_a = turned_to_b(boxes_a, p);
+    sum_of(boxes_a.half).store_row(sizes.a);
+    sum_of(boxes_b.half).store_row(sizes.b);
     BoxRows along_a;
     BoxRows along_b;
     store(turned_b, along_a);
     store(shifted_in_b(boxes_b, p), along_b);
-    unsigned rows = 0;
+    const unsigned wanted = choice.of_a | unsigned{choice.of_a} << kLanes;
+    BoxPairs pairs = 0;
     while (live != 0) {
         const RowPair at = take_rows<R>(live);
         unsigned out;
-        if constexpr (kDepths) {
+        if (depths != nullptr) {
             const R depth =
                 min(least_overlap(boxes_a, along_a, at), least_overlap(turned_a, along_b, at));
-            depth.store_rows(masks.depth[at.first], masks.depth[at.second]);
+            depth.store_rows(depths->value[at.first], depths->value[at.second]);
             out = bits(greater(R(0.0F), depth));
         } else {
             out = bits(apart(boxes_a, along_a, at) | apart(turned_a, along_b, at));
         }
-        rows |= note_rows<R>(~out, at, choice.of_a, masks);
+        pairs |= pairs_in_rows<R>(wanted & ~out, at);
     }
-    if (!oriented || rows == 0) return rows;
-    return keep_oriented<F, R, kDepths>(p, a, b, rows, masks);
+    return pairs;
+}
+
+/// The body of overlapping_boxes().
+template <class F, class R>
+BoxPairs overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
+                              const BoxChoice& choice, BoxSizes& sizes) noexcept {
+    const bool oriented = a.oriented != nullptr && b.oriented != nullptr;
+    const bool one_row = (choice.of_b & (choice.of_b - 1)) == 0;
+    if (oriented && one_row) {
+        // Turning the axis-aligned boxes would cost more than it saves.
+        const auto row = static_cast<unsigned>(__builtin_ctz(choice.of_b));
+        const BoxPairs pairs = BoxPairs{choice.of_a} << (kLanes * row);
+        return keep_oriented<F, R>(p, a, b, pairs, sizes, nullptr);
+    }
+    const BoxPairs pairs = keep_aligned<F, R>(p, a, b, choice, sizes, nullptr);
+    if (!oriented || pairs == 0) return pairs;
+    return keep_oriented<F, R>(p, a, b, pairs, sizes, nullptr);
+}
+
+/// The body of overlap_depths().
+template <class F, class R>
+BoxPairs overlap_depths_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
+                           const BoxChoice& choice, BoxSizes& sizes,
+                           BoxPairFloats& depths) noexcept {
+    if (a.oriented == nullptr || b.oriented == nullptr) {
+        return keep_aligned<F, R>(p, a, b, choice, sizes, &depths);
+    }
+    const BoxPairs pairs = keep_aligned<F, R>(p, a, b, choice, sizes, nullptr);
+    return pairs == 0 ? 0 : keep_oriented<F, R>(p, a, b, pairs, sizes, &depths);
 }
 
 }  // namespace

@@ -76,8 +76,8 @@ void store_begins(const Span<F>& span, const BoxPlacement& p, const Reach& reach
 
 /// The body of near_boxes().
 template <class F, class R>
-unsigned near_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
-                       const BoxChoice& choice, const Reach& reach, BoxMasks& masks) noexcept {
+BoxPairs near_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
+                       const BoxChoice& choice, const Reach& reach, BoxPairFloats& gaps) noexcept {
     const Boxes<F> boxes_b = scaled_boxes<F>(b.boxes, p.scale_b);
     const Boxes<R> boxes_a = scaled_boxes<R>(a.boxes, p.scale_a);
     const Boxes<R> turned_a = turned_to_b(boxes_a, p);
@@ -101,19 +101,20 @@ unsigned near_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxe
     alignas(32) float begins[kLanes];
     store_begins(span_b, p, reach, begins);
     const R ends = span_a.middle + span_a.half;
-    unsigned rows = 0;
+    const unsigned wanted = choice.of_a | unsigned{choice.of_a} << kLanes;
+    BoxPairs pairs = 0;
     for (unsigned rest = choice.of_b; rest != 0;) {
         const RowPair at = take_rows<R>(rest);
         R squared = max(squared_gap(boxes_a, along_a, at), squared_gap(turned_a, along_b, at));
         if (oriented) {
-            const FaceGaps<R> gaps = oriented_gaps(oriented_a, oriented_b, at, p);
-            squared = max(squared, max(squared_length(gaps.of_a), squared_length(gaps.of_b)));
+            const FaceGaps<R> face = oriented_gaps(oriented_a, oriented_b, at, p);
+            squared = max(squared, max(squared_length(face.of_a), squared_length(face.of_b)));
         }
         const R gap = max(root(squared) * R(kGapRounding), R::spread(begins, at) - ends);
-        gap.store_rows(masks.depth[at.first], masks.depth[at.second]);
-        rows |= note_rows<R>(~bits(greater(gap, R(reach.limit))), at, choice.of_a, masks);
+        gap.store_rows(gaps.value[at.first], gaps.value[at.second]);
+        pairs |= pairs_in_rows<R>(wanted & ~bits(greater(gap, R(reach.limit))), at);
     }
-    return rows;
+    return pairs;
 }
 
 template <class F>

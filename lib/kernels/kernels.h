@@ -50,13 +50,38 @@ struct BoxChoice {
 inline constexpr std::size_t kLanes = 8;       ///< boxes of a node, triangles of a leaf
 inline constexpr std::size_t kLeafBatch = 16;  ///< leaf pairs that one call takes
 
-/// Which of the 64 pairs of boxes may overlap.
-struct BoxMasks {
-    std::uint8_t of_a[kLanes];  ///< for each box of B, the boxes of A
-    /// By how much a pair overlaps along the face direction where it overlaps least,
-    /// of the oriented boxes when both nodes have them; or how far it is apart, at
-    /// least. Where asked for.
-    alignas(32) float depth[kLanes][kLanes];
+/// A set of pairs of boxes: bit 8 j + i for box i of A and box j of B.
+using BoxPairs = std::uint64_t;
+
+namespace {  // nothing here may be emitted for the linker to choose from
+
+/// The boxes of A that have a partner, as a bit set.
+[[maybe_unused]] constexpr unsigned boxes_of_a(BoxPairs pairs) noexcept {
+    pairs |= pairs >> 32;
+    pairs |= pairs >> 16;
+    pairs |= pairs >> 8;
+    return static_cast<unsigned>(pairs & 0xff);
+}
+
+/// The boxes of B that have a partner: each byte that is not 0 leaves its highest bit,
+/// and a product gathers those.
+[[maybe_unused]] constexpr unsigned boxes_of_b(BoxPairs pairs) noexcept {
+    constexpr BoxPairs kLow = 0x7f7f7f7f7f7f7f7f;
+    const BoxPairs some = (((pairs & kLow) + kLow) | pairs) & ~kLow;
+    return static_cast<unsigned>(((some >> 7) * 0x0102040810204080) >> 56);
+}
+
+}  // namespace
+
+/// Half the sum of each box's edges, pair units: which node to open next.
+struct BoxSizes {
+    alignas(32) float a[kLanes];
+    alignas(32) float b[kLanes];
+};
+
+/// A number for each pair of boxes; set for those that were found alone.
+struct BoxPairFloats {
+    alignas(32) float value[kLanes][kLanes];  ///< [of B][of A], pair units
 };
 
 /// A leaf is 78 floats: corners as in format::BvhLeaf, its origin, and the half
@@ -132,23 +157,24 @@ struct Table {
 
     /// Finds the pairs of chosen boxes that none of their face directions separates:
     /// six of the axis-aligned boxes and, when both nodes have them, six of the
-    /// oriented ones. Returns the bit set of boxes of B with a
-    /// partner; masks.of_a is set for those alone.
-    unsigned (*overlapping_boxes)(const BoxPlacement& placement, const NodeBoxes& a,
+    /// oriented ones. Sets `sizes` when there are any.
+    BoxPairs (*overlapping_boxes)(const BoxPlacement& placement, const NodeBoxes& a,
                                   const NodeBoxes& b, const BoxChoice& choice,
-                                  BoxMasks& masks) noexcept;
+                                  BoxSizes& sizes) noexcept;
 
-    /// The same, and masks.depth.
-    unsigned (*overlap_depths)(const BoxPlacement& placement, const NodeBoxes& a,
-                               const NodeBoxes& b, const BoxChoice& choice,
-                               BoxMasks& masks) noexcept;
+    /// The same; and by how much each pair overlaps along the direction where it
+    /// overlaps least, of the oriented boxes when both nodes have them.
+    BoxPairs (*overlap_depths)(const BoxPlacement& placement, const NodeBoxes& a,
+                               const NodeBoxes& b, const BoxChoice& choice, BoxSizes& sizes,
+                               BoxPairFloats& depths) noexcept;
 
-    /// Finds the pairs of chosen boxes that may be at most reach.limit apart.
-    /// masks.depth is a lower bound of their distance: the length of the gaps along
-    /// three directions at right angles, the best of A's, B's and those of the
-    /// oriented boxes, and the gap along reach.direction.
-    unsigned (*near_boxes)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
-                           const BoxChoice& choice, const Reach& reach, BoxMasks& masks) noexcept;
+    /// Finds the pairs of chosen boxes that may be at most reach.limit apart, and a
+    /// lower bound of their distance: the length of the gaps along three directions at
+    /// right angles, the best of A's, B's and those of the oriented boxes, and the gap
+    /// along reach.direction.
+    BoxPairs (*near_boxes)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
+                           const BoxChoice& choice, const Reach& reach,
+                           BoxPairFloats& gaps) noexcept;
 
     /// Finds the pairs of triangles of one pair of leaves that may be at most
     /// reach.limit apart. Returns their number; they stand in scratch.gap. A pair

@@ -69,6 +69,9 @@ struct F8 {
     static Mask none() noexcept {
         return {0};
     }
+    void store_row(float* p) const noexcept {
+        store(p);
+    }
     void store(float* p) const noexcept {
         for (unsigned i = 0; i < kCount; ++i) p[i] = x[i];
     }
@@ -135,8 +138,8 @@ inline F8 select(Mask8 where, const F8& a, const F8& b) noexcept {
 namespace cdprep::kernels {
 
 const Table kScalar = {"scalar",
-                       overlapping_boxes_of<F8, F8, false>,
-                       overlapping_boxes_of<F8, F8, true>,
+                       overlapping_boxes_of<F8, F8>,
+                       overlap_depths_of<F8, F8>,
                        near_boxes_of<F8, F8>,
                        near_triangles_of<F8, F8, F8>,
                        find_contacts_of<F8, F8, F8>};

@@ -96,22 +96,25 @@ void NearestSearch::point(const Double3& on_a, const Double3& on_b) noexcept {
 
 std::size_t NearestSearch::push_children(const Tree& a, const Tree& b, const PendingPair& pair,
                                          std::size_t end) noexcept {
-    const Descent descent = choose_descent(a, b, pair, placed_.placement);
+    const kernels::BoxPlacement& placement = placed_.placement;
+    const Descent descent = choose_descent(a, b, pair, [&] {
+        return SizePair{box_size(a, pair.a, placement.scale_a),
+                        box_size(b, pair.b, placement.scale_b)};
+    });
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
-    kernels::BoxMasks masks;
-    unsigned rows = kernels::active().near_boxes(
-        placed_.placement, node_boxes(a, side_a), node_boxes(b, side_b),
-        {chosen(side_a), chosen(side_b), nullptr}, reach_, masks);
+    kernels::BoxPairFloats gaps;
+    kernels::BoxPairs pairs =
+        kernels::active().near_boxes(placement, node_boxes(a, side_a), node_boxes(b, side_b),
+                                     {chosen(side_a), chosen(side_b), nullptr}, reach_, gaps);
     const std::uint64_t base = PendingPair{side_a.first_below, side_b.first_below}.packed();
-    for (; rows != 0; rows &= rows - 1) {
-        const auto j = static_cast<std::uint32_t>(std::countr_zero(rows));
-        for (std::uint32_t bits = masks.of_a[j]; bits != 0; bits &= bits - 1) {
-            const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
-            // Also where absurd boxes gave no number: what sorts must be ordered.
-            const float bound = masks.depth[j][i] > 0 ? masks.depth[j][i] : 0;
-            scratch_.near[end++] = {bound, base + (std::uint64_t{i} << 32) + j};
-        }
+    for (; pairs != 0; pairs &= pairs - 1) {
+        const auto bit = static_cast<unsigned>(std::countr_zero(pairs));
+        const std::uint64_t i = bit % format::kBvhWidth;
+        const std::uint64_t j = bit / format::kBvhWidth;
+        // Also where absurd boxes gave no number: what sorts must be ordered.
+        const float bound = gaps.value[j][i] > 0 ? gaps.value[j][i] : 0;
+        scratch_.near[end++] = {bound, base + (i << 32) + j};
     }
     return end;
 }

@@ -38,6 +38,12 @@ struct PendingPair {
                  static_cast<std::uint32_t>(bits) & 0xfffffff}};
     }
 };
+
+/// Whether both places of a packed pair are leaves.
+inline bool is_at_leaves(std::uint64_t pair) noexcept {
+    constexpr std::uint64_t kHeights = 0xf0000000f0000000;
+    return (pair & kHeights) == 0;
+}
 static_assert(format::kMaxTriangles / format::kBvhWidth < (1U << 28));
 static_assert(format::kMaxBvhLevels < 16);
 
@@ -82,7 +88,7 @@ inline TestedBoxes boxes_of(const Tree& tree, const TreePlace& place, bool desce
             {place.height, parent * format::kBvhWidth}};
 }
 
-/// Half the sum of the edges of a place's box, in the frame of the walk.
+/// Half the sum of the edges of a place's box, in pair units.
 inline float box_size(const Tree& tree, const TreePlace& place, float scale) noexcept {
     const format::BvhShape& shape = tree.shape;
     if (place.height == shape.levels) return 3 * scale;  // the root fills the frame
@@ -102,10 +108,18 @@ struct Descent {
     bool b;
 };
 
+/// Sizes of two boxes.
+struct SizePair {
+    float a;
+    float b;
+};
+
 /// Both when their boxes are of similar size, else the larger; a leaf never, a
-/// root always (it has no siblings to be tested among).
-inline Descent choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
-                              const kernels::BoxPlacement& placement) noexcept {
+/// root always (it has no siblings to be tested among). `sizes()` is called when it
+/// matters.
+template <class Sizes>
+Descent choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
+                       Sizes sizes) noexcept {
     constexpr float kSimilar = 2.5F;
     const bool a_can = pair.a.height > 0;
     const bool b_can = pair.b.height > 0;
@@ -115,8 +129,9 @@ inline Descent choose_descent(const Tree& a, const Tree& b, const PendingPair& p
     if (!a_can || !b_can) return {a_can, b_can};
     // Absolute, and asked so that absurd sizes of a damaged file (negative, not a
     // number) still take one side down: else the walk would not end.
-    const float size_a = std::fabs(box_size(a, pair.a, placement.scale_a));
-    const float size_b = std::fabs(box_size(b, pair.b, placement.scale_b));
+    const SizePair size = sizes();
+    const float size_a = std::fabs(size.a);
+    const float size_b = std::fabs(size.b);
     return {!(kSimilar * size_a < size_b), !(kSimilar * size_b < size_a)};
 }
 
@@ -157,6 +172,52 @@ inline std::uint8_t chosen(const TestedBoxes& side) noexcept {
     return static_cast<std::uint8_t>((1U << side.last) - (1U << side.first));
 }
 
+/// Asks ahead for what the walk will read of a step's children.
+inline void prefetch_step(const Tree& a, const Tree& b, const OpenStep& step) noexcept {
+    const PendingPair below = PendingPair::unpacked(step.base);
+    prefetch_children(a, below.a, kernels::boxes_of_a(step.pairs));
+    prefetch_children(b, below.b, kernels::boxes_of_b(step.pairs));
+}
+
+/// Tests the children of a pair that are no two leaves. Sets `depths` with
+/// Search::first.
+template <Search kSearch>
+void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed, const PendingPair& pair,
+               const Descent& descent, OpenStep& step, kernels::BoxPairFloats& depths) noexcept {
+    const kernels::Table& kernel = kernels::active();
+    const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
+    const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
+    const kernels::BoxChoice choice = {chosen(side_a), chosen(side_b),
+                                       descent.a && descent.b ? box_around(a, pair.a) : nullptr};
+    const kernels::NodeBoxes in_a = node_boxes(a, side_a);
+    const kernels::NodeBoxes in_b = node_boxes(b, side_b);
+    step.base = PendingPair{side_a.first_below, side_b.first_below}.packed();
+    step.pairs =
+        kSearch == Search::first
+            ? kernel.overlap_depths(placed.placement, in_a, in_b, choice, step.sizes, depths)
+            : kernel.overlapping_boxes(placed.placement, in_a, in_b, choice, step.sizes);
+}
+
+inline unsigned first_of(kernels::BoxPairs pairs) noexcept {
+    return static_cast<unsigned>(std::countr_zero(pairs));
+}
+
+/// The bit of the pair that overlaps most. Asked one by one: a processor foresees
+/// the branches, and goes on to the children while the depths are worked out.
+inline unsigned deepest_of(kernels::BoxPairs pairs, const kernels::BoxPairFloats& depths) noexcept {
+    unsigned deepest = first_of(pairs);
+    float most = (&depths.value[0][0])[deepest];
+    for (kernels::BoxPairs rest = pairs & (pairs - 1); rest != 0; rest &= rest - 1) {
+        const unsigned bit = first_of(rest);
+        const float depth = (&depths.value[0][0])[bit];
+        if (depth > most) {
+            most = depth;
+            deepest = bit;
+        }
+    }
+    return deepest;
+}
+
 /// Walks the two hierarchies depth first and calls `leaf(index_a, index_b)` for
 /// each pair of leaves that no box test separates, until it returns false.
 /// Returns false when it did. Both models need nodes.
@@ -164,49 +225,35 @@ template <Search kSearch, class Leaf>
 bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
                 Workspace::Storage& scratch, Leaf&& leaf) noexcept {
     if (a.triangles == 0 || b.triangles == 0 || placed.apart) return true;
-    const kernels::Table& kernel = kernels::active();
-    const auto test = kSearch == Search::first ? kernel.overlap_depths : kernel.overlapping_boxes;
-
+    kernels::BoxPairFloats depths;
+    const auto pick = [&](kernels::BoxPairs pairs) {
+        return kSearch == Search::first ? deepest_of(pairs, depths) : first_of(pairs);
+    };
     std::size_t depth = 0;
-    scratch.pending[depth++] = PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed();
-    while (depth > 0) {
-        const PendingPair pair = PendingPair::unpacked(scratch.pending[--depth]);
-        if (pair.a.height == 0 && pair.b.height == 0) {
-            if (!leaf(pair.a.index, pair.b.index)) return false;
+    OpenedPair next{PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed(), 0, 0};
+    for (;;) {
+        const PendingPair pair = PendingPair::unpacked(next.pair);
+        const Descent descent = choose_descent(a, b, pair, [&] {
+            return SizePair{next.size_a, next.size_b};
+        });
+        OpenStep& step = scratch.open_steps[depth];
+        open_step<kSearch>(a, b, placed, pair, descent, step, depths);
+        if (is_at_leaves(step.base)) {
+            while (step.pairs != 0) {
+                const PendingPair at = PendingPair::unpacked(step.take(pick(step.pairs)).pair);
+                if (!leaf(at.a.index, at.b.index)) return false;
+            }
+        } else if (step.pairs != 0) {
+            if (kSearch == Search::all) prefetch_step(a, b, step);
+            next = step.take(pick(step.pairs));
+            if (step.pairs != 0) ++depth;
             continue;
         }
-        const Descent descent = choose_descent(a, b, pair, placed.placement);
-        const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
-        const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
-        const kernels::BoxChoice choice = {
-            chosen(side_a), chosen(side_b),
-            descent.a && descent.b ? box_around(a, pair.a) : nullptr};
-        kernels::BoxMasks masks;
-        unsigned rows =
-            test(placed.placement, node_boxes(a, side_a), node_boxes(b, side_b), choice, masks);
-        const std::uint64_t base = PendingPair{side_a.first_below, side_b.first_below}.packed();
-        std::size_t deepest = depth;
-        unsigned columns = 0;
-        if (kSearch == Search::all) prefetch_children(b, side_b.first_below, rows);
-        float most = -1;
-        for (; rows != 0; rows &= rows - 1) {
-            const auto j = static_cast<std::uint32_t>(std::countr_zero(rows));
-            columns |= masks.of_a[j];
-            for (std::uint32_t bits = masks.of_a[j]; bits != 0; bits &= bits - 1) {
-                const auto i = static_cast<std::uint32_t>(std::countr_zero(bits));
-                if (kSearch == Search::first && masks.depth[j][i] > most) {
-                    most = masks.depth[j][i];
-                    deepest = depth;
-                }
-                scratch.pending[depth++] = base + (std::uint64_t{i} << 32) + j;
-            }
-        }
-        if (kSearch == Search::all) prefetch_children(a, side_a.first_below, columns);
-        if (kSearch == Search::first && most >= 0) {
-            std::swap(scratch.pending[deepest], scratch.pending[depth - 1]);
-        }
+        if (depth == 0) return true;
+        OpenStep& top = scratch.open_steps[depth - 1];
+        next = top.take(first_of(top.pairs));
+        if (top.pairs == 0) --depth;
     }
-    return true;
 }
 
 }  // namespace cdprep

@@ -37,7 +37,33 @@ struct NearPair {
 /// Pairs of places that a search for the nearest keeps in order.
 inline constexpr std::size_t kMaxFrontier = 8192;
 
+/// A pair of places of a walk with the sizes of its boxes.
+struct OpenedPair {
+    std::uint64_t pair;  ///< PendingPair::packed()
+    float size_a;        ///< half the sum of the edges, pair units
+    float size_b;
+};
+
+/// Children of one step that are still to be looked at, and where they are: box 0
+/// of either node stands for `base`.
+struct OpenStep {
+    std::uint64_t base;  ///< PendingPair::packed()
+    kernels::BoxPairs pairs;
+    kernels::BoxSizes sizes;
+
+    [[nodiscard]] OpenedPair take(unsigned bit) noexcept {
+        const std::uint64_t i = bit % format::kBvhWidth;
+        const std::uint64_t j = bit / format::kBvhWidth;
+        pairs &= ~(kernels::BoxPairs{1} << bit);
+        return {base + (i << 32) + j, sizes.a[i], sizes.b[j]};
+    }
+};
+
+/// A step takes at least one side a level down.
+inline constexpr std::size_t kMaxOpenSteps = std::size_t{2} * (format::kMaxBvhLevels + 1);
+
 struct Workspace::Storage {
+    std::array<OpenStep, kMaxOpenSteps> open_steps;
     std::array<std::uint64_t, kMaxPendingPairs> pending;
     std::array<NearPair, kMaxPendingPairs> near;
     std::array<std::uint64_t, kMaxFrontier> frontier;

@@ -63,6 +63,16 @@ BoxPlacement placement_of(const Pose& pose, float slack) {
     return p;
 }
 
+double half_edges(const Node& node, std::size_t box) {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i) sum += node[24 + 8 * i + box] - node[8 * i + box];
+    return sum / 2;
+}
+
+bool has(BoxPairs pairs, std::size_t i, std::size_t j) {
+    return ((pairs >> (kLanes * j + i)) & 1) != 0;
+}
+
 /// The least overlap of box i of A and box j of B along six face directions, in
 /// double.
 double face_overlap(const Pose& pose, const Node& a, std::size_t i, const Node& b, std::size_t j) {
@@ -106,35 +116,56 @@ TEST(Kernels, BoxesAreTestedAlongSixFaceDirections) {
         const Pose pose = test::random_pose(random, 0.7);
         const BoxPlacement placement = placement_of(pose, kSlack);
         for_each_table([&](const Table& table) {
-            for (const bool with_depth : {false, true}) {
-                BoxMasks masks{};
-                const auto test = with_depth ? table.overlap_depths : table.overlapping_boxes;
-                const unsigned rows = test(placement, {a.data(), nullptr}, {b.data(), nullptr},
-                                           {0xff, 0xff, nullptr}, masks);
-                for (std::size_t j = 0; j < kLanes; ++j) {
-                    for (std::size_t i = 0; i < kLanes; ++i) {
-                        const double overlap = face_overlap(pose, a, i, b, j);
-                        const bool found =
-                            ((rows >> j) & 1) != 0 && ((masks.of_a[j] >> i) & 1) != 0;
-                        if (overlap >= 0) {
-                            ASSERT_TRUE(found) << round << ": " << i << ", " << j;
-                        }
-                        if (overlap < -4e-5) {
-                            ASSERT_FALSE(found) << round << ": " << i << ", " << j;
-                        }
-                        if (with_depth) {
-                            ASSERT_NEAR(masks.depth[j][i], overlap, 4e-5);
-                        }
-                        set += found ? 1 : 0;
-                        ++all;
+            const NodeBoxes node_a{a.data(), nullptr}, node_b{b.data(), nullptr};
+            const BoxChoice everything{0xff, 0xff, nullptr};
+            BoxSizes sizes{};
+            const BoxPairs pairs =
+                table.overlapping_boxes(placement, node_a, node_b, everything, sizes);
+            for (std::size_t j = 0; j < kLanes; ++j) {
+                for (std::size_t i = 0; i < kLanes; ++i) {
+                    const double overlap = face_overlap(pose, a, i, b, j);
+                    const bool found = has(pairs, i, j);
+                    if (overlap >= 0) {
+                        ASSERT_TRUE(found) << round << ": " << i << ", " << j;
                     }
+                    if (overlap < -4e-5) {
+                        ASSERT_FALSE(found) << round << ": " << i << ", " << j;
+                    }
+                    set += found ? 1 : 0;
+                    ++all;
                 }
+            }
+            BoxPairFloats depths{};
+            ASSERT_EQ(table.overlap_depths(placement, node_a, node_b, everything, sizes, depths),
+                      pairs);
+            for (std::size_t j = 0; j < kLanes; ++j) {
+                for (std::size_t i = 0; i < kLanes; ++i) {
+                    ASSERT_NEAR(depths.value[j][i], face_overlap(pose, a, i, b, j), 4e-5);
+                }
+                ASSERT_NEAR(sizes.a[j], half_edges(a, j), 1e-6);
+                ASSERT_NEAR(sizes.b[j], half_edges(b, j), 1e-6);
             }
         });
     }
     // Neither answer may be rare, or this test would prove nothing.
     EXPECT_GT(set, all / 30);
     EXPECT_LT(set, all * 9 / 10);
+}
+
+TEST(Kernels, EitherSideOfASetOfPairs) {
+    std::mt19937_64 random(2);
+    for (int round = 0; round < 1000; ++round) {
+        const BoxPairs pairs = random() & random() & random() & random() & random();
+        unsigned of_a = 0, of_b = 0;
+        for (unsigned i = 0; i < kLanes; ++i) {
+            for (unsigned j = 0; j < kLanes; ++j) {
+                of_a |= static_cast<unsigned>(has(pairs, i, j)) << i;
+                of_b |= static_cast<unsigned>(has(pairs, i, j)) << j;
+            }
+        }
+        ASSERT_EQ(boxes_of_a(pairs), of_a);
+        ASSERT_EQ(boxes_of_b(pairs), of_b);
+    }
 }
 
 TEST(Kernels, OnlyChosenBoxesAreAnswered) {
@@ -145,19 +176,20 @@ TEST(Kernels, OnlyChosenBoxesAreAnswered) {
         const auto of_a = static_cast<std::uint8_t>(random());
         const auto of_b = static_cast<std::uint8_t>(random());
         for_each_table([&](const Table& table) {
-            BoxMasks whole{}, part{};
             const NodeBoxes node_a{a.data(), nullptr}, node_b{b.data(), nullptr};
-            const unsigned all =
-                table.overlapping_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, whole);
-            const unsigned rows =
-                table.overlapping_boxes(placement, node_a, node_b, {of_a, of_b, nullptr}, part);
+            BoxSizes sizes{};
+            const BoxPairs whole =
+                table.overlapping_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, sizes);
+            const BoxChoice choice{of_a, of_b, nullptr};
+            BoxPairs expected = 0;
             for (unsigned j = 0; j < kLanes; ++j) {
-                const unsigned expected = ((all & of_b) >> j & 1) != 0 ? whole.of_a[j] & of_a : 0u;
-                ASSERT_EQ((rows >> j) & 1, expected != 0 ? 1u : 0u);
-                if (expected != 0) {
-                    ASSERT_EQ(part.of_a[j], expected);
-                }
+                if ((of_b >> j & 1) != 0) expected |= BoxPairs{of_a} << (kLanes * j);
             }
+            expected &= whole;
+            ASSERT_EQ(table.overlapping_boxes(placement, node_a, node_b, choice, sizes), expected);
+            BoxPairFloats depths{};
+            ASSERT_EQ(table.overlap_depths(placement, node_a, node_b, choice, sizes, depths),
+                      expected);
         });
     }
 }
@@ -182,19 +214,16 @@ TEST(Kernels, TheBoxAroundANodeRulesOutNothingThatOverlapsItsBoxes) {
         }
         const BoxPlacement placement = placement_of(test::random_pose(random, 0.7), 1e-5F);
         for_each_table([&](const Table& table) {
-            BoxMasks with{}, without{};
             const NodeBoxes node_a{a.data(), nullptr}, node_b{b.data(), nullptr};
-            const unsigned rows = table.overlapping_boxes(placement, node_a, node_b,
-                                                          {0xff, 0xff, around.data()}, with);
-            const unsigned all =
-                table.overlapping_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, without);
-            ASSERT_EQ(rows, all);
+            BoxSizes sizes{};
+            const BoxPairs all =
+                table.overlapping_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, sizes);
+            ASSERT_EQ(table.overlapping_boxes(placement, node_a, node_b,
+                                              {0xff, 0xff, around.data()}, sizes),
+                      all);
             for (unsigned j = 0; j < kLanes; ++j) {
-                if ((rows >> j & 1) != 0) {
-                    ASSERT_EQ(with.of_a[j], without.of_a[j]);
-                }
+                ruled_out += ((all >> (kLanes * j)) & 0xff) == 0 ? 1 : 0;
             }
-            ruled_out += kLanes - static_cast<unsigned>(std::popcount(rows));
         });
     }
     EXPECT_GT(ruled_out, 1000u);
@@ -249,20 +278,14 @@ TEST(Kernels, OrientedBoxesWithACommonPointAreNeverSeparated) {
         const OrientedNode elsewhere = boxes_with(random, moved_back(pose, {0.5, 0.1, -0.4}));
         const BoxPlacement placement = placement_of(pose, 6e-6F);
         for_each_table([&](const Table& table) {
-            BoxMasks masks{};
-            ASSERT_EQ(table.overlapping_boxes(placement, {everything.data(), a.data()},
-                                              {everything.data(), b.data()}, {0xff, 0xff, nullptr},
-                                              masks),
-                      0xffu)
-                << round;
-            for (const std::uint8_t mask : masks.of_a) ASSERT_EQ(mask, 0xff) << round;
-            masks = {};
-            table.overlapping_boxes(placement, {everything.data(), a.data()},
-                                    {everything.data(), elsewhere.data()}, {0xff, 0xff, nullptr},
-                                    masks);
-            for (const std::uint8_t mask : masks.of_a) {
-                separated += kLanes - static_cast<unsigned>(std::popcount(mask));
-            }
+            BoxSizes sizes{};
+            const auto pairs_with = [&](const OrientedNode& other) {
+                return table.overlapping_boxes(placement, {everything.data(), a.data()},
+                                               {everything.data(), other.data()},
+                                               {0xff, 0xff, nullptr}, sizes);
+            };
+            ASSERT_EQ(pairs_with(b), ~BoxPairs{0}) << round;
+            separated += static_cast<unsigned>(std::popcount(~pairs_with(elsewhere)));
         });
     }
     EXPECT_GT(separated, 100'000u);  // boxes around another point are told apart
@@ -450,35 +473,27 @@ TEST(Kernels, BoxesAreNoFurtherApartThanPointsInThem) {
         const OrientedNode b = boxes_with(random, moved_back(pose, at_b));
         const BoxPlacement placement = placement_of(pose, 6e-6F);
         for_each_table([&](const Table& table) {
-            BoxMasks masks{};
+            BoxPairFloats gaps{};
             const NodeBoxes node_a{everything.data(), a.data()};
             const NodeBoxes node_b{everything.data(), b.data()};
             Reach reach = reach_along(pose, {0.7, 0.8, -0.7}, between);
             ASSERT_EQ(
-                table.near_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, reach, masks),
-                0xffu);
+                table.near_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, reach, gaps),
+                ~BoxPairs{0});
+            // What is farther than half as far is to be left out, and nothing else.
+            reach.limit /= 2;
+            BoxPairs expected = 0;
             for (std::size_t j = 0; j < kLanes; ++j) {
-                ASSERT_EQ(masks.of_a[j], 0xff);
                 for (std::size_t i = 0; i < kLanes; ++i) {
-                    ASSERT_LE(masks.depth[j][i], between);
-                    tightest = std::max(tightest, double{masks.depth[j][i]});
+                    const float lower = gaps.value[j][i];
+                    ASSERT_LE(lower, between);
+                    tightest = std::max(tightest, double{lower});
+                    expected |= BoxPairs{lower <= reach.limit} << (kLanes * j + i);
                 }
             }
-            // What is farther than the limit is left out, and nothing else.
-            BoxMasks fewer{};
-            const float limit = reach.limit /= 2;
-            const unsigned rows =
-                table.near_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, reach, fewer);
-            for (std::size_t j = 0; j < kLanes; ++j) {
-                unsigned expected = 0;
-                for (std::size_t i = 0; i < kLanes; ++i) {
-                    expected |= static_cast<unsigned>(masks.depth[j][i] <= limit) << i;
-                }
-                ASSERT_EQ((rows >> j) & 1, expected != 0 ? 1u : 0u);
-                if (expected != 0) {
-                    ASSERT_EQ(fewer.of_a[j], expected);
-                }
-            }
+            ASSERT_EQ(
+                table.near_boxes(placement, node_a, node_b, {0xff, 0xff, nullptr}, reach, gaps),
+                expected);
         });
     }
     EXPECT_GT(tightest, 0.9 * between);
