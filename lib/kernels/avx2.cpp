@@ -26,10 +26,41 @@ inline unsigned bits(Mask8 a) noexcept {
     return static_cast<unsigned>(_mm256_movemask_ps(a.x));
 }
 
+/// For each set of eight bits the numbers of those that are set, one after the other.
+struct SetBits {
+    alignas(8) std::uint8_t number[256][8];
+};
+constexpr SetBits set_bits() noexcept {
+    SetBits set{};
+    for (unsigned bits = 0; bits < 256; ++bits) {
+        unsigned count = 0;
+        for (unsigned i = 0; i < 8; ++i) {
+            if ((bits >> i & 1) != 0) set.number[bits][count++] = static_cast<std::uint8_t>(i);
+        }
+    }
+    return set;
+}
+constexpr SetBits kSetBits = set_bits();
+
+/// Eight places.
+struct Index8 {
+    __m256i x;
+};
+inline Index8 operator+(Index8 a, Index8 b) noexcept {
+    return {_mm256_add_epi32(a.x, b.x)};
+}
+inline Index8 shifted_right(Index8 a, int by) noexcept {
+    return {_mm256_srli_epi32(a.x, by)};
+}
+/// The lowest three.
+inline Index8 low_bits(Index8 a) noexcept {
+    return {_mm256_and_si256(a.x, _mm256_set1_epi32(7))};
+}
+
 /// Eight floats.
 struct F8 {
     using Mask = Mask8;
-    using Index = __m256i;
+    using Index = Index8;
     static constexpr unsigned kCount = 8;
     static constexpr unsigned kRows = 1;
     __m256 x;
@@ -40,16 +71,27 @@ struct F8 {
     static F8 load(const float* p) noexcept {
         return _mm256_loadu_ps(p);
     }
-    static Index load_index(const std::int32_t* p) noexcept {
-        return _mm256_load_si256(reinterpret_cast<const __m256i*>(p));
+    static Index load_index(const std::uint16_t* p) noexcept {
+        return {_mm256_cvtepu16_epi32(_mm_loadu_si128(reinterpret_cast<const __m128i*>(p)))};
+    }
+    static Index gather_index(const std::int32_t* base, Index at) noexcept {
+        return {_mm256_i32gather_epi32(base, at.x, 4)};
     }
     static F8 gather(const float* base, Index at) noexcept {
-        return _mm256_i32gather_ps(base, at, 4);
+        return _mm256_i32gather_ps(base, at.x, 4);
     }
     /// One of eight, the same for all lanes.
     template <class Rows>
     static F8 spread(const float* p, const Rows& at) noexcept {
         return F8(p[at.first]);
+    }
+    /// first + i for each bit i that is set, one after the other. May write eight.
+    static void store_lanes(unsigned bits, unsigned first, unsigned /*second*/,
+                            std::uint16_t* to) noexcept {
+        const auto* numbers = reinterpret_cast<const __m128i*>(kSetBits.number[bits]);
+        const __m128i lanes = _mm_cvtepu8_epi16(_mm_loadl_epi64(numbers));
+        const __m128i base = _mm_set1_epi16(static_cast<short>(first));
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm_add_epi16(lanes, base));
     }
     void store_all(float* p) const noexcept {
         store(p);

@@ -85,10 +85,25 @@ inline F8::Mask greater(F8 a, F8 b) noexcept {
     return {_mm256_cmp_ps_mask(a.x, b.x, _CMP_GT_OQ)};
 }
 
+/// Sixteen places.
+struct Index16 {
+    __m512i x;
+};
+inline Index16 operator+(Index16 a, Index16 b) noexcept {
+    return {_mm512_add_epi32(a.x, b.x)};
+}
+inline Index16 shifted_right(Index16 a, unsigned by) noexcept {
+    return {_mm512_srli_epi32(a.x, by)};
+}
+/// The lowest three.
+inline Index16 low_bits(Index16 a) noexcept {
+    return {_mm512_and_si512(a.x, _mm512_set1_epi32(7))};
+}
+
 /// Sixteen floats.
 struct F16 {
     using Mask = LaneMask<__mmask16>;
-    using Index = __m512i;
+    using Index = Index16;
     static constexpr unsigned kCount = 16;
     static constexpr unsigned kRows = 2;
     __m512 x;
@@ -107,6 +122,18 @@ struct F16 {
         return _mm512_mask_broadcastss_ps(_mm512_set1_ps(p[at.first]), kUpper,
                                           _mm_load_ss(p + at.second));
     }
+    /// For each bit that is set, one after the other: first + i for bit i, second + i
+    /// for bit 8 + i. May write sixteen.
+    static void store_lanes(unsigned bits, unsigned first, unsigned second,
+                            std::uint16_t* to) noexcept {
+        constexpr __mmask16 kUpper = 0xff00;
+        const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
+        const __m512i base = _mm512_mask_set1_epi32(_mm512_set1_epi32(static_cast<int>(first)),
+                                                    kUpper, static_cast<int>(second));
+        const __m512i kept =
+            _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_add_epi32(lane, base));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_cvtepi32_epi16(kept));
+    }
     void store_all(float* p) const noexcept {
         _mm512_storeu_ps(p, x);
     }
@@ -121,11 +148,14 @@ struct F16 {
     static Mask none() noexcept {
         return {0};
     }
-    static Index load_index(const std::int32_t* p) noexcept {
-        return _mm512_load_si512(p);
+    static Index load_index(const std::uint16_t* p) noexcept {
+        return {_mm512_cvtepu16_epi32(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)))};
+    }
+    static Index gather_index(const std::int32_t* base, Index at) noexcept {
+        return {_mm512_i32gather_epi32(at.x, base, 4)};
     }
     static F16 gather(const float* base, Index at) noexcept {
-        return _mm512_i32gather_ps(at, base, 4);
+        return _mm512_i32gather_ps(at.x, base, 4);
     }
 };
 inline F16 operator+(F16 a, F16 b) noexcept {

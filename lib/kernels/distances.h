@@ -125,39 +125,42 @@ struct Range {
 
 /// Where eight triangles lie along a direction.
 template <class F>
-Range<F> corner_range(const float (*rows)[kLanes], const float* direction) noexcept {
+Range<F> corner_range(const F corner[3][3], const float* direction) noexcept {
     const F d[3] = {F(direction[0]), F(direction[1]), F(direction[2])};
-    F least;
-    F greatest;
+    const F first = dot(corner[0], d);
+    const F second = dot(corner[1], d);
+    const F third = dot(corner[2], d);
+    return {min(min(first, second), third), max(max(first, second), third)};
+}
+
+/// Where B's triangles begin along the direction.
+template <class F>
+void store_begins(const Rows& b, const float* direction, float* begins) noexcept {
+    F corner[3][3];
     for (std::size_t i = 0; i < 3; ++i) {
-        const F corner[3] = {F::load(rows[kCorner + 3 * i]), F::load(rows[kCorner + 3 * i + 1]),
-                             F::load(rows[kCorner + 3 * i + 2])};
-        const F at = dot(corner, d);
-        least = i == 0 ? at : min(least, at);
-        greatest = i == 0 ? at : max(greatest, at);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            corner[i][axis] = F::load(b[kCorner + 3 * i + axis]);
+        }
     }
-    return {least, greatest};
+    corner_range(corner, direction).least.store(begins);
 }
 
 /// Triangles of A that come within the limit of triangles of B, by their boxes and
 /// along the direction: `ends` is where A's triangles end, `begins` where B's begin.
 /// Eight bits a row.
 template <class R>
-unsigned near_rows(const Block& block, RowPair at, R ends, const float* begins,
-                   float limit) noexcept {
-    const float(*a)[kLanes] = block;
-    const float(*b)[kLanes] = block + kSide;
-    const R twice_error = R(2.0F * block[kError][0]);
+unsigned near_rows(const ShiftedTriangles<R>& a, const Rows& b, RowPair at, const R& ends,
+                   const float* begins, const LeafShift& leaf, float limit) noexcept {
     R gap[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const R above = R::load(a[kLower + axis]) - R::spread(b[kUpper + axis], at);
-        const R below = R::spread(b[kLower + axis], at) - R::load(a[kUpper + axis]);
-        gap[axis] = max(above, below) - twice_error;
+        const R above = a.lower[axis] - R::spread(b[kUpper + axis], at);
+        const R below = R::spread(b[kLower + axis], at) - a.upper[axis];
+        gap[axis] = max(above, below);
     }
     const R squared = squared_length(gap) * R(kGapRounding);
     // The error of a corner is more than 3 u times any coordinate: 12 of them cover
     // the corners' own and the rounding of two dot products.
-    const R along = (R::spread(begins, at) - ends) - R(12.0F * block[kError][0]);
+    const R along = (R::spread(begins, at) - ends) - R(12.0F * leaf.error);
     return ~bits(greater(squared, R(limit * limit)) | greater(along, R(limit)));
 }
 
@@ -283,37 +286,18 @@ W support_gap(const LaneTriangle<W>& a, const LaneTriangle<W>& b, const LaneNear
     return max(select(known, gap - rounding, W(0.0F)), W(0.0F));
 }
 
-/// The body of near_triangles().
-template <class F, class R, class W>
-std::size_t near_triangles_of(const LeafPlacement& placement, const LeafPair& pair,
-                              const Reach& reach, LeafScratch& scratch) noexcept {
-    Block& block = scratch.block[0];
-    const float limit = reach.limit;
-    unsigned rows = place_leaves<F>(placement, pair, limit, block);
-    if (rows == 0) return 0;
-    alignas(32) float begins[kLanes];
-    corner_range<F>(block + kSide, reach.direction).least.store(begins);
-    const R ends = corner_range<R>(block, reach.direction).greatest;
-    std::size_t candidates = 0;
-    while (rows != 0) {
-        const RowPair at = take_rows<R>(rows);
-        const unsigned found = near_rows<R>(block, at, ends, begins, limit);
-        candidates = append(0, at.first, found & pair.used_a, scratch.candidate, candidates);
-        if (R::kRows == 2 && at.second != at.first) {
-            candidates = append(0, at.second, (found >> kLanes) & pair.used_a, scratch.candidate,
-                                candidates);
-        }
-    }
-    const float* base = block[0];
+/// Bounds the gaps of the candidates, W::kCount at a time; returns how many are kept.
+template <class W>
+std::size_t keep_near(std::size_t candidates, float limit, LeafScratch& scratch) noexcept {
     std::size_t kept = 0;
+    fill_up<W>(scratch.candidate, candidates);
     for (std::size_t first = 0; first < candidates; first += W::kCount) {
-        const LaneIndices<W> lanes(scratch.candidate, first, candidates);
-        const LaneTriangle<W> a = gathered<W>(base, lanes.of_a());
-        const LaneTriangle<W> b = gathered<W>(base, lanes.of_b());
-        const W gap = support_gap(a, b, nearest_of(a, b), W(block[kError][0]));
+        const LanePairs<W> triangles(scratch, scratch.candidate + first);
+        const W gap = support_gap(triangles.a, triangles.b, nearest_of(triangles.a, triangles.b),
+                                  triangles.error);
         alignas(64) float lower[W::kCount];
         gap.store_all(lower);
-        for (std::size_t i = 0; i < lanes.count(); ++i) {
+        for (std::size_t i = 0; i < lanes_used<W>(first, candidates); ++i) {
             if (lower[i] > limit) continue;
             const unsigned candidate = scratch.candidate[first + i];
             scratch.gap[kept++] = {lower[i], static_cast<std::uint8_t>(candidate & 7),
@@ -321,6 +305,29 @@ std::size_t near_triangles_of(const LeafPlacement& placement, const LeafPair& pa
         }
     }
     return kept;
+}
+
+/// The body of near_triangles().
+template <class F, class R, class W>
+std::size_t near_triangles_of(const LeafPlacement& placement, const LeafPair& pair,
+                              const Reach& reach, LeafScratch& scratch) noexcept {
+    MetLeaves met = meet<F>(placement, pair, 0, reach.limit, scratch);
+    if (met.rows == 0) return 0;
+    const LeafShift& leaf = met.leaf;
+    const Rows& b = scratch.b.leaf[place_of(pair.number_b)].row;
+    ShiftedTriangles<R> a;
+    load_shifted(placed_in_a<F>(placement, pair, scratch), leaf,
+                 error_factors(leaf.reach, leaf.error), a);
+    alignas(32) float begins[kLanes];
+    store_begins<F>(b, reach.direction, begins);
+    const R ends = corner_range(a.corner, reach.direction).greatest;
+    std::size_t candidates = 0;
+    while (met.rows != 0) {
+        const RowPair at = take_rows<R>(met.rows);
+        const unsigned found = near_rows(a, b, at, ends, begins, leaf, reach.limit);
+        candidates = append_rows<R>(0, at, found, pair.used_a, scratch.candidate, candidates);
+    }
+    return keep_near<W>(candidates, reach.limit, scratch);
 }
 
 }  // namespace

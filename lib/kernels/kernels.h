@@ -47,8 +47,9 @@ struct BoxChoice {
     const float* around_a;
 };
 
-inline constexpr std::size_t kLanes = 8;       ///< boxes of a node, triangles of a leaf
-inline constexpr std::size_t kLeafBatch = 16;  ///< leaf pairs that one call takes
+inline constexpr std::size_t kLanes = 8;        ///< boxes of a node, triangles of a leaf
+inline constexpr std::size_t kLeafBatch = 16;   ///< leaf pairs that one call takes
+inline constexpr std::size_t kLeafPlaces = 64;  ///< leaves of either model that stay placed
 
 /// A set of pairs of boxes: bit 8 j + i for box i of A and box j of B.
 using BoxPairs = std::uint64_t;
@@ -93,6 +94,8 @@ inline constexpr std::size_t kLeafHalf = 75;
 struct LeafPair {
     const float* a;
     const float* b;
+    std::uint32_t number_a;  ///< tells leaves of one model apart
+    std::uint32_t number_b;
     std::uint8_t used_a;  ///< bit set of triangles
     std::uint8_t used_b;
 };
@@ -142,13 +145,40 @@ struct TriangleContactLanes {
     bool certain;       ///< they cross; else the kernel cannot tell
 };
 
-/// What find_contacts() works in and answers in. Need not be initialised.
+/// A leaf along A's axes, around its own middle, as the tests of its triangles want
+/// it: the same for all leaves of the other model.
+struct PlacedLeaf {
+    static constexpr std::size_t kRows = 20;
+    alignas(64) float row[kRows][kLanes];
+};
+
+/// The leaves of one model that are placed already, by number modulo kLeafPlaces.
+struct PlacedLeaves {
+    PlacedLeaf leaf[kLeafPlaces];
+    double middle[kLeafPlaces][3];          ///< pair units; of B's leaves alone
+    std::uint64_t holds[kLeafPlaces] = {};  ///< the question, shifted by 32, and the number
+};
+
+/// What the leaf kernels work in and answer in. What has no initial value need not
+/// have one.
 struct LeafScratch {
-    static constexpr std::size_t kRows = 39;
-    alignas(64) float block[kLeafBatch][kRows][kLanes];
-    std::uint16_t candidate[kLeafBatch * kLanes * kLanes + kLanes];
+    PlacedLeaves a;
+    PlacedLeaves b;
+    std::uint64_t question = 0;                     ///< begin() makes it a number of its own
+    alignas(64) float shift[4][kLeafBatch];         ///< of A's corners to B's, and the error
+    alignas(64) std::int32_t place[2][kLeafBatch];  ///< of A's and of B's leaf, in floats
+    std::uint16_t candidate[kLeafBatch * kLanes * kLanes + 2 * kLanes];  ///< stores reach beyond
     TriangleContactLanes found[kLeafBatch * kLanes * kLanes];
     TriangleGap gap[kLanes * kLanes];
+
+    /// To be called before the first leaves of another placement or other models.
+    void begin() noexcept {
+        constexpr std::uint64_t kQuestions = std::uint64_t{1} << 32;
+        if (++question < kQuestions) return;
+        question = 1;
+        for (std::uint64_t& number : a.holds) number = 0;
+        for (std::uint64_t& number : b.holds) number = 0;
+    }
 };
 
 /// One instruction set's kernels.

@@ -1,201 +1,55 @@
 // SPDX-License-Identifier: MIT
 // Triangle against triangle, eight pairs and more at a time. Included by kernel
 // sources alone, after they have defined the lanes: F of eight floats, W of eight
-// or more, each with its mask type.
-//
-// Rounding. Let u = 2^-24 and d the error of a pair: no corner, in the coordinates
-// computed here, is further than d from where the question has it along any axis.
-// A determinant of three differences U, V, W of corners is then off
-//   - by the corners: each row moves by 2d per component, and the cross product of
-//     two rows has components of at most 2|V||W| (largest components), six such
-//     terms in all: 12 d (|V||W| + |U||W| + |U||V|), where each norm already
-//     counts the other rows' motion and is therefore taken 3d too large;
-//   - by rounding: six products of three, each of a difference (u), two products
-//     (2u), and up to three sums of terms below 6|U||V||W| in all: 48 u |U||V||W|.
-// Underflow moves a product by 2^-126 at most, even where the processor flushes
-// subnormal numbers to zero; components are at most 4, so 1e-35 covers it.
+// or more, each with its mask type. placed_leaves.h bounds the rounding.
 #pragma once
 
-#include "box_overlap.h"
-#include "kernels.h"
+#include "placed_leaves.h"
 
 namespace cdprep::kernels {
 namespace {
 
-inline constexpr float kUlp = 0x1p-24F;
-inline constexpr float kUnderflow = 1e-35F;
-
-/// Rows of a block: corners, normals, tolerance, box of the eight triangles of
-/// each side, then the pair's error.
-enum Row : std::size_t {
-    kCorner = 0,
-    kNormal = 9,
-    kTolerance = 12,
-    kLower = 13,
-    kUpper = 16,
-    kSide = 19,
-    kError = 2 * kSide,
-};
-static_assert(LeafScratch::kRows == kError + 1);
-
-using Block = float[LeafScratch::kRows][kLanes];
-
-template <class F>
-F largest(const F* v) noexcept {
-    return max(max(abs(v[0]), abs(v[1])), abs(v[2]));
-}
-
-template <class F>
-void subtract(const F* a, const F* b, F* result) noexcept {
-    for (std::size_t i = 0; i < 3; ++i) result[i] = a[i] - b[i];
-}
-
-/// How far a determinant of rows with these largest components may be off.
-template <class F>
-F determinant_error(F u, F v, F w, F error) noexcept {
-    const F more = F(3.0F) * error;
-    u = u + more;
-    v = v + more;
-    w = w + more;
-    const F uv = u * v;
-    const F moved = fma(F(12.1F) * error, uv + w * (u + v), F(kUnderflow));
-    return fma(F(64 * kUlp) * uv, w, moved);
-}
-
-/// What the row test needs of eight triangles; `reach` is the largest component
-/// of any corner of the other leaf less one of theirs.
-template <class F>
-void describe(const F corner[3][3], float reach, float error, float (*rows)[kLanes]) noexcept {
-    F edge1[3];
-    F edge2[3];
-    subtract(corner[1], corner[0], edge1);
-    subtract(corner[2], corner[0], edge2);
-    F normal[3];
-    cross(edge1, edge2, normal);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < 3; ++i) corner[i][axis].store(rows[kCorner + 3 * i + axis]);
-        normal[axis].store(rows[kNormal + axis]);
-        min(min(corner[0][axis], corner[1][axis]), corner[2][axis]).store(rows[kLower + axis]);
-        max(max(corner[0][axis], corner[1][axis]), corner[2][axis]).store(rows[kUpper + axis]);
-    }
-    determinant_error(largest(edge1), largest(edge2), F(reach), F(error)).store(rows[kTolerance]);
-}
-
-/// B's leaf in the coordinates around the middle of A's.
-struct LeafOffset {
-    float offset[3];    ///< of B's middle
-    float middle_a[3];  ///< to be taken off the stored corners
-    float middle_b[3];
-    float half_a[3];
-    float reach;  ///< the largest difference of two corners along an axis, at least
-    float error;
+/// A's triangles where they stand to B's leaf.
+template <class R>
+struct ShiftedTriangles {
+    R corner[3][3];
+    R normal[3];
+    R lower[3];  ///< of the box, less twice the error
+    R upper[3];  ///< with it
+    R tolerance;
 };
 
-inline float absolute(float x) noexcept {
-    return x < 0 ? -x : x;
-}
-
-inline float largest(float x, float y, float z) noexcept {
-    const float xy = x > y ? x : y;
-    return xy > z ? xy : z;
-}
-
-inline LeafOffset offset_of(const LeafPlacement& p, const LeafPair& pair) noexcept {
-    const float* origin_a = pair.a + kLeafOrigin;
-    const float* origin_b = pair.b + kLeafOrigin;
-    double b[3];
-    for (std::size_t i = 0; i < 3; ++i) {
-        b[i] = (double{origin_b[i]} - p.b.frame_origin[i]) * p.b.scale;
-    }
-    LeafOffset leaf;
-    for (std::size_t i = 0; i < 3; ++i) {
-        const double* r = p.rotation + 3 * i;
-        const double a = (double{origin_a[i]} - p.a.frame_origin[i]) * p.a.scale;
-        const double at = ((r[0] * b[0] + r[1] * b[1]) + r[2] * b[2]) + p.shift[i];
-        leaf.offset[i] = static_cast<float>(at - a);
-        leaf.middle_a[i] = origin_a[i] * p.a.takes_origin;
-        leaf.middle_b[i] = origin_b[i] * p.b.takes_origin;
-        leaf.half_a[i] = pair.a[kLeafHalf + i] * p.a.box_scale;
-    }
-    const float far =
-        largest(absolute(leaf.offset[0]), absolute(leaf.offset[1]), absolute(leaf.offset[2]));
-    const float half = largest(leaf.half_a[0], leaf.half_a[1], leaf.half_a[2]);
-    const float* half_b = pair.b + kLeafHalf;
-    const float reach_b = largest(half_b[0], half_b[1], half_b[2]) * p.b.box_scale;
-    // A corner of B: rounded when baked and when the middle is taken off (u each),
-    // three rounded factors, products and sums: below 12 u sqrt 3 reach_b in all,
-    // and 5 u |offset|. A's corners: 2 u half_a.
-    leaf.error = p.error + kUlp * (21.0F * reach_b + 6.0F * far + 3.0F * half) + kUnderflow;
-    leaf.reach = far + half + 1.75F * reach_b;
-    return leaf;
-}
-
-/// Brings the triangles of both leaves into one place. Returns the triangles of B
-/// whose boxes come within `margin` of the box of A's leaf; without any, the block
-/// stays unfinished.
-template <class F>
-unsigned place_leaves(const LeafPlacement& placement, const LeafPair& pair, float margin,
-                      Block& block) noexcept {
-    const LeafOffset leaf = offset_of(placement, pair);
-    const float* r = placement.corner_rotation;
-    F b[3][3];
-    for (std::size_t i = 0; i < 3; ++i) {
-        F local[3];
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            local[axis] = F::load(pair.b + kLanes * (3 * i + axis)) - F(leaf.middle_b[axis]);
-        }
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const float* row = r + 3 * axis;
-            b[i][axis] =
-                fma(F(row[0]), local[0],
-                    fma(F(row[1]), local[1], fma(F(row[2]), local[2], F(leaf.offset[axis]))));
-        }
-    }
-    typename F::Mask out = F::none();
+template <class R>
+void load_shifted(const Rows& a, const LeafShift& leaf, const ErrorFactors& factors,
+                  ShiftedTriangles<R>& triangles) noexcept {
+    const R twice_error(2.0F * leaf.error);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const F limit(leaf.half_a[axis] + 2 * leaf.error + margin);
-        const F lower = min(min(b[0][axis], b[1][axis]), b[2][axis]);
-        const F upper = max(max(b[0][axis], b[1][axis]), b[2][axis]);
-        out = out | greater(lower, limit) | greater(-limit, upper);
-    }
-    const unsigned live = pair.used_b & ~bits(out);
-    if (live == 0) return 0;
-    const F scale_a(static_cast<float>(placement.a.scale));
-    F a[3][3];
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            a[i][axis] =
-                (F::load(pair.a + kLanes * (3 * i + axis)) - F(leaf.middle_a[axis])) * scale_a;
+        const R shift(leaf.shift[axis]);
+        for (std::size_t i = 0; i < 3; ++i) {
+            triangles.corner[i][axis] = R::load(a[kCorner + 3 * i + axis]) + shift;
         }
+        triangles.normal[axis] = R::load(a[kNormal + axis]);
+        triangles.lower[axis] = R::load(a[kLower + axis]) + shift - twice_error;
+        triangles.upper[axis] = R::load(a[kUpper + axis]) + shift + twice_error;
     }
-    describe(a, leaf.reach, leaf.error, block);
-    describe(b, leaf.reach, leaf.error, block + kSide);
-    F(leaf.error).store(block[kError]);
-    return live;
+    triangles.tolerance = tolerance_of(R::load(a[kEdgeProduct]), R::load(a[kEdgeSum]), factors);
 }
 
 /// Triangles of A that triangles of B may meet: boxes, then the sides of both
 /// planes. Eight bits a row.
 template <class R>
-unsigned row_candidates(const Block& block, RowPair at) noexcept {
-    const float(*a)[kLanes] = block;
-    const float(*b)[kLanes] = block + kSide;
-    const R twice_error = R(2.0F * block[kError][0]);
+unsigned row_candidates(const ShiftedTriangles<R>& a, const Rows& b, const ErrorFactors& factors,
+                        RowPair at) noexcept {
     typename R::Mask out = R::none();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        out = out |
-              greater(R::load(a[kLower + axis]), R::spread(b[kUpper + axis], at) + twice_error) |
-              greater(R::spread(b[kLower + axis], at), R::load(a[kUpper + axis]) + twice_error);
+        out = out | greater(a.lower[axis], R::spread(b[kUpper + axis], at)) |
+              greater(R::spread(b[kLower + axis], at), a.upper[axis]);
     }
-    R normal_a[3];
     R normal_b[3];
-    R corner_a[3][3];
     R corner_b[3][3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        normal_a[axis] = R::load(a[kNormal + axis]);
         normal_b[axis] = R::spread(b[kNormal + axis], at);
         for (std::size_t i = 0; i < 3; ++i) {
-            corner_a[i][axis] = R::load(a[kCorner + 3 * i + axis]);
             corner_b[i][axis] = R::spread(b[kCorner + 3 * i + axis], at);
         }
     }
@@ -203,15 +57,15 @@ unsigned row_candidates(const Block& block, RowPair at) noexcept {
     R side_b[3];
     for (std::size_t i = 0; i < 3; ++i) {
         R difference[3];
-        subtract(corner_b[i], corner_a[0], difference);
-        side_b[i] = dot(difference, normal_a);
-        subtract(corner_a[i], corner_b[0], difference);
+        subtract(corner_b[i], a.corner[0], difference);
+        side_b[i] = dot(difference, a.normal);
+        subtract(a.corner[i], corner_b[0], difference);
         side_a[i] = dot(difference, normal_b);
     }
-    const R tolerance_a = R::load(a[kTolerance]);
-    const R tolerance_b = R::spread(b[kTolerance], at);
-    out = out | greater(min(min(side_b[0], side_b[1]), side_b[2]), tolerance_a) |
-          greater(-tolerance_a, max(max(side_b[0], side_b[1]), side_b[2])) |
+    const R tolerance_b =
+        tolerance_of(R::spread(b[kEdgeProduct], at), R::spread(b[kEdgeSum], at), factors);
+    out = out | greater(min(min(side_b[0], side_b[1]), side_b[2]), a.tolerance) |
+          greater(-a.tolerance, max(max(side_b[0], side_b[1]), side_b[2])) |
           greater(min(min(side_a[0], side_a[1]), side_a[2]), tolerance_b) |
           greater(-tolerance_b, max(max(side_a[0], side_a[1]), side_a[2]));
     return ~bits(out);
@@ -224,7 +78,8 @@ struct LaneTriangle {
 };
 
 template <class W>
-LaneTriangle<W> gathered(const float* base, typename W::Index at) noexcept {
+LaneTriangle<W> gathered(const PlacedLeaves& leaves, typename W::Index at) noexcept {
+    const float* base = leaves.leaf[0].row[0];
     LaneTriangle<W> triangle;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -357,47 +212,48 @@ Verdict judge(const LaneTriangle<W>& a, const LaneTriangle<W>& b, W error) noexc
     return {crossing, ~(crossing | bits(apart | (certain & beyond)))};
 }
 
-/// Where the blocks keep some of the candidates, (pair << 6 | b << 3 | a) each;
-/// lanes past the last repeat the first.
+/// Two triangles of each lane, in one place, and their error.
 template <class W>
-class LaneIndices {
-public:
-    LaneIndices(const std::uint16_t* candidate, std::size_t first, std::size_t end) noexcept
-        : count_(end - first < W::kCount ? end - first : std::size_t{W::kCount}) {
-        for (std::size_t i = 0; i < W::kCount; ++i) {
-            const unsigned at = candidate[first + (i < count_ ? i : 0)];
-            const auto block = static_cast<std::int32_t>((at >> 6) * LeafScratch::kRows * kLanes);
-            a_[i] = block + static_cast<std::int32_t>(at & 7);
-            b_[i] = block + static_cast<std::int32_t>(kSide * kLanes + ((at >> 3) & 7));
+struct LanePairs {
+    LaneTriangle<W> a;
+    LaneTriangle<W> b;
+    W error;
+
+    LanePairs(const LeafScratch& scratch, const std::uint16_t* candidate) noexcept {
+        const typename W::Index at = W::load_index(candidate);
+        const typename W::Index pair = shifted_right(at, 6);
+        a = gathered<W>(scratch.a, low_bits(at) + W::gather_index(scratch.place[0], pair));
+        b = gathered<W>(scratch.b,
+                        low_bits(shifted_right(at, 3)) + W::gather_index(scratch.place[1], pair));
+        error = W::gather(scratch.shift[3], pair);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const W shift = W::gather(scratch.shift[axis], pair);
+            for (auto& corner : a.corner) corner[axis] = corner[axis] + shift;
         }
     }
-    [[nodiscard]] std::size_t count() const noexcept {
-        return count_;
-    }
-    [[nodiscard]] typename W::Index of_a() const noexcept {
-        return W::load_index(a_);
-    }
-    [[nodiscard]] typename W::Index of_b() const noexcept {
-        return W::load_index(b_);
-    }
-
-private:
-    alignas(64) std::int32_t a_[W::kCount];
-    alignas(64) std::int32_t b_[W::kCount];
-    std::size_t count_;
 };
 
-/// Judges the candidates, W::kCount at a time.
+/// How many of the lanes from `first` on hold candidates.
 template <class W>
-std::size_t judge_all(std::size_t candidates, LeafScratch& scratch) noexcept {
-    const float* base = scratch.block[0][0];
-    std::size_t found = 0;
+std::size_t lanes_used(std::size_t first, std::size_t end) noexcept {
+    return end - first < W::kCount ? end - first : std::size_t{W::kCount};
+}
+
+/// Lanes past the last candidate repeat it.
+template <class W>
+void fill_up(std::uint16_t* candidate, std::size_t count) noexcept {
+    if (count == 0) return;
+    for (std::size_t i = 0; i < W::kCount; ++i) candidate[count + i] = candidate[count - 1];
+}
+
+/// Judges the candidates, W::kCount at a time; returns the new number of those found.
+template <class W>
+std::size_t judge_all(std::size_t candidates, std::size_t found, LeafScratch& scratch) noexcept {
+    fill_up<W>(scratch.candidate, candidates);
     for (std::size_t first = 0; first < candidates; first += W::kCount) {
-        const LaneIndices<W> lanes(scratch.candidate, first, candidates);
-        const W error = W::gather(base + kError * kLanes, lanes.of_a());
-        const Verdict verdict =
-            judge(gathered<W>(base, lanes.of_a()), gathered<W>(base, lanes.of_b()), error);
-        const unsigned used = (1U << lanes.count()) - 1;
+        const LanePairs<W> triangles(scratch, scratch.candidate + first);
+        const Verdict verdict = judge(triangles.a, triangles.b, triangles.error);
+        const unsigned used = (1U << lanes_used<W>(first, candidates)) - 1;
         for (unsigned rest = (verdict.crossing | verdict.unknown) & used; rest != 0;
              rest &= rest - 1) {
             const auto i = static_cast<unsigned>(__builtin_ctz(rest));
@@ -411,36 +267,91 @@ std::size_t judge_all(std::size_t candidates, LeafScratch& scratch) noexcept {
     return found;
 }
 
-/// Appends the triangles of A in a bit set, each with triangle b of B.
-inline std::size_t append(unsigned pair, std::size_t b, unsigned mask, std::uint16_t* candidate,
-                          std::size_t count) noexcept {
-    const unsigned base = pair << 6 | static_cast<unsigned>(b) << 3;
-    for (; mask != 0; mask &= mask - 1) {
-        candidate[count++] =
-            static_cast<std::uint16_t>(base | static_cast<unsigned>(__builtin_ctz(mask)));
+/// Appends the triangles of A in either row's bits, (pair << 6 | b << 3 | a) each;
+/// returns the new count. Without a branch: their number cannot be foreseen.
+template <class R>
+std::size_t append_rows(unsigned pair, RowPair at, unsigned found, unsigned used_a,
+                        std::uint16_t* candidate, std::size_t count) noexcept {
+    const bool one_row = R::kRows == 1 || at.second == at.first;
+    const unsigned kept = found & (one_row ? used_a : used_a | used_a << kLanes);
+    const unsigned first = pair << 6 | static_cast<unsigned>(at.first) << 3;
+    const unsigned second = pair << 6 | static_cast<unsigned>(at.second) << 3;
+    R::store_lanes(kept, first, second, candidate + count);
+    return count + static_cast<unsigned>(__builtin_popcount(kept));
+}
+
+/// Which leaf each place is for, over some pairs.
+class Claims {
+public:
+    /// False when either leaf's place is another's.
+    bool claim(const LeafPair& pair) noexcept {
+        return claim(a_, number_a_, pair.number_a) && claim(b_, number_b_, pair.number_b);
     }
-    return count;
+
+private:
+    static bool claim(std::uint64_t& taken, std::uint32_t* numbers, std::uint32_t number) noexcept {
+        const std::size_t at = place_of(number);
+        if (((taken >> at) & 1) != 0) return numbers[at] == number;
+        taken |= std::uint64_t{1} << at;
+        numbers[at] = number;
+        return true;
+    }
+    std::uint64_t a_ = 0;
+    std::uint64_t b_ = 0;
+    std::uint32_t number_a_[kLeafPlaces];
+    std::uint32_t number_b_[kLeafPlaces];
+};
+static_assert(kLeafPlaces <= 64);
+
+/// One past the last of the pairs from `first` on whose leaves have places of their own.
+inline std::size_t end_of_run(const LeafPair* pairs, std::size_t first,
+                              std::size_t count) noexcept {
+    Claims claims;
+    while (first < count && claims.claim(pairs[first])) ++first;
+    return first;
+}
+
+/// Finds the candidates of pairs [first, last); returns their number. In two rounds:
+/// whether leaves meet cannot be foreseen, so it is worked out ahead for all.
+template <class F, class R>
+std::size_t find_candidates(const LeafPlacement& placement, const LeafPair* pairs,
+                            std::size_t first, std::size_t last, LeafScratch& scratch) noexcept {
+    MetLeaves met[kLeafBatch];
+    for (std::size_t i = first; i < last; ++i) {
+        met[i] = meet<F>(placement, pairs[i], i, 0, scratch);
+    }
+    std::size_t candidates = 0;
+    for (std::size_t i = first; i < last; ++i) {
+        unsigned rows = met[i].rows;
+        if (rows == 0) continue;
+        const LeafShift& leaf = met[i].leaf;
+        const Rows& b = scratch.b.leaf[place_of(pairs[i].number_b)].row;
+        const ErrorFactors factors = error_factors(leaf.reach, leaf.error);
+        ShiftedTriangles<R> a;
+        load_shifted(placed_in_a<F>(placement, pairs[i], scratch), leaf, factors, a);
+        while (rows != 0) {
+            const RowPair at = take_rows<R>(rows);
+            candidates =
+                append_rows<R>(static_cast<unsigned>(i), at, row_candidates(a, b, factors, at),
+                               pairs[i].used_a, scratch.candidate, candidates);
+        }
+    }
+    return candidates;
 }
 
 /// The body of find_contacts().
 template <class F, class R, class W>
 std::size_t find_contacts_of(const LeafPlacement& placement, const LeafPair* pairs,
                              std::size_t count, LeafScratch& scratch) noexcept {
-    std::size_t candidates = 0;
-    for (unsigned i = 0; i < count; ++i) {
-        unsigned rows = place_leaves<F>(placement, pairs[i], 0, scratch.block[i]);
-        while (rows != 0) {
-            const RowPair at = take_rows<R>(rows);
-            const unsigned found = row_candidates<R>(scratch.block[i], at);
-            candidates =
-                append(i, at.first, found & pairs[i].used_a, scratch.candidate, candidates);
-            if (R::kRows == 2 && at.second != at.first) {
-                candidates = append(i, at.second, (found >> kLanes) & pairs[i].used_a,
-                                    scratch.candidate, candidates);
-            }
-        }
+    std::size_t found = 0;
+    for (std::size_t first = 0; first < count;) {
+        const std::size_t last = end_of_run(pairs, first, count);
+        const std::size_t candidates =
+            find_candidates<F, R>(placement, pairs, first, last, scratch);
+        found = judge_all<W>(candidates, found, scratch);
+        first = last;
     }
-    return judge_all<W>(candidates, scratch);
+    return found;
 }
 
 }  // namespace

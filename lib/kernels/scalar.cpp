@@ -29,11 +29,16 @@ inline unsigned bits(Mask8 a) noexcept {
 /// Eight floats.
 struct F8 {
     using Mask = Mask8;
-    struct Index {
-        std::int32_t x[8];
-    };
     static constexpr unsigned kCount = 8;
     static constexpr unsigned kRows = 1;
+    struct Index {
+        std::int32_t x[8];
+        Index operator+(const Index& other) const noexcept {
+            Index sum;
+            for (unsigned i = 0; i < kCount; ++i) sum.x[i] = x[i] + other.x[i];
+            return sum;
+        }
+    };
     float x[8];
 
     F8() noexcept = default;
@@ -45,9 +50,14 @@ struct F8 {
         for (unsigned i = 0; i < kCount; ++i) result.x[i] = p[i];
         return result;
     }
-    static Index load_index(const std::int32_t* p) noexcept {
+    static Index load_index(const std::uint16_t* p) noexcept {
         Index result;
         for (unsigned i = 0; i < kCount; ++i) result.x[i] = p[i];
+        return result;
+    }
+    static Index gather_index(const std::int32_t* base, const Index& at) noexcept {
+        Index result;
+        for (unsigned i = 0; i < kCount; ++i) result.x[i] = base[at.x[i]];
         return result;
     }
     static F8 gather(const float* base, const Index& at) noexcept {
@@ -59,6 +69,14 @@ struct F8 {
     template <class Rows>
     static F8 spread(const float* p, const Rows& at) noexcept {
         return F8(p[at.first]);
+    }
+    /// first + i for each bit i that is set, one after the other. May write eight.
+    static void store_lanes(unsigned bits, unsigned first, unsigned /*second*/,
+                            std::uint16_t* to) noexcept {
+        for (unsigned i = 0; i < kCount; ++i) {
+            *to = static_cast<std::uint16_t>(first + i);
+            to += (bits >> i) & 1;
+        }
     }
     void store_all(float* p) const noexcept {
         store(p);
@@ -76,6 +94,18 @@ struct F8 {
         for (unsigned i = 0; i < kCount; ++i) p[i] = x[i];
     }
 };
+
+inline F8::Index shifted_right(const F8::Index& a, int by) noexcept {
+    F8::Index result;
+    for (unsigned i = 0; i < F8::kCount; ++i) result.x[i] = a.x[i] >> by;
+    return result;
+}
+/// The lowest three.
+inline F8::Index low_bits(const F8::Index& a) noexcept {
+    F8::Index result;
+    for (unsigned i = 0; i < F8::kCount; ++i) result.x[i] = a.x[i] & 7;
+    return result;
+}
 
 /// operation(lane) for each lane.
 template <class Operation>

@@ -23,7 +23,9 @@ public:
         : scratch_(scratch),
           leaves_a_(a.leaves().data()),
           leaves_b_(b.leaves().data()),
-          placement_(place_leaves(a, b, placed)) {}
+          placement_(place_leaves(a, b, placed)) {
+        scratch_.leaf_scratch.begin();
+    }
 
     [[nodiscard]] bool full() const noexcept {
         return count_ == kernels::kLeafBatch;
@@ -33,9 +35,8 @@ public:
         const format::BvhLeaf& b = leaves_b_[leaf_b];
         prefetch(&a);
         prefetch(&b);
-        scratch_.leaf_pairs[count_] = {a.corner[0][0].data(), b.corner[0][0].data(), used_lanes(a),
-                                       used_lanes(b)};
-        scratch_.leaf_numbers[count_] = std::uint64_t{leaf_a} << 32 | leaf_b;
+        scratch_.leaf_pairs[count_] = {a.corner[0][0].data(), b.corner[0][0].data(), leaf_a, leaf_b,
+                                       used_lanes(a),         used_lanes(b)};
         ++count_;
     }
 
@@ -49,10 +50,10 @@ public:
         count_ = 0;
         for (std::size_t i = 0; i < contacts; ++i) {
             const kernels::TriangleContactLanes& contact = scratch_.leaf_scratch.found[i];
-            const std::uint64_t leaves = scratch_.leaf_numbers[contact.pair];
-            const auto first_a = static_cast<std::uint32_t>(leaves >> 32) * format::kBvhWidth;
-            const auto first_b = static_cast<std::uint32_t>(leaves) * format::kBvhWidth;
-            if (!found(first_a + contact.a, first_b + contact.b, contact.certain)) return false;
+            const kernels::LeafPair& pair = scratch_.leaf_pairs[contact.pair];
+            const std::uint32_t at_a = pair.number_a * format::kBvhWidth + contact.a;
+            const std::uint32_t at_b = pair.number_b * format::kBvhWidth + contact.b;
+            if (!found(at_a, at_b, contact.certain)) return false;
         }
         return true;
     }

@@ -70,7 +70,6 @@ struct Workspace::Storage {
     std::array<std::uint64_t, kMaxFrontier> frontier_pairs;
     std::array<BoundedPlace, kMaxBoundedPlaces> bounded;
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
-    std::array<std::uint64_t, kernels::kLeafBatch> leaf_numbers;  ///< of A, then of B
     kernels::LeafScratch leaf_scratch;
     SortScratch sort_scratch;
 };

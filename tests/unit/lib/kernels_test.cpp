@@ -315,7 +315,7 @@ Leaf random_leaf(std::mt19937& random, bool coarse) {
 }
 
 LeafPair pair_of(const Leaf& a, const Leaf& b) {
-    return {a.data(), b.data(), 0xff, 0xff};
+    return {a.data(), b.data(), 0, 0, 0xff, 0xff};
 }
 
 /// Corners stored with the origin taken off, at (0, 0, 0).
@@ -345,6 +345,7 @@ TEST(Kernels, TriangleContactsAreCertainOrLeftOpen) {
         const LeafPlacement placement = leaf_placement(pose);
         const LeafPair pair = pair_of(a, b);
         for_each_table([&](const Table& table) {
+            scratch->begin();
             const std::size_t count = table.find_contacts(placement, &pair, 1, *scratch);
             std::array<std::array<int, 8>, 8> found{};  // 0: disjoint, 1: open, 2: crossing
             for (std::size_t i = 0; i < count; ++i) {
@@ -384,6 +385,7 @@ TEST(Kernels, FewFineTrianglesAreLeftOpen) {
         for (int round = 0; round < 2000; ++round) {
             const Leaf a = random_leaf(random, false), b = random_leaf(random, false);
             const LeafPair pair = pair_of(a, b);
+            scratch->begin();
             const std::size_t count = table.find_contacts(placement, &pair, 1, *scratch);
             for (std::size_t i = 0; i < count; ++i) {
                 (scratch->found[i].certain ? crossing : open) += 1;
@@ -407,35 +409,42 @@ TEST(Kernels, UnusedLanesAndOtherPairsStayOut) {
         pairs[i].used_b = static_cast<std::uint8_t>(random());
     }
     const LeafPlacement placement = leaf_placement(Pose());
-    for_each_table([&](const Table& table) {
-        const std::size_t count =
-            table.find_contacts(placement, pairs.data(), kLeafBatch, *scratch);
-        std::size_t expected = 0;
-        for (std::size_t p = 0; p < kLeafBatch; ++p) {
-            for (std::size_t i = 0; i < kLanes; ++i) {
-                for (std::size_t j = 0; j < kLanes; ++j) {
-                    if ((pairs[p].used_a >> i & 1) == 0 || (pairs[p].used_b >> j & 1) == 0)
-                        continue;
-                    expected +=
-                        triangles_touch(corners_of(a[p], i, Pose()), corners_of(b[p], j, Pose()))
-                            ? 1
-                            : 0;
+    // Each leaf in a place of its own, two to a place, and all in one.
+    for (const std::uint32_t stride : {1U, 8U, 64U})
+        for_each_table([&](const Table& table) {
+            for (std::uint32_t i = 0; i < kLeafBatch; ++i) {
+                pairs[i].number_a = i * stride;
+                pairs[i].number_b = (kLeafBatch - i) * stride;
+            }
+            scratch->begin();
+            const std::size_t count =
+                table.find_contacts(placement, pairs.data(), kLeafBatch, *scratch);
+            std::size_t expected = 0;
+            for (std::size_t p = 0; p < kLeafBatch; ++p) {
+                for (std::size_t i = 0; i < kLanes; ++i) {
+                    for (std::size_t j = 0; j < kLanes; ++j) {
+                        if ((pairs[p].used_a >> i & 1) == 0 || (pairs[p].used_b >> j & 1) == 0)
+                            continue;
+                        expected += triangles_touch(corners_of(a[p], i, Pose()),
+                                                    corners_of(b[p], j, Pose()))
+                                        ? 1
+                                        : 0;
+                    }
                 }
             }
-        }
-        std::size_t touching = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            const TriangleContactLanes& c = scratch->found[i];
-            ASSERT_NE(pairs[c.pair].used_a >> c.a & 1, 0);
-            ASSERT_NE(pairs[c.pair].used_b >> c.b & 1, 0);
-            touching += triangles_touch(corners_of(a[c.pair], c.a, Pose()),
-                                        corners_of(b[c.pair], c.b, Pose()))
-                            ? 1
-                            : 0;
-        }
-        EXPECT_EQ(touching, expected);
-        EXPECT_GT(expected, 50u);
-    });
+            std::size_t touching = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                const TriangleContactLanes& c = scratch->found[i];
+                ASSERT_NE(pairs[c.pair].used_a >> c.a & 1, 0);
+                ASSERT_NE(pairs[c.pair].used_b >> c.b & 1, 0);
+                touching += triangles_touch(corners_of(a[c.pair], c.a, Pose()),
+                                            corners_of(b[c.pair], c.b, Pose()))
+                                ? 1
+                                : 0;
+            }
+            EXPECT_EQ(touching, expected);
+            EXPECT_GT(expected, 50u);
+        });
 }
 
 /// A limit and a direction of unit length, or none.
@@ -516,6 +525,7 @@ TEST(Kernels, TrianglesAreNoNearerThanTheirGaps) {
                         1 + static_cast<double>(round % 5));
         const float limit = reach.limit;
         for_each_table([&](const Table& table) {
+            scratch->begin();
             const std::size_t count = table.near_triangles(placement, pair, reach, *scratch);
             std::array<std::array<float, 8>, 8> lower{};
             for (auto& row : lower) row.fill(1e30F);
