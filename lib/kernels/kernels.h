@@ -48,7 +48,7 @@ struct BoxChoice {
 };
 
 inline constexpr std::size_t kLanes = 8;        ///< boxes of a node, triangles of a leaf
-inline constexpr std::size_t kLeafBatch = 16;   ///< leaf pairs that one call takes
+inline constexpr std::size_t kLeafBatch = 32;   ///< leaf pairs that one call takes
 inline constexpr std::size_t kLeafPlaces = 64;  ///< leaves of either model that stay placed
 
 /// A set of pairs of boxes: bit 8 j + i for box i of A and box j of B.

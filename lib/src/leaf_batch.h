@@ -23,6 +23,8 @@ public:
         : scratch_(scratch),
           leaves_a_(a.leaves().data()),
           leaves_b_(b.leaves().data()),
+          source_a_(a.source_triangle().data()),
+          source_b_(b.source_triangle().data()),
           placement_(place_leaves(a, b, placed)) {
         scratch_.leaf_scratch.begin();
     }
@@ -31,13 +33,11 @@ public:
         return count_ == kernels::kLeafBatch;
     }
     void add(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
-        const format::BvhLeaf& a = leaves_a_[leaf_a];
-        const format::BvhLeaf& b = leaves_b_[leaf_b];
-        prefetch(&a);
-        prefetch(&b);
-        scratch_.leaf_pairs[count_] = {a.corner[0][0].data(), b.corner[0][0].data(), leaf_a, leaf_b,
-                                       used_lanes(a),         used_lanes(b)};
-        ++count_;
+        prefetch(&leaves_a_[leaf_a]);
+        prefetch(&leaves_b_[leaf_b]);
+        prefetch_sources(source_a_, leaf_a);
+        prefetch_sources(source_b_, leaf_b);
+        set_pair(count_++, leaf_a, leaf_b);
     }
 
     /// Calls found(triangle_a, triangle_b, certain), in tree order, for every pair
@@ -62,14 +62,22 @@ public:
     /// until the next call.
     std::span<kernels::TriangleGap> near_triangles(std::uint32_t leaf_a, std::uint32_t leaf_b,
                                                    const kernels::Reach& reach) noexcept {
-        add(leaf_a, leaf_b);
-        count_ = 0;
+        set_pair(0, leaf_a, leaf_b);
         const std::size_t found = kernels::active().near_triangles(
             placement_, scratch_.leaf_pairs[0], reach, scratch_.leaf_scratch);
         return std::span(scratch_.leaf_scratch.gap, found);
     }
 
 private:
+    void set_pair(std::size_t at, std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
+        const format::BvhLeaf& a = leaves_a_[leaf_a];
+        const format::BvhLeaf& b = leaves_b_[leaf_b];
+        scratch_.leaf_pairs[at] = {a.corner[0][0].data(), b.corner[0][0].data(), leaf_a, leaf_b,
+                                   used_lanes(a),         used_lanes(b)};
+    }
+    static void prefetch_sources(const std::uint32_t* sources, std::uint32_t leaf) noexcept {
+        if (sources != nullptr) prefetch(sources + std::size_t{leaf} * format::kBvhWidth);
+    }
     static std::uint8_t used_lanes(const format::BvhLeaf& leaf) noexcept {
         return static_cast<std::uint8_t>((1U << leaf.count) - 1);
     }
@@ -77,6 +85,8 @@ private:
     Workspace::Storage& scratch_;
     const format::BvhLeaf* leaves_a_;
     const format::BvhLeaf* leaves_b_;
+    const std::uint32_t* source_a_;  ///< or null
+    const std::uint32_t* source_b_;
     kernels::LeafPlacement placement_;
     std::size_t count_ = 0;
 };
