@@ -15,6 +15,23 @@ namespace cdprep {
 [[nodiscard]] kernels::LeafPlacement place_leaves(const Model& a, const Model& b,
                                                   const PlacedBoxes& placed) noexcept;
 
+/// The one leaf that may hold less than eight triangles. Told without a look at the
+/// leaf, which may be far away in memory.
+class LastLeaf {
+public:
+    explicit LastLeaf(std::uint32_t triangles) noexcept
+        : leaf_((triangles - 1) / format::kBvhWidth),
+          used_(static_cast<std::uint8_t>((2U << ((triangles - 1) % format::kBvhWidth)) - 1)) {}
+
+    [[nodiscard]] std::uint8_t used_lanes(std::uint32_t leaf) const noexcept {
+        return leaf == leaf_ ? used_ : std::uint8_t{0xff};
+    }
+
+private:
+    std::uint32_t leaf_;
+    std::uint8_t used_;
+};
+
 /// Collects pairs of leaves and tests their triangles many at a time.
 class LeafBatch {
 public:
@@ -23,6 +40,8 @@ public:
         : scratch_(scratch),
           leaves_a_(a.leaves().data()),
           leaves_b_(b.leaves().data()),
+          last_a_(a.triangle_count()),
+          last_b_(b.triangle_count()),
           source_a_(a.source_triangle().data()),
           source_b_(b.source_triangle().data()),
           placement_(place_leaves(a, b, placed)) {
@@ -70,21 +89,21 @@ public:
 
 private:
     void set_pair(std::size_t at, std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
-        const format::BvhLeaf& a = leaves_a_[leaf_a];
-        const format::BvhLeaf& b = leaves_b_[leaf_b];
-        scratch_.leaf_pairs[at] = {a.corner[0][0].data(), b.corner[0][0].data(), leaf_a, leaf_b,
-                                   used_lanes(a),         used_lanes(b)};
+        scratch_.leaf_pairs[at] = {leaves_a_[leaf_a].corner[0][0].data(),
+                                   leaves_b_[leaf_b].corner[0][0].data(),
+                                   leaf_a,
+                                   leaf_b,
+                                   last_a_.used_lanes(leaf_a),
+                                   last_b_.used_lanes(leaf_b)};
     }
     static void prefetch_sources(const std::uint32_t* sources, std::uint32_t leaf) noexcept {
         if (sources != nullptr) prefetch(sources + std::size_t{leaf} * format::kBvhWidth);
     }
-    static std::uint8_t used_lanes(const format::BvhLeaf& leaf) noexcept {
-        return static_cast<std::uint8_t>((1U << leaf.count) - 1);
-    }
-
     Workspace::Storage& scratch_;
     const format::BvhLeaf* leaves_a_;
     const format::BvhLeaf* leaves_b_;
+    LastLeaf last_a_;
+    LastLeaf last_b_;
     const std::uint32_t* source_a_;  ///< or null
     const std::uint32_t* source_b_;
     kernels::LeafPlacement placement_;
