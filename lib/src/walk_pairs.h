@@ -39,10 +39,10 @@ struct PendingPair {
     }
 };
 
-/// Whether both places of a packed pair are leaves.
-inline bool is_at_leaves(std::uint64_t pair) noexcept {
-    constexpr std::uint64_t kHeights = 0xf0000000f0000000;
-    return (pair & kHeights) == 0;
+/// Whether both places of a packed pair are at most so high; leaves for 0.
+inline bool is_down_at(std::uint64_t pair, std::uint32_t height) noexcept {
+    return static_cast<std::uint32_t>(pair >> 60) <= height &&
+           (static_cast<std::uint32_t>(pair >> 28) & 0xf) <= height;
 }
 static_assert(format::kMaxTriangles / format::kBvhWidth < (1U << 28));
 static_assert(format::kMaxBvhLevels < 16);
@@ -218,19 +218,26 @@ inline unsigned deepest_of(kernels::BoxPairs pairs, const kernels::BoxPairFloats
     return deepest;
 }
 
-/// Walks the two hierarchies depth first and calls `leaf(index_a, index_b)` for
-/// each pair of leaves that no box test separates, until it returns false.
-/// Returns false when it did. Both models need nodes.
-template <Search kSearch, class Leaf>
-bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
-                Workspace::Storage& scratch, Leaf&& leaf) noexcept {
-    if (a.triangles == 0 || b.triangles == 0 || placed.apart) return true;
+/// Where a walk of all begins: both roots.
+inline PendingPair roots(const Tree& a, const Tree& b) noexcept {
+    return {{a.shape.levels, 0}, {b.shape.levels, 0}};
+}
+
+/// Walks two hierarchies from `start` down, depth first, and calls `reach(pair)` for
+/// each pair of places, both at most `floor` high, that no box test separates, until
+/// it returns false. Returns false when it did. Both models need nodes and triangles.
+template <Search kSearch, class Reach>
+bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& a, const Tree& b,
+                     const PlacedBoxes& placed, Workspace::Storage& scratch,
+                     Reach&& reach) noexcept {
+    if (is_down_at(start.packed(), floor)) return reach(start);
     kernels::BoxPairFloats depths;
     const auto pick = [&](kernels::BoxPairs pairs) {
         return kSearch == Search::first ? deepest_of(pairs, depths) : first_of(pairs);
     };
     std::size_t depth = 0;
-    OpenedPair next{PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed(), 0, 0};
+    OpenedPair next{start.packed(), box_size(a, start.a, placed.placement.scale_a),
+                    box_size(b, start.b, placed.placement.scale_b)};
     for (;;) {
         const PendingPair pair = PendingPair::unpacked(next.pair);
         const Descent descent = choose_descent(a, b, pair, [&] {
@@ -238,10 +245,10 @@ bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
         });
         OpenStep& step = scratch.open_steps[depth];
         open_step<kSearch>(a, b, placed, pair, descent, step, depths);
-        if (is_at_leaves(step.base)) {
+        if (is_down_at(step.base, floor)) {
             while (step.pairs != 0) {
-                const PendingPair at = PendingPair::unpacked(step.take(pick(step.pairs)).pair);
-                if (!leaf(at.a.index, at.b.index)) return false;
+                const std::uint64_t at = step.take(pick(step.pairs)).pair;
+                if (!reach(PendingPair::unpacked(at))) return false;
             }
         } else if (step.pairs != 0) {
             if (kSearch == Search::all) prefetch_step(a, b, step);
@@ -254,6 +261,17 @@ bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
         next = top.take(first_of(top.pairs));
         if (top.pairs == 0) --depth;
     }
+}
+
+/// Calls `leaf(index_a, index_b)` for each pair of leaves that no box test separates,
+/// until it returns false. Returns false when it did.
+template <Search kSearch, class Leaf>
+bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
+                Workspace::Storage& scratch, Leaf&& leaf) noexcept {
+    if (a.triangles == 0 || b.triangles == 0 || placed.apart) return true;
+    return walk_pairs_from<kSearch>(
+        roots(a, b), 0, a, b, placed, scratch,
+        [&](const PendingPair& pair) { return leaf(pair.a.index, pair.b.index); });
 }
 
 }  // namespace cdprep
