@@ -71,6 +71,15 @@ float float_above(double x) noexcept {
 
 }  // namespace
 
+double double_slack(const Model& a, const Model& b, const Placement& placement) noexcept {
+    const double reaches = reach(a.header()) + reach(b.header()) +
+                           largest(placement.pose_a().translation()) +
+                           largest(placement.pose_b().translation());
+    double slack = kDoubleSlack * reaches;
+    if (placement.a_is_moved()) slack += kTurnSlack * reach(a.header());
+    return slack;
+}
+
 PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placement) noexcept {
     const format::FileHeader& head_a = a.header();
     const format::FileHeader& head_b = b.header();
@@ -87,13 +96,8 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
                            scaled((turned.y + t.y) - head_a.frame_origin.y, exponent),
                            scaled((turned.z + t.z) - head_a.frame_origin.z, exponent)};
 
-    const double reaches = reach(head_a) + reach(head_b) +
-                           largest(placement.pose_a().translation()) +
-                           largest(placement.pose_b().translation());
-    double double_slack = kDoubleSlack * reaches;
-    if (placement.a_is_moved()) double_slack += kTurnSlack * reach(head_a);
-    const double slack =
-        scaled(double_slack, exponent) + kFloatSlack * (scale_a + scale_b + largest(shift));
+    const double vertex_slack = scaled(double_slack(a, b, placement), exponent);
+    const double slack = vertex_slack + kFloatSlack * (scale_a + scale_b + largest(shift));
 
     PlacedBoxes placed{};
     // Two balls of radius sqrt 3 times the scale hold all boxes.
@@ -118,7 +122,7 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
     placed.scale_a = scale_a;
     placed.scale_b = scale_b;
     placed.exponent = exponent;
-    placed.double_slack = scaled(double_slack, exponent);
+    placed.double_slack = vertex_slack;
     return placed;
 }
 

@@ -27,6 +27,10 @@ struct PlacedBoxes {
     double double_slack;
 };
 
+/// How far vertices of the two models may be off, relative to each other, model units.
+[[nodiscard]] double double_slack(const Model& a, const Model& b,
+                                  const Placement& placement) noexcept;
+
 [[nodiscard]] PlacedBoxes place_boxes(const Model& a, const Model& b,
                                       const Placement& placement) noexcept;
 

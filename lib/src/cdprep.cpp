@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "cdprep/cast_ray.h"
@@ -29,6 +30,9 @@ namespace {
 
 static_assert(sizeof(cdprep_triangle_pair) == sizeof(TrianglePair) &&
               offsetof(cdprep_triangle_pair, b) == offsetof(TrianglePair, b));
+static_assert(sizeof(cdprep_pair_cache) == sizeof(PairCache) &&
+              alignof(cdprep_pair_cache) == alignof(PairCache) &&
+              std::is_trivially_copyable_v<PairCache>);
 static_assert(CDPREP_BAD_ARGUMENT == static_cast<int>(ErrorCode::bad_argument) &&
               CDPREP_UNREADABLE == static_cast<int>(ErrorCode::unreadable) &&
               CDPREP_OVER_BUDGET == static_cast<int>(ErrorCode::over_budget) &&
@@ -165,12 +169,12 @@ int ask_pair(const cdprep_model* a, const cdprep_model* b, const cdprep_placemen
 class CacheCopy {
 public:
     explicit CacheCopy(cdprep_pair_cache* cache) noexcept : outer_(cache) {
-        if (cache != nullptr) inner_ = {cache->triangle_a, cache->triangle_b};
+        if (cache != nullptr) std::memcpy(static_cast<void*>(&inner_), cache, sizeof inner_);
     }
     CacheCopy(const CacheCopy&) = delete;
     CacheCopy& operator=(const CacheCopy&) = delete;
     ~CacheCopy() {
-        if (outer_ != nullptr) *outer_ = {inner_.triangle_a, inner_.triangle_b};
+        if (outer_ != nullptr) std::memcpy(outer_, &inner_, sizeof inner_);
     }
     [[nodiscard]] PairCache* get() noexcept {
         return outer_ == nullptr ? nullptr : &inner_;
@@ -250,15 +254,16 @@ cdprep_workspace* cdprep_make_workspace(void* memory, size_t size) {
 
 int cdprep_collide(const cdprep_model* a, const cdprep_model* b, const cdprep_placement* placement,
                    cdprep_workspace* workspace, const cdprep_contact_options* options,
-                   cdprep_collision* collision, cdprep_error* error) {
+                   cdprep_pair_cache* cache, cdprep_collision* collision, cdprep_error* error) {
     if (collision == nullptr) return cdprep::null_argument(error);
     cdprep_contact_options given{};
     if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
-            const cdprep::Collision found =
-                cdprep::collide(ma, mb, placed, scratch, cdprep::contact_options(given));
+            cdprep::CacheCopy copy(cache);
+            const cdprep::Collision found = cdprep::collide(
+                ma, mb, placed, scratch, cdprep::contact_options(given), copy.get());
             *collision = {found.hit ? 1 : 0, cdprep::word(found.containment.answer),
                           found.containment.a_inside_b ? 1 : 0, found.containment.winding};
             return CDPREP_OK;

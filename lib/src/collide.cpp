@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/collide.h"
 
-#include "contact_pairs.h"
+#include "find_contact.h"
 
 namespace cdprep {
 
 Collision collide(const Model& a, const Model& b, const Placement& placement, Workspace& workspace,
-                  const CollideOptions& options) noexcept {
+                  const CollideOptions& options, PairCache* cache) noexcept {
     Collision collision;
     const OverlapOptions pairs = {options.contact, options.degenerate};
-    collision.hit = !for_each_contact<Search::first>(
-        a, b, placement, workspace, pairs, [](std::uint32_t, std::uint32_t) { return false; });
+    collision.hit = any_contact(a, b, placement, workspace, pairs, cache);
     if (collision.hit || options.as == As::surface) return collision;
     collision.containment = find_containment(a, b, placement, workspace);
     collision.hit = collision.containment.answer == Answer::yes;

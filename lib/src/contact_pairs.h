@@ -26,21 +26,37 @@ inline bool in_contact(const Corners& a, const Corners& b, Contact contact) noex
     return kind == TriangleContact::cross || kind == TriangleContact::coplanar_overlap;
 }
 
+/// What a pair of triangles that the kernels leave is asked: are they in contact as
+/// the options want it? Tree order.
+class ContactTest {
+public:
+    ContactTest(const Model& a, const Model& b, const Placement& placement,
+                const OverlapOptions& options) noexcept
+        : a_(moved_a(a, placement)), b_(moved_b(b, placement)), options_(options) {}
+
+    bool operator()(std::uint32_t at_a, std::uint32_t at_b, bool certain) const noexcept {
+        if (options_.degenerate == Degenerate::skip &&
+            (is_marked_degenerate(*a_.model, at_a) || is_marked_degenerate(*b_.model, at_b))) {
+            return false;
+        }
+        return certain || in_contact(a_.corners(at_a), b_.corners(at_b), options_.contact);
+    }
+
+private:
+    MovedModel a_;
+    MovedModel b_;
+    OverlapOptions options_;
+};
+
 /// Calls `found(a, b)`, tree order, for every pair of triangles in contact until it returns false;
 /// returns false when it did.
 template <Search kSearch, class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
                       Workspace& workspace, const OverlapOptions& options, Found&& found) noexcept {
     Workspace::Storage& scratch = workspace.storage();
-    const MovedModel in_a = moved_a(a, placement);
-    const MovedModel in_b = moved_b(b, placement);
-    const bool skips = options.degenerate == Degenerate::skip;
+    const ContactTest touch(a, b, placement, options);
     const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b, bool certain) {
-        if (skips && (is_marked_degenerate(a, at_a) || is_marked_degenerate(b, at_b))) return true;
-        if (!certain && !in_contact(in_a.corners(at_a), in_b.corners(at_b), options.contact)) {
-            return true;
-        }
-        return static_cast<bool>(found(at_a, at_b));
+        return !touch(at_a, at_b, certain) || static_cast<bool>(found(at_a, at_b));
     };
 
     const PlacedBoxes placed = place_boxes(a, b, placement);

@@ -8,6 +8,8 @@
 #include <functional>
 
 #include "contact_pairs.h"
+#include "find_contact.h"
+#include "proven_gap.h"
 #include "triangle_distance.h"
 
 namespace cdprep {
@@ -15,11 +17,15 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A pair of triangles, tree order.
-struct At {
-    std::uint32_t a;
-    std::uint32_t b;
+/// What is known when a search begins.
+enum class Limit : std::uint8_t {
+    poor,  ///< best first, after a dive for a better one
+    good,  ///< depth first: most of what a heap would put off is never looked at
 };
+
+Limit limit_by(const PairCache* cache, const Model& a, const Model& b) noexcept {
+    return cache != nullptr && has_pair(*cache, a, b) ? Limit::good : Limit::poor;
+}
 
 /// A branch and bound over both hierarchies, nearest boxes first. Bounds are taken
 /// in pair units and in float, each with its proven error; what they leave is
@@ -36,14 +42,14 @@ public:
           scratch_(workspace.storage()),
           leaves_(a, b, placed_, scratch_) {}
 
-    [[nodiscard]] TriangleDistance measure(const At& at, bool tight) const noexcept {
+    [[nodiscard]] TriangleDistance measure(const TreePair& at, bool tight) const noexcept {
         return triangle_distance(moved_a_.corners(at.a), moved_b_.corners(at.b), tight);
     }
 
     /// Calls `near(at)` for pairs of triangles that may be at most the limit apart;
     /// it returns the new limit, in model units, negative to end the search.
     template <class Near>
-    void run(double limit, Near&& near) noexcept;
+    void run(double limit, Limit known, Near&& near) noexcept;
 
     /// Tells the search where two near points lie: most others are farther apart
     /// along the line through them. In the query's coordinates.
@@ -129,8 +135,8 @@ bool NearestSearch::look_at_leaves(const PendingPair& pair, Near&& near) noexcep
     });
     for (const kernels::TriangleGap& gap : gaps) {
         if (gap.lower > reach_.limit) break;
-        const double limit = near(
-            At{pair.a.index * format::kBvhWidth + gap.a, pair.b.index * format::kBvhWidth + gap.b});
+        const double limit = near(TreePair{pair.a.index * format::kBvhWidth + gap.a,
+                                           pair.b.index * format::kBvhWidth + gap.b});
         if (limit < 0) return false;
         reach_.limit = in_pair_units(limit);
     }
@@ -188,10 +194,10 @@ bool NearestSearch::dive(const Tree& a, const Tree& b, Near&& near) noexcept {
     return look_at_leaves(pair, near);
 }
 
-/// Best first. What the frontier has no room for is searched depth first, nearest
-/// children first.
+/// Best first, unless the limit is good. What the frontier has no room for is searched
+/// depth first, nearest children first.
 template <class Near>
-void NearestSearch::run(double limit, Near&& near) noexcept {
+void NearestSearch::run(double limit, Limit known, Near&& near) noexcept {
     const Tree a(a_);
     const Tree b(b_);
     if (a.triangles == 0 || b.triangles == 0) return;
@@ -199,7 +205,7 @@ void NearestSearch::run(double limit, Near&& near) noexcept {
     const auto at = [&](std::size_t index) {
         return scratch_.near.begin() + static_cast<std::ptrdiff_t>(index);
     };
-    if (!dive(a, b, near)) return;
+    if (known == Limit::poor && !dive(a, b, near)) return;
     Frontier frontier(scratch_);
     frontier.push({0, PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed()});
     while (!frontier.empty()) {
@@ -214,7 +220,7 @@ void NearestSearch::run(double limit, Near&& near) noexcept {
                 continue;
             }
             const std::size_t end = push_children(a, b, pair, depth);
-            if (depth == 0 && frontier.has_room_for(end)) {
+            if (known == Limit::poor && depth == 0 && frontier.has_room_for(end)) {
                 for (std::size_t i = 0; i < end; ++i) frontier.push(scratch_.near[i]);
                 continue;
             }
@@ -232,8 +238,14 @@ public:
             const DistanceOptions& options) noexcept
         : a_(a), b_(b), search_(search), options_(options) {}
 
+    /// Takes a pair before the search, which may meet it again.
+    void start_from(const TreePair& at) noexcept {
+        take(at);
+        seed_ = at;
+    }
     /// Takes a pair; returns the limit beyond which nothing is of interest.
-    double take(const At& at) noexcept {
+    double take(const TreePair& at) noexcept {
+        if (at.a == seed_.a && at.b == seed_.b) return limit();
         const TriangleDistance d = search_.measure(at, false);
         if (d.lower > limit()) return limit();
         if (d.upper < upper_) {
@@ -261,13 +273,13 @@ public:
         best_.lower = std::min({best_.lower, lower_, unseen});
         return best_;
     }
-    [[nodiscard]] const At& nearest() const noexcept {
+    [[nodiscard]] const TreePair& nearest() const noexcept {
         return nearest_;
     }
 
 private:
     struct Contender {
-        At at;
+        TreePair at;
         double lower;
     };
 
@@ -275,7 +287,7 @@ private:
     void settle() noexcept {
         for (std::size_t i = 0; i < count_; ++i) {
             if (contenders_[i].lower > upper_) continue;
-            const At at = contenders_[i].at;
+            const TreePair at = contenders_[i].at;
             const TriangleDistance d = search_.measure(at, true);
             lower_ = std::min(lower_, d.lower);
             const Distance found = {
@@ -300,32 +312,16 @@ private:
     const DistanceOptions& options_;
     std::array<Contender, 64> contenders_;
     std::size_t count_ = 0;
+    TreePair seed_ = {format::kMaxTriangles, format::kMaxTriangles};  ///< none
     double upper_ = kInfinity;
     double lower_ = kInfinity;
     bool found_ = false;
     Distance best_{};
-    At nearest_{};
+    TreePair nearest_{};
 };
 
-bool is_usable(const PairCache* cache, const Model& a, const Model& b) noexcept {
-    return cache != nullptr && cache->triangle_a < a.triangle_count() &&
-           cache->triangle_b < b.triangle_count();
-}
-
-/// The first pair of triangles in contact.
-std::optional<At> find_contact(const Model& a, const Model& b, const Placement& placement,
-                               Workspace& workspace) noexcept {
-    std::optional<At> contact;
-    for_each_contact<Search::first>(a, b, placement, workspace, {},
-                                    [&](std::uint32_t at_a, std::uint32_t at_b) {
-                                        contact = At{at_a, at_b};
-                                        return false;
-                                    });
-    return contact;
-}
-
 Distance touching(const Model& a, const Model& b, const Placement& placement,
-                  const At& at) noexcept {
+                  const TreePair& at) noexcept {
     const MovedModel in_a = moved_a(a, placement);
     const MovedModel in_b = moved_b(b, placement);
     const Double3 point = common_point(in_a.corners(at.a), in_b.corners(at.b));
@@ -338,27 +334,37 @@ std::optional<Distance> distance(const Model& a, const Model& b, const Placement
                                  Workspace& workspace, const DistanceOptions& options,
                                  PairCache* cache) noexcept {
     if (!(options.max_distance >= 0)) return std::nullopt;
-    if (const std::optional<At> at = find_contact(a, b, placement, workspace)) {
-        if (cache != nullptr) *cache = {at->a, at->b};
-        return touching(a, b, placement, *at);
+    // The cached pair of triangles must not tell which of those that touch answers.
+    const bool apart = cache != nullptr && proven_gap(*cache, a, b, placement) > 0;
+    if (!apart) {
+        if (const auto at = find_contact(a, b, placement, workspace, {})) {
+            if (cache != nullptr) remember_pair(*cache, *at);
+            return touching(a, b, placement, *at);
+        }
     }
     NearestSearch search(a, b, placement, workspace);
     Nearest nearest(a, b, search, options);
-    if (is_usable(cache, a, b)) nearest.take({cache->triangle_a, cache->triangle_b});
-    search.run(nearest.limit(), [&](const At& at) { return nearest.take(at); });
+    const Limit known = limit_by(cache, a, b);
+    if (known == Limit::good) nearest.start_from({cache->triangle_a, cache->triangle_b});
+    search.run(nearest.limit(), known, [&](const TreePair& at) { return nearest.take(at); });
     const std::optional<Distance> found = nearest.answer();
-    if (found && cache != nullptr) *cache = {nearest.nearest().a, nearest.nearest().b};
+    if (found && cache != nullptr) {
+        remember_pair(*cache, nearest.nearest());
+        remember_gap(*cache, a, b, placement, found->lower);
+    }
     return found;
 }
 
 bool is_within(const Model& a, const Model& b, const Placement& placement, double tolerance,
                Workspace& workspace, PairCache* cache) noexcept {
     if (!(tolerance >= 0)) return false;
-    if (tolerance == 0) return find_contact(a, b, placement, workspace).has_value();
+    if (tolerance == 0) return any_contact(a, b, placement, workspace, {}, cache);
+    const double gap = cache == nullptr ? 0 : proven_gap(*cache, a, b, placement);
+    if (gap > tolerance) return false;
     NearestSearch search(a, b, placement, workspace);
     bool within = false;
     double nearest = kInfinity;
-    const auto look = [&](const At& at) {
+    const auto look = [&](const TreePair& at) {
         TriangleDistance d = search.measure(at, false);
         if (d.lower <= tolerance && d.upper > tolerance) d = search.measure(at, true);
         if (d.lower > tolerance) {
@@ -369,12 +375,13 @@ bool is_within(const Model& a, const Model& b, const Placement& placement, doubl
             return tolerance;
         }
         within = true;
-        if (cache != nullptr) *cache = {at.a, at.b};
+        if (cache != nullptr) remember_pair(*cache, at);
         return -1.0;
     };
-    if (is_usable(cache, a, b) && look({cache->triangle_a, cache->triangle_b}) < 0) return true;
-    if (find_contact(a, b, placement, workspace)) return true;
-    search.run(tolerance, look);
+    const Limit known = limit_by(cache, a, b);
+    if (known == Limit::good && look({cache->triangle_a, cache->triangle_b}) < 0) return true;
+    if (!(gap > 0) && find_contact(a, b, placement, workspace, {})) return true;
+    search.run(tolerance, known, look);
     return within;
 }
 

@@ -111,9 +111,16 @@ typedef struct cdprep_collision {
     double winding;
 } cdprep_collision;
 
+/* What earlier questions about one pair of models found: see pair_cache.h. All zero
+ * before the first use; one a pair and thread. */
+typedef struct cdprep_pair_cache {
+    uint64_t words[26];
+} cdprep_pair_cache;
+
+/* `cache` may be null. */
 int cdprep_collide(const cdprep_model* a, const cdprep_model* b, const cdprep_placement* placement,
                    cdprep_workspace* workspace, const cdprep_contact_options* options,
-                   cdprep_collision* collision, cdprep_error* error);
+                   cdprep_pair_cache* cache, cdprep_collision* collision, cdprep_error* error);
 
 typedef struct cdprep_triangle_pair {
     uint32_t a;
@@ -126,12 +133,6 @@ int cdprep_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
                                  const cdprep_placement* placement, cdprep_workspace* workspace,
                                  const cdprep_contact_options* options, cdprep_triangle_pair* pairs,
                                  size_t room, size_t* count, cdprep_error* error);
-
-/* Both 0xffffffff before the first use. */
-typedef struct cdprep_pair_cache {
-    uint32_t triangle_a;
-    uint32_t triangle_b;
-} cdprep_pair_cache;
 
 typedef struct cdprep_distance_options {
     uint32_t size;

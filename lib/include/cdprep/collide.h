@@ -5,6 +5,7 @@
 
 #include "cdprep/containment.h"
 #include "cdprep/overlapping_triangles.h"
+#include "cdprep/pair_cache.h"
 
 namespace cdprep {
 
@@ -35,8 +36,11 @@ struct Collision {
 ///
 /// Needs of both what overlapping_triangles() needs; As::solid also triangles,
 /// positions and components.
-/// Costs O(log n) for most hits and misses. Never allocates.
+/// Costs O(log n) for most hits and misses; with a cache O(1) while the pair of
+/// triangles that touched last still does, or while the models have moved less than
+/// the gap that was proved. Never allocates. `cache` may be null.
 [[nodiscard]] Collision collide(const Model& a, const Model& b, const Placement& placement,
-                                Workspace& workspace, const CollideOptions& options = {}) noexcept;
+                                Workspace& workspace, const CollideOptions& options = {},
+                                PairCache* cache = nullptr) noexcept;
 
 }  // namespace cdprep

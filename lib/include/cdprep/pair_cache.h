@@ -1,20 +1,38 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
+
+#include "cdprep/pose.h"
 
 namespace cdprep {
 
-/// What the last question about one pair of models found, owned by the caller:
-/// the next question about the same pair starts there. Poses that change little
-/// from question to question are then answered faster; the answers are the same.
+/// What earlier questions about one pair of models found, owned by the caller: the
+/// next question about the same pair starts there. Poses that change little from
+/// question to question are then answered faster; the answers are the same.
 ///
-/// One a pair of models; a cache of another pair only costs time. Threads need
-/// one each.
+/// It holds the last nearest or touching pair of triangles, and a place where the
+/// surfaces proved to be some gap apart: until the models have moved as far, they do
+/// not touch.
+///
+/// One a pair of models, for any questions; a cache of another pair only costs time.
+/// Threads need one each. One whose models' memory was changed in place must be made
+/// anew. The members belong to the library; all zero is a new cache.
 struct PairCache {
-    static constexpr std::uint32_t kNone = 0xffffffff;
-    std::uint32_t triangle_a = kNone;  ///< tree order
-    std::uint32_t triangle_b = kNone;  ///< tree order
+    std::uint32_t holds = 0;                   ///< bit set: 1 a pair, 2 a place, 4 the pair touched
+    std::uint32_t triangle_a = 0;              ///< of the pair, tree order
+    std::uint32_t triangle_b = 0;              ///< tree order
+    std::uint32_t questions = 0;               ///< asked since the place was noted
+    std::uint32_t failures = 0;                ///< proofs of a gap that failed in a row
+    std::uint32_t wait = 0;                    ///< questions to let pass before the next proof
+    std::array<std::uint64_t, 2> models = {};  ///< content hashes of A and B, of the place
+    double gap = 0;       ///< model units; at the place the surfaces were so far apart, at least
+    double step = 0;      ///< model units: how far B moves from question to question
+    double proof = 0;     ///< model units: the gap that was last tried to be proved
+    Pose a_from_b;        ///< the place
+    Double3 middle = {};  ///< of a box around B, B's coordinates
+    Double3 half = {};    ///< its half extents
 };
 
 }  // namespace cdprep

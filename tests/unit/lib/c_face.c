@@ -30,9 +30,9 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
     cdprep_contact_options solid = {sizeof solid, CDPREP_CLOSED, CDPREP_KEEP_DEGENERATE,
                                     CDPREP_SOLID};
     cdprep_collision collision;
-    MUST(cdprep_collide(cube, cube, &near, scratch, NULL, &collision, &error) == CDPREP_OK);
+    MUST(cdprep_collide(cube, cube, &near, scratch, NULL, NULL, &collision, &error) == CDPREP_OK);
     MUST(collision.hit == 1);
-    MUST(cdprep_collide(cube, cube, &far, scratch, &solid, &collision, NULL) == CDPREP_OK);
+    MUST(cdprep_collide(cube, cube, &far, scratch, &solid, NULL, &collision, NULL) == CDPREP_OK);
     MUST(collision.hit == 0 && collision.containment == CDPREP_NO);
 
     cdprep_triangle_pair pairs[144];
@@ -49,7 +49,7 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
          CDPREP_OK);
     MUST(counted == count);
 
-    cdprep_pair_cache cache = {0xffffffffu, 0xffffffffu};
+    cdprep_pair_cache cache = {{0}};
     cdprep_distance distance;
     int found = 0;
     MUST(cdprep_distance_between(cube, cube, &far, scratch, NULL, &cache, &found, &distance,
@@ -57,7 +57,10 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
     MUST(found == 1 && distance.lower <= 2 && distance.upper >= 2);
     MUST(distance.upper - distance.lower < 1e-12);
     MUST(fabs(distance.witness_b[0] - distance.witness_a[0] - 2) < 1e-12);
-    MUST(cache.triangle_a < 12 && cache.triangle_b < 12);
+    MUST(cdprep_collide(cube, cube, &near, scratch, NULL, &cache, &collision, NULL) == CDPREP_OK);
+    MUST(collision.hit == 1);
+    MUST(cdprep_collide(cube, cube, &far, scratch, NULL, &cache, &collision, NULL) == CDPREP_OK);
+    MUST(collision.hit == 0);
     cdprep_distance_options nearby = {sizeof nearby, 0, 0, 1};
     MUST(cdprep_distance_between(cube, cube, &far, scratch, &nearby, &cache, &found, &distance,
                                  &error) == CDPREP_OK);
@@ -110,21 +113,21 @@ static const char* ask_wrongly(const cdprep_model* cube, cdprep_workspace* scrat
     cdprep_error error;
     cdprep_collision collision;
     cdprep_placement placement = moved_by(0);
-    MUST(cdprep_collide(NULL, cube, &placement, scratch, NULL, &collision, &error) ==
+    MUST(cdprep_collide(NULL, cube, &placement, scratch, NULL, NULL, &collision, &error) ==
          CDPREP_BAD_ARGUMENT);
     MUST(error.code == CDPREP_BAD_ARGUMENT && strlen(error.message) > 10);
-    MUST(cdprep_collide(cube, cube, &placement, NULL, NULL, &collision, NULL) ==
+    MUST(cdprep_collide(cube, cube, &placement, NULL, NULL, NULL, &collision, NULL) ==
          CDPREP_BAD_ARGUMENT);
     placement.size = 0;
-    MUST(cdprep_collide(cube, cube, &placement, scratch, NULL, &collision, &error) ==
+    MUST(cdprep_collide(cube, cube, &placement, scratch, NULL, NULL, &collision, &error) ==
          CDPREP_BAD_ARGUMENT);
     placement = moved_by(0);
     placement.kind = 4;
-    MUST(cdprep_collide(cube, cube, &placement, scratch, NULL, &collision, &error) ==
+    MUST(cdprep_collide(cube, cube, &placement, scratch, NULL, NULL, &collision, &error) ==
          CDPREP_BAD_ARGUMENT);
     placement = moved_by(0);
     placement.b.rows[0] = 2;
-    MUST(cdprep_collide(cube, cube, &placement, scratch, NULL, &collision, &error) ==
+    MUST(cdprep_collide(cube, cube, &placement, scratch, NULL, NULL, &collision, &error) ==
          CDPREP_BAD_ARGUMENT);
     MUST(strstr(error.message, "turn") != NULL);
     cdprep_model* none = NULL;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pair_cache.h"
+
+namespace cdprep {
+
+/// A pair of triangles, tree order.
+struct TreePair {
+    std::uint32_t a;
+    std::uint32_t b;
+};
+
+/// Whether the cache holds a pair of triangles that both models have.
+[[nodiscard]] bool has_pair(const PairCache& cache, const Model& a, const Model& b) noexcept;
+
+void remember_pair(PairCache& cache, const TreePair& pair) noexcept;
+
+/// The first pair of triangles in contact that a walk of both hierarchies meets.
+[[nodiscard]] std::optional<TreePair> find_contact(const Model& a, const Model& b,
+                                                   const Placement& placement, Workspace& workspace,
+                                                   const OverlapOptions& options) noexcept;
+
+/// Whether any triangles are in contact, by a cache that may be null.
+[[nodiscard]] bool any_contact(const Model& a, const Model& b, const Placement& placement,
+                               Workspace& workspace, const OverlapOptions& options,
+                               PairCache* cache) noexcept;
+
+}  // namespace cdprep

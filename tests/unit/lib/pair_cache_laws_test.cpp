@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "cdprep/collide.h"
+#include "cdprep/distance.h"
+#include "proven_gap.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+
+// The truth in all of these is what the same question answers without a cache.
+
+namespace cdprep::test {
+namespace {
+
+/// Turned by a small angle about a random axis.
+Pose turned_a_little(std::mt19937& random, const Double3& translation) {
+    std::normal_distribution<double> normal(0, 0.002);
+    return Pose::from_quaternion(1, normal(random), normal(random), normal(random), translation)
+        .value();
+}
+
+/// Steps of 2^-k from and to the other model, sometimes turned: on a coarse grid many
+/// of the places touch exactly.
+std::vector<Pose> random_walk(std::mt19937& random, int steps, double reach) {
+    const double step = std::ldexp(reach, -static_cast<int>(3 + random() % 4));
+    Double3 at = {reach * (static_cast<int>(random() % 9) - 4) / 4, 0, 0};
+    Double3 along = {0, 0, 0};
+    std::vector<Pose> walk;
+    for (int i = 0; i < steps; ++i) {
+        if (i % 8 == 0) {
+            const auto way = [&] { return step * (static_cast<int>(random() % 3) - 1); };
+            along = {way(), way(), way()};
+        }
+        at = {at.x + along.x, at.y + along.y, at.z + along.z};
+        walk.push_back(
+            random() % 4 == 0
+                ? turned_a_little(random, at)
+                : Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, at.x, at.y, at.z}).value());
+    }
+    return walk;
+}
+
+Placement placed(int kind, const Pose& pose, const Pose& other) {
+    switch (kind % 4) {
+        case 0:
+            return Placement::b_moves(pose);
+        case 1:
+            return Placement::a_moves(pose);
+        case 2:
+            return Placement::relative(other, pose);
+        default:
+            return Placement::world(pose, other);
+    }
+}
+
+void expect_same(const std::optional<Distance>& x, const std::optional<Distance>& y) {
+    ASSERT_EQ(x.has_value(), y.has_value());
+    if (!x) return;
+    ASSERT_EQ(x->lower, y->lower);
+    ASSERT_EQ(x->upper, y->upper);
+    ASSERT_EQ(x->triangle_a, y->triangle_a);
+    ASSERT_EQ(x->triangle_b, y->triangle_b);
+    ASSERT_EQ(x->witness_a.x, y->witness_a.x);
+    ASSERT_EQ(x->witness_b.z, y->witness_b.z);
+}
+
+struct Walker {
+    const Model& a;
+    const Model& b;
+    Workspace workspace;
+    std::size_t asked = 0;
+    std::size_t hits = 0;
+
+    /// Asks one of all questions with the cache and without.
+    void ask(unsigned question, const Placement& placement, PairCache& cache) {
+        CollideOptions options;
+        if (question % 3 == 1) options.contact = Contact::proper;
+        if (question % 5 == 1) options.degenerate = Degenerate::skip;
+        if (question % 7 == 1) options.as = As::solid;
+        switch (question % 4) {
+            case 0: {
+                expect_same(distance(a, b, placement, workspace),
+                            distance(a, b, placement, workspace, {}, &cache));
+                break;
+            }
+            case 1: {
+                const double tolerance = 0.03125 * (question % 9);
+                ASSERT_EQ(is_within(a, b, placement, tolerance, workspace),
+                          is_within(a, b, placement, tolerance, workspace, &cache));
+                break;
+            }
+            default: {
+                const Collision plain = collide(a, b, placement, workspace, options);
+                const Collision cached = collide(a, b, placement, workspace, options, &cache);
+                ASSERT_EQ(plain.hit, cached.hit);
+                ASSERT_EQ(plain.containment.answer, cached.containment.answer);
+                hits += plain.hit ? 1 : 0;
+                ++asked;
+            }
+        }
+    }
+};
+
+TEST(PairCacheLaws, NoAnswerChangesOnWalksThroughTouch) {
+    constexpr std::uint32_t kSeed = 20261122;
+    std::mt19937 random(kSeed);
+    std::size_t asked = 0, hits = 0;
+    for (int round = 0; round < 60; ++round) {
+        const bool coarse = round % 2 == 0;
+        const TestMesh mesh_a = coarse ? coarse_grid_soup(random(), 12, 2) : icosphere(2);
+        const TestMesh mesh_b = coarse ? coarse_grid_soup(random(), 12, 2) : torus(1, 0.25, 20, 10);
+        const OpenModel a = open_tiny(mesh_a, {.double_precision = round % 3 == 0});
+        const OpenModel b = open_tiny(mesh_b);
+        Walker walker{a.model, b.model, {}};
+        PairCache cache, collisions;
+        const Pose other = coarse ? Pose() : random_pose(random, 1);
+        for (const Pose& pose : random_walk(random, 100, coarse ? 4 : 1)) {
+            const Placement placement = placed(round / 2, pose, other);
+            walker.ask(random(), placement, cache);
+            ASSERT_FALSE(HasFatalFailure()) << "seed " << kSeed << ", round " << round;
+            walker.ask(2, placement, collisions);
+            ASSERT_FALSE(HasFatalFailure()) << "seed " << kSeed << ", round " << round;
+        }
+        asked += walker.asked;
+        hits += walker.hits;
+    }
+    // Neither answer may be rare, or this test would prove nothing.
+    EXPECT_GT(hits, asked * 3 / 10);
+    EXPECT_LT(hits, asked * 7 / 10);
+}
+
+// A cache of one pair handed to another, on every question: only time is lost.
+TEST(PairCacheLaws, ACacheOfOtherModelsIsHarmless) {
+    std::mt19937 random(3);
+    const OpenModel ball = open_tiny(icosphere(2)), ring = open_tiny(torus(1, 0.25, 20, 10));
+    const OpenModel cube = open_tiny(unit_cube()), empty = open_tiny(TestMesh{});
+    std::vector<Walker> walkers;
+    walkers.push_back({ball.model, ring.model, {}});
+    walkers.push_back({ring.model, ball.model, {}});
+    walkers.push_back({cube.model, ball.model, {}});
+    PairCache cache;
+    std::size_t asked = 0, hits = 0;
+    for (const Pose& pose : random_walk(random, 400, 1)) {
+        const Placement placement = Placement::b_moves(pose);
+        Walker& walker = walkers[random() % walkers.size()];
+        walker.ask(random(), placement, cache);
+        ASSERT_FALSE(HasFatalFailure());
+        EXPECT_FALSE(collide(empty.model, ball.model, placement, walker.workspace, {}, &cache).hit);
+        EXPECT_FALSE(collide(ball.model, empty.model, placement, walker.workspace, {}, &cache).hit);
+    }
+    for (const Walker& walker : walkers) {
+        asked += walker.asked;
+        hits += walker.hits;
+    }
+    EXPECT_GT(hits, asked * 3 / 10);
+    EXPECT_LT(hits, asked * 7 / 10);
+}
+
+// By the definition of a lower bound: what is left of a gap is never more than the
+// distance, however the models have moved since, and is often something.
+TEST(PairCacheLaws, WhatIsLeftOfAGapIsNoMoreThanTheDistance) {
+    std::mt19937 random(5);
+    int proved = 0, asked = 0;
+    for (const double size : {0x1p-900, 1e-6, 1.0, 1e6, 0x1p900}) {
+        const TestMesh mesh = moved_by(icosphere(2), size, {size / 3, size, -size});
+        const OpenModel a = open_tiny(mesh, {.double_precision = true});
+        Workspace workspace;
+        for (int round = 0; round < 40; ++round) {
+            const double share = std::ldexp(1, -static_cast<int>(random() % 30));
+            const Pose p = random_pose(random, 4 * size), q = random_pose(random, 4 * size);
+            const Double3 from = p.translation();
+            const Double3 to = {from.x + share * size, from.y - share * size, from.z};
+            const Pose near =
+                Pose::from_rows({p.rotation()[0], p.rotation()[1], p.rotation()[2], p.rotation()[3],
+                                 p.rotation()[4], p.rotation()[5], p.rotation()[6], p.rotation()[7],
+                                 p.rotation()[8], to.x, to.y, to.z})
+                    .value();
+            PairCache cache;
+            const Placement before = placed(round, p, q), after = placed(round, near, q);
+            const auto old = distance(a.model, a.model, before, workspace, {}, &cache);
+            const auto now = distance(a.model, a.model, after, workspace);
+            const double left = proven_gap(cache, a.model, a.model, after);
+            ASSERT_LE(left, now->upper) << size << ", round " << round;
+            if (old->lower <= 4 * share * size) continue;
+            ++asked;
+            proved += left > 0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(asked, 50);
+    EXPECT_GT(proved, asked * 9 / 10);
+}
+
+}  // namespace
+}  // namespace cdprep::test
