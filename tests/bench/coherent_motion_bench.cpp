@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// What a PairCache gains where a model moves little from question to question. From
+// every pose of a file a walk begins: each step moves B by 1/1000 of the diagonal and
+// turns it by 0.2 degrees about its middle, in one direction a walk. Whole sets of
+// walks are asked with and without a cache, in turns; a cache lives as long as a walk.
+// The first step of a walk is not timed: there the cache is empty. One thread.
+//
+// Usage: coherent_motion_bench BAKES POSES [ROUNDS [PAIR...]]
+// as pair_queries_bench: models normalised, line i of a file is of kind i mod 3.
+//
+// Prints a CSV table: microseconds a question, the median of the rounds; `times` is
+// the one by the other.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "cdprep/collide.h"
+#include "cdprep/distance.h"
+
+namespace cdprep {
+namespace {
+
+constexpr double kStep = 0.001;  ///< of the diagonal, which is 1
+constexpr double kTurn = 0.2 * std::numbers::pi / 180;
+constexpr int kSteps = 20;  ///< timed
+constexpr std::array<const char*, 3> kKinds = {"light", "deep", "near"};
+enum Question : std::size_t { collides, how_far, within };
+constexpr std::array<const char*, 3> kQuestions = {"collide", "distance", "within"};
+constexpr double kTolerance = 0.01;
+
+using Walk = std::vector<Placement>;
+
+[[noreturn]] void stop(const std::string& message) {
+    std::fprintf(stderr, "coherent_motion_bench: %s\n", message.c_str());
+    std::exit(2);
+}
+
+Model open_or_stop(const std::filesystem::path& path) {
+    auto opened = Model::open(path);
+    if (!opened) stop(opened.error().message);
+    return std::move(opened).value();
+}
+
+std::vector<Pose> read_poses(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::vector<Pose> poses;
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; file >> rows[i % 12]; ++i) {
+        if (i % 12 != 11) continue;
+        auto pose = Pose::from_rows(rows);
+        if (!pose) stop(path.string() + ": " + pose.error().message);
+        poses.push_back(pose.value());
+    }
+    return poses;
+}
+
+Double3 random_direction(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    const Double3 v = {normal(random), normal(random), normal(random)};
+    const double length = std::hypot(v.x, v.y, v.z);
+    return {v.x / length, v.y / length, v.z / length};
+}
+
+/// turned * r, brought back to right angles by the quaternion it came from.
+Pose turned_about(const Pose& from, const Double3& axis, double angle, const Double3& shift) {
+    const double s = std::sin(angle / 2);
+    const Pose turn =
+        Pose::from_quaternion(std::cos(angle / 2), s * axis.x, s * axis.y, s * axis.z, {}).value();
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                rows[3 * i + j] += turn.rotation()[3 * i + k] * from.rotation()[3 * k + j];
+            }
+        }
+    }
+    const Double3& t = from.translation();
+    rows[9] = t.x + shift.x;
+    rows[10] = t.y + shift.y;
+    rows[11] = t.z + shift.z;
+    return Pose::from_rows(rows).value();
+}
+
+Walk walk_from(const Pose& start, std::mt19937& random) {
+    const Double3 along = random_direction(random);
+    const Double3 axis = random_direction(random);
+    Walk walk;
+    for (int i = 0; i <= kSteps; ++i) {
+        const double x = kStep * i;
+        walk.push_back(Placement::b_moves(
+            turned_about(start, axis, kTurn * i, {x * along.x, x * along.y, x * along.z})));
+    }
+    return walk;
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[(values.size() - 1) / 2];
+}
+
+bool ask(const Model& a, const Model& b, std::size_t question, const Placement& placement,
+         Workspace& workspace, PairCache* cache) {
+    if (question == collides) return collide(a, b, placement, workspace, {}, cache).hit;
+    if (question == within) return is_within(a, b, placement, kTolerance, workspace, cache);
+    return distance(a, b, placement, workspace, {}, cache)->upper == 0;
+}
+
+/// What one contender took for one set of walks.
+struct Taken {
+    double us = 0;         ///< a question
+    std::size_t hits = 0;  ///< questions answered with yes, or with a distance of 0
+};
+
+Taken ask_all(const Model& a, const Model& b, std::size_t question, const std::vector<Walk>& walks,
+              bool cached, Workspace& workspace) {
+    using Clock = std::chrono::steady_clock;
+    Taken taken;
+    for (const Walk& walk : walks) {
+        PairCache cache;
+        PairCache* kept = cached ? &cache : nullptr;
+        ask(a, b, question, walk[0], workspace, kept);
+        const Clock::time_point begun = Clock::now();
+        for (std::size_t i = 1; i < walk.size(); ++i) {
+            taken.hits += ask(a, b, question, walk[i], workspace, kept) ? 1 : 0;
+        }
+        taken.us += std::chrono::duration<double, std::micro>(Clock::now() - begun).count();
+    }
+    taken.us /= static_cast<double>(walks.size() * kSteps);
+    return taken;
+}
+
+using Ratios = std::map<std::string, std::vector<double>>;
+
+void compare(const std::string& pair, const Model& a, const Model& b,
+             const std::vector<Pose>& poses, int rounds, Ratios& ratios) {
+    std::mt19937 random(1);
+    Workspace workspace;
+    for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+        std::vector<Walk> walks;
+        for (std::size_t i = kind; i < poses.size(); i += kKinds.size()) {
+            walks.push_back(walk_from(poses[i], random));
+        }
+        for (std::size_t question = 0; question < kQuestions.size(); ++question) {
+            if (question != collides && kind != 2) continue;  // touching: as collide
+            std::array<std::vector<double>, 2> us;
+            std::array<std::size_t, 2> hits{};
+            for (int round = 0; round < rounds; ++round) {
+                for (const std::size_t cached : {0, 1}) {
+                    const Taken taken = ask_all(a, b, question, walks, cached == 1, workspace);
+                    us[cached].push_back(taken.us);
+                    hits[cached] = taken.hits;
+                }
+            }
+            if (hits[0] != hits[1]) stop("a cache changed an answer");
+            const std::string key = std::string(kQuestions[question]) + "/" + kKinds[kind];
+            const double ratio = median(us[0]) / median(us[1]);
+            std::printf("%s,%s,%zu,%zu,%.2f,%.2f,%.2f\n", pair.c_str(), key.c_str(),
+                        walks.size() * kSteps, hits[0], median(us[0]), median(us[1]), ratio);
+            ratios[key].push_back(ratio);
+        }
+        std::fflush(stdout);
+    }
+}
+
+void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_folder,
+         const std::vector<std::string>& pairs, int rounds) {
+    std::printf("pair,question,questions,yes,plain_us,cached_us,times\n");
+    Ratios ratios;
+    for (const std::string& pair : pairs) {
+        const std::size_t dash = pair.find('-');
+        if (dash == std::string::npos) stop("'" + pair + "' is not two names with a dash between");
+        const Model a = open_or_stop(bakes / (pair.substr(0, dash) + ".cdp.h5"));
+        const Model b = open_or_stop(bakes / (pair.substr(dash + 1) + ".cdp.h5"));
+        const std::vector<Pose> poses = read_poses(poses_folder / (pair + ".pose"));
+        if (poses.empty()) stop("no poses for " + pair);
+        compare(pair, a, b, poses, rounds, ratios);
+    }
+    for (const auto& [key, values] : ratios) {
+        std::printf("median of %zu pairs,%s,,,,,%.2f\n", values.size(), key.c_str(),
+                    median(values));
+        std::printf("worst of %zu pairs,%s,,,,,%.2f\n", values.size(), key.c_str(),
+                    *std::min_element(values.begin(), values.end()));
+    }
+}
+
+}  // namespace
+}  // namespace cdprep
+
+int main(int count, char** arguments) {
+    if (count < 3) {
+        std::fprintf(stderr, "usage: %s BAKES POSES [ROUNDS [PAIR...]]\n", arguments[0]);
+        return 2;
+    }
+    const std::filesystem::path poses = arguments[2];
+    std::vector<std::string> pairs(arguments + std::min(count, 4), arguments + count);
+    if (pairs.empty()) {
+        for (const auto& entry : std::filesystem::directory_iterator(poses)) {
+            if (entry.path().extension() == ".pose") pairs.push_back(entry.path().stem().string());
+        }
+        std::sort(pairs.begin(), pairs.end());
+    }
+    const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 5;
+    cdprep::run(arguments[1], poses, pairs, rounds);
+}
