@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+namespace cdprep {
+
+/// Work in numbered pieces: something to be called with each number. Refers to the
+/// callable and copies nothing; as cheap to copy as two pointers.
+class Task {
+public:
+    template <class Body>
+    requires(!std::is_same_v<std::remove_const_t<Body>, Task>) Task(Body& body)
+    noexcept  // NOLINT(google-explicit-constructor)
+        : context_(const_cast<void*>(static_cast<const void*>(&body))),
+          call_([](void* context, std::size_t number) { (*static_cast<Body*>(context))(number); }) {
+    }
+    void operator()(std::size_t number) const {
+        call_(context_, number);
+    }
+
+private:
+    void* context_;
+    void (*call_)(void*, std::size_t);
+};
+
+/// The caller's threads. The library starts none: what can be shared out is handed to
+/// `run(count, task)`, which calls task(0) ... task(count - 1), in any order, on any
+/// threads, also all on one, and returns when all are done. It may not throw. Refers to
+/// the callable, an object such as a lambda, and copies nothing; it must outlive the
+/// call it is handed to.
+///
+///     const auto run = [&](std::size_t count, cdprep::Task task) {
+///         std::vector<std::jthread> threads;
+///         for (std::size_t i = 0; i < count; ++i) threads.emplace_back(task, i);
+///     };
+class ParallelFor {
+public:
+    template <class Run>
+    requires(!std::is_same_v<std::remove_const_t<Run>, ParallelFor>) ParallelFor(Run& run)
+    noexcept  // NOLINT(google-explicit-constructor)
+        : context_(const_cast<void*>(static_cast<const void*>(&run))),
+          call_([](void* context, std::size_t count, Task task) {
+              (*static_cast<Run*>(context))(count, task);
+          }) {}
+    void operator()(std::size_t count, Task task) const {
+        call_(context_, count, task);
+    }
+
+private:
+    void* context_;
+    void (*call_)(void*, std::size_t, Task);
+};
+
+}  // namespace cdprep

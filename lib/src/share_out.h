@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstddef>
+
+#include "cdprep/parallel_for.h"
+
+namespace cdprep {
+
+/// Numbers 0 ... count - 1, a few at a time, to whoever asks next.
+class Shares {
+public:
+    Shares(std::size_t count, std::size_t at_a_time) noexcept
+        : count_(count), at_a_time_(at_a_time) {}
+
+    /// Calls `body(number)` for shares of this worker until none is left.
+    template <class Body>
+    void take(Body&& body) noexcept {
+        while (true) {
+            const std::size_t first = next_.fetch_add(at_a_time_, std::memory_order_relaxed);
+            if (first >= count_) return;
+            const std::size_t last = std::min(count_, first + at_a_time_);
+            for (std::size_t i = first; i < last; ++i) body(i);
+        }
+    }
+
+private:
+    std::size_t count_;
+    std::size_t at_a_time_;
+    std::atomic<std::size_t> next_ = 0;
+};
+
+/// Calls `work(worker)` once for each worker, by the caller's threads.
+template <class Work>
+void run_workers(std::size_t workers, ParallelFor parallel_for, Work&& work) noexcept {
+    if (workers == 1) {
+        work(std::size_t{0});
+    } else {
+        parallel_for(workers, Task(work));
+    }
+}
+
+}  // namespace cdprep

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// What one large overlap query gains from more threads: 0-based line 76 of
+// dragon-armadillo.pose, and the dragon against itself shifted by 1 % of the diagonal.
+// Each is asked on one thread by overlapping_triangles(), then by
+// split_overlapping_triangles() with 1, 2, 4, ... workers, in turns. The threads are
+// started beforehand and wait for work asleep.
+//
+// Usage: split_overlap_bench BAKES POSES [ROUNDS [MOST_WORKERS]]
+// BAKES holds NAME.cdp.h5, baked with --normalize.
+//
+// Prints a CSV table: milliseconds, the median of the rounds; `times` is the serial
+// median by this one.
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cdprep/split_overlap.h"
+
+namespace cdprep {
+namespace {
+
+constexpr std::size_t kLine = 76;
+constexpr double kShift = 0.01;  ///< of the diagonal, which is 1
+constexpr std::size_t kMostPairs = 1U << 20;
+
+[[noreturn]] void stop(const std::string& message) {
+    std::fprintf(stderr, "split_overlap_bench: %s\n", message.c_str());
+    std::exit(2);
+}
+
+Model open_or_stop(const std::filesystem::path& path) {
+    auto opened = Model::open(path);
+    if (!opened) stop(opened.error().message);
+    return std::move(opened).value();
+}
+
+Pose read_pose(const std::filesystem::path& path, std::size_t line) {
+    std::ifstream file(path);
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; i < 12 * (line + 1); ++i) {
+        if (!(file >> rows[i % 12])) stop(path.string() + " is too short");
+    }
+    auto pose = Pose::from_rows(rows);
+    if (!pose) stop(pose.error().message);
+    return pose.value();
+}
+
+/// Threads that sleep until there is a task. The caller's thread does task 0.
+class Pool {
+public:
+    explicit Pool(std::size_t workers) {
+        for (std::size_t i = 1; i < workers; ++i) {
+            threads_.emplace_back([this, i] { serve(i); });
+        }
+    }
+    ~Pool() {
+        (*this)(0, task_);
+        for (std::thread& thread : threads_) thread.join();
+    }
+    Pool(const Pool&) = delete;
+    Pool& operator=(const Pool&) = delete;
+
+    /// As ParallelFor wants it; 0 ends the threads.
+    void operator()(std::size_t count, Task task) {
+        task_ = task;
+        count_ = count;
+        left_ = threads_.size();
+        ++round_;
+        round_.notify_all();
+        if (count == 0) return;
+        task(0);
+        for (std::size_t left = left_; left > 0; left = left_) left_.wait(left);
+    }
+
+private:
+    static constexpr auto kNothing = [](std::size_t /*number*/) {};
+
+    void serve(std::size_t number) {
+        for (unsigned seen = 0;;) {
+            round_.wait(seen);
+            ++seen;
+            if (count_ == 0) return;
+            if (number < count_) task_(number);
+            if (--left_ == 0) left_.notify_all();
+        }
+    }
+
+    std::vector<std::thread> threads_;
+    Task task_{kNothing};
+    std::size_t count_ = 0;
+    std::atomic<std::size_t> left_ = 0;
+    std::atomic<unsigned> round_ = 0;
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[(values.size() - 1) / 2];
+}
+
+template <class Ask>
+double ms(Ask ask) {
+    const auto begun = std::chrono::steady_clock::now();
+    ask();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begun)
+        .count();
+}
+
+void compare(const char* name, const Model& a, const Model& b, const Pose& pose,
+             const std::vector<std::size_t>& workers, int rounds) {
+    const Placement placement = Placement::b_moves(pose);
+    std::vector<TrianglePair> expected(kMostPairs), pairs(kMostPairs);
+    std::vector<Workspace> workspaces(workers.back());
+    std::size_t count = 0;
+    std::vector<double> serial;
+    std::vector<std::vector<double>> split(workers.size());
+    for (int round = 0; round < rounds; ++round) {
+        serial.push_back(
+            ms([&] { count = overlapping_triangles(a, b, placement, workspaces[0], expected); }));
+        for (std::size_t i = 0; i < workers.size(); ++i) {
+            Pool pool(workers[i]);
+            const std::span<Workspace> own = std::span(workspaces).first(workers[i]);
+            std::size_t found = 0;
+            split[i].push_back(ms(
+                [&] { found = split_overlapping_triangles(a, b, placement, own, pool, pairs); }));
+            if (found != count ||
+                !std::equal(pairs.begin(), pairs.begin() + count, expected.begin())) {
+                stop("the split changed the answer");
+            }
+        }
+    }
+    std::printf("%s,serial,%zu,%.3f,\n", name, count, median(serial));
+    for (std::size_t i = 0; i < workers.size(); ++i) {
+        std::printf("%s,%zu workers,%zu,%.3f,%.2f\n", name, workers[i], count, median(split[i]),
+                    median(serial) / median(split[i]));
+    }
+}
+
+}  // namespace
+}  // namespace cdprep
+
+int main(int count, char** arguments) {
+    using namespace cdprep;
+    if (count < 3) {
+        std::fprintf(stderr, "usage: %s BAKES POSES [ROUNDS [MOST_WORKERS]]\n", arguments[0]);
+        return 2;
+    }
+    const std::filesystem::path bakes = arguments[1];
+    const std::filesystem::path poses = arguments[2];
+    const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 15;
+    const std::size_t most =
+        count > 4 ? std::max<std::size_t>(1, std::strtoul(arguments[4], nullptr, 10)) : 4;
+    std::vector<std::size_t> workers;
+    for (std::size_t i = 1; i <= most; i *= 2) workers.push_back(i);
+    const Model dragon = open_or_stop(bakes / "dragon.cdp.h5");
+    const Model armadillo = open_or_stop(bakes / "armadillo.cdp.h5");
+    const Pose shifted = Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, kShift, 0, 0}).value();
+    std::printf("question,how,pairs,median_ms,times\n");
+    compare("dragon-armadillo", dragon, armadillo,
+            read_pose(poses / "dragon-armadillo.pose", kLine), workers, rounds);
+    compare("dragon-dragon", dragon, dragon, shifted, workers, rounds);
+}
