@@ -21,7 +21,7 @@ namespace {
 
 /// Pairs of places for each worker: they differ much, and the last to end should be
 /// short.
-constexpr std::size_t kPlacesForAWorker = 128;
+constexpr std::size_t kPlacesForAWorker = 64;
 
 /// Pairs of places that are still to be walked from, breadth first.
 class Places {

@@ -3,12 +3,15 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <memory>
 #include <new>
 
+#include "cdprep/batch.h"
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
+#include "cdprep/split_overlap.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
@@ -73,6 +76,21 @@ TEST(Allocations, NoQuestionAllocates) {
         placements.push_back(Placement::relative(p, q));
         placements.push_back(Placement::world(p, q));
     }
+    std::vector<Workspace> workspaces(3);
+    const auto run = [](std::size_t count, Task task) {
+        for (std::size_t i = 0; i < count; ++i) task(i);
+    };
+    std::vector<PairJob> jobs;
+    for (const Placement& placement : placements) jobs.push_back({&a, &b, placement});
+    jobs.front().cache = &cache;
+    std::vector<Collision> collisions(jobs.size());
+    std::vector<std::optional<Distance>> distances(jobs.size());
+    std::vector<OverlapAnswer> overlaps(jobs.size());
+    std::vector<MarkedTriangles> marked(jobs.size());
+    std::vector<std::size_t> counts(jobs.size());
+    const auto near = std::make_unique<bool[]>(jobs.size());
+    overlaps.front().room = pairs;
+    marked.front() = {bits_a, bits_b};
     std::size_t hits = 0, misses = 0;
     const std::size_t before = allocations;
     for (const Placement& placement : placements) {
@@ -86,8 +104,18 @@ TEST(Allocations, NoQuestionAllocates) {
         static_cast<void>(distance(a, b, placement, workspace));
         static_cast<void>(distance(a, b, placement, workspace, {.relative_error = 0.1}, &cache));
         static_cast<void>(is_within(a, b, placement, 0.5, workspace, &cache));
+        static_cast<void>(collide(a, b, placement, workspace, {}, &cache));
+        static_cast<void>(split_overlapping_triangles(a, b, placement, workspaces, run, pairs));
+        static_cast<void>(split_overlapping_triangles(a, b, placement, workspaces, run,
+                                                      std::span(pairs).first(10)));
         static_cast<void>(find_containment(a, b, placement, workspace));
     }
+    collide_all(jobs, workspaces, run, collisions);
+    distance_all(jobs, workspaces, run, distances);
+    is_within_all(jobs, 0.5, workspaces, run, std::span(near.get(), jobs.size()));
+    count_overlaps_all(jobs, workspaces, run, counts);
+    overlapping_triangles_all(jobs, workspaces, run, overlaps);
+    mark_overlapping_triangles_all(jobs, workspaces, run, marked);
     for (const double x : {0.0, 0.5, 1.0, 7.0}) {
         static_cast<void>(includes(a, {x, 0.1, 0.2}, workspace));
         static_cast<void>(closest_point(a, {x, 0.1, 0.2}, workspace));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cstdlib>
+#include <string_view>
 #include <thread>
 
 #include "cdprep/cast_ray.h"
@@ -10,6 +13,8 @@
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
+#include "support/run_threads.h"
+#include "support/scratch_folder.h"
 
 namespace cdprep::test {
 namespace {
@@ -69,6 +74,134 @@ TEST(Threads, ShareModelsAndAgree) {
     }
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(mismatches, std::vector<std::size_t>(8, 0));
+}
+
+/// The scratch of one thread that asks all kinds of questions.
+struct Scratch {
+    Workspace workspace;
+    PairCache cache;
+    std::vector<TrianglePair> pairs = std::vector<TrianglePair>(64);
+    std::vector<std::uint64_t> bits_a = std::vector<std::uint64_t>(8);
+    std::vector<std::uint64_t> bits_b = std::vector<std::uint64_t>(8);
+};
+
+std::uint64_t folded(std::uint64_t sum, double number) {
+    return (sum ^ std::bit_cast<std::uint64_t>(number)) * 0x100000001b3;
+}
+
+std::uint64_t folded(const std::optional<Distance>& found) {
+    if (!found) return 1;
+    return folded(folded(folded(found->triangle_a, found->triangle_b), found->lower), found->upper);
+}
+
+constexpr std::size_t kKinds = 14;
+
+/// Asks a question of one kind and folds all of its answer into one number.
+std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placement& placement,
+                  Scratch& scratch) {
+    Workspace& workspace = scratch.workspace;
+    const Double3& from = placement.pose_b().translation();
+    std::uint64_t sum = 0;
+    switch (kind) {
+        case 0:
+            return collide(a, b, placement, workspace).hit ? 1 : 0;
+        case 1: {
+            const Collision found = collide(a, b, placement, workspace, {.as = As::solid});
+            return folded(found.hit ? 1 : 0, found.containment.winding);
+        }
+        case 2:
+            return collide(a, b, placement, workspace, {}, &scratch.cache).hit ? 1 : 0;
+        case 3:
+            return overlapping_triangles(a, b, placement, workspace, {});
+        case 4: {
+            const std::size_t count =
+                overlapping_triangles(a, b, placement, workspace, scratch.pairs);
+            for (std::size_t i = 0; i < std::min(count, scratch.pairs.size()); ++i) {
+                sum = folded(folded(sum, scratch.pairs[i].a), scratch.pairs[i].b);
+            }
+            return sum + count;
+        }
+        case 5: {
+            const auto visit = [&](const TrianglePair& pair) {
+                sum += folded(pair.a, pair.b);
+                return true;
+            };
+            visit_overlapping_triangles(a, b, placement, workspace, visit);
+            return sum;
+        }
+        case 6:
+            mark_overlapping_triangles(a, b, placement, workspace, scratch.bits_a, scratch.bits_b);
+            for (const std::uint64_t word : scratch.bits_a) sum = 31 * sum + word;
+            for (const std::uint64_t word : scratch.bits_b) sum = 31 * sum + word;
+            return sum;
+        case 7:
+            return folded(distance(a, b, placement, workspace));
+        case 8:
+            return folded(distance(a, b, placement, workspace, {}, &scratch.cache));
+        case 9:
+            return is_within(a, b, placement, 0.25, workspace) ? 1 : 0;
+        case 10:
+            return is_within(a, b, placement, 0.25, workspace, &scratch.cache) ? 1 : 0;
+        case 11: {
+            const auto hit = cast_ray(a, {from, {1, 0.5, 0.25}}, workspace);
+            return hit ? folded(hit->triangle, hit->t) : 1;
+        }
+        case 12: {
+            const auto closest = closest_point(a, from, workspace);
+            return folded(folded(closest->triangle, closest->lower), closest->upper);
+        }
+        default: {
+            const Inclusion found = includes(a, from, workspace);
+            return folded(found.on_surface ? 1 : 0, found.winding);
+        }
+    }
+}
+
+/// A million under the thread sanitizer (tests/full/sanitizers), else a sample.
+std::size_t questions() {
+    const char* all = std::getenv("CDPREP_ALL_QUESTIONS");
+    return all != nullptr && std::string_view(all) == "yes" ? 1'000'000 : 40'000;
+}
+
+// The truth: what one thread was told before.
+TEST(Threads, EightAskMixedQuestionsOfOneMapping) {
+    const ScratchFolder folder;
+    const AlignedBytes ball = bake_tiny(icosphere(1).positions, icosphere(1).triangles);
+    const TestMesh ring = torus(1, 0.25, 12, 6);
+    const AlignedBytes ring_bytes = bake_tiny(ring.positions, ring.triangles);
+    const auto a = Model::open(folder.write("ball", ball.span()));
+    const auto b = Model::open(folder.write("ring", ring_bytes.span()));
+    ASSERT_TRUE(a && b);
+    std::mt19937 random(19);
+    std::vector<Placement> placements;
+    std::vector<std::uint64_t> expected;
+    Scratch serial;
+    std::size_t hits = 0;
+    for (std::size_t i = 0; i < 250; ++i) {
+        placements.push_back(Placement::b_moves(random_pose(random, 2)));
+        for (std::size_t kind = 0; kind < kKinds; ++kind) {
+            expected.push_back(ask(kind, a.value(), b.value(), placements.back(), serial));
+        }
+        hits += expected[i * kKinds];
+    }
+    EXPECT_GT(hits, placements.size() * 3 / 10);
+    EXPECT_LT(hits, placements.size() * 7 / 10);
+
+    const std::size_t count = questions();
+    std::array<std::size_t, 8> mismatches{};
+    const auto work = [&](std::size_t thread) {
+        Scratch scratch;
+        std::mt19937 choice(static_cast<std::uint32_t>(thread));
+        for (std::size_t i = thread; i < count; i += mismatches.size()) {
+            const std::size_t which = choice() % expected.size();
+            const Placement& placement = placements[which / kKinds];
+            const std::uint64_t found =
+                ask(which % kKinds, a.value(), b.value(), placement, scratch);
+            mismatches[thread] += found == expected[which] ? 0 : 1;
+        }
+    };
+    run_threads(mismatches.size(), Task(work));
+    EXPECT_EQ(mismatches, (std::array<std::size_t, 8>{}));
 }
 
 }  // namespace
