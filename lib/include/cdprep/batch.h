@@ -28,7 +28,7 @@ struct PairJob {
 /// is called once. Of jobs and answers as many count as there are of both. Nothing is
 /// allocated. A few microseconds to hand a batch out are worth it from some ten jobs.
 ///
-///     std::vector<cdprep::Workspace> workspaces(std::thread::hardware_concurrency());
+///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(jobs.size());
 ///     cdprep::collide_all(jobs, workspaces, run, answers);  // run: see parallel_for.h
 void collide_all(std::span<const PairJob> jobs, std::span<Workspace> workspaces,

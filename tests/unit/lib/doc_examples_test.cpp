@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <optional>
 #include <sstream>
+#include <thread>
 #include <vector>
 
+#include "cdprep/batch.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 #include "support/open_tiny.h"
@@ -95,6 +97,27 @@ TEST_F(DocExamples, ClosestPoint) {
         out << "triangle " << near->triangle << " at " << near->upper << '\n';
     }
     EXPECT_NE(out.str().find(" at 1\n"), std::string::npos) << out.str();
+}
+
+// The one cube and another, 0.5 and 3 away along x.
+TEST_F(DocExamples, ParallelForAndBatch) {
+    const auto opened = cdprep::Model::open("bracket.cdp.h5");
+    ASSERT_TRUE(opened);
+    std::vector<cdprep::PairJob> jobs;
+    for (const double x : {0.5, 3.0, 0.5, 3.0}) {
+        const auto pose = cdprep::Pose::from_quaternion(1, 0, 0, 0, {x, 0, 0});
+        jobs.push_back(
+            {&opened.value(), &opened.value(), cdprep::Placement::b_moves(pose.value())});
+    }
+    const auto run = [&](std::size_t count, cdprep::Task task) {
+        std::vector<std::jthread> threads;
+        for (std::size_t i = 0; i < count; ++i) threads.emplace_back(task, i);
+    };
+    std::vector<cdprep::Workspace> workspaces(4);
+    std::vector<cdprep::Collision> answers(jobs.size());
+    cdprep::collide_all(jobs, workspaces, run, answers);
+    EXPECT_TRUE(answers[0].hit && answers[2].hit);
+    EXPECT_FALSE(answers[1].hit || answers[3].hit);
 }
 
 }  // namespace
