@@ -31,7 +31,6 @@ namespace {
 static_assert(sizeof(cdprep_triangle_pair) == sizeof(TrianglePair) &&
               offsetof(cdprep_triangle_pair, b) == offsetof(TrianglePair, b));
 static_assert(sizeof(cdprep_pair_cache) == sizeof(PairCache) &&
-              alignof(cdprep_pair_cache) == alignof(PairCache) &&
               std::is_trivially_copyable_v<PairCache>);
 static_assert(CDPREP_BAD_ARGUMENT == static_cast<int>(ErrorCode::bad_argument) &&
               CDPREP_UNREADABLE == static_cast<int>(ErrorCode::unreadable) &&
