@@ -48,8 +48,16 @@ public:
     bool walk() noexcept;
 
 private:
+    /// After a hit the deepest boxes first, a leaf at a time; after a miss, when all is
+    /// likely to be looked at, in any order, leaves together. Calls `narrow()` at leaves.
+    template <class Narrow>
+    bool walk_all(Narrow narrow) noexcept;
+
     bool look_at(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
         batch_.add(leaf_a, leaf_b);
+        return look_at_batch();
+    }
+    bool look_at_batch() noexcept {
         return !batch_.flush([&](std::uint32_t at_a, std::uint32_t at_b, bool certain) {
             if (!touch_(at_a, at_b, certain)) return true;
             remember_pair(cache_, {at_a, at_b});
@@ -99,18 +107,38 @@ void note_proof(PairCache& cache, double margin, bool proved) noexcept {
     cache.wait = (1U << (2 * cache.failures)) - 1;
 }
 
+template <class Narrow>
+bool CachedSearch::walk_all(Narrow narrow) noexcept {
+    const Tree a(a_);
+    const Tree b(b_);
+    const bool missed = (cache_.holds & held_place) != 0 && (cache_.holds & held_touch) == 0;
+    if (!missed) {
+        return !walk_pairs<Search::first>(a, b, placed_, scratch_,
+                                          [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+                                              narrow();
+                                              return !look_at(leaf_a, leaf_b);
+                                          });
+    }
+    return !walk_pairs<Search::all>(a, b, placed_, scratch_,
+                                    [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+                                        narrow();
+                                        batch_.add(leaf_a, leaf_b);
+                                        return !batch_.full() || !look_at_batch();
+                                    }) ||
+           look_at_batch();
+}
+
 bool CachedSearch::walk() noexcept {
     const float slack = placed_.placement.slack;
     const double margin =
         std::min(std::ldexp(next_margin(cache_), placed_.exponent), kGreatestMargin);
     placed_.placement.slack += static_cast<float>(margin);
     bool proves = margin > 0 && !placed_.apart;
-    const auto look = [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    const auto narrow = [&] {
         placed_.placement.slack = slack;
         proves = false;
-        return !look_at(leaf_a, leaf_b);
     };
-    if (!walk_pairs<Search::first>(Tree(a_), Tree(b_), placed_, scratch_, look)) return true;
+    if (walk_all(narrow)) return true;
     cache_.holds &= ~std::uint32_t{held_touch};
     const double gap = std::ldexp(margin, -placed_.exponent);
     if (margin > 0) note_proof(cache_, gap, proves);
