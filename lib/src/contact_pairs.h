@@ -19,10 +19,13 @@ inline bool is_marked_degenerate(const Model& model, std::uint32_t triangle) noe
     return !bits.empty() && ((bits[triangle / 64] >> (triangle % 64)) & 1) != 0;
 }
 
-/// The exact decision about one pair of triangles.
+/// The exact decision about one pair of triangles. Neighbours in one mesh, most of
+/// what touches, are known by a common corner.
 inline bool in_contact(const Corners& a, const Corners& b, Contact contact) noexcept {
+    if (contact == Contact::closed) {
+        return share_a_corner(a, b) || classify_contact(a, b) != TriangleContact::disjoint;
+    }
     const TriangleContact kind = classify_contact(a, b);
-    if (contact == Contact::closed) return kind != TriangleContact::disjoint;
     return kind == TriangleContact::cross || kind == TriangleContact::coplanar_overlap;
 }
 

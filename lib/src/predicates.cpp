@@ -8,14 +8,17 @@
 #include <cstdint>
 
 #include "expansion.h"
+#include "integer_points.h"
 #include "wide_integer.h"
 
-// Four stages, each exact when it answers:
+// Five stages, each exact when it answers:
 //
 // 1. The filter of predicates.h, while no difference is too small or too large
 //    for it. orient2d's is Shewchuk's, (3 + 16u) u (|left| + |right|).
 // 2. Equal points: neighbours in a mesh share corners.
-// 3. Expansions of the exact differences (two components each; one where the
+// 3. Machine integers, when a power of two makes 62-bit integers of all differences:
+//    floats, grids, and corners that lie near each other nearly always.
+// 4. Expansions of the exact differences (two components each; one where the
 //    difference is exact, which floats and grids nearly always give: then the
 //    work shrinks by itself because zero components are dropped). A component of
 //    size 2^e is a multiple of 2^(e - 52), so when all are 0 or between 2^-250
@@ -23,7 +26,7 @@
 //    nothing is lost. Otherwise a power of two brings the largest coordinate
 //    below 2^300; all being multiples of 2^lowest, products stay exact when
 //    3 lowest >= -1074.
-// 4. Integers wide enough for any doubles, when the exponents spread further.
+// 5. Integers wide enough for any doubles, when the exponents spread further.
 
 static_assert(FLT_EVAL_METHOD == 0, "double must be evaluated in double");
 
@@ -33,6 +36,7 @@ namespace {
 constexpr double kFilter2d = 4.0 * 0x1p-53 * 1.0625;  ///< 3 u + 16 u^2, rounded up
 constexpr double kLeastForFilter2d = 1e-290;   ///< a product that underflows is no longer seen
 constexpr double kLargestForFilter2d = 1e150;  ///< products stay finite
+constexpr int kIntegerBits = 62;               ///< of a difference, in machine integers
 
 int sign_of(double value) {
     return (value > 0) - (value < 0);
@@ -113,6 +117,13 @@ int orient2d_wide(const Double2& a, const Double2& b, const Double2& c) {
 }
 
 int orient2d_beyond_filter(const Double2& a, const Double2& b, const Double2& c) {
+    const auto rows_of = scaled_integers<4>({two_sum(a.x, -c.x), two_sum(a.y, -c.y),  //
+                                             two_sum(b.x, -c.x), two_sum(b.y, -c.y)},
+                                            kIntegerBits);
+    if (rows_of) {
+        const auto& r = *rows_of;
+        return orient2d(Integer2{r[0], r[1]}, Integer2{r[2], r[3]}, Integer2{0, 0});
+    }
     const Expanded2 rows = expanded(a, b, c);
     if (rows.safe()) return rows.sign();
     Spread spread;
@@ -177,6 +188,16 @@ int orient2d(const Double2& a, const Double2& b, const Double2& c) noexcept {
 int orient3d_beyond_filter(const Double3& a, const Double3& b, const Double3& c,
                            const Double3& d) noexcept {
     if (a == d || b == d || c == d || a == b || b == c || c == a) return 0;
+    const auto rows_of =
+        scaled_integers<9>({two_sum(a.x, -d.x), two_sum(a.y, -d.y), two_sum(a.z, -d.z),  //
+                            two_sum(b.x, -d.x), two_sum(b.y, -d.y), two_sum(b.z, -d.z),  //
+                            two_sum(c.x, -d.x), two_sum(c.y, -d.y), two_sum(c.z, -d.z)},
+                           kIntegerBits);
+    if (rows_of) {
+        const auto& r = *rows_of;
+        return orient3d(Integer3{r[0], r[1], r[2]}, Integer3{r[3], r[4], r[5]},
+                        Integer3{r[6], r[7], r[8]}, Integer3{0, 0, 0});
+    }
     const Expanded3 rows = expanded(a, b, c, d);
     if (rows.safe()) return rows.sign();
     Spread spread;

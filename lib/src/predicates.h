@@ -75,20 +75,27 @@ inline double largest_of(double a, double b, double c) noexcept {
     return std::max(std::max(std::fabs(a), std::fabs(b)), std::fabs(c));
 }
 
-inline int orient3d(const Double3& a, const Double3& b, const Double3& c,
-                    const Double3& d) noexcept {
+/// orient3d(), or 2 when the filter cannot tell.
+inline int filtered_orient3d(const Double3& a, const Double3& b, const Double3& c,
+                             const Double3& d) noexcept {
     const double ax = a.x - d.x, ay = a.y - d.y, az = a.z - d.z;
     const double bx = b.x - d.x, by = b.y - d.y, bz = b.z - d.z;
     const double cx = c.x - d.x, cy = c.y - d.y, cz = c.z - d.z;
     const double determinant =
         ax * (by * cz - bz * cy) + bx * (cy * az - cz * ay) + cx * (ay * bz - az * by);
-    const int sign = filtered_sign(determinant, largest_of(ax, bx, cx), largest_of(ay, by, cy),
-                                   largest_of(az, bz, cz));
+    return filtered_sign(determinant, largest_of(ax, bx, cx), largest_of(ay, by, cy),
+                         largest_of(az, bz, cz));
+}
+
+inline int orient3d(const Double3& a, const Double3& b, const Double3& c,
+                    const Double3& d) noexcept {
+    const int sign = filtered_orient3d(a, b, c, d);
     return sign != 2 ? sign : orient3d_beyond_filter(a, b, c, d);
 }
 
-inline std::array<int, 3> plane_signs(const ThreePoints& plane,
-                                      const ThreePoints& points) noexcept {
+/// plane_signs(), with 2 where the filter cannot tell.
+inline std::array<int, 3> filtered_plane_signs(const ThreePoints& plane,
+                                               const ThreePoints& points) noexcept {
     const auto& [a, b, c] = plane;
     const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
     const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
@@ -103,7 +110,16 @@ inline std::array<int, 3> plane_signs(const ThreePoints& plane,
         const double x = p.x - a.x, y = p.y - a.y, z = p.z - a.z;
         signs[i] = filtered_sign(nx * x + ny * y + nz * z, std::max(mx, std::fabs(x)),
                                  std::max(my, std::fabs(y)), std::max(mz, std::fabs(z)));
-        if (signs[i] == 2) signs[i] = orient3d_beyond_filter(a, b, c, p);
+    }
+    return signs;
+}
+
+inline std::array<int, 3> plane_signs(const ThreePoints& plane,
+                                      const ThreePoints& points) noexcept {
+    std::array<int, 3> signs = filtered_plane_signs(plane, points);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (signs[i] != 2) continue;
+        signs[i] = orient3d_beyond_filter(plane[0], plane[1], plane[2], points[i]);
     }
     return signs;
 }

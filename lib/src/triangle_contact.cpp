@@ -3,28 +3,44 @@
 
 #include <algorithm>
 
+#include "integer_points.h"
 #include "predicates.h"
 
 namespace cdprep {
 namespace {
 
+// Where doubles and integers stand alike: Point is Double3, with predicates that are
+// exact whatever it takes, or Integer3.
+
 using Signs = std::array<int, 3>;
+
+template <class Point>
+using Triangle = std::array<Point, 3>;
 
 /// The coordinate plane that a planar figure is seen in.
 enum class View : std::uint8_t { yz, zx, xy };
 
-Double2 seen(View view, const Double3& p) {
+Double2 flat(const Double3& /*kind*/, double u, double v) {
+    return {u, v};
+}
+Integer2 flat(const Integer3& /*kind*/, std::int64_t u, std::int64_t v) {
+    return {u, v};
+}
+
+template <class Point>
+auto seen(View view, const Point& p) {
     switch (view) {
         case View::yz:
-            return {p.y, p.z};
+            return flat(p, p.y, p.z);
         case View::zx:
-            return {p.z, p.x};
+            return flat(p, p.z, p.x);
         default:
-            return {p.x, p.y};
+            return flat(p, p.x, p.y);
     }
 }
 
-int orient_seen(View view, const Double3& a, const Double3& b, const Double3& c) {
+template <class Point>
+int orient_seen(View view, const Point& a, const Point& b, const Point& c) {
     return orient2d(seen(view, a), seen(view, b), seen(view, c));
 }
 
@@ -63,16 +79,18 @@ Lone find_lone(const Signs& s) {
 
 /// Both triangles turned so that each starts with its lone corner, and wound so
 /// that the other's lone corner is on the positive side.
+template <class Point>
 struct Canonical {
-    Corners a;
-    Corners b;
+    Triangle<Point> a;
+    Triangle<Point> b;
 };
 
-Canonical canonical(const Corners& a, const Signs& a_signs, const Corners& b,
-                    const Signs& b_signs) {
+template <class Point>
+Canonical<Point> canonical(const Triangle<Point>& a, const Signs& a_signs, const Triangle<Point>& b,
+                           const Signs& b_signs) {
     const Lone lone_a = find_lone(a_signs);
     const Lone lone_b = find_lone(b_signs);
-    Canonical turned{};
+    Canonical<Point> turned{};
     for (std::size_t i = 0; i < 3; ++i) {
         turned.a[i] = a[(lone_a.corner + i) % 3];
         turned.b[i] = b[(lone_b.corner + i) % 3];
@@ -85,7 +103,8 @@ Canonical canonical(const Corners& a, const Signs& a_signs, const Corners& b,
 /// Returns the greater of the two signs that compare the ends of the intervals
 /// in which the triangles meet the common line: 1 apart, 0 touching, -1 sharing
 /// more than a point. `limit` is the value beyond which the caller stops caring.
-int interval_order(const Canonical& t, int limit) {
+template <class Point>
+int interval_order(const Canonical<Point>& t, int limit) {
     const int first = orient3d(t.a[0], t.a[1], t.b[0], t.b[1]);
     if (first > limit) return first;
     return std::max(first, orient3d(t.a[0], t.a[2], t.b[2], t.b[0]));
@@ -94,7 +113,8 @@ int interval_order(const Canonical& t, int limit) {
 // --- One plane ---------------------------------------------------------------
 
 /// A view in which the triangle keeps its area; only for one that has area.
-View view_of(const Corners& t) {
+template <class Point>
+View view_of(const Triangle<Point>& t) {
     for (const View view : {View::yz, View::zx}) {
         if (orient_seen(view, t[0], t[1], t[2]) != 0) return view;
     }
@@ -103,12 +123,13 @@ View view_of(const Corners& t) {
 
 /// True when the line through an edge of `a` has all of `b` beyond it; with
 /// `limit` 0 points on the line count as beyond it too.
-bool edge_separates(View view, const Corners& a, const Corners& b, int limit) {
+template <class Point>
+bool edge_separates(View view, const Triangle<Point>& a, const Triangle<Point>& b, int limit) {
     const int turn = orient_seen(view, a[0], a[1], a[2]);
     for (std::size_t i = 0; i < 3; ++i) {
-        const Double3& from = a[i];
-        const Double3& to = a[(i + 1) % 3];
-        const bool beyond = std::all_of(b.begin(), b.end(), [&](const Double3& p) {
+        const Point& from = a[i];
+        const Point& to = a[(i + 1) % 3];
+        const bool beyond = std::all_of(b.begin(), b.end(), [&](const Point& p) {
             return turn * orient_seen(view, from, to, p) <= limit;
         });
         if (beyond) return true;
@@ -118,7 +139,8 @@ bool edge_separates(View view, const Corners& a, const Corners& b, int limit) {
 
 /// Two triangles with area in one plane are disjoint exactly when an edge of
 /// one separates them strictly, and share no area when one separates weakly.
-TriangleContact coplanar_contact(const Corners& a, const Corners& b) {
+template <class Point>
+TriangleContact coplanar_contact(const Triangle<Point>& a, const Triangle<Point>& b) {
     const View view = view_of(a);
     if (edge_separates(view, a, b, -1) || edge_separates(view, b, a, -1)) {
         return TriangleContact::disjoint;
@@ -132,12 +154,14 @@ TriangleContact coplanar_contact(const Corners& a, const Corners& b) {
 // --- Segments ------------------------------------------------------------------
 
 /// A segment; equal ends are a point.
+template <class Point>
 struct Segment {
-    Double3 from;
-    Double3 to;
+    Point from;
+    Point to;
 };
 
-bool precedes(const Double3& a, const Double3& b) {
+template <class Point>
+bool precedes(const Point& a, const Point& b) {
     if (a.x != b.x) return a.x < b.x;
     if (a.y != b.y) return a.y < b.y;
     return a.z < b.z;
@@ -145,28 +169,33 @@ bool precedes(const Double3& a, const Double3& b) {
 
 /// What three collinear corners span: along a line the order of coordinates is
 /// the order on the line.
-Segment span_of(const Corners& t) {
-    const auto [least, greatest] = std::minmax_element(t.begin(), t.end(), precedes);
+template <class Point>
+Segment<Point> span_of(const Triangle<Point>& t) {
+    const auto [least, greatest] = std::minmax_element(t.begin(), t.end(), precedes<Point>);
     return {*least, *greatest};
 }
 
-bool within(double x, double a, double b) {
+template <class Coordinate>
+bool within(Coordinate x, Coordinate a, Coordinate b) {
     return std::min(a, b) <= x && x <= std::max(a, b);
 }
 
 /// Whether p, known to be collinear with the segment, lies on it.
-bool between(const Double3& p, const Segment& s) {
+template <class Point>
+bool between(const Point& p, const Segment<Point>& s) {
     return within(p.x, s.from.x, s.to.x) && within(p.y, s.from.y, s.to.y) &&
            within(p.z, s.from.z, s.to.z);
 }
 
-bool collinear(const Double3& a, const Double3& b, const Double3& c) {
+template <class Point>
+bool collinear(const Point& a, const Point& b, const Point& c) {
     return orient_seen(View::yz, a, b, c) == 0 && orient_seen(View::zx, a, b, c) == 0 &&
            orient_seen(View::xy, a, b, c) == 0;
 }
 
 /// Two segments in one plane, seen where that plane keeps its area.
-bool segments_touch_seen(View view, const Segment& s, const Segment& t) {
+template <class Point>
+bool segments_touch_seen(View view, const Segment<Point>& s, const Segment<Point>& t) {
     const int s1 = orient_seen(view, s.from, s.to, t.from);
     const int s2 = orient_seen(view, s.from, s.to, t.to);
     const int t1 = orient_seen(view, t.from, t.to, s.from);
@@ -177,12 +206,13 @@ bool segments_touch_seen(View view, const Segment& s, const Segment& t) {
 }
 
 /// A segment and a triangle with area, both in one plane.
-bool touches_in_plane(const Segment& s, const Corners& t) {
+template <class Point>
+bool touches_in_plane(const Segment<Point>& s, const Triangle<Point>& t) {
     const View view = view_of(t);
     const int turn = orient_seen(view, t[0], t[1], t[2]);
     bool inside = true;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Segment edge{t[i], t[(i + 1) % 3]};
+        const Segment<Point> edge{t[i], t[(i + 1) % 3]};
         if (segments_touch_seen(view, s, edge)) return true;
         inside = inside && turn * orient_seen(view, edge.from, edge.to, s.from) > 0;
     }
@@ -192,7 +222,8 @@ bool touches_in_plane(const Segment& s, const Corners& t) {
 /// A segment and a triangle with area: one end on either side of the plane, and
 /// the line through both passes the three edges on one side (Feito and Torres'
 /// signed volumes).
-bool segment_touches(const Segment& s, const Corners& t) {
+template <class Point>
+bool segment_touches(const Segment<Point>& s, const Triangle<Point>& t) {
     const int from = orient3d(t[0], t[1], t[2], s.from);
     const int to = orient3d(t[0], t[1], t[2], s.to);
     if (from * to > 0) return false;
@@ -204,14 +235,15 @@ bool segment_touches(const Segment& s, const Corners& t) {
 }
 
 /// Two segments anywhere in space.
-bool segments_touch(const Segment& s, const Segment& t) {
+template <class Point>
+bool segments_touch(const Segment<Point>& s, const Segment<Point>& t) {
     if (orient3d(s.from, s.to, t.from, t.to) != 0) return false;
-    const std::array<Double3, 4> points = {s.from, s.to, t.from, t.to};
+    const std::array<Point, 4> points = {s.from, s.to, t.from, t.to};
     for (const View view : {View::yz, View::zx, View::xy}) {
         for (std::size_t skipped = 0; skipped < 4; ++skipped) {
-            const Double3& a = points[(skipped + 1) % 4];
-            const Double3& b = points[(skipped + 2) % 4];
-            const Double3& c = points[(skipped + 3) % 4];
+            const Point& a = points[(skipped + 1) % 4];
+            const Point& b = points[(skipped + 2) % 4];
+            const Point& c = points[(skipped + 3) % 4];
             if (orient_seen(view, a, b, c) != 0) return segments_touch_seen(view, s, t);
         }
     }
@@ -219,28 +251,31 @@ bool segments_touch(const Segment& s, const Segment& t) {
 }
 
 /// For pairs of which at least one has no area.
-bool degenerate_touch(const Corners& a, bool a_is_flat, const Corners& b, bool b_is_flat) {
+template <class Point>
+bool degenerate_touch(const Triangle<Point>& a, bool a_is_flat, const Triangle<Point>& b,
+                      bool b_is_flat) {
     if (a_is_flat && b_is_flat) return segments_touch(span_of(a), span_of(b));
     return a_is_flat ? segment_touches(span_of(a), b) : segment_touches(span_of(b), a);
 }
 
+template <class Point>
+bool is_flat(const Triangle<Point>& t) {
+    return collinear(t[0], t[1], t[2]);
+}
+
 /// For pairs where all corners of one have sign 0: the planes coincide, or a
 /// triangle without area has none.
-TriangleContact flat_contact(const Corners& a, const Corners& b) {
-    const bool a_is_flat = is_degenerate(a);
-    const bool b_is_flat = is_degenerate(b);
+template <class Point>
+TriangleContact flat_contact(const Triangle<Point>& a, const Triangle<Point>& b) {
+    const bool a_is_flat = is_flat(a);
+    const bool b_is_flat = is_flat(b);
     if (!a_is_flat && !b_is_flat) return coplanar_contact(a, b);
     return degenerate_touch(a, a_is_flat, b, b_is_flat) ? TriangleContact::touch
                                                         : TriangleContact::disjoint;
 }
 
-}  // namespace
-
-bool is_degenerate(const Corners& t) noexcept {
-    return collinear(t[0], t[1], t[2]);
-}
-
-TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept {
+template <class Point>
+TriangleContact contact_of(const Triangle<Point>& a, const Triangle<Point>& b) {
     const Signs a_signs = plane_signs(b, a);
     if (strictly_one_side(a_signs)) return TriangleContact::disjoint;
     if (all_zero(a_signs)) return flat_contact(a, b);
@@ -253,6 +288,77 @@ TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept {
     return crosses ? TriangleContact::cross : TriangleContact::touch;
 }
 
+// --- Stages ----------------------------------------------------------------------
+
+/// Both triangles in machine integers, around a corner of the first.
+struct IntegerPair {
+    Triangle<Integer3> a;
+    Triangle<Integer3> b;
+};
+
+std::optional<IntegerPair> in_integers(const Corners& a, const Corners& b) {
+    constexpr int kBits = 61;  // differences of two then have 62
+    const Double3& o = a[0];
+    std::array<Exact2, 15> differences;
+    std::size_t count = 0;
+    for (const Double3* p : {&a[1], &a[2], &b[0], &b[1], &b[2]}) {
+        differences[count++] = two_sum(p->x, -o.x);
+        differences[count++] = two_sum(p->y, -o.y);
+        differences[count++] = two_sum(p->z, -o.z);
+    }
+    const auto integers = scaled_integers(differences, kBits);
+    if (!integers) return std::nullopt;
+    const auto point = [&](std::size_t i) {
+        return Integer3{(*integers)[i], (*integers)[i + 1], (*integers)[i + 2]};
+    };
+    return IntegerPair{{Integer3{0, 0, 0}, point(0), point(3)}, {point(6), point(9), point(12)}};
+}
+
+constexpr int kUnknown = 2;
+
+bool all_known(const Signs& s) {
+    return std::none_of(s.begin(), s.end(), [](int sign) { return sign == kUnknown || sign == 0; });
+}
+
+}  // namespace
+
+bool is_degenerate(const Corners& t) noexcept {
+    return is_flat(t);
+}
+
+std::optional<TriangleContact> contact_by_filter(const Corners& a, const Corners& b) noexcept {
+    const Signs a_signs = filtered_plane_signs(b, a);
+    if (a_signs[0] != kUnknown && strictly_one_side(a_signs)) return TriangleContact::disjoint;
+    const Signs b_signs = filtered_plane_signs(a, b);
+    if (b_signs[0] != kUnknown && strictly_one_side(b_signs)) return TriangleContact::disjoint;
+    if (!all_known(a_signs) || !all_known(b_signs)) return std::nullopt;
+    const Canonical<Double3> t = canonical(a, a_signs, b, b_signs);
+    const int first = filtered_orient3d(t.a[0], t.a[1], t.b[0], t.b[1]);
+    if (first == 1) return TriangleContact::disjoint;
+    const int second = filtered_orient3d(t.a[0], t.a[2], t.b[2], t.b[0]);
+    if (second == 1) return TriangleContact::disjoint;
+    if (first == -1 && second == -1) return TriangleContact::cross;
+    return std::nullopt;
+}
+
+TriangleContact contact_beyond_filter(const Corners& a, const Corners& b) noexcept {
+    if (const auto pair = in_integers(a, b)) return contact_of(pair->a, pair->b);
+    return contact_of(a, b);
+}
+
+bool share_a_corner(const Corners& a, const Corners& b) noexcept {
+    bool shared = false;
+    for (const Double3& p : a) {
+        for (const Double3& q : b) shared |= p == q;
+    }
+    return shared;
+}
+
+TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept {
+    const std::optional<TriangleContact> sure = contact_by_filter(a, b);
+    return sure ? *sure : contact_beyond_filter(a, b);
+}
+
 bool triangles_touch(const Corners& a, const Corners& b) noexcept {
     return classify_contact(a, b) != TriangleContact::disjoint;
 }
@@ -262,8 +368,8 @@ bool triangles_touch_by_segments(const Corners& a, const Corners& b) noexcept {
     const bool b_is_flat = is_degenerate(b);
     if (a_is_flat || b_is_flat) return degenerate_touch(a, a_is_flat, b, b_is_flat);
     for (std::size_t i = 0; i < 3; ++i) {
-        if (segment_touches({a[i], a[(i + 1) % 3]}, b)) return true;
-        if (segment_touches({b[i], b[(i + 1) % 3]}, a)) return true;
+        if (segment_touches(Segment<Double3>{a[i], a[(i + 1) % 3]}, b)) return true;
+        if (segment_touches(Segment<Double3>{b[i], b[(i + 1) % 3]}, a)) return true;
     }
     return false;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "cdprep/format/geometry.h"
 
@@ -29,6 +30,18 @@ enum class TriangleContact : std::uint8_t {
 /// The same answer, by the six segment-triangle tests of Feito and Torres: an
 /// independent second implementation that the first is held against.
 [[nodiscard]] bool triangles_touch_by_segments(const Corners& a, const Corners& b) noexcept;
+
+/// Returns how the two stand where the signs of a few determinants in double leave no
+/// doubt: apart, or crossing. Nothing for all that touches, is flat or comes near.
+[[nodiscard]] std::optional<TriangleContact> contact_by_filter(const Corners& a,
+                                                               const Corners& b) noexcept;
+
+/// Returns what classify_contact() does, without asking contact_by_filter() first: in
+/// machine integers where all coordinates fit, in expansions where not.
+[[nodiscard]] TriangleContact contact_beyond_filter(const Corners& a, const Corners& b) noexcept;
+
+/// True when a corner of each is the same point: then the two touch, at least.
+[[nodiscard]] bool share_a_corner(const Corners& a, const Corners& b) noexcept;
 
 /// Returns how the two stand. Exact. A degenerate triangle has no inside: it can
 /// only touch.

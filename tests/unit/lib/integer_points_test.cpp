@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "integer_points.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "support/exact_rational.h"
+
+namespace cdprep::test {
+namespace {
+
+using Nine = std::array<Exact2, 9>;
+
+ExactNumber exact(const Exact2& d) {
+    return ExactNumber(d.value) + ExactNumber(d.tail);
+}
+ExactNumber exact(std::int64_t i) {
+    const double high = static_cast<double>(i / (1 << 20)) * (1 << 20);
+    return ExactNumber(high) +
+           ExactNumber(static_cast<double>(i - static_cast<std::int64_t>(high)));
+}
+
+template <class Row>
+int determinant_sign(const Row& r) {
+    const auto minor = [&](std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+        return exact(r[a]) * exact(r[d]) - exact(r[b]) * exact(r[c]);
+    };
+    return (exact(r[0]) * minor(4, 5, 7, 8) - exact(r[1]) * minor(3, 5, 6, 8) +
+            exact(r[2]) * minor(3, 4, 6, 7))
+        .sign();
+}
+
+// Integers keep every ratio: cross-multiplied in exact arithmetic.
+TEST(ScaledIntegers, AreTheDifferencesTimesOneNumber) {
+    constexpr std::uint32_t kSeed = 62;
+    std::mt19937 random(kSeed);
+    std::uniform_real_distribution<double> unit(-1, 1);
+    int fitting = 0;
+    constexpr int kRounds = 3000;
+    for (int round = 0; round < kRounds; ++round) {
+        Nine d;
+        const double near = std::ldexp(1.0, -(round % 16));
+        const double size = std::ldexp(1.0, round % 7 * 300 - 900);
+        for (Exact2& x : d) {
+            const double from = round % 5 == 0 ? unit(random) * 0x1p-20 : unit(random);
+            x = two_sum(size * (from + near * unit(random)), -size * from);
+        }
+        const auto integers = scaled_integers(d, 62);
+        if (!integers) continue;
+        ++fitting;
+        std::size_t largest = 0;
+        for (std::size_t i = 0; i < 9; ++i) {
+            if (std::fabs(d[i].value) > std::fabs(d[largest].value)) largest = i;
+        }
+        const std::int64_t most = std::abs((*integers)[largest]);
+        EXPECT_GE(most, std::int64_t{1} << 61) << "seed " << kSeed << ", round " << round;
+        EXPECT_LE(most, (std::int64_t{1} << 62) + (1 << 9));
+        for (std::size_t i = 0; i < 9; ++i) {
+            ASSERT_EQ(exact((*integers)[i]) * exact(d[largest]),
+                      exact((*integers)[largest]) * exact(d[i]))
+                << "seed " << kSeed << ", round " << round;
+        }
+        const auto& r = *integers;
+        ASSERT_EQ(orient3d(Integer3{r[0], r[1], r[2]}, Integer3{r[3], r[4], r[5]},
+                           Integer3{r[6], r[7], r[8]}, Integer3{0, 0, 0}),
+                  determinant_sign(d));
+    }
+    EXPECT_GT(fitting, kRounds * 3 / 10);
+    EXPECT_LT(fitting, kRounds);
+}
+
+TEST(ScaledIntegers, AreNoneWhereBitsAreMissing) {
+    const auto fits = [](double large, double small) {
+        return scaled_integers<4>({{{large, 0}, {small, 0}, {0, 0}, {0, 0}}}, 62).has_value();
+    };
+    EXPECT_TRUE(fits(1, 0x1p-61));
+    EXPECT_FALSE(fits(1, 0x1p-62));
+    EXPECT_TRUE(fits(0x1p1000, 0x1p939));
+    EXPECT_FALSE(fits(0x1p1000, 0x1p-1074));  // the product would be 0
+    EXPECT_TRUE(fits(0x1p-900, 0x1p-961));
+    EXPECT_FALSE(fits(0x1p-1000, 0x1p-1000));  // there is no scale
+    EXPECT_FALSE(fits(std::numeric_limits<double>::infinity(), 1));
+    EXPECT_FALSE(fits(0, 0));
+}
+
+// The largest permitted integers, with determinants that are 0, or one off.
+TEST(IntegerPoints, SignsAreExactUpToTheLimit) {
+    constexpr std::uint32_t kSeed = 61;
+    constexpr std::int64_t kMost = (std::int64_t{1} << 61) + (1 << 8);
+    std::mt19937_64 random(kSeed);
+    std::array<int, 3> seen{};
+    for (int round = 0; round < 5000; ++round) {
+        const auto coordinate = [&] {
+            const auto any = static_cast<std::int64_t>(random()) % kMost;
+            return round % 3 == 0 ? any : (random() % 2 == 0 ? kMost : -kMost) + (any & 1);
+        };
+        const auto point = [&] { return Integer3{coordinate(), coordinate(), coordinate()}; };
+        const Integer3 a = point(), b = point(), c = point(), d = point();
+        const std::array<std::int64_t, 9> rows = {a.x - d.x, a.y - d.y, a.z - d.z,
+                                                  b.x - d.x, b.y - d.y, b.z - d.z,
+                                                  c.x - d.x, c.y - d.y, c.z - d.z};
+        const int sign = determinant_sign(rows);
+        ++seen[static_cast<std::size_t>(sign + 1)];
+        ASSERT_EQ(orient3d(a, b, c, d), sign) << "seed " << kSeed << ", round " << round;
+        const std::array<int, 3> signs = plane_signs({a, b, c}, {d, a, d});
+        ASSERT_EQ(signs[0], sign) << "seed " << kSeed << ", round " << round;
+        ASSERT_EQ(signs[1], 0);
+        ASSERT_EQ(signs[2], sign);
+        const auto exact_2d = exact(rows[0]) * exact(rows[4]) - exact(rows[1]) * exact(rows[3]);
+        ASSERT_EQ(orient2d({a.x, a.y}, {b.x, b.y}, {d.x, d.y}), exact_2d.sign());
+    }
+    for (const int count : seen) EXPECT_GT(count, 500);
+}
+
+}  // namespace
+}  // namespace cdprep::test
