@@ -82,7 +82,7 @@ std::optional<RayHit> cast_ray(const Model& model, const Ray& ray, Workspace& wo
     const HalfLine line = {ray.origin,
                            {ray.origin.x + d.x, ray.origin.y + d.y, ray.origin.z + d.z}};
     const double limit = std::ldexp(options.max_t, -stretch);
-    const MovedModel still{&model, nullptr};
+    const MovedModel still(model, nullptr);
     std::optional<RayHit> best;
     double best_t = limit;
     const auto look_at_leaf = [&](std::uint32_t leaf) {

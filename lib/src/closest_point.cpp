@@ -50,7 +50,7 @@ private:
 
 std::optional<ClosestPoint> closest_point(const Model& model, const Double3& query,
                                           Workspace& workspace, double max_distance) noexcept {
-    const MovedModel still{&model, nullptr};
+    const MovedModel still(model, nullptr);
     std::optional<ClosestPoint> best;
     double best_computed = std::numeric_limits<double>::infinity();
     double lower = best_computed;

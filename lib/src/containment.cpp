@@ -177,7 +177,7 @@ Containment find_containment(const Model& a, const Model& b, const Placement& pl
 }
 
 Inclusion includes(const Model& model, const Double3& p, Workspace& workspace) noexcept {
-    return inclusion({&model, nullptr}, p, workspace.storage());
+    return inclusion({model, nullptr}, p, workspace.storage());
 }
 
 }  // namespace cdprep

@@ -27,44 +27,54 @@ struct MovedModel {
     const Model* model;
     const Pose* pose;  ///< null: the model stays as it is
 
+    MovedModel(const Model& of, const Pose* by) noexcept
+        : model(&of),
+          pose(by),
+          exact_leaves_(of.has_exact_leaves() ? of.leaves().data() : nullptr),
+          triangles_(of.triangles().data()),
+          floats_(of.positions_f32().empty() ? nullptr : of.positions_f32().data()),
+          doubles_(of.positions_f64().data()) {}
+
     /// Corners of triangle `index` of the tree order. Exactly the points that
     /// the query answers for.
     [[nodiscard]] Corners corners(std::uint32_t index) const noexcept {
-        if (model->has_exact_leaves()) {
-            const format::BvhLeaf& leaf = model->leaves()[index / format::kBvhWidth];
+        if (exact_leaves_ != nullptr) {
+            const format::BvhLeaf& leaf = exact_leaves_[index / format::kBvhWidth];
             const std::uint32_t lane = index % format::kBvhWidth;
             return {at(leaf, 0, lane), at(leaf, 1, lane), at(leaf, 2, lane)};
         }
-        const format::Triangle& triangle = model->triangles()[index];
+        const format::Triangle& triangle = triangles_[index];
         return {position(triangle.vertex[0]), position(triangle.vertex[1]),
                 position(triangle.vertex[2])};
     }
     [[nodiscard]] Double3 position(std::uint32_t vertex) const noexcept {
-        const Double3 p = stored_position(*model, vertex);
-        return pose == nullptr ? p : moved(*pose, p);
+        if (floats_ == nullptr) return placed(doubles_[vertex]);
+        return placed({floats_[vertex].x, floats_[vertex].y, floats_[vertex].z});
     }
 
 private:
+    [[nodiscard]] Double3 placed(const Double3& p) const noexcept {
+        return pose == nullptr ? p : moved(*pose, p);
+    }
     [[nodiscard]] Double3 at(const format::BvhLeaf& leaf, std::size_t corner,
                              std::size_t lane) const noexcept {
         const auto& rows = leaf.corner[corner];
-        const Double3 p = {rows[0][lane], rows[1][lane], rows[2][lane]};
-        return pose == nullptr ? p : moved(*pose, p);
+        return placed({rows[0][lane], rows[1][lane], rows[2][lane]});
     }
-    static Double3 stored_position(const Model& model, std::uint32_t vertex) noexcept {
-        if (const auto floats = model.positions_f32(); !floats.empty()) {
-            return {floats[vertex].x, floats[vertex].y, floats[vertex].z};
-        }
-        return model.positions_f64()[vertex];
-    }
+
+    // Kept here: looked up anew, they cost more than the corners themselves.
+    const format::BvhLeaf* exact_leaves_;  ///< or null
+    const format::Triangle* triangles_;
+    const format::Float3* floats_;  ///< or null
+    const Double3* doubles_;
 };
 
 /// The two models of a question, each with the pose that moves it.
 inline MovedModel moved_a(const Model& a, const Placement& placement) noexcept {
-    return {&a, placement.a_is_moved() ? &placement.pose_a() : nullptr};
+    return {a, placement.a_is_moved() ? &placement.pose_a() : nullptr};
 }
 inline MovedModel moved_b(const Model& b, const Placement& placement) noexcept {
-    return {&b, placement.b_is_moved() ? &placement.pose_b() : nullptr};
+    return {b, placement.b_is_moved() ? &placement.pose_b() : nullptr};
 }
 
 }  // namespace cdprep
