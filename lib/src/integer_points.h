@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <limits>
 
 #include "expansion.h"
 
@@ -14,27 +17,26 @@ namespace cdprep {
 /// below are then exact in machine integers.
 struct Integer3 {
     std::int64_t x, y, z;
-    friend bool operator==(const Integer3&, const Integer3&) = default;
 };
 struct Integer2 {
     std::int64_t x, y;
 };
 
-/// Returns exact differences, a value and what its rounding lost each, as integers:
-/// all times the power of two that puts the largest between 2^(bits - 1) and
-/// 2^bits (plus 2^(bits - 53)). Nothing when they spread over more than `bits`
-/// bits: floats, grids, and corners that lie near each other seldom do. `bits` is at
-/// most 62.
+/// Differences along one axis as integers, if they fit.
 template <std::size_t N>
-[[nodiscard]] std::optional<std::array<std::int64_t, N>> scaled_integers(
-    const std::array<Exact2, N>& differences, int bits) noexcept;
+struct ScaledAxis {
+    std::array<std::int64_t, N> at;
+    bool fits;
+};
 
-extern template std::optional<std::array<std::int64_t, 4>> scaled_integers(
-    const std::array<Exact2, 4>& differences, int bits) noexcept;
-extern template std::optional<std::array<std::int64_t, 9>> scaled_integers(
-    const std::array<Exact2, 9>& differences, int bits) noexcept;
-extern template std::optional<std::array<std::int64_t, 15>> scaled_integers(
-    const std::array<Exact2, 15>& differences, int bits) noexcept;
+/// Returns x[i] - from, exactly, times the power of two that puts the largest between
+/// 2^(bits - 1) and 2^bits (plus 2^(bits - 53)). They do not fit when they spread over
+/// more than `bits` bits: floats, grids, and corners that lie near each other seldom
+/// do. `bits` is at most 62. Each axis may have its own power of two: no sign below
+/// depends on it.
+template <std::size_t N>
+[[nodiscard]] ScaledAxis<N> scaled_axis(const std::array<double, N>& x, double from,
+                                        int bits) noexcept;
 
 /// As the functions of the same names for doubles (predicates.h).
 [[nodiscard]] int orient2d(const Integer2& a, const Integer2& b, const Integer2& c) noexcept;
@@ -42,5 +44,49 @@ extern template std::optional<std::array<std::int64_t, 15>> scaled_integers(
                            const Integer3& d) noexcept;
 [[nodiscard]] std::array<int, 3> plane_signs(const std::array<Integer3, 3>& plane,
                                              const std::array<Integer3, 3>& points) noexcept;
+
+// --- Implementation ------------------------------------------------------------------
+
+/// Adds to `sum` the integer that `value` is times `scale`; false when it is none.
+/// The product is below 2^63. Undone, it must give the value again: so nothing
+/// fell off the lower end of double either.
+inline bool add_scaled(double value, double scale, double unscale, std::int64_t& sum) noexcept {
+    const auto integer = static_cast<std::int64_t>(value * scale);
+    sum += integer;
+    return static_cast<double>(integer) * unscale == value;
+}
+
+inline double power_of_two(int exponent) noexcept {
+    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
+}
+
+template <std::size_t N>
+ScaledAxis<N> scaled_axis(const std::array<double, N>& x, double from, int bits) noexcept {
+    constexpr double kLeastToScale = 0x1p-900;  // of less, the scale is no double
+    constexpr double kLift = 0x1p600;
+    std::array<Exact2, N> difference;
+    double most = 0;
+    for (std::size_t i = 0; i < N; ++i) {
+        difference[i] = two_sum(x[i], -from);
+        most = std::max(most, std::fabs(difference[i].value));
+    }
+    ScaledAxis<N> result{};
+    result.fits = most == 0;
+    if (most == 0 || most > std::numeric_limits<double>::max()) return result;
+    if (most < kLeastToScale) {
+        for (Exact2& d : difference) d = {d.value * kLift, d.tail * kLift};
+        most *= kLift;
+    }
+    const int shift =
+        bits - 1 - (static_cast<int>(std::bit_cast<std::uint64_t>(most) >> 52) - 1023);
+    const double scale = power_of_two(shift);
+    const double unscale = power_of_two(-shift);
+    result.fits = true;
+    for (std::size_t i = 0; i < N; ++i) {
+        result.fits &= add_scaled(difference[i].value, scale, unscale, result.at[i]);
+        result.fits &= add_scaled(difference[i].tail, scale, unscale, result.at[i]);
+    }
+    return result;
+}
 
 }  // namespace cdprep

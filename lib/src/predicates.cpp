@@ -16,8 +16,8 @@
 // 1. The filter of predicates.h, while no difference is too small or too large
 //    for it. orient2d's is Shewchuk's, (3 + 16u) u (|left| + |right|).
 // 2. Equal points: neighbours in a mesh share corners.
-// 3. Machine integers, when a power of two makes 62-bit integers of all differences:
-//    floats, grids, and corners that lie near each other nearly always.
+// 3. Machine integers, when a power of two for each axis makes 62-bit integers of all
+//    differences along it: floats, grids, and corners near each other nearly always.
 // 4. Expansions of the exact differences (two components each; one where the
 //    difference is exact, which floats and grids nearly always give: then the
 //    work shrinks by itself because zero components are dropped). A component of
@@ -117,13 +117,9 @@ int orient2d_wide(const Double2& a, const Double2& b, const Double2& c) {
 }
 
 int orient2d_beyond_filter(const Double2& a, const Double2& b, const Double2& c) {
-    const auto rows_of = scaled_integers<4>({two_sum(a.x, -c.x), two_sum(a.y, -c.y),  //
-                                             two_sum(b.x, -c.x), two_sum(b.y, -c.y)},
-                                            kIntegerBits);
-    if (rows_of) {
-        const auto& r = *rows_of;
-        return orient2d(Integer2{r[0], r[1]}, Integer2{r[2], r[3]}, Integer2{0, 0});
-    }
+    const auto x = scaled_axis<2>({a.x, b.x}, c.x, kIntegerBits);
+    const auto y = scaled_axis<2>({a.y, b.y}, c.y, kIntegerBits);
+    if (x.fits && y.fits) return orient2d(Integer2{x.at[0], y.at[0]}, {x.at[1], y.at[1]}, {0, 0});
     const Expanded2 rows = expanded(a, b, c);
     if (rows.safe()) return rows.sign();
     Spread spread;
@@ -188,15 +184,12 @@ int orient2d(const Double2& a, const Double2& b, const Double2& c) noexcept {
 int orient3d_beyond_filter(const Double3& a, const Double3& b, const Double3& c,
                            const Double3& d) noexcept {
     if (a == d || b == d || c == d || a == b || b == c || c == a) return 0;
-    const auto rows_of =
-        scaled_integers<9>({two_sum(a.x, -d.x), two_sum(a.y, -d.y), two_sum(a.z, -d.z),  //
-                            two_sum(b.x, -d.x), two_sum(b.y, -d.y), two_sum(b.z, -d.z),  //
-                            two_sum(c.x, -d.x), two_sum(c.y, -d.y), two_sum(c.z, -d.z)},
-                           kIntegerBits);
-    if (rows_of) {
-        const auto& r = *rows_of;
-        return orient3d(Integer3{r[0], r[1], r[2]}, Integer3{r[3], r[4], r[5]},
-                        Integer3{r[6], r[7], r[8]}, Integer3{0, 0, 0});
+    const auto x = scaled_axis<3>({a.x, b.x, c.x}, d.x, kIntegerBits);
+    const auto y = scaled_axis<3>({a.y, b.y, c.y}, d.y, kIntegerBits);
+    const auto z = scaled_axis<3>({a.z, b.z, c.z}, d.z, kIntegerBits);
+    if (x.fits && y.fits && z.fits) {
+        const auto at = [&](std::size_t i) { return Integer3{x.at[i], y.at[i], z.at[i]}; };
+        return orient3d(at(0), at(1), at(2), {0, 0, 0});
     }
     const Expanded3 rows = expanded(a, b, c, d);
     if (rows.safe()) return rows.sign();

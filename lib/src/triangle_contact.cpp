@@ -298,20 +298,12 @@ struct IntegerPair {
 
 std::optional<IntegerPair> in_integers(const Corners& a, const Corners& b) {
     constexpr int kBits = 61;  // differences of two then have 62
-    const Double3& o = a[0];
-    std::array<Exact2, 15> differences;
-    std::size_t count = 0;
-    for (const Double3* p : {&a[1], &a[2], &b[0], &b[1], &b[2]}) {
-        differences[count++] = two_sum(p->x, -o.x);
-        differences[count++] = two_sum(p->y, -o.y);
-        differences[count++] = two_sum(p->z, -o.z);
-    }
-    const auto integers = scaled_integers(differences, kBits);
-    if (!integers) return std::nullopt;
-    const auto point = [&](std::size_t i) {
-        return Integer3{(*integers)[i], (*integers)[i + 1], (*integers)[i + 2]};
-    };
-    return IntegerPair{{Integer3{0, 0, 0}, point(0), point(3)}, {point(6), point(9), point(12)}};
+    const auto x = scaled_axis<5>({a[1].x, a[2].x, b[0].x, b[1].x, b[2].x}, a[0].x, kBits);
+    const auto y = scaled_axis<5>({a[1].y, a[2].y, b[0].y, b[1].y, b[2].y}, a[0].y, kBits);
+    const auto z = scaled_axis<5>({a[1].z, a[2].z, b[0].z, b[1].z, b[2].z}, a[0].z, kBits);
+    if (!x.fits || !y.fits || !z.fits) return std::nullopt;
+    const auto point = [&](std::size_t i) { return Integer3{x.at[i], y.at[i], z.at[i]}; };
+    return IntegerPair{{Integer3{0, 0, 0}, point(0), point(1)}, {point(2), point(3), point(4)}};
 }
 
 constexpr int kUnknown = 2;
@@ -328,7 +320,11 @@ bool is_degenerate(const Corners& t) noexcept {
 
 std::optional<TriangleContact> contact_by_filter(const Corners& a, const Corners& b) noexcept {
     const Signs a_signs = filtered_plane_signs(b, a);
-    if (a_signs[0] != kUnknown && strictly_one_side(a_signs)) return TriangleContact::disjoint;
+    if (strictly_one_side(a_signs)) {
+        // In one plane, as far as double can tell: so are the others.
+        if (a_signs[0] == kUnknown) return std::nullopt;
+        return TriangleContact::disjoint;
+    }
     const Signs b_signs = filtered_plane_signs(a, b);
     if (b_signs[0] != kUnknown && strictly_one_side(b_signs)) return TriangleContact::disjoint;
     if (!all_known(a_signs) || !all_known(b_signs)) return std::nullopt;
