@@ -7,6 +7,7 @@
 #include "support/meshes.h"
 
 #include "cdprep/overlapping_triangles.h"
+#include "moved_model.h"
 #include "triangle_contact.h"
 
 namespace cdprep::test {
@@ -33,6 +34,37 @@ inline std::vector<TrianglePair> brute_force_pairs(const TestMesh& a, const Test
             if (triangles_touch_by_segments(at_a, corners_of(b, j, pose_b))) {
                 pairs.push_back({i, j});
             }
+        }
+    }
+    return pairs;
+}
+
+inline Box3 box_of(const Corners& t) {
+    const auto [x0, x1] = std::minmax({t[0].x, t[1].x, t[2].x});
+    const auto [y0, y1] = std::minmax({t[0].y, t[1].y, t[2].y});
+    const auto [z0, z1] = std::minmax({t[0].z, t[1].z, t[2].z});
+    return {{x0, y0, z0}, {x1, y1, z1}};
+}
+
+/// Every pair of which `touch(a, b)` is true, asked where the boxes of two triangles
+/// meet: for meshes too large for brute_force_pairs() or a slower test.
+template <class Touch>
+std::vector<TrianglePair> boxed_pairs(const TestMesh& a, const TestMesh& b,
+                                      const Placement& placement, Touch&& touch) {
+    const Pose* pose_a = placement.a_is_moved() ? &placement.pose_a() : nullptr;
+    const Pose* pose_b = placement.b_is_moved() ? &placement.pose_b() : nullptr;
+    std::vector<Corners> all_b;
+    std::vector<Box3> boxes_b;
+    for (std::uint32_t j = 0; j < b.triangles.size(); ++j) {
+        all_b.push_back(corners_of(b, j, pose_b));
+        boxes_b.push_back(box_of(all_b.back()));
+    }
+    std::vector<TrianglePair> pairs;
+    for (std::uint32_t i = 0; i < a.triangles.size(); ++i) {
+        const Corners at_a = corners_of(a, i, pose_a);
+        const Box3 box_a = box_of(at_a);
+        for (std::uint32_t j = 0; j < b.triangles.size(); ++j) {
+            if (overlap(box_a, boxes_b[j]) && touch(at_a, all_b[j])) pairs.push_back({i, j});
         }
     }
     return pairs;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "cdprep/collide.h"
 #include "support/brute_force.h"
+#include "support/exact_contact.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
@@ -42,6 +45,61 @@ TEST(OverlappingTrianglesLaws, AgreesWithBruteForce) {
     // Neither answer may be rare, or this test would prove nothing.
     EXPECT_GT(touching, asked / 200);
     EXPECT_LT(touching, asked / 2);
+}
+
+/// A rotation of the cube and a step along the grid: integers stay integers.
+Pose grid_pose(std::mt19937& random, int reach) {
+    std::array<int, 3> axes = {0, 1, 2};
+    std::shuffle(axes.begin(), axes.end(), random);
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        rows[3 * i + static_cast<std::size_t>(axes[i])] = random() % 2 == 0 ? 1 : -1;
+        rows[9 + i] =
+            static_cast<double>(random() % (2 * static_cast<unsigned>(reach) + 1)) - reach;
+    }
+    if (auto pose = Pose::from_rows(rows)) return pose.value();
+    for (std::size_t i = 0; i < 3; ++i) rows[i] = -rows[i];  // it mirrored
+    return Pose::from_rows(rows).value();
+}
+
+/// By the definition, in machine integers, which small grids never leave.
+std::vector<TrianglePair> integer_pairs(const TestMesh& a, const TestMesh& b,
+                                        const Placement& placement) {
+    return boxed_pairs(a, b, placement, [](const Corners& s, const Corners& t) {
+        return contact_by_definition(exact<std::int64_t>(s), exact<std::int64_t>(t)) !=
+               TriangleContact::disjoint;
+    });
+}
+
+// The oracle: the definition of contact, on grids where most coincidences there are
+// come about. B moves; then A moves by the same pose with the roles exchanged.
+TEST(OverlappingTrianglesLaws, TenThousandPairsOfCoarseMeshesAreExact) {
+    constexpr std::uint32_t kSeed = 10000;
+    constexpr int kRounds = 10'000;
+    std::mt19937 random(kSeed);
+    int hits = 0;
+    std::size_t pairs_found = 0;
+    Workspace workspace;
+    for (int round = 0; round < kRounds; ++round) {
+        const TestMesh a = coarse_grid_soup(random(), 6 + round % 9, 2);
+        const TestMesh b = coarse_grid_soup(random(), 6 + round % 7, 2);
+        const OpenModel model_a = open_tiny(a, {.double_precision = round % 3 == 0});
+        const OpenModel model_b = open_tiny(b);
+        const Pose pose = grid_pose(random, 4);
+        const Placement placement = Placement::b_moves(pose);
+        const auto expected = integer_pairs(a, b, placement);
+        ASSERT_EQ(all_pairs(model_a.model, model_b.model, placement, workspace), expected)
+            << "seed " << kSeed << ", round " << round;
+        auto swapped = all_pairs(model_b.model, model_a.model, Placement::a_moves(pose), workspace);
+        for (TrianglePair& pair : swapped) std::swap(pair.a, pair.b);
+        std::sort(swapped.begin(), swapped.end());
+        ASSERT_EQ(swapped, expected) << "seed " << kSeed << ", round " << round;
+        hits += expected.empty() ? 0 : 1;
+        pairs_found += expected.size();
+    }
+    EXPECT_GT(hits, kRounds * 3 / 10);
+    EXPECT_LT(hits, kRounds * 7 / 10);
+    EXPECT_GT(pairs_found, 20'000U);
 }
 
 // Pairs one by one, and the two sets alone, say the same as the sorted pairs.

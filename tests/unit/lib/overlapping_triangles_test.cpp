@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cdprep/collide.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 
@@ -60,6 +61,42 @@ TEST(OverlappingTriangles, EqualTrianglesAllOverlap) {
     EXPECT_EQ(overlapping_triangles(copies.model, copies.model, Placement::b_moves(Pose()),
                                     workspace, {}),
               1'000'000u);
+}
+
+// B02: a sphere's mesh lies between its inner and its outer radius, so a shell twice
+// as thick away touches nothing, however near.
+TEST(OverlappingTriangles, NestedShellsStayApart) {
+    const TestMesh outer = icosphere(5);
+    const OpenModel inside = open_tiny(moved_by(outer, 0.997, {}), {.double_precision = true});
+    const OpenModel outside = open_tiny(outer, {.double_precision = true});
+    Workspace workspace;
+    EXPECT_EQ(overlapping_triangles(outside.model, inside.model, shifted(0, 0, 0), workspace, {}),
+              0u);
+    const CollideOptions solid = {.as = As::solid};
+    EXPECT_TRUE(collide(outside.model, inside.model, shifted(0, 0, 0), workspace, solid).hit);
+}
+
+// B03: parallel sheets one grid step apart, by construction; and none apart.
+TEST(OverlappingTriangles, ParallelSheetsMeetOnlyWhenTheyCoincide) {
+    const OpenModel sheet = open_tiny(grid_sheet(150, 150));
+    Workspace workspace;
+    const auto count = [&](double z) {
+        return overlapping_triangles(sheet.model, sheet.model, shifted(0.25, 0.25, z), workspace,
+                                     {});
+    };
+    EXPECT_EQ(count(0x1p-20), 0u);
+    EXPECT_EQ(count(-0x1p-1000), 0u);
+    EXPECT_GT(count(0), 150u * 150 * 12);
+}
+
+// B07: one triangle through a fine sphere meets what brute force finds.
+TEST(OverlappingTriangles, OneTriangleMeetsMany) {
+    const TestMesh sphere = icosphere(5);
+    const TestMesh slice{{{-9, -9, 0.25}, {9, -9, 0.5}, {0, 9, 0.75}}, {{{0, 1, 2}}}};
+    const Placement same = shifted(0, 0, 0);
+    const auto pairs = ask(sphere, slice, same);
+    EXPECT_EQ(pairs, brute_force_pairs(in_floats(sphere), slice, same));
+    EXPECT_GT(pairs.size(), 200u);
 }
 
 // B06: by construction every triangle of the fan holds the origin.

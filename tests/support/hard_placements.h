@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "support/meshes.h"
+
+#include "cdprep/overlapping_triangles.h"
+#include "cdprep/placement.h"
+
+namespace cdprep::test {
+
+/// Two meshes that touch, nearly touch or nearly miss, where libraries in use
+/// report pairs that are none or lose pairs.
+struct HardPlacement {
+    std::string name;
+    TestMesh a;
+    TestMesh b;
+    Placement placement;
+    std::size_t pairs;  ///< that overlap, touching included: by exact arithmetic
+};
+
+/// Cubes, octahedra, sheets and needles.
+[[nodiscard]] std::vector<HardPlacement> hard_placements();
+
+/// The horse on itself and snapped to a grid; `horse` as seed_mesh() gives it.
+[[nodiscard]] std::vector<HardPlacement> hard_placements_of(const TestMesh& horse);
+
+/// The armadillo and the horse as they come, scaled, and far from the origin: the
+/// first is the control, the others have the same pairs.
+[[nodiscard]] std::vector<HardPlacement> hard_placements_of(const TestMesh& armadillo,
+                                                            const TestMesh& horse);
+
+/// Every overlapping pair, by the definition in exact numbers: for each two
+/// triangles whose boxes meet, whether their Minkowski difference holds the origin.
+[[nodiscard]] std::vector<TrianglePair> pairs_by_definition(const TestMesh& a, const TestMesh& b,
+                                                            const Placement& placement);
+
+}  // namespace cdprep::test
