@@ -21,11 +21,16 @@ inline bool is_marked_degenerate(const Model& model, std::uint32_t triangle) noe
 
 /// The exact decision about one pair of triangles. Neighbours in one mesh, most of
 /// what touches, are known by a common corner.
-inline bool in_contact(const Corners& a, const Corners& b, Contact contact) noexcept {
-    if (contact == Contact::closed) {
-        return share_a_corner(a, b) || classify_contact(a, b) != TriangleContact::disjoint;
+inline bool in_contact(const Corners& a, const Corners& b, Contact contact,
+                       QueryCounts* counts) noexcept {
+    if (contact == Contact::closed && share_a_corner(a, b)) {
+        if (counts != nullptr) ++counts->by_corner;
+        return true;
     }
-    const TriangleContact kind = classify_contact(a, b);
+    const std::optional<TriangleContact> sure = contact_by_filter(a, b);
+    if (counts != nullptr) ++(sure ? counts->by_filter : counts->by_exact);
+    const TriangleContact kind = sure ? *sure : contact_beyond_filter(a, b);
+    if (contact == Contact::closed) return kind != TriangleContact::disjoint;
     return kind == TriangleContact::cross || kind == TriangleContact::coplanar_overlap;
 }
 
@@ -34,21 +39,29 @@ inline bool in_contact(const Corners& a, const Corners& b, Contact contact) noex
 class ContactTest {
 public:
     ContactTest(const Model& a, const Model& b, const Placement& placement,
-                const OverlapOptions& options) noexcept
-        : a_(moved_a(a, placement)), b_(moved_b(b, placement)), options_(options) {}
+                const OverlapOptions& options, QueryCounts* counts) noexcept
+        : a_(moved_a(a, placement)),
+          b_(moved_b(b, placement)),
+          options_(options),
+          counts_(counts) {}
 
     bool operator()(std::uint32_t at_a, std::uint32_t at_b, bool certain) const noexcept {
         if (options_.degenerate == Degenerate::skip &&
             (is_marked_degenerate(*a_.model, at_a) || is_marked_degenerate(*b_.model, at_b))) {
             return false;
         }
-        return certain || in_contact(a_.corners(at_a), b_.corners(at_b), options_.contact);
+        if (!certain) {
+            return in_contact(a_.corners(at_a), b_.corners(at_b), options_.contact, counts_);
+        }
+        if (counts_ != nullptr) ++counts_->by_kernel;
+        return true;
     }
 
 private:
     MovedModel a_;
     MovedModel b_;
     OverlapOptions options_;
+    QueryCounts* counts_;  ///< or null
 };
 
 /// Calls `found(a, b)`, tree order, for every pair of triangles in contact until it returns false;
@@ -57,7 +70,7 @@ template <Search kSearch, class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
                       Workspace& workspace, const OverlapOptions& options, Found&& found) noexcept {
     Workspace::Storage& scratch = workspace.storage();
-    const ContactTest touch(a, b, placement, options);
+    const ContactTest touch(a, b, placement, options, scratch.counts);
     const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b, bool certain) {
         return !touch(at_a, at_b, certain) || static_cast<bool>(found(at_a, at_b));
     };

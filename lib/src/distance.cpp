@@ -43,6 +43,9 @@ public:
           leaves_(a, b, placed_, scratch_) {}
 
     [[nodiscard]] TriangleDistance measure(const TreePair& at, bool tight) const noexcept {
+        if (scratch_.counts != nullptr) {
+            ++(tight ? scratch_.counts->measured_again : scratch_.counts->measured);
+        }
         return triangle_distance(moved_a_.corners(at.a), moved_b_.corners(at.b), tight);
     }
 
@@ -107,6 +110,7 @@ std::size_t NearestSearch::push_children(const Tree& a, const Tree& b, const Pen
         return SizePair{box_size(a, pair.a, placement.scale_a),
                         box_size(b, pair.b, placement.scale_b)};
     });
+    if (scratch_.counts != nullptr) count_step(a, b, pair, descent, *scratch_.counts);
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     kernels::BoxPairFloats gaps;

@@ -36,7 +36,7 @@ public:
           placement_(placement),
           scratch_(workspace.storage()),
           cache_(cache),
-          touch_(a, b, placement, options),
+          touch_(a, b, placement, options, scratch_.counts),
           placed_(place_boxes(a, b, placement)),
           batch_(a, b, placed_, scratch_) {}
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 
@@ -66,6 +67,7 @@ public:
     bool flush(Found&& found) noexcept {
         const std::size_t contacts = kernels::active().find_contacts(
             placement_, scratch_.leaf_pairs.data(), count_, scratch_.leaf_scratch);
+        if (scratch_.counts != nullptr) count_batch(*scratch_.counts, count_);
         count_ = 0;
         for (std::size_t i = 0; i < contacts; ++i) {
             const kernels::TriangleContactLanes& contact = scratch_.leaf_scratch.found[i];
@@ -82,6 +84,7 @@ public:
     std::span<kernels::TriangleGap> near_triangles(std::uint32_t leaf_a, std::uint32_t leaf_b,
                                                    const kernels::Reach& reach) noexcept {
         set_pair(0, leaf_a, leaf_b);
+        if (scratch_.counts != nullptr) count_batch(*scratch_.counts, 1);
         const std::size_t found = kernels::active().near_triangles(
             placement_, scratch_.leaf_pairs[0], reach, scratch_.leaf_scratch);
         return std::span(scratch_.leaf_scratch.gap, found);
@@ -98,6 +101,14 @@ private:
     }
     static void prefetch_sources(const std::uint32_t* sources, std::uint32_t leaf) noexcept {
         if (sources != nullptr) prefetch(sources + std::size_t{leaf} * format::kBvhWidth);
+    }
+    void count_batch(QueryCounts& counts, std::size_t pairs) const noexcept {
+        counts.leaf_pairs += pairs;
+        for (std::size_t i = 0; i < pairs; ++i) {
+            const kernels::LeafPair& pair = scratch_.leaf_pairs[i];
+            counts.triangle_pairs += std::uint64_t(std::popcount(pair.used_a)) *
+                                     static_cast<unsigned>(std::popcount(pair.used_b));
+        }
     }
     Workspace::Storage& scratch_;
     const format::BvhLeaf* leaves_a_;

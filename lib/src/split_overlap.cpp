@@ -134,7 +134,8 @@ void walk_shares(const Question& question, const Places& places, Shares& shares,
                  Workspace::Storage& scratch, SharedRoom& room) noexcept {
     const Tree a(question.a);
     const Tree b(question.b);
-    const ContactTest touch(question.a, question.b, question.placement, question.options);
+    const ContactTest touch(question.a, question.b, question.placement, question.options,
+                            scratch.counts);
     LeafBatch batch(question.a, question.b, question.placed, scratch);
     Found found(scratch.sort_scratch, room);
     const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b, bool certain) {

@@ -135,6 +135,14 @@ Descent choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
     return {!(kSimilar * size_a < size_b), !(kSimilar * size_b < size_a)};
 }
 
+/// Adds the boxes that a step tests.
+inline void count_step(const Tree& a, const Tree& b, const PendingPair& pair,
+                       const Descent& descent, QueryCounts& counts) noexcept {
+    const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
+    const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
+    counts.box_pairs += std::uint64_t{side_a.last - side_a.first} * (side_b.last - side_b.first);
+}
+
 /// Asks ahead for what the walk will read of some children: nodes of `below`, one a
 /// bit.
 inline void prefetch_children(const Tree& tree, const TreePlace& below, unsigned bits) noexcept {
@@ -244,6 +252,7 @@ bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& 
             return SizePair{next.size_a, next.size_b};
         });
         OpenStep& step = scratch.open_steps[depth];
+        if (scratch.counts != nullptr) count_step(a, b, pair, descent, *scratch.counts);
         open_step<kSearch>(a, b, placed, pair, descent, step, depths);
         if (is_down_at(step.base, floor)) {
             while (step.pairs != 0) {

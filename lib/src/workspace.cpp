@@ -20,6 +20,10 @@ Workspace::Workspace(Workspace&&) noexcept = default;
 Workspace& Workspace::operator=(Workspace&&) noexcept = default;
 Workspace::~Workspace() = default;
 
+void Workspace::count_into(QueryCounts* counts) noexcept {
+    storage_->counts = counts;
+}
+
 std::size_t Workspace::size() noexcept {
     return sizeof(Storage);
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "cdprep/format/limits.h"
+#include "cdprep/query_counts.h"
 #include "cdprep/workspace.h"
 #include "kernels.h"
 #include "sort_pairs.h"
@@ -72,6 +73,7 @@ struct Workspace::Storage {
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     kernels::LeafScratch leaf_scratch;
     SortScratch sort_scratch;
+    QueryCounts* counts = nullptr;  ///< or null: nobody asked
 };
 
 }  // namespace cdprep

@@ -11,7 +11,11 @@
 // numbers a line, R row by row, then T; line i is of kind i mod 3. PAIR is A-B;
 // without, all files of POSES are taken.
 //
-// Prints a CSV table, microseconds; `times` is the peer's median by ours.
+// Prints a CSV table, microseconds; `times` is the peer's median by ours. Then, for
+// ours, what a question took in the mean: boxes against boxes, triangles against
+// triangles, and pairs of triangles that were decided in float, by a common corner, in
+// double and in exact arithmetic. Before each pair of models the bytes per triangle
+// that a collision touches, A's and B's.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -27,6 +31,7 @@
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
 #include "cdprep/overlapping_triangles.h"
+#include "cdprep/query_counts.h"
 
 #ifdef CDPREP_HAVE_FCL
 #include <fcl/fcl.h>
@@ -75,6 +80,10 @@ public:
     [[nodiscard]] virtual const char* name() const = 0;
     /// Returns the number of pairs, or 1 for a collision.
     virtual std::size_t ask(std::size_t question, const Pose& pose) = 0;
+    /// What one more asking of the set does, where that is counted.
+    virtual QueryCounts counts(std::size_t /*question*/, const std::vector<Pose>& /*poses*/) {
+        return {};
+    }
 };
 
 class Ours final : public Contender {
@@ -97,6 +106,14 @@ public:
             default:
                 return is_within(a_, b_, placement, kFalseTolerance, workspace_) ? 1 : 0;
         }
+    }
+
+    QueryCounts counts(std::size_t question, const std::vector<Pose>& poses) override {
+        QueryCounts sum;
+        workspace_.count_into(&sum);
+        for (const Pose& pose : poses) ask(question, pose);
+        workspace_.count_into(nullptr);
+        return sum;
     }
 
 private:
@@ -206,6 +223,19 @@ void ask_set(Contender& contender, std::size_t question, const std::vector<Pose>
     }
 }
 
+/// The columns for a set, a question's mean each.
+std::string count_columns(const QueryCounts& counts, std::size_t questions) {
+    std::string columns;
+    for (const std::uint64_t count : {counts.box_pairs, counts.triangle_pairs, counts.by_kernel,
+                                      counts.by_corner, counts.by_filter, counts.by_exact}) {
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), ",%.1f",
+                      static_cast<double>(count) / static_cast<double>(questions));
+        columns += text.data();
+    }
+    return columns;
+}
+
 /// Medians of a pair of models, for the summary.
 using Ratios = std::map<std::string, std::vector<double>>;
 
@@ -230,9 +260,11 @@ void compare(const std::string& pair, const std::vector<std::unique_ptr<Contende
                 const std::vector<double> us = times[c].by_pose();
                 const std::string key = std::string(kQuestions[question]) + "/" + kKinds[kind] +
                                         (cold ? "/cold," : "/warm,") + contenders[c]->name();
-                std::printf("%s,%s,%zu,%zu,%.2f,%.2f,%.2f,%.2f\n", pair.c_str(), key.c_str(),
+                const QueryCounts counts = contenders[c]->counts(question, poses);
+                std::printf("%s,%s,%zu,%zu,%.2f,%.2f,%.2f,%.2f%s\n", pair.c_str(), key.c_str(),
                             poses.size(), times[c].pairs, median(us), median(us, 0.95),
-                            median(us) / ours, median(us, 0.95) / ours95);
+                            median(us) / ours, median(us, 0.95) / ours95,
+                            count_columns(counts, poses.size()).c_str());
                 if (c > 0) ratios[key].push_back(median(us) / ours);
             }
             std::fflush(stdout);
@@ -240,9 +272,22 @@ void compare(const std::string& pair, const std::vector<std::unique_ptr<Contende
     }
 }
 
+/// Of the sections that collisions, overlaps and distances read.
+double bytes_per_triangle(const Model& model) {
+    std::size_t bytes = model.nodes().size_bytes() + model.oriented_nodes().size_bytes() +
+                        model.leaves().size_bytes() + model.source_triangle().size_bytes();
+    if (!model.has_exact_leaves()) {
+        bytes += model.triangles().size_bytes() + model.positions_f32().size_bytes() +
+                 model.positions_f64().size_bytes();
+    }
+    return static_cast<double>(bytes) / model.triangle_count();
+}
+
 void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_folder,
          const std::vector<std::string>& pairs, int rounds) {
-    std::printf("pair,question,contender,poses,pairs,median_us,p95_us,times,times_p95\n");
+    std::printf(
+        "pair,question,contender,poses,pairs,median_us,p95_us,times,times_p95,"
+        "box_pairs,triangle_pairs,by_kernel,by_corner,by_filter,by_exact\n");
     Ratios ratios;
     for (const std::string& pair : pairs) {
         const std::size_t dash = pair.find('-');
@@ -256,6 +301,8 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
 #ifdef CDPREP_HAVE_FCL
         contenders.push_back(std::make_unique<Fcl>(a, b));
 #endif
+        std::printf("bytes per triangle of %s,,,,,%.1f,,%.1f,\n", pair.c_str(),
+                    bytes_per_triangle(a), bytes_per_triangle(b));
         compare(pair, contenders, poses, rounds, false, ratios);
         compare(pair, contenders, poses, 1, true, ratios);
     }

@@ -8,6 +8,8 @@
 
 namespace cdprep {
 
+struct QueryCounts;
+
 /// Scratch memory for queries, owned by the caller: queries never allocate.
 ///
 /// One workspace serves any number of queries, models and questions, one at a
@@ -25,6 +27,11 @@ public:
     Workspace(Workspace&&) noexcept;
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
+
+    /// From now on, adds to `*counts` what queries about two models do with this
+    /// workspace (query_counts.h); null ends that. Where it is off it costs 0.2 % of a
+    /// query (instructions counted by callgrind).
+    void count_into(QueryCounts* counts) noexcept;
 
     struct Storage;  ///< private to the library
     [[nodiscard]] Storage& storage() noexcept {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace cdprep {
+
+/// What queries about two models did to find their answers: for tuning, and for
+/// judging a change on a machine too noisy for a clock. Ask for it with
+/// Workspace::count_into(). No part of any answer: instruction sets round differently
+/// and leave different near misses to the next stage, and another version of the
+/// library may need more or less of anything.
+struct QueryCounts {
+    std::uint64_t box_pairs = 0;       ///< boxes of A's hierarchy against boxes of B's
+    std::uint64_t leaf_pairs = 0;      ///< pairs of leaves whose triangles were looked at
+    std::uint64_t triangle_pairs = 0;  ///< of triangles in those: at most 64 each
+
+    // Which stage decided about pairs of triangles that boxes and planes in float did
+    // not part. The sum is the number of those pairs.
+    std::uint64_t by_kernel = 0;  ///< float: they cross for certain
+    std::uint64_t by_corner = 0;  ///< a common corner: they touch
+    std::uint64_t by_filter = 0;  ///< double: apart or crossing for certain
+    std::uint64_t by_exact = 0;   ///< exact arithmetic
+
+    std::uint64_t measured = 0;        ///< distances of two triangles taken in double
+    std::uint64_t measured_again = 0;  ///< again, for the last digits
+};
+
+}  // namespace cdprep
