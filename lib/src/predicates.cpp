@@ -86,8 +86,9 @@ bool all_safe(const Differences&... differences) {
     return (safe(differences) && ...);
 }
 
-WideInteger wide_difference(double a, double b) {
-    return WideInteger::from_double(a) - WideInteger::from_double(b);
+WideInteger<kWideCoordinate> wide_difference(double a, double b) {
+    using Wide = WideInteger<kWideCoordinate>;
+    return Wide::from_double(a) - Wide::from_double(b);
 }
 
 /// The rows of the determinant.

@@ -1,37 +1,118 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
 namespace cdprep {
 
-/// A signed integer of fixed width for the rarest stage of the predicates: any
-/// double is an integer multiple of 2^-1074, so a determinant of three
-/// differences of doubles up to 2^1000 fits 6,300 bits. Slow (a product takes
-/// microseconds) and obviously right. Never allocates.
+/// Limbs of 32 bits, the least first, none zero at the top; no limbs are zero.
+struct WideView {
+    const std::uint32_t* limb;
+    std::size_t size;
+    bool negative;
+};
+
+/// What of a result does not stand in its limbs.
+struct WideSize {
+    std::size_t size;
+    bool negative;
+};
+
+/// These write to `limb`, which has room: for the larger and a carry where there is
+/// one, or for both.
+[[nodiscard]] WideSize wide_sum(const WideView& a, const WideView& b, std::uint32_t* limb) noexcept;
+[[nodiscard]] WideSize wide_product(const WideView& a, const WideView& b,
+                                    std::uint32_t* limb) noexcept;
+[[nodiscard]] WideSize wide_from_double(double value, int lowest, std::uint32_t* limb) noexcept;
+
+/// The exponent of the least subnormal double.
+inline constexpr int kLowestExponent = -1074;
+
+/// The exponent of the lowest bit that is set; kLowestExponent + 3000 for 0.
+[[nodiscard]] int lowest_bit(double value) noexcept;
+
+/// Limbs of a double, or the difference of two, as a multiple of 2^-1074: 2,099 bits,
+/// and some to add a few up. Products of k of these need k times as many.
+inline constexpr std::size_t kWideCoordinate = 66;
+
+/// A signed integer of at most `kLimbs` limbs for the rarest stage of the predicates:
+/// every double is an integer multiple of 2^-1074, and those of one question are
+/// often multiples of something much larger. Its cost depends on the limbs in use:
+/// tens of nanoseconds an operation on everyday numbers, microseconds at worst.
+/// Never allocates. Sums of up to 2^10 terms fit.
+template <std::size_t kLimbs>
 class WideInteger {
 public:
-    /// value * 2^1074, which is an integer. |value| <= 2^1001.
-    [[nodiscard]] static WideInteger from_double(double value) noexcept;
+    // Limbs past the size are never read: setting them would cost more than the rest.
+    WideInteger() noexcept {}  // NOLINT
+    WideInteger(const WideInteger& other) noexcept
+        : size_(other.size_), negative_(other.negative_) {
+        std::copy_n(other.limb_.begin(), size_, limb_.begin());
+    }
+    WideInteger& operator=(const WideInteger& other) noexcept {
+        size_ = other.size_;
+        negative_ = other.negative_;
+        std::copy_n(other.limb_.begin(), size_, limb_.begin());
+        return *this;
+    }
+    ~WideInteger() = default;
 
-    [[nodiscard]] int sign() const noexcept;
+    /// value / 2^lowest, which is an integer: `lowest` is at most lowest_bit(value).
+    [[nodiscard]] static WideInteger from_double(double value,
+                                                 int lowest = kLowestExponent) noexcept {
+        static_assert(kLimbs >= kWideCoordinate);
+        WideInteger result;
+        result.take(wide_from_double(value, lowest, result.limb_.data()));
+        return result;
+    }
 
-    friend WideInteger operator+(const WideInteger& a, const WideInteger& b) noexcept;
-    friend WideInteger operator-(const WideInteger& a, const WideInteger& b) noexcept;
-    friend WideInteger operator*(const WideInteger& a, const WideInteger& b) noexcept;
+    [[nodiscard]] int sign() const noexcept {
+        if (size_ == 0) return 0;
+        return negative_ ? -1 : 1;
+    }
+    [[nodiscard]] WideInteger operator-() const noexcept {
+        WideInteger result = *this;
+        result.negative_ = size_ > 0 && !negative_;
+        return result;
+    }
+
+    friend WideInteger operator+(const WideInteger& a, const WideInteger& b) noexcept {
+        WideInteger result;
+        result.take(wide_sum(a.view(), b.view(), result.limb_.data()));
+        return result;
+    }
+    friend WideInteger operator-(const WideInteger& a, const WideInteger& b) noexcept {
+        WideView turned = b.view();
+        turned.negative = !turned.negative;
+        WideInteger result;
+        result.take(wide_sum(a.view(), turned, result.limb_.data()));
+        return result;
+    }
+    template <std::size_t kOther>
+    friend WideInteger<kLimbs + kOther> operator*(const WideInteger& a,
+                                                  const WideInteger<kOther>& b) noexcept {
+        WideInteger<kLimbs + kOther> result;
+        result.take(wide_product(a.view(), b.view(), result.limbs()));
+        return result;
+    }
+
+    [[nodiscard]] WideView view() const noexcept {
+        return {limb_.data(), size_, negative_};
+    }
+    /// For the operators alone.
+    [[nodiscard]] std::uint32_t* limbs() noexcept {
+        return limb_.data();
+    }
+    void take(const WideSize& size) noexcept {
+        size_ = size.size;
+        negative_ = size.negative;
+    }
 
 private:
-    static constexpr std::size_t kLimbs = 198;  ///< of 32 bits: 6,336 bits
-    using Limbs = std::array<std::uint32_t, kLimbs>;
-
-    void trim() noexcept;
-    static int compare(const WideInteger& a, const WideInteger& b) noexcept;
-    static WideInteger add_sizes(const WideInteger& a, const WideInteger& b) noexcept;
-    static WideInteger subtract_sizes(const WideInteger& a, const WideInteger& b) noexcept;
-
-    Limbs limb_{};
+    std::array<std::uint32_t, kLimbs> limb_;
     std::size_t size_ = 0;  ///< limbs in use; 0 is zero
     bool negative_ = false;
 };
