@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "contact_pairs.h"
+#include "exact_within.h"
 #include "find_contact.h"
 #include "proven_gap.h"
 #include "triangle_distance.h"
@@ -47,6 +48,12 @@ public:
             ++(tight ? scratch_.counts->measured_again : scratch_.counts->measured);
         }
         return triangle_distance(moved_a_.corners(at.a), moved_b_.corners(at.b), tight);
+    }
+
+    /// Where measure() cannot tell: exactly.
+    [[nodiscard]] bool is_within(const TreePair& at, double tolerance) const noexcept {
+        if (scratch_.counts != nullptr) ++scratch_.counts->by_exact;
+        return is_within_exactly(moved_a_.corners(at.a), moved_b_.corners(at.b), tolerance);
     }
 
     /// Calls `near(at)` for pairs of triangles that may be at most the limit apart;
@@ -332,6 +339,14 @@ Distance touching(const Model& a, const Model& b, const Placement& placement,
     return {0, 0, point, point, source_number(a, at.a), source_number(b, at.b)};
 }
 
+/// One solid inside the other: no way apart, and the walls tell where it is shortest.
+std::optional<Distance> inside(const Model& a, const Model& b, const Placement& placement,
+                               Workspace& workspace, PairCache* cache) noexcept {
+    std::optional<Distance> walls = distance(a, b, placement, workspace, {}, cache);
+    if (walls) walls->lower = walls->upper = 0;
+    return walls;
+}
+
 }  // namespace
 
 std::optional<Distance> distance(const Model& a, const Model& b, const Placement& placement,
@@ -345,6 +360,10 @@ std::optional<Distance> distance(const Model& a, const Model& b, const Placement
             if (cache != nullptr) remember_pair(*cache, *at);
             return touching(a, b, placement, *at);
         }
+    }
+    if (options.as == As::solid &&
+        find_containment(a, b, placement, workspace).answer == Answer::yes) {
+        return inside(a, b, placement, workspace, cache);
     }
     NearestSearch search(a, b, placement, workspace);
     Nearest nearest(a, b, search, options);
@@ -369,9 +388,12 @@ bool is_within(const Model& a, const Model& b, const Placement& placement, doubl
     bool within = false;
     double nearest = kInfinity;
     const auto look = [&](const TreePair& at) {
+        const auto undecided = [&](const TriangleDistance& of) {
+            return of.lower <= tolerance && of.upper > tolerance;
+        };
         TriangleDistance d = search.measure(at, false);
-        if (d.lower <= tolerance && d.upper > tolerance) d = search.measure(at, true);
-        if (d.lower > tolerance) {
+        if (undecided(d)) d = search.measure(at, true);
+        if (d.lower > tolerance || (undecided(d) && !search.is_within(at, tolerance))) {
             if (d.upper < nearest) {
                 nearest = d.upper;
                 search.point(d.on_a, d.on_b);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "cdprep/collide.h"
 #include "cdprep/model.h"
 #include "cdprep/pair_cache.h"
 #include "cdprep/placement.h"
@@ -19,6 +20,8 @@ struct DistanceOptions {
     double absolute_error = 0;  ///< or by this, model units
     /// Beyond, nothing is of interest; inclusive.
     double max_distance = std::numeric_limits<double>::infinity();
+    /// As::solid: a model proved inside the other is 0 from it (find_containment()).
+    As as = As::surface;
 };
 
 /// The distance of two surfaces, and where it is taken.
@@ -35,18 +38,19 @@ struct Distance {
 /// `max_distance` or a model is empty.
 ///
 /// Surfaces that touch are 0 apart, exactly, with a common point as witness; so
-/// are none else. Of several nearest pairs of triangles the one with the lowest
-/// numbers answers, as far as double can tell them apart. Distance is between the
-/// surfaces: a small model inside a large one is as far away as its walls are.
+/// are none else, but with As::solid models of which one is proved inside the other:
+/// their witnesses are still the surfaces' nearest points. Of several nearest pairs of triangles
+/// the one with the lowest numbers answers, as far as double can tell them apart. With As::surface
+/// a small model inside a large one is as far away as its walls are.
 ///
 /// The interval holds the distance between the vertices as `placement` moves them
 /// (level E1). Without permitted errors it is at most 1e-12 of the distance plus
 /// 1e-15 of the largest coordinate wide (triangle_distance_laws_test); with them
 /// at most that wide or as permitted.
 ///
-/// Needs what overlapping_triangles() needs. Never allocates. Costs O(log n) for
-/// compact surfaces; every triangle in the worst case, such as concentric spheres.
-/// `cache` may be null.
+/// Needs what overlapping_triangles() needs; As::solid also triangles, positions and
+/// components. Never allocates. Costs O(log n) for compact surfaces; every triangle in the worst
+/// case, such as concentric spheres. `cache` may be null.
 [[nodiscard]] std::optional<Distance> distance(const Model& a, const Model& b,
                                                const Placement& placement, Workspace& workspace,
                                                const DistanceOptions& options = {},
@@ -56,10 +60,10 @@ struct Distance {
 /// belongs to it, and 0 asks whether they touch. False for a negative tolerance or
 /// NaN, and when a model is empty.
 ///
-/// Decided for the vertices as `placement` moves them, in up to 100 bits: only a
-/// distance that agrees with the tolerance to 2^-90 of the triangles' size counts
-/// as equal to it. Stops at the first pair of triangles that is near enough.
-/// Needs and costs as distance(), less where the answer is clear.
+/// Exact for the vertices as `placement` moves them: a distance that is equal to the
+/// tolerance to the last bit is within it, and one step less is not. Stops at the
+/// first pair of triangles that is near enough. Needs and costs as distance(), less
+/// where the answer is clear.
 [[nodiscard]] bool is_within(const Model& a, const Model& b, const Placement& placement,
                              double tolerance, Workspace& workspace,
                              PairCache* cache = nullptr) noexcept;

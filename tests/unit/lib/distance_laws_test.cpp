@@ -2,12 +2,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
 
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
+#include "cdprep/query_counts.h"
 #include "support/brute_force.h"
 #include "support/exact_distance.h"
+#include "support/hard_triangles.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
@@ -33,20 +36,34 @@ double largest_coordinate(const TestMesh& a, const TestMesh& b, const Placement&
     return largest;
 }
 
-/// The square of the distance of two small meshes, all pairs in rational numbers.
+/// Less than the square of the distance of two boxes, rounding included.
+long double below_squared_gap(const Box3& a, const Box3& b) {
+    const auto gap = [](double low, double high, double other_low, double other_high) {
+        return std::max({0.0L, static_cast<long double>(low) - other_high,
+                         static_cast<long double>(other_low) - high});
+    };
+    const long double x = gap(a.lower.x, a.upper.x, b.lower.x, b.upper.x);
+    const long double y = gap(a.lower.y, a.upper.y, b.lower.y, b.upper.y);
+    const long double z = gap(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
+    return (x * x + y * y + z * z) * (1 - 1e-9L);
+}
+
+/// The square of the distance of two small meshes in rational numbers: all pairs but
+/// those whose boxes are farther apart than triangles seen before.
 ExactRational brute_force_distance(const TestMesh& a, const TestMesh& b,
                                    const Placement& placement) {
     const Pose* pose_a = placement.a_is_moved() ? &placement.pose_a() : nullptr;
     const Pose* pose_b = placement.b_is_moved() ? &placement.pose_b() : nullptr;
-    ExactRational best;
+    std::optional<ExactRational> best;
     for (std::size_t i = 0; i < a.triangles.size(); ++i) {
         for (std::size_t j = 0; j < b.triangles.size(); ++j) {
-            const ExactRational d =
-                exact_squared_distance(corners_of(a, i, pose_a), corners_of(b, j, pose_b));
-            if (i + j == 0 || d < best) best = d;
+            const Corners s = corners_of(a, i, pose_a), t = corners_of(b, j, pose_b);
+            if (best && below_squared_gap(box_of(s), box_of(t)) > best->approximation()) continue;
+            const ExactRational d = exact_squared_distance(s, t);
+            if (!best || d < *best) best = d;
         }
     }
-    return best;
+    return *best;
 }
 
 struct Case {
@@ -56,11 +73,13 @@ struct Case {
 };
 
 /// Small soups, fine and coarse, near and far, in every placement.
-Case random_case(std::mt19937& random, int round) {
+Case random_case(std::mt19937& random, int round, int triangles = 10) {
     const bool coarse = round % 2 == 0;
-    Case made{coarse ? coarse_grid_soup(random(), 10, 2) : random_soup(random(), 10, 0.2),
-              coarse ? coarse_grid_soup(random(), 10, 2) : random_soup(random(), 10, 0.2),
-              Placement::b_moves(Pose())};
+    const auto soup = [&] {
+        return coarse ? coarse_grid_soup(random(), triangles, 2)
+                      : random_soup(random(), triangles, 0.2);
+    };
+    Case made{soup(), soup(), Placement::b_moves(Pose())};
     const double reach = std::pow(10, static_cast<int>(random() % 4) - 1);
     const Pose p = coarse ? Pose::from_rows({0, -1, 0, 1, 0, 0, 0, 0, 1, reach, 0.5, 1}).value()
                           : random_pose(random, reach);
@@ -83,10 +102,11 @@ Case random_case(std::mt19937& random, int round) {
 
 // The oracle: every pair of triangles in rational arithmetic; squares are compared.
 TEST(DistanceLaws, TheIntervalHoldsTheTruthAndIsNarrow) {
+    constexpr int kRounds = 10'000;
     std::mt19937 random(20261121);
     int apart = 0;
-    for (int round = 0; round < 600; ++round) {
-        const Case c = random_case(random, round);
+    for (int round = 0; round < kRounds; ++round) {
+        const Case c = random_case(random, round, round % 16 == 0 ? 12 : 3);
         const OpenModel a = open_tiny(c.a, {.double_precision = round % 3 == 0});
         const OpenModel b = open_tiny(c.b);
         Workspace workspace;
@@ -106,8 +126,8 @@ TEST(DistanceLaws, TheIntervalHoldsTheTruthAndIsNarrow) {
         EXPECT_NEAR(between, found->upper, 1e-12 * found->upper + 1e-14 * largest) << round;
         apart += touch ? 0 : 1;
     }
-    EXPECT_GT(apart, 300);
-    EXPECT_LT(apart, 590);
+    EXPECT_GT(apart, kRounds / 2);
+    EXPECT_LT(apart, kRounds - 500);
 }
 
 TEST(DistanceLaws, PermittedErrorsAreKept) {
@@ -131,6 +151,34 @@ TEST(DistanceLaws, PermittedErrorsAreKept) {
             EXPECT_LE(by_length->upper, by_length->lower + error + 1e-12);
         }
     }
+}
+
+// X08: whatever is permitted is used to look at less, never at more.
+TEST(DistanceLaws, PermittedErrorsSaveWork) {
+    const OpenModel ball = open_tiny(icosphere(4));
+    const Placement aside =
+        Placement::b_moves(Pose::from_quaternion(5, 1, 2, 3, {2.3, 0.2, 0.1}).value());
+    Workspace workspace;
+    const auto boxes = [&](const DistanceOptions& options) {
+        QueryCounts counts;
+        workspace.count_into(&counts);
+        const auto found = distance(ball.model, ball.model, aside, workspace, options);
+        workspace.count_into(nullptr);
+        EXPECT_TRUE(found);
+        return counts.box_pairs;
+    };
+    std::uint64_t by_ratio = boxes({}), by_length = by_ratio;
+    const std::uint64_t all = by_ratio;
+    for (const double error : {1e-6, 1e-3, 0.1, 1.0}) {
+        const std::uint64_t ratio = boxes({.relative_error = error});
+        const std::uint64_t length = boxes({.absolute_error = error});
+        EXPECT_LE(ratio, by_ratio) << error;
+        EXPECT_LE(length, by_length) << error;
+        by_ratio = ratio;
+        by_length = length;
+    }
+    EXPECT_LT(by_ratio, all);
+    EXPECT_LT(by_length, all);
 }
 
 TEST(DistanceLaws, WithinAgreesWithTheDistance) {
@@ -167,10 +215,131 @@ TEST(DistanceLaws, ATolerancesOwnDistanceCounts) {
         const Placement placement = Placement::b_moves(
             Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, 1 + gap, 0.25, 0.125}).value());
         EXPECT_TRUE(is_within(cube.model, cube.model, placement, gap, workspace)) << gap;
-        EXPECT_FALSE(is_within(cube.model, cube.model, placement,
-                               std::nextafter(gap, 0.0) * (1 - 1e-12), workspace));
+        EXPECT_FALSE(
+            is_within(cube.model, cube.model, placement, std::nextafter(gap, 0.0), workspace));
         const auto found = distance(cube.model, cube.model, placement, workspace);
         EXPECT_NEAR(found->upper, gap, 1e-14);
+    }
+}
+
+// The oracle: squares in rational numbers. Soups on a grid have distances that double
+// holds to the last bit, where one step less must be too little; others it does not.
+TEST(DistanceLaws, ToleranceIsDecidedToTheLastBit) {
+    constexpr std::uint32_t kSeed = 345;
+    std::mt19937 random(kSeed);
+    int hits = 0, asked = 0, ties = 0;
+    for (int round = 0; round < 1500; ++round) {
+        const TestMesh a = coarse_grid_soup(random(), 3, 2), b = coarse_grid_soup(random(), 3, 2);
+        const auto step = [&random] { return static_cast<double>(random() % 13) - 6; };
+        const Placement placement = Placement::b_moves(
+            Pose::from_rows({0, -1, 0, 1, 0, 0, 0, 0, 1, step(), step(), step()}).value());
+        const ExactRational truth = brute_force_distance(a, b, placement);
+        const auto near = static_cast<double>(std::sqrt(truth.approximation()));
+        const OpenModel model_a = open_tiny(a), model_b = open_tiny(b);
+        Workspace workspace;
+        ties += square(near) == truth && near > 0 ? 1 : 0;
+        for (const double tolerance :
+             {near, std::nextafter(near, 0.0), std::nextafter(near, 99.0)}) {
+            const bool expected = truth <= square(tolerance);
+            ASSERT_EQ(is_within(model_a.model, model_b.model, placement, tolerance, workspace),
+                      expected)
+                << "seed " << kSeed << ", round " << round << ", tolerance " << tolerance;
+            hits += expected ? 1 : 0;
+            ++asked;
+        }
+    }
+    EXPECT_GT(ties, 100);
+    EXPECT_GT(hits, asked * 3 / 10);
+    EXPECT_LT(hits, asked * 7 / 10);
+}
+
+// X01: parallel faces a gap apart, both in one turned pose: the faces' vertices are
+// rounded, so the truth is that of the rounded ones.
+TEST(DistanceLaws, ParallelFacesKeepTheirGapWhenTurned) {
+    const TestMesh cube = unit_cube();
+    const Pose pose = Pose::from_quaternion(1, 2, 3, 4, {0.5, -0.25, 2}).value();
+    for (const double gap : {0x1p-3, 0x1p-20, 0x1p-40, 1e-12}) {
+        TestMesh beside = cube;
+        for (Double3& p : beside.positions) p.x += p.x == 0 ? 1 + gap : 1;
+        const OpenModel a = open_tiny(cube, {.double_precision = true});
+        const OpenModel b = open_tiny(beside, {.double_precision = true});
+        Workspace workspace;
+        const auto still = distance(a.model, b.model, Placement::b_moves(Pose()), workspace);
+        const ExactRational exact_gap = square(beside.positions[0].x - 1);
+        EXPECT_TRUE(square(still->lower) <= exact_gap && exact_gap <= square(still->upper)) << gap;
+        const Placement turned = Placement::world(pose, pose);
+        const auto found = distance(a.model, b.model, turned, workspace);
+        const ExactRational truth = brute_force_distance(cube, beside, turned);
+        EXPECT_TRUE(square(found->lower) <= truth && truth <= square(found->upper)) << gap;
+        EXPECT_NEAR(found->upper, gap, 1e-14) << gap;
+    }
+}
+
+// X04: the catalogue's touching pairs are 0 apart, and by one step, what exact
+// arithmetic says.
+TEST(DistanceLaws, TouchingIsZeroAndOneStepIsNot) {
+    int touching = 0, apart = 0;
+    for (const HardPair& pair : hard_triangles()) {
+        const TestMesh a{{pair.a[0], pair.a[1], pair.a[2]}, {{{0, 1, 2}}}};
+        for (const double step : {0.0, 0x1p-20, -0x1p-20}) {
+            TestMesh b{{pair.b[0], pair.b[1], pair.b[2]}, {{{0, 1, 2}}}};
+            for (Double3& p : b.positions) p = {p.x + step, p.y + step, p.z + step};
+            const OpenModel model_a = open_tiny(a, {.double_precision = true});
+            const OpenModel model_b = open_tiny(b, {.double_precision = true});
+            const Placement still = Placement::b_moves(Pose());
+            Workspace workspace;
+            const auto found = distance(model_a.model, model_b.model, still, workspace);
+            const ExactRational truth = brute_force_distance(a, b, still);
+            EXPECT_TRUE(square(found->lower) <= truth && truth <= square(found->upper)) << pair.id;
+            EXPECT_EQ(found->upper == 0, truth.sign() == 0) << pair.id;
+            EXPECT_LE(found->upper - found->lower, 1e-12 * found->lower + 4e-15) << pair.id;
+            ++(truth.sign() == 0 ? touching : apart);
+        }
+    }
+    EXPECT_GT(touching, 50);
+    EXPECT_GT(apart, 50);
+}
+
+// X06: a gap of 1e-12 where a coordinate's last bit is 1e-10: what is stored counts.
+TEST(DistanceLaws, CancellationLeavesTheTruthInside) {
+    for (const double gap : {1e-12, 1e-10, 3e-10, 1e-6}) {
+        const TestMesh a = moved_by(unit_cube(), 1, {1e6, 1e6, 1e6});
+        const TestMesh b = moved_by(unit_cube(), 1, {1e6 + 1 + gap, 1e6 + 0.25, 1e6 + 0.125});
+        const OpenModel model_a = open_tiny(a, {.double_precision = true});
+        const OpenModel model_b = open_tiny(b, {.double_precision = true});
+        Workspace workspace;
+        for (const Placement& placement :
+             {Placement::b_moves(Pose()),
+              Placement::b_moves(
+                  Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, gap, 0, 0}).value())}) {
+            const auto found = distance(model_a.model, model_b.model, placement, workspace);
+            const ExactRational truth = brute_force_distance(a, b, placement);
+            EXPECT_TRUE(square(found->lower) <= truth && truth <= square(found->upper)) << gap;
+            EXPECT_LE(found->upper - found->lower, 1e-12 * found->lower + 1e-9) << gap;
+        }
+    }
+}
+
+// X09: by hand, a cube of side 1 in the middle of one of side 3.
+TEST(DistanceLaws, ASolidInsideAnotherIsNotApart) {
+    const OpenModel small = open_tiny(unit_cube());
+    const OpenModel large = open_tiny(moved_by(unit_cube(), 3, {-1, -1, -1}));
+    Workspace workspace;
+    const Placement still = Placement::b_moves(Pose());
+    for (const bool swapped : {false, true}) {
+        const Model& a = swapped ? large.model : small.model;
+        const Model& b = swapped ? small.model : large.model;
+        const auto surfaces = distance(a, b, still, workspace);
+        EXPECT_NEAR(surfaces->lower, 1, 1e-12);
+        const auto solids =
+            distance(a, b, still, workspace, {.max_distance = 0.5, .as = As::solid});
+        ASSERT_TRUE(solids);
+        EXPECT_EQ(solids->lower, 0);
+        EXPECT_EQ(solids->upper, 0);
+        EXPECT_EQ(solids->witness_a, surfaces->witness_a);
+        const Placement aside =
+            Placement::b_moves(Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, 7, 0, 0}).value());
+        EXPECT_GT(distance(a, b, aside, workspace, {.as = As::solid})->lower, 1);
     }
 }
 
