@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 
 #include "cdprep/model.h"
 #include "cdprep/placement.h"
+#include "cdprep/visitor.h"
 #include "cdprep/workspace.h"
 
 namespace cdprep {
@@ -57,30 +57,12 @@ struct OverlapOptions {
                                                 std::span<TrianglePair> pairs,
                                                 const OverlapOptions& options = {}) noexcept;
 
-/// Something to be called with each pair; false ends the search. Refers to the
-/// callable and copies nothing, which must outlive the call it is handed to.
-class PairVisitor {
-public:
-    template <class Visit>
-    requires(!std::is_same_v<std::remove_const_t<Visit>, PairVisitor>) PairVisitor(Visit& visit)
-    noexcept  // NOLINT(google-explicit-constructor)
-        : context_(const_cast<void*>(static_cast<const void*>(&visit))),
-          call_([](void* context, const TrianglePair& pair) {
-              return static_cast<bool>((*static_cast<Visit*>(context))(pair));
-          }) {}
-    bool operator()(const TrianglePair& pair) const {
-        return call_(context_, pair);
-    }
-
-private:
-    void* context_;
-    bool (*call_)(void*, const TrianglePair&);
-};
+using PairVisitor = Visitor<TrianglePair>;
 
 /// Calls `visit` with every pair that overlapping_triangles() finds, each once, as
 /// it is found: no room for pairs is needed, and nothing is sorted. The order is the
-/// same for equal input on equal processors and means nothing. `visit` may not
-/// throw and may not use the workspace. Returns false when `visit` ended the search.
+/// same for equal input on equal processors and means nothing. Returns false when
+/// `visit` ended the search.
 ///
 ///     std::size_t count = 0;
 ///     const auto visit = [&](const cdprep::TrianglePair&) { return ++count < 1000; };

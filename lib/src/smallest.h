@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+
+namespace cdprep {
+
+/// Keeps the smallest of those added, as many as fit; T is ordered by <.
+template <class T>
+class Smallest {
+public:
+    explicit Smallest(std::span<T> kept) noexcept : kept_(kept) {}
+
+    void add(const T& value) noexcept {
+        if (count_ < kept_.size()) {
+            kept_[count_] = value;
+        } else if (!kept_.empty()) {
+            // From here on a heap: its front is the greatest kept.
+            if (count_ == kept_.size()) std::make_heap(kept_.begin(), kept_.end());
+            if (value < kept_.front()) replace_greatest(value);
+        }
+        ++count_;
+    }
+
+    /// How many were added.
+    [[nodiscard]] std::size_t count() const noexcept {
+        return count_;
+    }
+    /// Those kept, in no order.
+    [[nodiscard]] std::span<T> kept() const noexcept {
+        return kept_.first(std::min(count_, kept_.size()));
+    }
+
+private:
+    void replace_greatest(const T& value) noexcept {
+        std::pop_heap(kept_.begin(), kept_.end());
+        kept_.back() = value;
+        std::push_heap(kept_.begin(), kept_.end());
+    }
+
+    std::span<T> kept_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace cdprep
