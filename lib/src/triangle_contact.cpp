@@ -355,6 +355,30 @@ TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept {
     return sure ? *sure : contact_beyond_filter(a, b);
 }
 
+// On the common line the edges from a lone corner end the part that belongs to its
+// triangle. orient3d(a0, ai, b0, bk) is positive when the point on a0 ai lies beyond
+// that on b0 bk, where a0 a1 comes before a0 a2 and so b0 b2 before b0 b1.
+std::optional<CrossingEnds> crossing_ends(const Corners& a, const Corners& b) noexcept {
+    const Signs a_signs = plane_signs(b, a);
+    const Signs b_signs = plane_signs(a, b);
+    if (all_zero(a_signs) || all_zero(b_signs)) return std::nullopt;
+    const auto [s, t] = canonical(a, a_signs, b, b_signs);
+    const bool first_of_a = orient3d(s[0], s[1], t[0], t[2]) > 0;
+    const bool second_of_a = orient3d(s[0], s[2], t[0], t[1]) <= 0;
+    const PiercingEdge first = first_of_a ? PiercingEdge{s[0], s[1], true}  //
+                                          : PiercingEdge{t[0], t[2], false};
+    const PiercingEdge second = second_of_a ? PiercingEdge{s[0], s[2], true}  //
+                                            : PiercingEdge{t[0], t[1], false};
+    if (first_of_a != second_of_a) {
+        const int gap = first_of_a ? orient3d(s[0], s[1], t[0], t[1])  //
+                                   : orient3d(s[0], s[2], t[0], t[2]);
+        return CrossingEnds{first, second, gap == 0};
+    }
+    const bool lone_is_on_plane = first_of_a ? a_signs[find_lone(a_signs).corner] == 0
+                                             : b_signs[find_lone(b_signs).corner] == 0;
+    return CrossingEnds{first, second, lone_is_on_plane};
+}
+
 bool triangles_touch(const Corners& a, const Corners& b) noexcept {
     return classify_contact(a, b) != TriangleContact::disjoint;
 }

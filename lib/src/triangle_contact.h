@@ -47,6 +47,25 @@ enum class TriangleContact : std::uint8_t {
 /// only touch.
 [[nodiscard]] TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept;
 
+/// An edge of one triangle that meets the other's plane in one point.
+struct PiercingEdge {
+    Double3 from;
+    Double3 to;
+    bool of_a;
+};
+
+/// The edges on which the two ends of a common segment lie.
+struct CrossingEnds {
+    PiercingEdge first;
+    PiercingEdge second;
+    bool is_point;  ///< both ends are one point
+};
+
+/// Returns what bounds the common segment of two triangles that touch, or nothing when
+/// both lie in one plane or one has no area. Exact.
+[[nodiscard]] std::optional<CrossingEnds> crossing_ends(const Corners& a,
+                                                        const Corners& b) noexcept;
+
 /// True when the corners are exactly collinear.
 [[nodiscard]] bool is_degenerate(const Corners& a) noexcept;
 

@@ -10,6 +10,7 @@
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/split_overlap.h"
 #include "support/open_tiny.h"
@@ -67,6 +68,7 @@ TEST(Allocations, NoQuestionAllocates) {
     std::vector<std::uint64_t> bits_a(a.triangle_count() / 64 + 1);
     std::vector<std::uint64_t> bits_b(b.triangle_count() / 64 + 1);
     const auto visit = [](const TrianglePair&) { return true; };
+    const auto visit_segment = [](const Crossing&) { return true; };
     std::vector<Placement> placements = {Placement::b_moves(Pose())};
     std::mt19937 random(1);
     for (const double reach : {0.1, 1.0, 3.0, 100.0}) {
@@ -100,6 +102,7 @@ TEST(Allocations, NoQuestionAllocates) {
         static_cast<void>(
             overlapping_triangles(a, b, placement, workspace, std::span(pairs).first(10)));
         visit_overlapping_triangles(a, b, placement, workspace, visit);
+        visit_crossing_segments(a, b, placement, workspace, visit_segment);
         mark_overlapping_triangles(a, b, placement, workspace, bits_a, bits_b);
         static_cast<void>(distance(a, b, placement, workspace));
         static_cast<void>(distance(a, b, placement, workspace, {.relative_error = 0.1}, &cache));

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/crossing_segments.h"
+
+#include "contact_pairs.h"
+#include "edge_on_plane.h"
+
+namespace cdprep {
+
+bool visit_crossing_segments(const Model& a, const Model& b, const Placement& placement,
+                             Workspace& workspace, Visitor<Crossing> visit,
+                             const OverlapOptions& options) noexcept {
+    const MovedModel in_a = moved_a(a, placement);
+    const MovedModel in_b = moved_b(b, placement);
+    return for_each_contact<Search::all>(
+        a, b, placement, workspace, options, [&](std::uint32_t at_a, std::uint32_t at_b) {
+            const Corners s = in_a.corners(at_a);
+            const Corners t = in_b.corners(at_b);
+            Crossing crossing{{source_number(a, at_a), source_number(b, at_b)}, true, {}, {}};
+            if (const auto ends = crossing_ends(s, t)) {
+                const auto point = [&](const PiercingEdge& edge) {
+                    return edge_on_plane(edge.from, edge.to, edge.of_a ? t : s);
+                };
+                crossing.is_flat = false;
+                crossing.from = point(ends->first);
+                crossing.to = ends->is_point ? crossing.from : point(ends->second);
+            }
+            return visit(crossing);
+        });
+}
+
+}  // namespace cdprep
