@@ -10,7 +10,9 @@
 #include <vector>
 
 #include "cdprep/collide.h"
+#include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
+#include "cdprep/query_counts.h"
 #include "effects.h"
 #include "interrupt.h"
 #include "open_for.h"
@@ -40,6 +42,8 @@ struct Arguments {
     std::size_t repeat = 1;
     bool timings = false;
     bool count = false;
+    bool segments = false;
+    bool counts = false;
     bool skip_degenerate = false;
 };
 
@@ -79,10 +83,12 @@ Result<std::vector<Placement>> placements_of(const Arguments& arguments) {
 class Asker {
 public:
     Asker(const Arguments& arguments, const Model& a, const Model& b)
-        : arguments_(arguments), a_(a), b_(b) {
+        : arguments_(arguments), a_(a), b_(b), errors_(arguments.errors) {
         options_.as = arguments.as == "solid" ? As::solid : As::surface;
+        errors_.as = options_.as;
         options_.contact = arguments.contact == "proper" ? Contact::proper : Contact::closed;
         options_.degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
+        if (arguments.counts) workspace_.count_into(&counts_);
     }
 
     /// Asks one placement, `--repeat` times, and writes the answer once. Every time
@@ -93,8 +99,8 @@ public:
             case Question::distance:
                 return answers.add(timed([&] {
                     cache_ = before;
-                    return report::DistanceAnswer{number, distance(a_, b_, placement, workspace_,
-                                                                   arguments_.errors, &cache_)};
+                    return report::DistanceAnswer{
+                        number, distance(a_, b_, placement, workspace_, errors_, &cache_)};
                 }));
             case Question::within:
                 return answers.add(timed([&] {
@@ -122,6 +128,17 @@ public:
         return line.str();
     }
 
+    /// What the questions did, for people: one line.
+    [[nodiscard]] std::string counts() const {
+        std::ostringstream line;
+        line << counts_.box_pairs << " box pairs, " << counts_.leaf_pairs << " leaf pairs, "
+             << counts_.triangle_pairs << " triangle pairs; decided " << counts_.by_kernel
+             << " in float, " << counts_.by_corner << " by a common corner, " << counts_.by_filter
+             << " in double, " << counts_.by_exact << " exactly; " << counts_.measured
+             << " distances measured, " << counts_.measured_again << " again\n";
+        return line.str();
+    }
+
 private:
     using Clock = std::chrono::steady_clock;
 
@@ -141,10 +158,15 @@ private:
         report::PairAnswer answer;
         answer.pose = number;
         if (arguments_.question == Question::overlap) {
-            const std::size_t count = find_pairs(placement);
+            const std::size_t count =
+                arguments_.segments ? find_crossings(placement) : find_pairs(placement);
             answer.hit = count > 0;
             answer.count = count;
-            if (!arguments_.count) answer.pairs = std::span(pairs_).first(count);
+            if (arguments_.segments) {
+                answer.crossings = crossings_;
+            } else if (!arguments_.count) {
+                answer.pairs = std::span(pairs_).first(count);
+            }
             if (options_.as == As::surface) return answer;
         }
         const Collision collision = collide(a_, b_, placement, workspace_, options_);
@@ -166,12 +188,29 @@ private:
         }
     }
 
+    /// In the order of the pairs.
+    std::size_t find_crossings(const Placement& placement) {
+        crossings_.clear();
+        const auto keep = [this](const Crossing& crossing) {
+            crossings_.push_back(crossing);
+            return true;
+        };
+        visit_crossing_segments(a_, b_, placement, workspace_, keep,
+                                {options_.contact, options_.degenerate});
+        std::sort(crossings_.begin(), crossings_.end(),
+                  [](const Crossing& x, const Crossing& y) { return x.pair < y.pair; });
+        return crossings_.size();
+    }
+
     const Arguments& arguments_;
     const Model& a_;
     const Model& b_;
     CollideOptions options_;
+    DistanceOptions errors_;
     Workspace workspace_;
     std::vector<TrianglePair> pairs_ = std::vector<TrianglePair>(4096);
+    std::vector<Crossing> crossings_;
+    QueryCounts counts_;
     PairCache cache_;
     std::vector<double> microseconds_;
 };
@@ -204,13 +243,18 @@ Exit run(const Arguments& arguments) {
     }
     answers.finish();
     if (arguments.timings) std::cerr << asker.timings();
+    if (arguments.counts) std::cerr << asker.counts();
     return Exit::success;
 }
 
-void add_contact_options(CLI::App& command, Arguments& arguments) {
+void add_as(CLI::App& command, Arguments& arguments) {
     command.add_option("--as", arguments.as, "surface or solid")
         ->check(CLI::IsMember({"surface", "solid"}))
         ->capture_default_str();
+}
+
+void add_contact_options(CLI::App& command, Arguments& arguments) {
+    add_as(command, arguments);
     command.add_option("--contact", arguments.contact, "closed: touching counts; or proper")
         ->check(CLI::IsMember({"closed", "proper"}))
         ->capture_default_str();
@@ -237,6 +281,7 @@ void add_distance_options(CLI::App& command, Arguments& arguments) {
                     "Upper may exceed lower by this, model units")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
+    add_as(command, arguments);
     command
         .add_option("--max-distance", arguments.errors.max_distance,
                     "Nothing beyond is of interest, model units")
@@ -272,13 +317,20 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
         ->check(CLI::Range(1, 1'000'000'000))
         ->capture_default_str();
     command->add_flag("--timings", arguments->timings, "What the questions took, to stderr");
+    command->add_flag("--counts", arguments->counts,
+                      "Boxes and triangles tested and which stage decided, to stderr");
     if (question == Question::collide || question == Question::overlap) {
         add_contact_options(*command, *arguments);
     } else {
         add_distance_options(*command, *arguments);
     }
     if (question == Question::overlap) {
-        command->add_flag("--count", arguments->count, "Count the pairs, do not list them");
+        CLI::Option* count =
+            command->add_flag("--count", arguments->count, "Count the pairs, do not list them");
+        command
+            ->add_flag("--segments", arguments->segments,
+                       "Each pair with the segment in which the two triangles meet")
+            ->excludes(count);
     }
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

@@ -66,12 +66,57 @@ std::string pairs_text(std::span<const TrianglePair> pairs, const PairStyle& sty
     return text;
 }
 
+std::string crossings_json(std::span<const Crossing> crossings) {
+    std::string pairs, segments;
+    for (const Crossing& crossing : crossings) {
+        if (!pairs.empty()) {
+            pairs += ", ";
+            segments += ", ";
+        }
+        pairs += '[';
+        append(pairs, crossing.pair.a);
+        pairs += ", ";
+        append(pairs, crossing.pair.b);
+        pairs += ']';
+        if (crossing.is_flat) {
+            segments += "null";
+            continue;
+        }
+        segments += '[';
+        segments += place(crossing.from, ", ");
+        segments += ", ";
+        segments += place(crossing.to, ", ");
+        segments += ']';
+    }
+    return ", \"pairs\": [" + pairs + "], \"segments\": [" + segments + "]";
+}
+
+std::string crossings_text(std::span<const Crossing> crossings) {
+    std::string text;
+    for (const Crossing& crossing : crossings) {
+        text += "\n  ";
+        append(text, crossing.pair.a);
+        text += ' ';
+        append(text, crossing.pair.b);
+        if (crossing.is_flat) {
+            text += " flat";
+            continue;
+        }
+        text += " from ";
+        text += place(crossing.from, " ");
+        text += " to ";
+        text += place(crossing.to, " ");
+    }
+    return text;
+}
+
 std::string as_json(const PairAnswer& answer) {
     std::string text = "{\"pose\": " + number(answer.pose) + ", \"hit\": " + word(answer.hit);
     if (answer.count) text += ", \"count\": " + number(*answer.count);
     if (answer.pairs) {
         text += ", \"pairs\": [" + pairs_text(*answer.pairs, {"[", ", ", "]", ", "}) + "]";
     }
+    if (answer.crossings) text += crossings_json(*answer.crossings);
     if (answer.containment) {
         text += std::string(", \"containment\": \"") + word(answer.containment->answer) +
                 "\", \"winding\": " + number(answer.containment->winding);
@@ -86,6 +131,7 @@ std::string as_text(const PairAnswer& answer) {
         text += std::string(", containment ") + word(answer.containment->answer);
     }
     if (answer.pairs) text += pairs_text(*answer.pairs, {"\n  ", " ", "", ""});
+    if (answer.crossings) text += crossings_text(*answer.crossings);
     return text;
 }
 

@@ -10,6 +10,7 @@
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 
 namespace cdprep::report {
@@ -22,6 +23,7 @@ struct PairAnswer {
     bool hit = false;
     std::optional<std::size_t> count;                    ///< overlap only
     std::optional<std::span<const TrianglePair>> pairs;  ///< overlap without --count
+    std::optional<std::span<const Crossing>> crossings;  ///< instead, with --segments
     std::optional<Containment> containment;              ///< solid only
 };
 
@@ -57,7 +59,8 @@ struct RayAnswer {
 
 /// Writes answers one after the other: lines of text, elements of one JSON
 /// array, or lines of NDJSON such as
-/// {"pose": 0, "hit": true, "count": 2, "pairs": [[17, 4], [18, 4]]}.
+/// {"pose": 0, "hit": true, "count": 2, "pairs": [[17, 4], [18, 4]]}. Segments stand in
+/// the order of the pairs, six numbers each or null for flat ones.
 /// Numbers read back as the same doubles.
 class Answers {
 public:
