@@ -66,9 +66,11 @@ ScaledAxis<N> scaled_axis(const std::array<double, N>& x, double from, int bits)
     constexpr double kLift = 0x1p600;
     std::array<Exact2, N> difference;
     double most = 0;
+    bool rounded = false;
     for (std::size_t i = 0; i < N; ++i) {
         difference[i] = two_sum(x[i], -from);
         most = std::max(most, std::fabs(difference[i].value));
+        rounded |= difference[i].tail != 0;
     }
     ScaledAxis<N> result{};
     result.fits = most == 0;
@@ -84,6 +86,8 @@ ScaledAxis<N> scaled_axis(const std::array<double, N>& x, double from, int bits)
     result.fits = true;
     for (std::size_t i = 0; i < N; ++i) {
         result.fits &= add_scaled(difference[i].value, scale, unscale, result.at[i]);
+    }
+    for (std::size_t i = 0; i < N && rounded; ++i) {
         result.fits &= add_scaled(difference[i].tail, scale, unscale, result.at[i]);
     }
     return result;
