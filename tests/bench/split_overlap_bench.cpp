@@ -14,10 +14,12 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -53,51 +55,68 @@ Pose read_pose(const std::filesystem::path& path, std::size_t line) {
     return pose.value();
 }
 
-/// Threads that sleep until there is a task. The caller's thread does task 0.
+/// Threads that sleep until there are tasks. The caller's thread takes tasks too, and
+/// waits only for those that others have begun: on a busy machine a thread may wake late.
 class Pool {
 public:
     explicit Pool(std::size_t workers) {
         for (std::size_t i = 1; i < workers; ++i) {
-            threads_.emplace_back([this, i] { serve(i); });
+            threads_.emplace_back([this] { serve(); });
         }
     }
     ~Pool() {
-        (*this)(0, task_);
+        ends_ = true;
+        start_round(0);
         for (std::thread& thread : threads_) thread.join();
     }
     Pool(const Pool&) = delete;
     Pool& operator=(const Pool&) = delete;
 
-    /// As ParallelFor wants it; 0 ends the threads.
+    /// As ParallelFor wants it.
     void operator()(std::size_t count, Task task) {
         task_ = task;
-        count_ = count;
-        left_ = threads_.size();
-        ++round_;
-        round_.notify_all();
-        if (count == 0) return;
-        task(0);
+        left_ = count;
+        start_round(count);
+        work();
         for (std::size_t left = left_; left > 0; left = left_) left_.wait(left);
     }
 
 private:
     static constexpr auto kNothing = [](std::size_t /*number*/) {};
+    static constexpr std::uint64_t kNext = 0xffff;  ///< of a ticket: the next task
+    static constexpr int kCountShift = 16;          ///< then how many there are
+    static constexpr int kRoundShift = 32;          ///< then the round
 
-    void serve(std::size_t number) {
-        for (unsigned seen = 0;;) {
-            round_.wait(seen);
-            ++seen;
-            if (count_ == 0) return;
-            if (number < count_) task_(number);
+    void start_round(std::size_t count) {
+        const std::uint64_t round = (ticket_ >> kRoundShift) + 1;
+        ticket_ = round << kRoundShift | count << kCountShift;
+        ++rounds_;
+        rounds_.notify_all();
+    }
+    /// Takes tasks of this round until there are no more.
+    void work() {
+        for (std::uint64_t ticket = ticket_;;) {
+            const std::uint64_t number = ticket & kNext;
+            if (number == (ticket >> kCountShift & kNext)) return;
+            if (!ticket_.compare_exchange_weak(ticket, ticket + 1)) continue;
+            task_(number);
             if (--left_ == 0) left_.notify_all();
+            ticket = ticket_;
+        }
+    }
+    void serve() {
+        for (int seen = 0; !ends_; seen = rounds_) {
+            rounds_.wait(seen);
+            work();
         }
     }
 
     std::vector<std::thread> threads_;
     Task task_{kNothing};
-    std::size_t count_ = 0;
+    std::atomic<bool> ends_ = false;
     std::atomic<std::size_t> left_ = 0;
-    std::atomic<unsigned> round_ = 0;
+    std::atomic<int> rounds_ = 0;  ///< what sleepers wait for
+    std::atomic<std::uint64_t> ticket_ = 0;
 };
 
 double median(std::vector<double> values) {
@@ -121,15 +140,17 @@ void compare(const char* name, const Model& a, const Model& b, const Pose& pose,
     std::size_t count = 0;
     std::vector<double> serial;
     std::vector<std::vector<double>> split(workers.size());
+    std::vector<std::unique_ptr<Pool>> pools;
+    for (const std::size_t each : workers) pools.push_back(std::make_unique<Pool>(each));
     for (int round = 0; round < rounds; ++round) {
         serial.push_back(
             ms([&] { count = overlapping_triangles(a, b, placement, workspaces[0], expected); }));
         for (std::size_t i = 0; i < workers.size(); ++i) {
-            Pool pool(workers[i]);
             const std::span<Workspace> own = std::span(workspaces).first(workers[i]);
             std::size_t found = 0;
-            split[i].push_back(ms(
-                [&] { found = split_overlapping_triangles(a, b, placement, own, pool, pairs); }));
+            split[i].push_back(ms([&] {
+                found = split_overlapping_triangles(a, b, placement, own, *pools[i], pairs);
+            }));
             if (found != count ||
                 !std::equal(pairs.begin(), pairs.begin() + count, expected.begin())) {
                 stop("the split changed the answer");

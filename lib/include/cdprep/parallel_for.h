@@ -27,9 +27,10 @@ private:
 
 /// The caller's threads. The library starts none: what can be shared out is handed to
 /// `run(count, task)`, which calls task(0) ... task(count - 1), in any order, on any
-/// threads, also all on one, and returns when all are done. It may not throw. Refers to
-/// the callable, an object such as a lambda, and copies nothing; it must outlive the
-/// call it is handed to.
+/// threads, also all on one, and returns when all are done. It may not throw. Tasks that
+/// begin late find little left to do: best is a `run` whose own thread takes tasks too
+/// and waits only for those that have begun. Refers to the callable, an object such as
+/// a lambda, and copies nothing; it must outlive the call it is handed to.
 ///
 ///     const auto run = [&](std::size_t count, cdprep::Task task) {
 ///         std::vector<std::jthread> threads;
