@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "moved_model.h"
+#include "triangle_contact.h"
+
+namespace cdprep::test {
+
+/// Whether the triangle and the solid box have a common point: the triangle is cut at
+/// each face's plane, in exact numbers, and something is left. The box is finite.
+[[nodiscard]] bool touches_box_by_cutting(const Corners& t, const Box3& box);
+
+}  // namespace cdprep::test
