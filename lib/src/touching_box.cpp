@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/touching_box.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "find_touching.h"
+#include "shape_frame.h"
+#include "triangle_box.h"
+
+namespace cdprep {
+namespace {
+
+Double3 at_least(const Double3& p, const Double3& limit) noexcept {
+    return {std::max(p.x, limit.x), std::max(p.y, limit.y), std::max(p.z, limit.z)};
+}
+Double3 at_most(const Double3& p, const Double3& limit) noexcept {
+    return {std::min(p.x, limit.x), std::min(p.y, limit.y), std::min(p.z, limit.z)};
+}
+
+/// The box without what is infinite, where no vertex can be.
+Box3 finite(const Box& box) noexcept {
+    constexpr double kFar = 8 * format::kMaxCoordinate;
+    return {at_least(box.lower, {-kFar, -kFar, -kFar}), at_most(box.upper, {kFar, kFar, kFar})};
+}
+
+/// The part of the box where the model may be: far ends would cost the walk precision.
+Box3 clipped(const Box3& box, const MovedModel& model) noexcept {
+    const format::FileHeader& header = model.model->header();
+    const Double3& o = header.frame_origin;
+    const Pose pose = model.pose == nullptr ? Pose() : *model.pose;
+    const Double3 middle = moved(pose, o);
+    // A ball of sqrt 3 times the frame's size holds the model; rounding is far less
+    // than what this is larger by.
+    const double around =
+        2 * std::ldexp(1.0, -header.frame_exponent) +
+        0x1p-30 * (ShapeFrame::largest(o) + ShapeFrame::largest(pose.translation()));
+    return {at_least(box.lower, {middle.x - around, middle.y - around, middle.z - around}),
+            at_most(box.upper, {middle.x + around, middle.y + around, middle.z + around})};
+}
+
+/// A box among those of a model. Everything for the walk is in frame units.
+class BoxShape {
+public:
+    BoxShape(const MovedModel& model, const Box& box) noexcept
+        : box_(finite(box)), is_turned_(model.pose != nullptr) {
+        const Box3 part = clipped(box_, model);
+        is_empty_ = !overlap(part, part);
+        if (!is_empty_) place(model, part);
+    }
+
+    [[nodiscard]] BoxVerdict judge(const format::BvhNode& node) const noexcept {
+        if (is_empty_) return {};
+        const BoxVerdict along_model = judge_along_model(node);
+        if (!is_turned_ || along_model.near == 0) return along_model;
+        const BoxVerdict along_box = judge_along_box(node);
+        return {along_model.near & along_box.near, along_box.inside};
+    }
+
+    [[nodiscard]] bool touches(const Corners& t) const noexcept {
+        return triangle_touches_box(t, box_);
+    }
+
+private:
+    void place(const MovedModel& model, const Box3& part) noexcept;
+    [[nodiscard]] BoxVerdict judge_along_model(const format::BvhNode& node) const noexcept;
+    [[nodiscard]] BoxVerdict judge_along_box(const format::BvhNode& node) const noexcept;
+
+    Box3 box_;
+    bool is_turned_;
+    bool is_empty_;
+    std::array<FrameVector, 3> axis_{};  ///< of the box, along the model's axes
+    FrameVector centre_{};
+    FrameVector half_{};  ///< along axis_
+    double slack_ = 0;
+    FrameVector lower_{}, upper_{};              ///< of the box along the model's axes, outside
+    FrameVector inner_lower_{}, inner_upper_{};  ///< and inside; unturned boxes alone
+};
+
+void BoxShape::place(const MovedModel& model, const Box3& part) noexcept {
+    const ShapeFrame frame(
+        model, std::max(ShapeFrame::largest(part.lower), ShapeFrame::largest(part.upper)));
+    slack_ = frame.slack();
+    const auto middle = [](double a, double b) { return 0.5 * a + 0.5 * b; };
+    centre_ = frame.at({middle(part.lower.x, part.upper.x), middle(part.lower.y, part.upper.y),
+                        middle(part.lower.z, part.upper.z)});
+    half_ = {frame.scaled(middle(part.upper.x, -part.lower.x)),
+             frame.scaled(middle(part.upper.y, -part.lower.y)),
+             frame.scaled(middle(part.upper.z, -part.lower.z))};
+    const std::array<double, 9> r = is_turned_ ? model.pose->rotation() : Pose().rotation();
+    for (std::size_t k = 0; k < 3; ++k) axis_[k] = {r[3 * k], r[3 * k + 1], r[3 * k + 2]};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double reach = std::fabs(axis_[0][i]) * half_[0] + std::fabs(axis_[1][i]) * half_[1] +
+                             std::fabs(axis_[2][i]) * half_[2];
+        lower_[i] = centre_[i] - reach - slack_;
+        upper_[i] = centre_[i] + reach + slack_;
+        inner_lower_[i] = centre_[i] - reach + slack_;
+        inner_upper_[i] = centre_[i] + reach - slack_;
+    }
+}
+
+BoxVerdict BoxShape::judge_along_model(const format::BvhNode& node) const noexcept {
+    BoxVerdict verdict;
+    for (std::uint32_t j = 0; j < format::kBvhWidth; ++j) {
+        bool apart = false;
+        bool inside = !is_turned_;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double lower = node.lower[i][j];
+            const double upper = node.upper[i][j];
+            apart |= lower > upper_[i] || upper < lower_[i];
+            inside &= lower >= inner_lower_[i] && upper <= inner_upper_[i];
+        }
+        verdict.near |= static_cast<unsigned>(!apart) << j;
+        verdict.inside |= static_cast<unsigned>(inside) << j;
+    }
+    return verdict;
+}
+
+BoxVerdict BoxShape::judge_along_box(const format::BvhNode& node) const noexcept {
+    BoxVerdict verdict;
+    for (std::uint32_t j = 0; j < format::kBvhWidth; ++j) {
+        FrameVector from{}, half{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double lower = node.lower[i][j];
+            const double upper = node.upper[i][j];
+            from[i] = 0.5 * (lower + upper) - centre_[i];
+            half[i] = 0.5 * (upper - lower);
+        }
+        bool apart = false;
+        bool inside = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const FrameVector& a = axis_[k];
+            const double at = std::fabs(a[0] * from[0] + a[1] * from[1] + a[2] * from[2]);
+            const double reach =
+                std::fabs(a[0]) * half[0] + std::fabs(a[1]) * half[1] + std::fabs(a[2]) * half[2];
+            apart |= at - reach > half_[k] + 2 * slack_;
+            inside &= at + reach <= half_[k] - 2 * slack_;
+        }
+        verdict.near |= static_cast<unsigned>(!apart) << j;
+        verdict.inside |= static_cast<unsigned>(inside) << j;
+    }
+    return verdict;
+}
+
+}  // namespace
+
+bool touches(const Model& model, const Box& box, Workspace& workspace,
+             const TouchOptions& options) noexcept {
+    return any_touching<BoxShape>(model, box, workspace, options);
+}
+
+std::size_t touching_triangles(const Model& model, const Box& box, Workspace& workspace,
+                               std::span<std::uint32_t> triangles,
+                               const TouchOptions& options) noexcept {
+    return all_touching<BoxShape>(model, box, workspace, triangles, options);
+}
+
+bool visit_touching_triangles(const Model& model, const Box& box, Workspace& workspace,
+                              TriangleVisitor visit, const TouchOptions& options) noexcept {
+    return visit_touching<BoxShape>(model, box, workspace, visit, options);
+}
+
+}  // namespace cdprep

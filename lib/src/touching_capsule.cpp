@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/touching_capsule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "exact_within.h"
+#include "find_touching.h"
+#include "nearest_to_shape.h"
+#include "shape_frame.h"
+
+namespace cdprep {
+namespace {
+
+/// A capsule among the boxes of a model, in frame units. A box may touch it when its
+/// own box does and the ball around the box does.
+class CapsuleShape {
+public:
+    CapsuleShape(const MovedModel& model, const Capsule& capsule) noexcept
+        : ends_{capsule.from, capsule.to}, radius_(capsule.radius) {
+        const ShapeFrame frame(
+            model, std::max(ShapeFrame::largest(capsule.from), ShapeFrame::largest(capsule.to)));
+        const FrameVector to = frame.at(capsule.to);
+        from_ = frame.at(capsule.from);
+        const double radius = frame.scaled(capsule.radius);
+        outer_ = (radius + frame.slack()) * (1 + kRounding);
+        inner_ = (radius - frame.slack()) * (1 - kRounding);
+        double squared = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            along_[i] = to[i] - from_[i];
+            squared += along_[i] * along_[i];
+            lower_[i] = std::min(from_[i], to[i]) - outer_;
+            upper_[i] = std::max(from_[i], to[i]) + outer_;
+        }
+        per_square_ = squared > 0 ? 1 / squared : 0;
+        is_none_ = !(radius_ >= 0);
+    }
+
+    [[nodiscard]] BoxVerdict judge(const format::BvhNode& node) const noexcept {
+        BoxVerdict verdict;
+        if (is_none_) return verdict;
+        for (std::uint32_t j = 0; j < format::kBvhWidth; ++j) {
+            bool apart = false;
+            FrameVector w{};
+            double size = 0;
+            double along = 0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double lower = node.lower[i][j];
+                const double upper = node.upper[i][j];
+                apart |= lower > upper_[i] || upper < lower_[i];
+                w[i] = 0.5 * (lower + upper) - from_[i];
+                size += (upper - lower) * (upper - lower);
+                along += w[i] * along_[i];
+            }
+            const double t = std::min(std::max(along * per_square_, 0.0), 1.0);
+            double squared = 0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                const double from_axis = w[i] - t * along_[i];
+                squared += from_axis * from_axis;
+            }
+            const double distance = std::sqrt(squared);
+            const double half = 0.5 * std::sqrt(size);
+            apart |= distance - half > outer_;
+            verdict.near |= static_cast<unsigned>(!apart) << j;
+            verdict.inside |= static_cast<unsigned>(distance + half <= inner_) << j;
+        }
+        return verdict;
+    }
+
+    [[nodiscard]] bool touches(const Corners& t) const noexcept {
+        return is_within_exactly(ends_, t, radius_);
+    }
+
+private:
+    static constexpr double kRounding = 0x1p-45;
+
+    std::array<Double3, 2> ends_;
+    double radius_;
+    bool is_none_;
+    FrameVector from_{};
+    FrameVector along_{};
+    FrameVector lower_{}, upper_{};
+    double per_square_ = 0;
+    double outer_;
+    double inner_;
+};
+
+}  // namespace
+
+bool touches(const Model& model, const Capsule& capsule, Workspace& workspace,
+             const TouchOptions& options) noexcept {
+    return any_touching<CapsuleShape>(model, capsule, workspace, options);
+}
+
+std::size_t touching_triangles(const Model& model, const Capsule& capsule, Workspace& workspace,
+                               std::span<std::uint32_t> triangles,
+                               const TouchOptions& options) noexcept {
+    return all_touching<CapsuleShape>(model, capsule, workspace, triangles, options);
+}
+
+bool visit_touching_triangles(const Model& model, const Capsule& capsule, Workspace& workspace,
+                              TriangleVisitor visit, const TouchOptions& options) noexcept {
+    return visit_touching<CapsuleShape>(model, capsule, workspace, visit, options);
+}
+
+std::optional<ShapeDistance> distance_to(const Model& model, const Capsule& capsule,
+                                         Workspace& workspace,
+                                         const ShapeDistanceOptions& options) noexcept {
+    if (!(capsule.radius >= 0) || !(options.max_distance >= 0)) return std::nullopt;
+    const MovedModel moved = placed(model, options.world_from_model);
+    const Corners segment = {capsule.from, capsule.to, capsule.to};
+    std::optional<ShapeDistance> found;
+    for_each_touching<CapsuleShape>(model, capsule, workspace, {options.world_from_model},
+                                    [&](std::uint32_t i) {
+                                        found = touching_at(moved, segment, i);
+                                        return false;
+                                    });
+    if (found) return found;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const double limit = std::nextafter(options.max_distance + capsule.radius, kInfinity);
+    found = nearest_to_shape(moved, segment, limit, workspace.storage());
+    if (!found) return std::nullopt;
+    found->lower = std::max(0.0, std::nextafter(found->lower - capsule.radius, -kInfinity));
+    found->upper = std::max(0.0, std::nextafter(found->upper - capsule.radius, kInfinity));
+    if (found->lower > options.max_distance) return std::nullopt;
+    return found;
+}
+
+}  // namespace cdprep
