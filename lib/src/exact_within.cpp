@@ -8,6 +8,7 @@
 
 #include "moved_model.h"
 #include "point_triangle_distance.h"
+#include "shape_frame.h"
 #include "triangle_distance.h"
 #include "wide_integer.h"
 
@@ -176,6 +177,56 @@ bool boxes_are_apart(std::span<const Double3> points, const Corners& t, double d
     return squared > kLeastSquare && squared > distance * distance * (1 + kRounding);
 }
 
+enum class Quick : std::uint8_t { no, yes, unsure };
+
+FrameVector relative(const Double3& p, const Double3& origin) noexcept {
+    return {p.x - origin.x, p.y - origin.y, p.z - origin.z};
+}
+
+double inner(const FrameVector& a, const FrameVector& b) noexcept {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// What most triangles near a point or segment need: a corner is near enough, or the
+/// triangle lies beyond the plane across the way from the segment to its middle.
+///
+/// Everything is relative to an end of the segment; with M the largest coordinate, the
+/// differences, feet and dot products with unit vectors are off by less than 64 u M.
+Quick quick_answer(std::span<const Double3> points, const Corners& t, double distance) noexcept {
+    if (points.size() > 2) return Quick::unsure;
+    const FrameVector along = relative(points.back(), points[0]);
+    std::array<FrameVector, 3> corner{};
+    double size = std::max({std::fabs(along[0]), std::fabs(along[1]), std::fabs(along[2])});
+    for (std::size_t i = 0; i < 3; ++i) {
+        corner[i] = relative(t[i], points[0]);
+        for (const double x : corner[i]) size = std::max(size, std::fabs(x));
+    }
+    // Squares keep their digits, and finite.
+    if (!(size > 0x1p-400 && size < 0x1p400 && distance < 0x1p400)) return Quick::unsure;
+    const double margin = 64 * 0x1p-53 * (size + distance);
+    const double squared = inner(along, along);
+    const auto from_segment = [&](const FrameVector& p) {
+        const double place = squared > 0 ? inner(p, along) / squared : 0;
+        const double s = std::min(std::max(place, 0.0), 1.0);
+        return FrameVector{p[0] - s * along[0], p[1] - s * along[1], p[2] - s * along[2]};
+    };
+    if (const double near = distance - margin; near > 0x1p-400) {
+        for (const FrameVector& p : corner) {
+            const FrameVector w = from_segment(p);
+            if (inner(w, w) <= near * near) return Quick::yes;
+        }
+    }
+    FrameVector middle{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        middle[i] = (corner[0][i] + corner[1][i] + corner[2][i]) * (1.0 / 3);
+    }
+    const FrameVector w = from_segment(middle);
+    const double length = std::sqrt(inner(w, w));
+    const double least = std::min({inner(w, corner[0]), inner(w, corner[1]), inner(w, corner[2])});
+    const double gap = least - std::max(0.0, inner(w, along));
+    return length > margin && gap > (distance + margin) * length ? Quick::no : Quick::unsure;
+}
+
 struct Bounds {
     double lower;
     double upper;
@@ -206,13 +257,16 @@ bool is_within_in_integers(std::span<const Double3> points, const Corners& t,
 bool is_within_exactly(std::span<const Double3> points, const Corners& t,
                        double distance) noexcept {
     if (!(distance >= 0) || boxes_are_apart(points, t, distance)) return false;
+    const Corners filled = {points[0], points[points.size() / 2], points.back()};
+    if (distance == 0) return triangles_touch(filled, t);
+    const Quick quick = quick_answer(points, t, distance);
+    if (quick != Quick::unsure) return quick == Quick::yes;
     if (in_range(points) && in_range(t)) {
         const Bounds bounds = in_double(points, t);
         if (bounds.upper <= distance) return true;
         if (bounds.lower > distance) return false;
     }
-    if (triangles_touch({points[0], points[points.size() / 2], points.back()}, t)) return true;
-    if (distance == 0) return false;
+    if (triangles_touch(filled, t)) return true;
     if (!(distance <= std::numeric_limits<double>::max())) return true;
     return is_within_in_integers(points, t, distance);
 }

@@ -14,7 +14,7 @@ namespace cdprep {
 namespace {
 
 /// A capsule among the boxes of a model, in frame units. A box may touch it when its
-/// own box does and the ball around the box does.
+/// segment meets the box made larger by the radius, and comes near enough to its middle.
 class CapsuleShape {
 public:
     CapsuleShape(const MovedModel& model, const Capsule& capsule) noexcept
@@ -30,8 +30,7 @@ public:
         for (std::size_t i = 0; i < 3; ++i) {
             along_[i] = to[i] - from_[i];
             squared += along_[i] * along_[i];
-            lower_[i] = std::min(from_[i], to[i]) - outer_;
-            upper_[i] = std::max(from_[i], to[i]) + outer_;
+            per_along_[i] = std::fabs(along_[i]) > kNoStep ? 1 / along_[i] : 0;
         }
         per_square_ = squared > 0 ? 1 / squared : 0;
         is_none_ = !(radius_ >= 0);
@@ -41,14 +40,24 @@ public:
         BoxVerdict verdict;
         if (is_none_) return verdict;
         for (std::uint32_t j = 0; j < format::kBvhWidth; ++j) {
-            bool apart = false;
+            double enter = 0;
+            double leave = 1;
             FrameVector w{};
             double size = 0;
             double along = 0;
             for (std::size_t i = 0; i < 3; ++i) {
                 const double lower = node.lower[i][j];
                 const double upper = node.upper[i][j];
-                apart |= lower > upper_[i] || upper < lower_[i];
+                const double to_lower = lower - outer_ - from_[i];
+                const double to_upper = upper + outer_ - from_[i];
+                if (per_along_[i] == 0) {
+                    if (to_lower > 0 || to_upper < 0) leave = -1;
+                } else {
+                    const double a = to_lower * per_along_[i];
+                    const double b = to_upper * per_along_[i];
+                    enter = std::max(enter, std::min(a, b));
+                    leave = std::min(leave, std::max(a, b));
+                }
                 w[i] = 0.5 * (lower + upper) - from_[i];
                 size += (upper - lower) * (upper - lower);
                 along += w[i] * along_[i];
@@ -61,7 +70,7 @@ public:
             }
             const double distance = std::sqrt(squared);
             const double half = 0.5 * std::sqrt(size);
-            apart |= distance - half > outer_;
+            const bool apart = enter > leave || distance - half > outer_;
             verdict.near |= static_cast<unsigned>(!apart) << j;
             verdict.inside |= static_cast<unsigned>(distance + half <= inner_) << j;
         }
@@ -74,13 +83,14 @@ public:
 
 private:
     static constexpr double kRounding = 0x1p-45;
+    static constexpr double kNoStep = 0x1p-200;  ///< far below the slack
 
     std::array<Double3, 2> ends_;
     double radius_;
     bool is_none_;
     FrameVector from_{};
     FrameVector along_{};
-    FrameVector lower_{}, upper_{};
+    FrameVector per_along_{};  ///< 1 / along; 0 for none
     double per_square_ = 0;
     double outer_;
     double inner_;
