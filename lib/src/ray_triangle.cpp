@@ -4,8 +4,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 
+#include "expansion.h"
 #include "predicates.h"
+#include "wide_integer.h"
+
+// The signs that decide are those of orient3d() and orient2d() with a second point of
+// the line in place of its direction; but origin + direction need not be a double, so
+// the direction itself stands in the determinants.
 
 namespace cdprep {
 namespace {
@@ -16,23 +23,23 @@ std::array<double, 3> axes(const Double3& p) {
     return {p.x, p.y, p.z};
 }
 
-/// (p - origin) . (through - origin) / |through - origin|^2, rounded; the largest
-/// direction component alone decides for points on the line.
+/// Where p lies on the line, in lengths of the step, rounded; its largest component alone
+/// decides for points on the line.
 double along(const HalfLine& ray, const Double3& p) {
-    const std::array<double, 3> o = axes(ray.origin), d = axes(ray.through), at = axes(p);
+    const std::array<double, 3> o = axes(ray.origin), d = axes(ray.step), at = axes(p);
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i) {
-        if (std::fabs(d[i] - o[i]) > std::fabs(d[axis] - o[axis])) axis = i;
+        if (std::fabs(d[i]) > std::fabs(d[axis])) axis = i;
     }
-    return (at[axis] - o[axis]) / (d[axis] - o[axis]);
+    return (at[axis] - o[axis]) / d[axis];
 }
 
 /// Whether p, which lies on the line, is not behind the origin. Exact: compares
 /// coordinates.
 bool is_ahead(const HalfLine& ray, const Double3& p) {
-    const std::array<double, 3> o = axes(ray.origin), d = axes(ray.through), at = axes(p);
+    const std::array<double, 3> o = axes(ray.origin), d = axes(ray.direction), at = axes(p);
     for (std::size_t i = 0; i < 3; ++i) {
-        if (d[i] != o[i]) return at[i] == o[i] || (at[i] > o[i]) == (d[i] > o[i]);
+        if (d[i] != 0) return at[i] == o[i] || (at[i] > o[i]) == (d[i] > 0);
     }
     return false;
 }
@@ -60,9 +67,9 @@ double crossing_parameter(const HalfLine& ray, const Corners& t) {
     const Double3 n = {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
     const auto against_n = [&](const Double3& w) { return n.x * w.x + n.y * w.y + n.z * w.z; };
     const int to_scale = scale(size(t[0], ray.origin));
-    const int along_scale = scale(size(ray.through, ray.origin));
+    const int along_scale = scale(size(ray.step, {0, 0, 0}));
     const double to = against_n(difference(t[0], ray.origin, to_scale));
-    const double step = against_n(difference(ray.through, ray.origin, along_scale));
+    const double step = against_n(difference(ray.step, {0, 0, 0}, along_scale));
     return step == 0 ? 0 : std::ldexp(to / step, along_scale - to_scale);
 }
 
@@ -78,19 +85,108 @@ struct View {
 
 constexpr std::array<View, 3> kViews = {{{1, 2}, {2, 0}, {0, 1}}};
 
+/// Integer multiples of the lowest bit that occurs.
+class Multiples {
+public:
+    explicit Multiples(std::initializer_list<Double3> points) noexcept {
+        for (const Double3& p : points) {
+            lowest_ = std::min({lowest_, lowest_bit(p.x), lowest_bit(p.y), lowest_bit(p.z)});
+        }
+    }
+    using Number = WideInteger<kWideCoordinate>;
+    [[nodiscard]] Number operator()(double x) const noexcept {
+        return Number::from_double(x, lowest_);
+    }
+    [[nodiscard]] std::array<Number, 3> operator()(const Double3& p) const noexcept {
+        return {(*this)(p.x), (*this)(p.y), (*this)(p.z)};
+    }
+    [[nodiscard]] std::array<Number, 3> operator()(const Double3& p,
+                                                   const Double3& from) const noexcept {
+        return {(*this)(p.x) - (*this)(from.x), (*this)(p.y) - (*this)(from.y),
+                (*this)(p.z) - (*this)(from.z)};
+    }
+
+private:
+    int lowest_ = lowest_bit(0);
+};
+
+/// Products of three of these lose nothing: see predicates.cpp.
+bool safe_to_multiply(double component) {
+    const double size = std::fabs(component);
+    return size == 0 || (size >= 0x1p-250 && size <= 0x1p300);
+}
+
+template <std::size_t N>
+bool safe_to_multiply(const Expansion<N>& e) {
+    return std::all_of(e.component.begin(),
+                       e.component.begin() + static_cast<std::ptrdiff_t>(e.size),
+                       [](double component) { return safe_to_multiply(component); });
+}
+
+/// The sign of det[a - o, b - o, d] by expansions, or 2 where one might lose a bit.
+int sign_in_expansions(const Double3& a, const Double3& b, const Double3& o, const Double3& d) {
+    const Expansion<2> ax = difference(a.x, o.x), ay = difference(a.y, o.y);
+    const Expansion<2> az = difference(a.z, o.z), bx = difference(b.x, o.x);
+    const Expansion<2> by = difference(b.y, o.y), bz = difference(b.z, o.z);
+    for (const Expansion<2>& e : {ax, ay, az, bx, by, bz}) {
+        if (!safe_to_multiply(e)) return 2;
+    }
+    if (!safe_to_multiply(d.x) || !safe_to_multiply(d.y) || !safe_to_multiply(d.z)) return 2;
+    const auto x = sum(product(ay, bz), product(negated(az), by));
+    const auto y = sum(product(az, bx), product(negated(ax), bz));
+    const auto z = sum(product(ax, by), product(negated(ay), bx));
+    return sum(sum(scaled(x, d.x), scaled(y, d.y)), scaled(z, d.z)).sign();
+}
+
+int sign_in_integers(const Double3& a, const Double3& b, const Double3& o, const Double3& d) {
+    const Multiples of_places{a, b, o};
+    const auto p = of_places(a, o);
+    const auto q = of_places(b, o);
+    const auto n = Multiples{d}(d);
+    return (n[0] * (p[1] * q[2] - p[2] * q[1]) + n[1] * (p[2] * q[0] - p[0] * q[2]) +
+            n[2] * (p[0] * q[1] - p[1] * q[0]))
+        .sign();
+}
+
+/// orient3d(origin, origin + direction, a, b), which is the sign of
+/// -det[a - origin, b - origin, direction]. The filter of orient3d(): a step that is
+/// rounded is off by less than its underflow allowance.
+int turn_about(const HalfLine& ray, const Double3& a, const Double3& b) {
+    const Double3& o = ray.origin;
+    const double ax = a.x - o.x, ay = a.y - o.y, az = a.z - o.z;
+    const double bx = b.x - o.x, by = b.y - o.y, bz = b.z - o.z;
+    const auto& [cx, cy, cz] = ray.step;
+    const double determinant =
+        ax * (by * cz - bz * cy) + bx * (cy * az - cz * ay) + cx * (ay * bz - az * by);
+    const int filtered = filtered_sign(determinant, largest_of(ax, bx, cx), largest_of(ay, by, cy),
+                                       largest_of(az, bz, cz));
+    if (filtered == 1 || filtered == -1) return -filtered;
+    if (a == o || b == o || a == b) return 0;
+    const int sign = sign_in_expansions(a, b, o, ray.direction);
+    return sign != 2 ? -sign : -sign_in_integers(a, b, o, ray.direction);
+}
+
+/// orient2d(origin, origin + direction, p) in a view.
+int side_of_line(const HalfLine& ray, const View& view, const Double3& p) {
+    const Multiples of_places{ray.origin, p};
+    const auto w = of_places(p, ray.origin);
+    const auto d = Multiples{ray.direction}(ray.direction);
+    return (d[view.first] * w[view.second] - d[view.second] * w[view.first]).sign();
+}
+
 /// Where the half-line meets an edge in one plane, seen in a view that keeps it.
 void take_edge(const HalfLine& ray, const View& view, const Double3& u, const Double3& v,
                std::optional<double>& best) {
-    const int side_u = orient2d(view(ray.origin), view(ray.through), view(u));
-    const int side_v = orient2d(view(ray.origin), view(ray.through), view(v));
+    const int side_u = side_of_line(ray, view, u);
+    const int side_v = side_of_line(ray, view, v);
     if (side_u == 0 && is_ahead(ray, u)) take(best, along(ray, u));
     if (side_v == 0 && is_ahead(ray, v)) take(best, along(ray, v));
     if (side_u * side_v >= 0) return;
     const int side = orient2d(view(u), view(v), view(ray.origin));
     // Ahead when the origin is on the edge, or on the side that the ray comes from.
     if (side == -side_v) return;
-    const Double2 o = view(ray.origin), d = view(ray.through), a = view(u), b = view(v);
-    const double step = (d.x - o.x) * (b.y - a.y) - (d.y - o.y) * (b.x - a.x);
+    const Double2 o = view(ray.origin), d = view(ray.step), a = view(u), b = view(v);
+    const double step = d.x * (b.y - a.y) - d.y * (b.x - a.x);
     const double to = (a.x - o.x) * (b.y - a.y) - (a.y - o.y) * (b.x - a.x);
     take(best, step == 0 ? 0 : to / step);
 }
@@ -100,9 +196,8 @@ std::optional<double> coplanar_ray(const HalfLine& ray, const Corners& t) {
     std::optional<double> best;
     if (triangles_touch({ray.origin, ray.origin, ray.origin}, t)) return 0.0;
     const auto keeps = [&](const View& view) {
-        return std::any_of(t.begin(), t.end(), [&](const Double3& p) {
-            return orient2d(view(ray.origin), view(ray.through), view(p)) != 0;
-        });
+        return std::any_of(t.begin(), t.end(),
+                           [&](const Double3& p) { return side_of_line(ray, view, p) != 0; });
     };
     const auto view = std::find_if(kViews.begin(), kViews.end(), keeps);
     if (view == kViews.end()) {  // all on one line
@@ -118,9 +213,9 @@ std::optional<double> coplanar_ray(const HalfLine& ray, const Corners& t) {
 }  // namespace
 
 std::optional<double> ray_triangle(const HalfLine& ray, const Corners& t) noexcept {
-    const Signs turns = {orient3d(ray.origin, ray.through, t[0], t[1]),
-                         orient3d(ray.origin, ray.through, t[1], t[2]),
-                         orient3d(ray.origin, ray.through, t[2], t[0])};
+    Signs turns = {turn_about(ray, t[0], t[1]), turn_about(ray, t[1], t[2]), 0};
+    if (turns[0] * turns[1] < 0) return std::nullopt;
+    turns[2] = turn_about(ray, t[2], t[0]);
     const int least = *std::min_element(turns.begin(), turns.end());
     const int greatest = *std::max_element(turns.begin(), turns.end());
     if (least < 0 && greatest > 0) return std::nullopt;

@@ -7,15 +7,18 @@
 
 namespace cdprep {
 
-/// A half-line by its origin and a second point on it.
+/// A half-line: origin + t direction, t >= 0.
 struct HalfLine {
     Double3 origin;
-    Double3 through;  ///< differs from the origin
+    Double3 direction;  ///< not zero; signs are taken of this one
+    /// 2^k direction, about as long as the coordinates are large; rounded where that is
+    /// too small for a double. Lengths are measured in this one.
+    Double3 step;
 };
 
-/// Returns where the half-line first meets the triangle, in lengths of
-/// through - origin and rounded, or nothing. Whether it meets it is exact, edges,
-/// corners, coplanar half-lines and triangles without area included.
+/// Returns where the half-line first meets the triangle, in lengths of the step and
+/// rounded, or nothing. Whether it meets it is exact, edges, corners, coplanar
+/// half-lines and triangles without area included.
 [[nodiscard]] std::optional<double> ray_triangle(const HalfLine& ray, const Corners& t) noexcept;
 
 }  // namespace cdprep

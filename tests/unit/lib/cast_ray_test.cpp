@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "support/open_tiny.h"
 
@@ -172,6 +174,150 @@ TEST(CastRayLaws, AgreesWithIntegersOnACoarseGrid) {
     EXPECT_GT(rays, 1000);
     EXPECT_GT(hits, rays * 2 / 10);
     EXPECT_LT(hits, rays * 8 / 10);
+}
+
+/// Triangles that the ray hits, lowest number first, in all forms alike.
+std::vector<std::uint32_t> triangles_hit(const Model& model, const Ray& ray, Workspace& workspace) {
+    std::vector<RayHit> hits(model.triangle_count());
+    hits.resize(all_ray_hits(model, ray, workspace, hits));
+    EXPECT_TRUE(std::is_sorted(hits.begin(), hits.end()));
+    EXPECT_EQ(all_ray_hits(model, ray, workspace, {}), hits.size());
+    EXPECT_EQ(ray_hits(model, ray, workspace), !hits.empty());
+    const auto first = cast_ray(model, ray, workspace);
+    EXPECT_EQ(first.has_value(), !hits.empty());
+    if (first) {
+        EXPECT_EQ(first->t, hits[0].t);
+        EXPECT_EQ(first->triangle, hits[0].triangle);
+        EXPECT_EQ(first->point, hits[0].point);
+    }
+    std::vector<RayHit> few(hits.size() / 2);
+    EXPECT_EQ(all_ray_hits(model, ray, workspace, few), hits.size());
+    for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(few[i].triangle, hits[i].triangle);
+    std::vector<std::uint32_t> visited;
+    const auto visit = [&](const RayHit& hit) {
+        visited.push_back(hit.triangle);
+        return true;
+    };
+    EXPECT_TRUE(visit_ray_hits(model, ray, workspace, visit));
+    std::vector<std::uint32_t> triangles;
+    for (const RayHit& hit : hits) triangles.push_back(hit.triangle);
+    std::sort(triangles.begin(), triangles.end());
+    std::sort(visited.begin(), visited.end());
+    EXPECT_EQ(visited, triangles);
+    return triangles;
+}
+
+Ray coarse_ray(std::mt19937& random, int reach) {
+    std::uniform_int_distribution<int> grid(-reach, reach);
+    const auto number = [&] { return static_cast<double>(grid(random)); };
+    const double ox = number(), oy = number(), oz = number();
+    const double dx = number(), dy = number(), dz = number();
+    return {{ox, oy, oz}, {dx, dy, dz}};
+}
+
+// The oracle: every triangle in integers; parallel ones are left out on both sides.
+TEST(CastRayLaws, AllHitsAreThoseOfIntegers) {
+    std::mt19937 random(20261122);
+    int hits = 0, tested = 0;
+    for (int round = 0; round < 60; ++round) {
+        const TestMesh mesh = coarse_grid_soup(random(), round % 2 == 0 ? 7 : 100, 4);
+        const OpenModel model = open_tiny(mesh);
+        Workspace workspace;
+        for (int i = 0; i < 30; ++i) {
+            const Ray ray = coarse_ray(random, 6);
+            if (ray.direction == Double3{0, 0, 0}) continue;
+            const auto found = triangles_hit(model.model, ray, workspace);
+            for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
+                const auto& vertex = mesh.triangles[k].vertex;
+                const std::array<Double3, 3> t = {mesh.positions[vertex[0]],
+                                                  mesh.positions[vertex[1]],
+                                                  mesh.positions[vertex[2]]};
+                if (is_parallel(ray, t)) continue;
+                const bool truth = exact_crossing(ray, t).has_value();
+                ASSERT_EQ(std::binary_search(found.begin(), found.end(), k), truth)
+                    << "round " << round << ", ray " << i;
+                hits += truth ? 1 : 0;
+                ++tested;
+            }
+        }
+    }
+    EXPECT_GT(hits, tested / 50);
+    EXPECT_LT(hits, tested / 2);
+}
+
+// By the definition of a line: a direction's length changes nothing, even where origin
+// + direction is no double; and neither does where the model lies, nor its size.
+TEST(CastRayLaws, TheDirectionCountsAsGiven) {
+    std::mt19937 random(20261123);
+    int hits = 0, rays = 0;
+    for (int round = 0; round < 40; ++round) {
+        const TestMesh mesh = coarse_grid_soup(random(), 60, 4);
+        const double shift = 0x1p45;
+        const TestMesh far = moved_by(mesh, 1, {shift, -shift, 3 * shift});
+        const OpenModel model = open_tiny(mesh, {.double_precision = true});
+        const OpenModel far_model = open_tiny(far, {.double_precision = true});
+        Workspace workspace;
+        for (int i = 0; i < 20; ++i) {
+            const Ray ray = coarse_ray(random, 6);
+            if (ray.direction == Double3{0, 0, 0}) continue;
+            const auto truth = triangles_hit(model.model, ray, workspace);
+            const Double3& o = ray.origin;
+            const Double3& d = ray.direction;
+            for (const double factor : {0x1p-600, 0x1p600, 847288609443.0, 0x1p-45}) {
+                const Double3 longer = {factor * d.x, factor * d.y, factor * d.z};
+                ASSERT_EQ(triangles_hit(model.model, {o, longer}, workspace), truth) << factor;
+                const Double3 there = {o.x + shift, o.y - shift, o.z + 3 * shift};
+                ASSERT_EQ(triangles_hit(far_model.model, {there, longer}, workspace), truth)
+                    << factor;
+            }
+            hits += truth.empty() ? 0 : 1;
+            ++rays;
+        }
+    }
+    EXPECT_GT(hits, rays * 3 / 10);
+    EXPECT_LT(hits, rays * 9 / 10);
+}
+
+// By hand: the direction's small component is lost beside the origin, and beside its
+// own large one, but decides.
+TEST(CastRay, NoBitOfTheDirectionIsLost) {
+    const TestMesh wall{{{1, 0, -1}, {1, 4, 0}, {1, 0, 1}}, {{{0, 1, 2}}}};
+    EXPECT_TRUE(cast(wall, {{0, 0, 0}, {1, 0x1p-1074, 0}}));
+    EXPECT_FALSE(cast(wall, {{0, 0, 0}, {1, -0x1p-1074, 0}}));
+    EXPECT_TRUE(cast(wall, {{0, 0, 0}, {0x1p1000, 0x1p-1074, 0}}));
+    EXPECT_FALSE(cast(wall, {{0, 0, 0}, {0x1p1000, -0x1p-1074, 0}}));
+    const TestMesh flat{{{1, 0, 0}, {1, 4, 0}, {2, 0, 0}}, {{{0, 1, 2}}}};  // in its plane
+    EXPECT_TRUE(cast(flat, {{0, 0, 0}, {0x1p1000, 0x1p-1074, 0}}));
+    EXPECT_FALSE(cast(flat, {{0, 0, 0}, {0x1p1000, -0x1p-1074, 0}}));
+    EXPECT_FALSE(cast(flat, {{0, 0, 0}, {1, 0, 0x1p-1074}}));
+}
+
+// By hand: the cube from below, along the diagonal of bottom and top: four triangles at
+// two places.
+TEST(CastRay, AllHitsComeInOrder) {
+    const OpenModel cube = open_tiny(unit_cube());
+    Workspace workspace;
+    const Ray up{{0.5, 0.5, -1}, {0, 0, 1}};
+    std::array<RayHit, 8> hits{};
+    ASSERT_EQ(all_ray_hits(cube.model, up, workspace, hits), 4u);
+    EXPECT_EQ(hits[0].t, 1.0);
+    EXPECT_EQ(hits[1].t, 1.0);
+    EXPECT_LT(hits[0].triangle, hits[1].triangle);
+    EXPECT_EQ(hits[2].t, 2.0);
+    EXPECT_EQ(hits[3].t, 2.0);
+    EXPECT_EQ(hits[3].point, (Double3{0.5, 0.5, 1}));
+    EXPECT_EQ(all_ray_hits(cube.model, up, workspace, hits, {.max_t = 1}), 2u);
+    EXPECT_TRUE(ray_hits(cube.model, up, workspace, {.max_t = 1}));
+    EXPECT_FALSE(ray_hits(cube.model, up, workspace, {.max_t = 0.5}));
+    EXPECT_FALSE(ray_hits(cube.model, up, workspace, {.max_t = -1}));
+    EXPECT_FALSE(ray_hits(cube.model, up, workspace, {.max_t = std::nan("")}));
+    int seen = 0;
+    const auto visit = [&](const RayHit&) { return ++seen < 3; };
+    EXPECT_FALSE(visit_ray_hits(cube.model, up, workspace, visit));
+    EXPECT_EQ(seen, 3);
+    const OpenModel empty = open_tiny(TestMesh{});
+    EXPECT_FALSE(ray_hits(empty.model, up, workspace));
+    EXPECT_EQ(all_ray_hits(empty.model, up, workspace, hits), 0u);
 }
 
 // A closed surface: by the definition of inside, every ray from within hits.
