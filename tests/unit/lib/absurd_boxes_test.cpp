@@ -9,6 +9,10 @@
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
 #include "cdprep/format/sections.h"
+#include "cdprep/touching_box.h"
+#include "cdprep/touching_capsule.h"
+#include "cdprep/touching_sphere.h"
+#include "cdprep/touching_triangle.h"
 #include "support/meshes.h"
 #include "support/random_pose.h"
 #include "support/reseal.h"
@@ -26,6 +30,28 @@ void spoil(AlignedBytes& file, SectionId id, std::mt19937& random) {
         const float x = kAbsurd[random() % kAbsurd.size()];
         std::memcpy(file.span().data() + entry.offset + at, &x, sizeof x);
     }
+}
+
+void ask_about_shapes(const Model& m, const Pose& turn, Workspace& workspace) {
+    std::array<std::uint32_t, 100> numbers{};
+    std::array<RayHit, 10> hits{};
+    const Capsule capsule = {{0, 0, 0.5}, {0.1, 0, -1}, 0.1};
+    const LooseTriangle triangle = {{{{0, 0, 0.5}, {0.1, 0, -1}, {1, 0, 0}}}};
+    const auto ask = [&](const auto& shape) {
+        for (const TouchOptions& options : {TouchOptions{}, TouchOptions{turn, Degenerate::keep}}) {
+            static_cast<void>(touches(m, shape, workspace, options));
+            EXPECT_LE(touching_triangles(m, shape, workspace, numbers, options),
+                      m.triangle_count());
+        }
+    };
+    ask(Box{{-0.5, 0, 0}, {0.5, 1, 1}});
+    ask(Sphere{{0, 0, 0}, 0.5});
+    ask(capsule);
+    ask(triangle);
+    static_cast<void>(distance_to(m, capsule, workspace));
+    static_cast<void>(distance_to(m, triangle, workspace, {turn}));
+    EXPECT_LE(all_ray_hits(m, {{0, 0, 5}, {0.1, 0, -1}}, workspace, hits), m.triangle_count());
+    static_cast<void>(ray_hits(m, {{0, 0, 5}, {0.1, 0, 1}}, workspace));
 }
 
 // A file whose checksums are right may still hold boxes that make no sense: the
@@ -55,6 +81,7 @@ TEST(AbsurdBoxes, EveryQuestionEnds) {
         static_cast<void>(cast_ray(m, {{0, 0, 5}, {0.1, 0, -1}}, workspace));
         static_cast<void>(closest_point(m, {0, 0, 5}, workspace));
         static_cast<void>(includes(m, {0, 0, 0}, workspace));
+        ask_about_shapes(m, random_pose(random, 1), workspace);
     }
 }
 

@@ -13,6 +13,10 @@
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/split_overlap.h"
+#include "cdprep/touching_box.h"
+#include "cdprep/touching_capsule.h"
+#include "cdprep/touching_sphere.h"
+#include "cdprep/touching_triangle.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
@@ -56,6 +60,20 @@ void operator delete(void* memory, const std::nothrow_t& /*unused*/) noexcept {
 namespace cdprep::test {
 namespace {
 
+/// Every question about a shape that can be asked about any.
+template <class Shape>
+void ask_touching(const Model& model, const Shape& shape, Workspace& workspace,
+                  std::span<std::uint32_t> triangles) {
+    const auto visit = [](std::uint32_t) { return true; };
+    const Pose turn = Pose::from_quaternion(5, 1, 2, 3, {0.1, 0, 0}).value();
+    for (const TouchOptions& options : {TouchOptions{}, TouchOptions{turn, Degenerate::skip}}) {
+        static_cast<void>(touches(model, shape, workspace, options));
+        static_cast<void>(touching_triangles(model, shape, workspace, triangles, options));
+        static_cast<void>(touching_triangles(model, shape, workspace, triangles.first(5), options));
+        visit_touching_triangles(model, shape, workspace, visit, options);
+    }
+}
+
 // Every question, near, far, touching and nested; what they answer is for other tests.
 TEST(Allocations, NoQuestionAllocates) {
     const OpenModel sphere = open_tiny(icosphere(4));
@@ -65,6 +83,9 @@ TEST(Allocations, NoQuestionAllocates) {
     Workspace workspace;
     PairCache cache;
     std::vector<TrianglePair> pairs(100'000);
+    std::vector<std::uint32_t> triangles(a.triangle_count() + b.triangle_count());
+    std::vector<RayHit> ray_hit_list(100);
+    const auto visit_ray = [](const RayHit&) { return true; };
     std::vector<std::uint64_t> bits_a(a.triangle_count() / 64 + 1);
     std::vector<std::uint64_t> bits_b(b.triangle_count() / 64 + 1);
     const auto visit = [](const TrianglePair&) { return true; };
@@ -122,7 +143,22 @@ TEST(Allocations, NoQuestionAllocates) {
     for (const double x : {0.0, 0.5, 1.0, 7.0}) {
         static_cast<void>(includes(a, {x, 0.1, 0.2}, workspace));
         static_cast<void>(closest_point(a, {x, 0.1, 0.2}, workspace));
-        static_cast<void>(cast_ray(b, {{x, 0.1, 5}, {0.1, 0, -1}}, workspace));
+        const Ray ray = {{x, 0.1, 5}, {0.1, 0, -1}};
+        static_cast<void>(cast_ray(b, ray, workspace));
+        static_cast<void>(ray_hits(b, ray, workspace));
+        static_cast<void>(all_ray_hits(b, ray, workspace, ray_hit_list));
+        static_cast<void>(all_ray_hits(b, ray, workspace, std::span(ray_hit_list).first(1)));
+        visit_ray_hits(b, ray, workspace, visit_ray);
+        for (const Model* model : {&a, &b}) {
+            const Capsule capsule = {{x, 0, 0}, {x, 0.5, 0}, 0.25};
+            const LooseTriangle triangle = {{{{x, 0, 0}, {x, 0.5, 0}, {x, 0, 2}}}};
+            ask_touching(*model, Box{{x, 0, -1}, {x + 1, 0.5, 1}}, workspace, triangles);
+            ask_touching(*model, Sphere{{x, 0, 0}, 1}, workspace, triangles);  // tangent at 0
+            ask_touching(*model, capsule, workspace, triangles);
+            ask_touching(*model, triangle, workspace, triangles);
+            static_cast<void>(distance_to(*model, capsule, workspace));
+            static_cast<void>(distance_to(*model, triangle, workspace));
+        }
     }
     EXPECT_EQ(allocations, before);
     EXPECT_GT(hits, 2u);

@@ -10,6 +10,10 @@
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
+#include "cdprep/touching_box.h"
+#include "cdprep/touching_capsule.h"
+#include "cdprep/touching_sphere.h"
+#include "cdprep/touching_triangle.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
@@ -29,8 +33,34 @@ struct Answers {
     std::uint32_t nearest = 0;
     double ray = 0;
     double closest = 0;
+    std::array<std::vector<std::uint32_t>, 4> touching;
+    std::array<bool, 5> touched{};
+    double to_capsule = 0;
+    double to_triangle = 0;
     friend bool operator==(const Answers&, const Answers&) = default;
 };
+
+template <class Shape>
+std::vector<std::uint32_t> all_touching(const Model& model, const Shape& shape,
+                                        Workspace& workspace) {
+    std::vector<std::uint32_t> triangles(model.triangle_count());
+    triangles.resize(touching_triangles(model, shape, workspace, triangles));
+    return triangles;
+}
+
+void ask_about_shapes(const Model& a, const Double3& at, Workspace& workspace, Answers& answers) {
+    const Box box = {{at.x - 0.5, at.y - 0.5, at.z}, {at.x, at.y, at.z + 0.5}};
+    const Sphere sphere = {at, 0.5};
+    const Capsule capsule = {at, {0, 0, at.z}, 0.25};
+    const LooseTriangle triangle = {{at, {at.x, 0, 0}, {0, at.y, 1}}};
+    answers.touching = {all_touching(a, box, workspace), all_touching(a, sphere, workspace),
+                        all_touching(a, capsule, workspace), all_touching(a, triangle, workspace)};
+    answers.touched = {touches(a, box, workspace), touches(a, sphere, workspace),
+                       touches(a, capsule, workspace), touches(a, triangle, workspace),
+                       ray_hits(a, {at, {-1, 0.5, 0.25}}, workspace)};
+    answers.to_capsule = distance_to(a, capsule, workspace)->upper;
+    answers.to_triangle = distance_to(a, triangle, workspace)->lower;
+}
 
 Answers ask(const Model& a, const Model& b, const Placement& placement, Workspace& workspace) {
     Answers answers;
@@ -44,6 +74,7 @@ Answers ask(const Model& a, const Model& b, const Placement& placement, Workspac
     const Double3 from = placement.pose_b().translation();
     if (const auto hit = cast_ray(a, {from, {1, 0.5, 0.25}}, workspace)) answers.ray = hit->t;
     answers.closest = closest_point(a, from, workspace)->upper;
+    ask_about_shapes(a, from, workspace, answers);
     return answers;
 }
 
