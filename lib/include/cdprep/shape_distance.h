@@ -24,7 +24,7 @@ struct ShapeDistance {
 /// Of several nearest triangles the one with the lowest number answers, as far as
 /// double can tell them apart.
 struct ShapeDistanceOptions {
-    Pose world_from_model;  ///< where the model stands, as in TouchOptions
+    Pose world_from_model = {};  ///< where the model stands, as in TouchOptions
     /// Beyond, nothing is of interest; inclusive.
     double max_distance = std::numeric_limits<double>::infinity();
 };

@@ -20,7 +20,7 @@ struct TouchOptions {
     /// moved once, by moved(), and the answer is exact for the resulting doubles (level
     /// E1); the identity moves nothing. Where the shape is what moves and the answer is
     /// to be exact for the vertices as stored, give the shape in model coordinates.
-    Pose world_from_model;
+    Pose world_from_model = {};
     Degenerate degenerate = Degenerate::keep;
 };
 

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/touching_capsule.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "support/open_tiny.h"
+
+namespace cdprep::test {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+using Numbers = std::vector<std::uint32_t>;
+
+/// All triangles of the mesh that the shape touches.
+template <class Shape>
+Numbers touched(const TestMesh& mesh, const Shape& shape, const TouchOptions& options = {}) {
+    const OpenModel model = open_tiny(mesh, {.double_precision = true});
+    Workspace workspace;
+    Numbers triangles(mesh.triangles.size());
+    triangles.resize(touching_triangles(model.model, shape, workspace, triangles, options));
+    EXPECT_EQ(touches(model.model, shape, workspace, options), !triangles.empty());
+    return triangles;
+}
+
+/// Corners (3, 4, -9), (3, 4, 9), (9, 9, 0).
+TestMesh upright() {
+    return {{{3, 4, -9}, {3, 4, 9}, {9, 9, 0}}, {{{0, 1, 2}}}};
+}
+
+// By hand, 3-4-5: the side along the edge, an end at the edge.
+TEST(TouchingCapsule, TangentTouches) {
+    const double less = std::nextafter(5.0, 0.0);
+    const Double3 low = {0, 0, -1}, high = {0, 0, 1};
+    EXPECT_EQ(touched(upright(), Capsule{low, high, 5}).size(), 1u);
+    EXPECT_TRUE(touched(upright(), Capsule{low, high, less}).empty());
+    EXPECT_EQ(touched(upright(), Capsule{{-9, 0, 0}, {0, 0, 0}, 5}).size(), 1u);
+    EXPECT_TRUE(touched(upright(), Capsule{{-9, 0, 0}, {0, 0, 0}, less}).empty());
+    // Crossing edges, five apart along z.
+    const TestMesh edge{{{-9, 0, 5}, {9, 0, 5}, {0, 0, 20}}, {{{0, 1, 2}}}};
+    EXPECT_EQ(touched(edge, Capsule{{0, -3, 0}, {0, 7, 0}, 5}).size(), 1u);
+    EXPECT_TRUE(touched(edge, Capsule{{0, -3, 0}, {0, 7, 0}, less}).empty());
+}
+
+TEST(TouchingCapsule, WithoutLengthItIsASphere) {
+    EXPECT_EQ(touched(upright(), Capsule{{0, 0, 0}, {0, 0, 0}, 5}).size(), 1u);
+    EXPECT_TRUE(
+        touched(upright(), Capsule{{0, 0, 0}, {0, 0, 0}, std::nextafter(5.0, 0.0)}).empty());
+}
+
+// By hand: ends on the face, before it, through it; along an edge; in the plane.
+TEST(TouchingCapsule, WithoutRadiusItIsASegment) {
+    const TestMesh face{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}}};
+    const auto hits = [&](const Double3& from, const Double3& to) {
+        return !touched(face, Capsule{from, to, 0}).empty();
+    };
+    EXPECT_TRUE(hits({1, 1, 5}, {1, 1, 0}));
+    EXPECT_FALSE(hits({1, 1, 5}, {1, 1, 0x1p-1074}));
+    EXPECT_TRUE(hits({1, 1, 5}, {1, 1, -5}));
+    EXPECT_TRUE(hits({-1, 0, 0}, {9, 0, 0}));
+    EXPECT_TRUE(hits({3, 3, 0}, {1, 1, 0}));
+    EXPECT_TRUE(hits({2, 2, 0}, {3, 3, 0}));
+    EXPECT_FALSE(hits({std::nextafter(2.0, 3.0), 2, 0}, {3, 3, 0}));
+    EXPECT_FALSE(hits({5, 5, 0}, {9, 0, 0}));
+}
+
+TEST(TouchingCapsule, OddRadiiAndEmptyModels) {
+    EXPECT_TRUE(touched(upright(), Capsule{{0, 0, 0}, {3, 4, 0}, -1}).empty());
+    EXPECT_TRUE(touched(upright(), Capsule{{0, 0, 0}, {3, 4, 0}, std::nan("")}).empty());
+    EXPECT_EQ(touched(upright(), Capsule{{0, 0, 0}, {0, 0, 1}, kInfinity}).size(), 1u);
+    EXPECT_TRUE(touched({}, Capsule{{0, 0, 0}, {3, 4, 0}, 1}).empty());
+    Workspace workspace;
+    const OpenModel empty = open_tiny(TestMesh{});
+    EXPECT_FALSE(distance_to(empty.model, Capsule{{0, 0, 0}, {3, 4, 0}, 1}, workspace));
+    const OpenModel model = open_tiny(upright());
+    EXPECT_FALSE(distance_to(model.model, Capsule{{0, 0, 0}, {3, 4, 0}, -1}, workspace));
+}
+
+// By hand: five less two, with the limit on either side.
+TEST(TouchingCapsule, DistanceIsLessByTheRadius) {
+    const OpenModel model = open_tiny(upright());
+    Workspace workspace;
+    const Capsule capsule = {{0, 0, -1}, {0, 0, 1}, 2};
+    const auto found = distance_to(model.model, capsule, workspace);
+    ASSERT_TRUE(found);
+    EXPECT_LE(found->lower, 3);
+    EXPECT_GE(found->upper, 3);
+    EXPECT_NEAR(found->upper - found->lower, 0, 1e-13);
+    EXPECT_EQ(found->on_model.x, 3);
+    EXPECT_EQ(found->on_shape.x, 0);
+    EXPECT_TRUE(distance_to(model.model, capsule, workspace, {.max_distance = 3}));
+    EXPECT_FALSE(distance_to(model.model, capsule, workspace, {.max_distance = 2.999}));
+    const auto touching = distance_to(model.model, {{0, 0, -1}, {0, 0, 1}, 5}, workspace);
+    ASSERT_TRUE(touching);
+    EXPECT_EQ(touching->upper, 0);
+}
+
+}  // namespace
+}  // namespace cdprep::test

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/touching_triangle.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "support/open_tiny.h"
+
+namespace cdprep::test {
+namespace {
+
+using Numbers = std::vector<std::uint32_t>;
+
+/// All triangles of the mesh that the shape touches.
+template <class Shape>
+Numbers touched(const TestMesh& mesh, const Shape& shape, const TouchOptions& options = {}) {
+    const OpenModel model = open_tiny(mesh, {.double_precision = true});
+    Workspace workspace;
+    Numbers triangles(mesh.triangles.size());
+    triangles.resize(touching_triangles(model.model, shape, workspace, triangles, options));
+    EXPECT_EQ(touches(model.model, shape, workspace, options), !triangles.empty());
+    return triangles;
+}
+
+/// Corners (0, 0, 0), (4, 0, 0), (0, 4, 0).
+TestMesh one_triangle() {
+    return {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}}};
+}
+
+bool hits(const Double3& a, const Double3& b, const Double3& c) {
+    return !touched(one_triangle(), LooseTriangle{{{a, b, c}}}).empty();
+}
+
+// By hand: crossing, an edge in common, a corner in common, in one plane, just beside.
+TEST(TouchingTriangle, TouchingCounts) {
+    EXPECT_TRUE(hits({1, 1, -1}, {1, 1, 1}, {2, 2, 1}));
+    EXPECT_TRUE(hits({0, 0, 0}, {4, 0, 0}, {0, 0, 4}));
+    EXPECT_TRUE(hits({4, 0, 0}, {5, 0, 1}, {5, 1, 1}));
+    EXPECT_FALSE(hits({std::nextafter(4.0, 5.0), 0, 0}, {5, 0, 1}, {5, 1, 1}));
+    EXPECT_TRUE(hits({1, 1, 0}, {1.5, 1, 0}, {1, 1.5, 0}));
+    EXPECT_TRUE(hits({2, 2, 0}, {9, 9, 0}, {9, 8, 0}));
+    EXPECT_FALSE(hits({2, std::nextafter(2.0, 3.0), 0}, {9, 9, 0}, {9, 8, 0}));
+    EXPECT_FALSE(hits({1, 1, 0x1p-1074}, {1.5, 1, 1}, {1, 1.5, 1}));
+}
+
+TEST(TouchingTriangle, WithoutAreaItIsASegmentOrAPoint) {
+    EXPECT_TRUE(hits({1, 1, -1}, {1, 1, 1}, {1, 1, 0.5}));
+    EXPECT_FALSE(hits({3, 3, -1}, {3, 3, 1}, {3, 3, 0.5}));
+    EXPECT_TRUE(hits({2, 2, 0}, {2, 2, 0}, {2, 2, 0}));
+    EXPECT_FALSE(hits({2, 2, 1}, {2, 2, 1}, {2, 2, 1}));
+    EXPECT_TRUE(touched({}, LooseTriangle{}).empty());
+}
+
+// By hand: one above the sheet, nearest to the lowest number of several.
+TEST(TouchingTriangle, DistanceTakesTheLowestOfTheNearest) {
+    const OpenModel model = open_tiny(copies_of_one_triangle(20));
+    Workspace workspace;
+    const LooseTriangle far = {{{{90, 0, 0}, {91, 0, 0}, {90, 1, 5}}}};
+    const auto found = distance_to(model.model, far, workspace);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->triangle, 0u);
+    EXPECT_EQ(found->on_shape, (Double3{90, 0, 0}));
+    const OpenModel empty = open_tiny(TestMesh{});
+    EXPECT_FALSE(distance_to(empty.model, far, workspace));
+    EXPECT_FALSE(distance_to(model.model, far, workspace, {.max_distance = -1}));
+}
+
+}  // namespace
+}  // namespace cdprep::test
