@@ -115,7 +115,7 @@ public:
     [[nodiscard]] RayHit hit(double t, std::uint32_t source) const noexcept {
         const Double3& o = line_.origin;
         const Double3& d = line_.step;
-        return {std::ldexp(t, stretch_), source, {o.x + t * d.x, o.y + t * d.y, o.z + t * d.z}};
+        return {std::ldexp(t, stretch_), {o.x + t * d.x, o.y + t * d.y, o.z + t * d.z}, source};
     }
 
 private:

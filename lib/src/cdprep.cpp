@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <exception>
+#include <limits>
 #include <new>
 #include <optional>
 #include <span>
@@ -16,6 +17,10 @@
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
+#include "cdprep/touching_box.h"
+#include "cdprep/touching_capsule.h"
+#include "cdprep/touching_sphere.h"
+#include "cdprep/touching_triangle.h"
 
 struct cdprep_model {
     cdprep::Model model;
@@ -32,6 +37,9 @@ static_assert(sizeof(cdprep_triangle_pair) == sizeof(TrianglePair) &&
               offsetof(cdprep_triangle_pair, b) == offsetof(TrianglePair, b));
 static_assert(sizeof(cdprep_pair_cache) == sizeof(PairCache) &&
               std::is_trivially_copyable_v<PairCache>);
+static_assert(sizeof(cdprep_ray_hit) == sizeof(RayHit) &&
+              offsetof(cdprep_ray_hit, point) == offsetof(RayHit, point) &&
+              offsetof(cdprep_ray_hit, triangle) == offsetof(RayHit, triangle));
 static_assert(CDPREP_BAD_ARGUMENT == static_cast<int>(ErrorCode::bad_argument) &&
               CDPREP_UNREADABLE == static_cast<int>(ErrorCode::unreadable) &&
               CDPREP_OVER_BUDGET == static_cast<int>(ErrorCode::over_budget) &&
@@ -144,6 +152,54 @@ void store(const Double3& p, double* numbers) noexcept {
     numbers[0] = p.x;
     numbers[1] = p.y;
     numbers[2] = p.z;
+}
+
+Double3 point_of(const double* numbers) noexcept {
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+Ray ray_of(const double* origin, const double* direction) noexcept {
+    return {point_of(origin), point_of(direction)};
+}
+
+/// What is asked about a shape, beside the shape.
+struct ShapeAsked {
+    cdprep_shape shape{};
+    TouchOptions options;
+    double max_distance = std::numeric_limits<double>::infinity();
+};
+
+/// Reads both structs, or returns a code with `error` filled.
+int read_shape(const cdprep_shape& shape, const cdprep_shape_options* options, ShapeAsked& asked,
+               cdprep_error* error) {
+    cdprep_shape_options given{};
+    given.max_distance = asked.max_distance;
+    if (!read_sized(&shape, asked.shape) || !read_sized(options, given)) return bad_size(error);
+    if (shape.size < sizeof shape) return bad_size(error);
+    asked.max_distance = given.max_distance;
+    if (given.degenerate == CDPREP_SKIP_DEGENERATE) asked.options.degenerate = Degenerate::skip;
+    if (given.is_moved == 0) return CDPREP_OK;
+    const Result<Pose> pose = pose_of(given.world_from_model);
+    if (!pose) return fail(error, pose.error());
+    asked.options.world_from_model = pose.value();
+    return CDPREP_OK;
+}
+
+/// Calls `ask` with the shape that the kind names.
+template <class Ask>
+int ask_shape(const cdprep_shape& s, cdprep_error* error, Ask ask) {
+    switch (s.kind) {
+        case CDPREP_BOX:
+            return ask(Box{point_of(s.a), point_of(s.b)});
+        case CDPREP_SPHERE:
+            return ask(Sphere{point_of(s.a), s.radius});
+        case CDPREP_CAPSULE:
+            return ask(Capsule{point_of(s.a), point_of(s.b), s.radius});
+        case CDPREP_TRIANGLE:
+            return ask(LooseTriangle{{point_of(s.a), point_of(s.b), point_of(s.c)}});
+        default:
+            return fail(error, CDPREP_BAD_ARGUMENT, "The kind of a shape is not 0 to 3.");
+    }
 }
 
 int opened(Result<Model> result, cdprep_model** model, cdprep_error* error) {
@@ -336,15 +392,37 @@ int cdprep_cast_ray(const cdprep_model* model, const double origin[3], const dou
     if (cdprep::any_null(model, origin, direction, workspace, found, hit)) {
         return cdprep::null_argument(error);
     }
-    const cdprep::Ray ray = {{origin[0], origin[1], origin[2]},
-                             {direction[0], direction[1], direction[2]}};
-    const auto result = cdprep::cast_ray(model->model, ray, workspace->workspace, {max_t});
+    const auto result = cdprep::cast_ray(model->model, cdprep::ray_of(origin, direction),
+                                         workspace->workspace, {max_t});
     *found = result ? 1 : 0;
     *hit = {};
     if (!result) return CDPREP_OK;
     hit->t = result->t;
     hit->triangle = result->triangle;
     cdprep::store(result->point, hit->point);
+    return CDPREP_OK;
+}
+
+int cdprep_ray_hits(const cdprep_model* model, const double origin[3], const double direction[3],
+                    double max_t, cdprep_workspace* workspace, int* hits, cdprep_error* error) {
+    if (cdprep::any_null(model, origin, direction, workspace, hits)) {
+        return cdprep::null_argument(error);
+    }
+    const cdprep::Ray ray = cdprep::ray_of(origin, direction);
+    *hits = cdprep::ray_hits(model->model, ray, workspace->workspace, {max_t}) ? 1 : 0;
+    return CDPREP_OK;
+}
+
+int cdprep_all_ray_hits(const cdprep_model* model, const double origin[3],
+                        const double direction[3], double max_t, cdprep_workspace* workspace,
+                        cdprep_ray_hit* hits, size_t room, size_t* count, cdprep_error* error) {
+    if (cdprep::any_null(model, origin, direction, workspace, count) ||
+        (hits == nullptr && room > 0)) {
+        return cdprep::null_argument(error);
+    }
+    const std::span<cdprep::RayHit> kept(reinterpret_cast<cdprep::RayHit*>(hits), room);
+    *count = cdprep::all_ray_hits(model->model, cdprep::ray_of(origin, direction),
+                                  workspace->workspace, kept, {max_t});
     return CDPREP_OK;
 }
 
@@ -364,6 +442,72 @@ int cdprep_find_closest_point(const cdprep_model* model, const double query[3], 
     closest->upper = result->upper;
     closest->triangle = result->triangle;
     return CDPREP_OK;
+}
+
+int cdprep_touches(const cdprep_model* model, const cdprep_shape* shape,
+                   cdprep_workspace* workspace, const cdprep_shape_options* options, int* touches,
+                   cdprep_error* error) {
+    if (cdprep::any_null(model, shape, workspace, touches)) return cdprep::null_argument(error);
+    return cdprep::guarded(error, [&]() -> int {
+        cdprep::ShapeAsked asked;
+        if (const int code = cdprep::read_shape(*shape, options, asked, error)) return code;
+        return cdprep::ask_shape(asked.shape, error, [&](const auto& given) {
+            const bool found =
+                cdprep::touches(model->model, given, workspace->workspace, asked.options);
+            *touches = found ? 1 : 0;
+            return CDPREP_OK;
+        });
+    });
+}
+
+int cdprep_touching_triangles(const cdprep_model* model, const cdprep_shape* shape,
+                              cdprep_workspace* workspace, const cdprep_shape_options* options,
+                              uint32_t* triangles, size_t room, size_t* count,
+                              cdprep_error* error) {
+    if (cdprep::any_null(model, shape, workspace, count) || (triangles == nullptr && room > 0)) {
+        return cdprep::null_argument(error);
+    }
+    return cdprep::guarded(error, [&]() -> int {
+        cdprep::ShapeAsked asked;
+        if (const int code = cdprep::read_shape(*shape, options, asked, error)) return code;
+        return cdprep::ask_shape(asked.shape, error, [&](const auto& given) {
+            *count = cdprep::touching_triangles(model->model, given, workspace->workspace,
+                                                std::span(triangles, room), asked.options);
+            return CDPREP_OK;
+        });
+    });
+}
+
+int cdprep_distance_to(const cdprep_model* model, const cdprep_shape* shape,
+                       cdprep_workspace* workspace, const cdprep_shape_options* options, int* found,
+                       cdprep_shape_distance* distance, cdprep_error* error) {
+    if (cdprep::any_null(model, shape, workspace, found, distance)) {
+        return cdprep::null_argument(error);
+    }
+    return cdprep::guarded(error, [&]() -> int {
+        cdprep::ShapeAsked asked;
+        if (const int code = cdprep::read_shape(*shape, options, asked, error)) return code;
+        return cdprep::ask_shape(asked.shape, error, [&]<class Shape>(const Shape& given) {
+            if constexpr (std::is_same_v<Shape, cdprep::Capsule> ||
+                          std::is_same_v<Shape, cdprep::LooseTriangle>) {
+                const auto result =
+                    cdprep::distance_to(model->model, given, workspace->workspace,
+                                        {asked.options.world_from_model, asked.max_distance});
+                *found = result ? 1 : 0;
+                *distance = {};
+                if (!result) return static_cast<int>(CDPREP_OK);
+                distance->lower = result->lower;
+                distance->upper = result->upper;
+                cdprep::store(result->on_model, distance->on_model);
+                cdprep::store(result->on_shape, distance->on_shape);
+                distance->triangle = result->triangle;
+                return static_cast<int>(CDPREP_OK);
+            } else {
+                return cdprep::fail(error, CDPREP_BAD_ARGUMENT,
+                                    "Distances are measured to capsules and triangles alone.");
+            }
+        });
+    });
 }
 
 int cdprep_includes(const cdprep_model* model, const double point[3], cdprep_workspace* workspace,

@@ -23,8 +23,8 @@ struct Ray {
 /// Where a ray meets a surface.
 struct RayHit {
     double t;                ///< in lengths of the direction
-    std::uint32_t triangle;  ///< the imported file's number
     Double3 point;           ///< origin + t * direction, rounded
+    std::uint32_t triangle;  ///< the imported file's number
 
     /// By t, then by triangle.
     friend bool operator<(const RayHit& a, const RayHit& b) noexcept {

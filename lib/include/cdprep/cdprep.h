@@ -8,7 +8,8 @@
 /* The C face: every question of the C++ headers, for C99 and for languages that
  * call C. What a question means, costs and needs stands in the header of the same
  * name: collide.h, overlapping_triangles.h, distance.h, cast_ray.h,
- * closest_point.h, containment.h.
+ * closest_point.h, containment.h, touching_box.h, touching_sphere.h,
+ * touching_capsule.h, touching_triangle.h.
  *
  * Every function returns CDPREP_OK or a code, and then fills `error`, which may be
  * null. No exception leaves a function. A struct that may grow starts with its
@@ -172,6 +173,15 @@ int cdprep_cast_ray(const cdprep_model* model, const double origin[3], const dou
                     double max_t, cdprep_workspace* workspace, int* found, cdprep_ray_hit* hit,
                     cdprep_error* error);
 
+int cdprep_ray_hits(const cdprep_model* model, const double origin[3], const double direction[3],
+                    double max_t, cdprep_workspace* workspace, int* hits, cdprep_error* error);
+
+/* Writes at most `room` hits, the first, in order; `count` is how many there are.
+ * `hits` may be null when `room` is 0. */
+int cdprep_all_ray_hits(const cdprep_model* model, const double origin[3],
+                        const double direction[3], double max_t, cdprep_workspace* workspace,
+                        cdprep_ray_hit* hits, size_t room, size_t* count, cdprep_error* error);
+
 typedef struct cdprep_closest_point {
     double point[3];
     double lower;
@@ -182,6 +192,54 @@ typedef struct cdprep_closest_point {
 int cdprep_find_closest_point(const cdprep_model* model, const double query[3], double max_distance,
                               cdprep_workspace* workspace, int* found,
                               cdprep_closest_point* closest, cdprep_error* error);
+
+enum {
+    CDPREP_BOX = 0,     /* `a` lower, `b` upper limits; may be infinite */
+    CDPREP_SPHERE = 1,  /* `a` centre, `radius` */
+    CDPREP_CAPSULE = 2, /* `a` and `b` ends, `radius`; 0 is the segment */
+    CDPREP_TRIANGLE = 3 /* `a`, `b`, `c` corners */
+};
+
+typedef struct cdprep_shape {
+    uint32_t size;
+    uint32_t kind;
+    double a[3]; /* what the kind does not name is not read */
+    double b[3];
+    double c[3];
+    double radius;
+} cdprep_shape;
+
+typedef struct cdprep_shape_options {
+    uint32_t size;
+    uint32_t degenerate;          /* CDPREP_KEEP_DEGENERATE; distances always keep */
+    uint32_t is_moved;            /* 0: the shape is in model coordinates */
+    cdprep_pose world_from_model; /* read when is_moved is not 0 */
+    double max_distance;          /* inclusive, HUGE_VAL for none; distances alone read it */
+} cdprep_shape_options;
+
+int cdprep_touches(const cdprep_model* model, const cdprep_shape* shape,
+                   cdprep_workspace* workspace, const cdprep_shape_options* options, int* touches,
+                   cdprep_error* error);
+
+/* Writes at most `room` triangles, the smallest numbers, sorted; `count` is how many
+ * there are. `triangles` may be null when `room` is 0. */
+int cdprep_touching_triangles(const cdprep_model* model, const cdprep_shape* shape,
+                              cdprep_workspace* workspace, const cdprep_shape_options* options,
+                              uint32_t* triangles, size_t room, size_t* count, cdprep_error* error);
+
+typedef struct cdprep_shape_distance {
+    double lower;
+    double upper;
+    double on_model[3];
+    double on_shape[3];
+    uint32_t triangle;
+} cdprep_shape_distance;
+
+/* Of a capsule or a triangle; for a sphere, a capsule whose ends are equal. `found` is 0
+ * when nothing is within max_distance. */
+int cdprep_distance_to(const cdprep_model* model, const cdprep_shape* shape,
+                       cdprep_workspace* workspace, const cdprep_shape_options* options, int* found,
+                       cdprep_shape_distance* distance, cdprep_error* error);
 
 typedef struct cdprep_inclusion {
     int inside; /* CDPREP_NO, _YES, _UNKNOWN */

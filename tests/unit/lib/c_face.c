@@ -95,6 +95,20 @@ static const char* ask_one(const cdprep_model* cube, cdprep_workspace* scratch) 
     MUST(found == 1 && hit.t == 2 && hit.point[0] == 0 && hit.triangle < 12);
     MUST(cdprep_cast_ray(cube, beside, away, HUGE_VAL, scratch, &found, &hit, NULL) == CDPREP_OK);
     MUST(found == 0);
+    int any = 0;
+    size_t count = 0;
+    cdprep_ray_hit hits[4];
+    MUST(cdprep_ray_hits(cube, beside, along_x, HUGE_VAL, scratch, &any, NULL) == CDPREP_OK);
+    MUST(any == 1);
+    MUST(cdprep_ray_hits(cube, beside, along_x, 1.5, scratch, &any, NULL) == CDPREP_OK);
+    MUST(any == 0);
+    MUST(cdprep_all_ray_hits(cube, beside, along_x, HUGE_VAL, scratch, hits, 4, &count, NULL) ==
+         CDPREP_OK);
+    MUST(count == 2 && hits[0].t == 2 && hits[1].t == 3 && hits[1].point[0] == 1);
+    MUST(hits[0].triangle < 12 && hits[0].triangle != hits[1].triangle);
+    MUST(cdprep_all_ray_hits(cube, beside, along_x, HUGE_VAL, scratch, NULL, 0, &count, NULL) ==
+         CDPREP_OK);
+    MUST(count == 2);
     cdprep_closest_point closest;
     MUST(cdprep_find_closest_point(cube, beside, HUGE_VAL, scratch, &found, &closest, NULL) ==
          CDPREP_OK);
@@ -106,6 +120,71 @@ static const char* ask_one(const cdprep_model* cube, cdprep_workspace* scratch) 
     MUST(inclusion.inside == CDPREP_YES && !inclusion.on_surface && inclusion.winding == 1);
     MUST(cdprep_includes(cube, beside, scratch, &inclusion, NULL) == CDPREP_OK);
     MUST(inclusion.inside == CDPREP_NO);
+    return NULL;
+}
+
+static cdprep_shape shape_of(uint32_t kind, double x, double radius) {
+    cdprep_shape shape = {sizeof shape, kind, {0, 0, 0}, {0, 1, 1}, {0, 0, 1}, 0};
+    shape.a[0] = x;
+    shape.b[0] = x;
+    shape.c[0] = x;
+    shape.radius = radius;
+    return shape;
+}
+
+/* Each kind, flat at x: the faces at 0 and 1 and a place between or beyond. */
+static const char* ask_shapes(const cdprep_model* cube, cdprep_workspace* scratch) {
+    cdprep_error error;
+    uint32_t numbers[12];
+    size_t count = 0;
+    int touches = 0;
+    for (uint32_t kind = CDPREP_BOX; kind <= CDPREP_TRIANGLE; ++kind) {
+        cdprep_shape far = shape_of(kind, 1.25, 0.125);
+        cdprep_shape at_face = shape_of(kind, 1, 0);
+        MUST(cdprep_touches(cube, &far, scratch, NULL, &touches, &error) == CDPREP_OK);
+        MUST(touches == 0);
+        MUST(cdprep_touches(cube, &at_face, scratch, NULL, &touches, NULL) == CDPREP_OK);
+        MUST(touches == 1);
+        MUST(cdprep_touching_triangles(cube, &at_face, scratch, NULL, numbers, 12, &count,
+                                       &error) == CDPREP_OK);
+        MUST(count > 0 && count <= 12);
+        for (size_t i = 1; i < count; ++i) MUST(numbers[i - 1] < numbers[i]);
+        size_t counted = 0;
+        MUST(cdprep_touching_triangles(cube, &at_face, scratch, NULL, NULL, 0, &counted, NULL) ==
+             CDPREP_OK);
+        MUST(counted == count);
+        /* The cube a quarter further. */
+        cdprep_shape_options moved = {sizeof moved,
+                                      CDPREP_SKIP_DEGENERATE,
+                                      1,
+                                      {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0.25, 0, 0}},
+                                      HUGE_VAL};
+        MUST(cdprep_touches(cube, &far, scratch, &moved, &touches, NULL) == CDPREP_OK);
+        MUST(touches == 1);
+        cdprep_shape_distance distance;
+        int found = 0;
+        const int code = cdprep_distance_to(cube, &far, scratch, NULL, &found, &distance, &error);
+        if (kind < CDPREP_CAPSULE) {
+            MUST(code == CDPREP_BAD_ARGUMENT);
+            continue;
+        }
+        const double exact = kind == CDPREP_CAPSULE ? 0.125 : 0.25;
+        MUST(code == CDPREP_OK && found == 1);
+        MUST(distance.lower <= exact && exact <= distance.upper);
+        MUST(distance.on_model[0] == 1 && distance.on_shape[0] == 1.25);
+        cdprep_shape_options nearby = {sizeof nearby, CDPREP_KEEP_DEGENERATE, 0, {{0}}, 0.0625};
+        MUST(cdprep_distance_to(cube, &far, scratch, &nearby, &found, &distance, NULL) ==
+             CDPREP_OK);
+        MUST(found == 0);
+    }
+    cdprep_shape wrong = shape_of(4, 0, 0);
+    MUST(cdprep_touches(cube, &wrong, scratch, NULL, &touches, &error) == CDPREP_BAD_ARGUMENT);
+    wrong = shape_of(CDPREP_BOX, 0, 0);
+    wrong.size = 8;
+    MUST(cdprep_touches(cube, &wrong, scratch, NULL, &touches, &error) == CDPREP_BAD_ARGUMENT);
+    wrong = shape_of(CDPREP_BOX, 0, 0);
+    MUST(cdprep_touching_triangles(cube, &wrong, scratch, NULL, NULL, 1, &count, &error) ==
+         CDPREP_BAD_ARGUMENT);
     return NULL;
 }
 
@@ -142,6 +221,7 @@ static const char* ask_wrongly(const cdprep_model* cube, cdprep_workspace* scrat
 static const char* ask_with(const cdprep_model* cube, cdprep_workspace* scratch) {
     const char* wrong = ask_two(cube, scratch);
     if (wrong == NULL) wrong = ask_one(cube, scratch);
+    if (wrong == NULL) wrong = ask_shapes(cube, scratch);
     if (wrong == NULL) wrong = ask_wrongly(cube, scratch);
     return wrong;
 }
