@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
 #include <span>
 
 #include "cdprep/touching.h"
 #include "contact_pairs.h"
 #include "smallest.h"
+#include "sort_numbers.h"
 #include "walk_model.h"
 
 namespace cdprep {
@@ -60,8 +60,7 @@ std::size_t all_touching(const Model& model, const Asked& asked, Workspace& work
         smallest.add(source_number(model, i));
         return true;
     });
-    const std::span<std::uint32_t> kept = smallest.kept();
-    std::sort(kept.begin(), kept.end());
+    sort_numbers(smallest.kept(), workspace.storage().frontier);
     return smallest.count();
 }
 
