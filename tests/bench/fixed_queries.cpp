@@ -3,9 +3,13 @@
 // count_instructions runs under callgrind.
 //
 // Usage: fixed_queries QUESTION TIMES
-// QUESTION is overlap, collide_hit, collide_miss, distance, within, ray or closest.
+// QUESTION is overlap, collide_hit, collide_miss, distance, within, ray, ray_miss, ray_any,
+// closest, box, box_turned, sphere, capsule, triangle, to_capsule or to_triangle.
+#include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +17,10 @@
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
+#include "cdprep/touching_box.h"
+#include "cdprep/touching_capsule.h"
+#include "cdprep/touching_sphere.h"
+#include "cdprep/touching_triangle.h"
 #include "support/open_tiny.h"
 
 namespace {
@@ -21,6 +29,35 @@ using namespace cdprep;
 
 Placement turned(double x) {
     return Placement::b_moves(Pose::from_quaternion(5, 1, 2, 3, {x, 0.1, 0.05}).value());
+}
+
+/// Questions about the ring and a ray, point or shape; nothing for another question.
+std::optional<double> ask_ring(const std::string& question, const Model& ring, Workspace& workspace,
+                               std::span<std::uint32_t> triangles) {
+    const Ray ray = {{3, 0.2, 0.1}, {-1, 0, 0.01}};
+    const Ray upwards = {{0.1, 0.2, -3}, {0.01, 0, 1}};  // through the hole
+    const Box box = {{0.8, 0.1, -0.1}, {1.3, 0.6, 0.3}};
+    const Box larger = {{0.2, 0.1, -0.6}, {1.3, 1.2, 0.6}};
+    const Sphere sphere = {{0.9, 0.3, 0.1}, 0.3};
+    const Capsule capsule = {{0.9, 0.3, 0.1}, {0.2, 0.1, 0.5}, 0.1};
+    const Capsule above = {{0.9, 0.3, 0.9}, {0.2, 0.1, 0.8}, 0.1};
+    const LooseTriangle triangle = {{{{0.9, 0.3, 0.1}, {0.2, 0.1, 0.5}, {0.8, 0.9, 0.2}}}};
+    const LooseTriangle nearby = {{{{0.9, 0.3, 0.9}, {0.2, 0.1, 0.8}, {0.8, 0.9, 0.7}}}};
+    const auto all = [&](const auto& shape, const TouchOptions& options = {}) {
+        return static_cast<double>(touching_triangles(ring, shape, workspace, triangles, options));
+    };
+    if (question == "ray") return cast_ray(ring, ray, workspace)->t;
+    if (question == "ray_miss") return cast_ray(ring, upwards, workspace) ? 1 : 0;
+    if (question == "ray_any") return ray_hits(ring, ray, workspace) ? 1 : 0;
+    if (question == "closest") return closest_point(ring, {0.3, 0.2, 0.9}, workspace)->upper;
+    if (question == "box") return all(box);
+    if (question == "box_turned") return all(larger, {turned(0.1).pose_b()});
+    if (question == "sphere") return all(sphere);
+    if (question == "capsule") return all(capsule);
+    if (question == "triangle") return all(triangle);
+    if (question == "to_capsule") return distance_to(ring, above, workspace)->upper;
+    if (question == "to_triangle") return distance_to(ring, nearby, workspace)->upper;
+    return std::nullopt;
 }
 
 /// Returns something of the answer.
@@ -35,8 +72,8 @@ double ask(const std::string& question, const Model& ball, const Model& ring, Wo
     if (question == "collide_miss") return collide(ball, ring, apart, workspace).hit ? 1 : 0;
     if (question == "distance") return distance(ball, ring, apart, workspace)->upper;
     if (question == "within") return is_within(ball, ring, apart, 0.01, workspace) ? 1 : 0;
-    if (question == "ray") return cast_ray(ring, {{3, 0.2, 0.1}, {-1, 0, 0.01}}, workspace)->t;
-    if (question == "closest") return closest_point(ring, {0.3, 0.2, 0.9}, workspace)->upper;
+    static std::array<std::uint32_t, 4096> triangles;
+    if (const auto answer = ask_ring(question, ring, workspace, triangles)) return *answer;
     std::fprintf(stderr, "fixed_queries: no question '%s'\n", question.c_str());
     std::exit(2);
 }
