@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "support/exact_contact.h"
+#include "support/exact_rational.h"
 #include "support/open_tiny.h"
 
 namespace cdprep::test {
@@ -243,6 +245,63 @@ TEST(CastRayLaws, AllHitsAreThoseOfIntegers) {
     }
     EXPECT_GT(hits, tested / 50);
     EXPECT_LT(hits, tested / 2);
+}
+
+/// The textbook test in exact numbers, for triangles that are not parallel to the ray.
+bool truly_hits(const Ray& ray, const std::array<Double3, 3>& corners) {
+    const auto at = [](const Double3& p) { return ExactPoint<ExactNumber>{p.x, p.y, p.z}; };
+    const auto o = at(ray.origin), d = at(ray.direction);
+    const std::array<ExactPoint<ExactNumber>, 3> t = {
+        minus(at(corners[0]), o), minus(at(corners[1]), o), minus(at(corners[2]), o)};
+    const auto n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
+    const int along = dot(n, d).sign();
+    if (along == 0 || dot(n, t[0]).sign() * along < 0) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (dot(d, cross(t[i], t[(i + 1) % 3])).sign() * along < 0) return false;
+    }
+    return true;
+}
+
+Double3 fine_point(std::mt19937& random, double size) {
+    std::uniform_real_distribution<double> place(-size, size);
+    const double x = place(random), y = place(random), z = place(random);
+    return {x, y, z};
+}
+
+// The oracle: exact numbers. Rays aimed at points of edges, from near and from far beyond
+// the model's size: rounding alone decides on which side they pass.
+TEST(CastRayLaws, RaysAtEdgesAgreeWithExactNumbers) {
+    std::mt19937 random(20261124);
+    std::uniform_real_distribution<double> part(0, 1);
+    int hits = 0, tested = 0;
+    for (int round = 0; round < 60; ++round) {
+        const TestMesh mesh = random_soup(random(), 40, 0.5);
+        const OpenModel model = open_tiny(mesh, {.double_precision = true});
+        Workspace workspace;
+        for (int i = 0; i < 20; ++i) {
+            const std::size_t aimed = random() % mesh.triangles.size();
+            const auto& v = mesh.triangles[aimed].vertex;
+            const Double3 &a = mesh.positions[v[0]], &b = mesh.positions[v[1]];
+            const double s = part(random);
+            const Double3 o = fine_point(random, std::array<double, 4>{2, 1e3, 1e15, 1e300}[i % 4]);
+            const Ray ray = {o,
+                             {a.x + s * (b.x - a.x) - o.x, a.y + s * (b.y - a.y) - o.y,
+                              a.z + s * (b.z - a.z) - o.z}};
+            const auto found = triangles_hit(model.model, ray, workspace);
+            for (std::uint32_t k = 0; k < mesh.triangles.size(); ++k) {
+                const auto& vertex = mesh.triangles[k].vertex;
+                const bool truth =
+                    truly_hits(ray, {mesh.positions[vertex[0]], mesh.positions[vertex[1]],
+                                     mesh.positions[vertex[2]]});
+                ASSERT_EQ(std::binary_search(found.begin(), found.end(), k), truth)
+                    << "seed 20261124, round " << round << ", ray " << i;
+                hits += k == aimed && truth ? 1 : 0;
+                tested += k == aimed ? 1 : 0;
+            }
+        }
+    }
+    EXPECT_GT(hits, tested * 2 / 10);
+    EXPECT_LT(hits, tested * 8 / 10);
 }
 
 // By the definition of a line: a direction's length changes nothing, even where origin

@@ -221,6 +221,50 @@ void expect_truth_everywhere(std::uint32_t seed, int grid_rounds, int fine_round
     fine.expect_two_sided();
 }
 
+/// Numbers of any size, up to 2^reach.
+double wild_number(std::mt19937& random, int reach) {
+    std::uniform_real_distribution<double> digits(-1, 1);
+    std::uniform_int_distribution<int> exponent(-reach, reach);
+    const double x = digits(random);
+    return random() % 4 == 0 ? x : std::ldexp(x, exponent(random));
+}
+
+// Shapes far smaller, larger and farther than the model: what the walk leaves out is
+// nothing that touches.
+TEST(TouchingLaws, WildSizesLoseNothing) {
+    std::mt19937 random(95);
+    Workspace workspace;
+    Tally tally;
+    for (int round = 0; round < 150 && !HasFatalFailure(); ++round) {
+        const TestMesh mesh = random_soup(random(), 30, 0.5);
+        const OpenModel model = open_tiny(mesh, {.double_precision = true});
+        const int reach = round % 2 == 0 ? 60 : 990;
+        const auto number = [&] { return wild_number(random, reach); };
+        const auto point = [&] {
+            const double x = number(), y = number(), z = number();
+            return Double3{x, y, z};
+        };
+        TouchOptions options;
+        if (round % 3 == 0) options.world_from_model = random_pose(random, 1);
+        const Draw draw{random, point, [&] { return std::fabs(number()); }};
+        const auto ask = [&](const auto& shape) {
+            expect_truth(mesh, model.model, shape, options, workspace, tally);
+        };
+        ask(draw.box());
+        ask(draw.sphere());
+        ask(draw.capsule());
+        ask(draw.triangle());
+        // A sphere through a corner, from anywhere: as near to it as double can tell.
+        Sphere through = draw.sphere();
+        const Double3 corner = moved(options.world_from_model, mesh.positions[0]);
+        through.radius = std::hypot(corner.x - through.centre.x, corner.y - through.centre.y,
+                                    corner.z - through.centre.z);
+        ask(through);
+    }
+    EXPECT_GT(tally.models_hit, tally.models * 2 / 10);
+    EXPECT_LT(tally.models_hit, tally.models * 8 / 10);
+}
+
 TEST(TouchingLaws, BoxesAgreeWithCutting) {
     expect_truth_everywhere(91, 120, 20, [](const Draw& draw) { return draw.box(); });
 }
