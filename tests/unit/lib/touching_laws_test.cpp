@@ -53,7 +53,7 @@ struct Tally {
         EXPECT_GT(hits, triangles / 50);
         EXPECT_LT(hits, triangles * 7 / 10);
         EXPECT_GT(models_hit, models * 3 / 10);
-        EXPECT_LT(models_hit, models * 9 / 10);
+        EXPECT_LT(models_hit, models * 7 / 10) << models_hit;
     }
 };
 
@@ -147,14 +147,14 @@ Pose grid_pose(std::mt19937& random) {
 }
 
 template <class Ask>
-void for_grid_cases(std::uint32_t seed, int rounds, Ask ask) {
+void for_grid_cases(std::uint32_t seed, int rounds, int reach, Ask ask) {
     std::mt19937 random(seed);
     Workspace workspace;
     for (int round = 0; round < rounds && !testing::Test::HasFatalFailure(); ++round) {
         const int count = round % 4 == 0 ? 7 : 90;
         const TestMesh mesh = coarse_grid_soup(random(), count, 4);
         const OpenModel model = open_tiny(mesh, {.double_precision = round % 2 == 0});
-        const Draw draw{random, [&] { return whole_point(random, 6); },
+        const Draw draw{random, [&] { return whole_point(random, reach); },
                         [&] { return static_cast<double>(random() % 4); }};
         for (int i = 0; i < 8 && !testing::Test::HasFatalFailure(); ++i) {
             TouchOptions options;
@@ -166,7 +166,7 @@ void for_grid_cases(std::uint32_t seed, int rounds, Ask ask) {
 }
 
 template <class Ask>
-void for_fine_cases(std::uint32_t seed, int rounds, Ask ask) {
+void for_fine_cases(std::uint32_t seed, int rounds, double reach, Ask ask) {
     std::mt19937 random(seed);
     Workspace workspace;
     for (int round = 0; round < rounds && !testing::Test::HasFatalFailure(); ++round) {
@@ -180,7 +180,7 @@ void for_fine_cases(std::uint32_t seed, int rounds, Ask ask) {
         const Draw draw{
             random,
             [&] {
-                const Double3 p = fine_point(random, 1.3);
+                const Double3 p = fine_point(random, reach);
                 return Double3{scale * p.x + shift.x, scale * p.y + shift.y, scale * p.z + shift.z};
             },
             [&] { return scale * size(random) * (random() % 4 == 0 ? 4 : 1); }};
@@ -200,17 +200,19 @@ void for_fine_cases(std::uint32_t seed, int rounds, Ask ask) {
     }
 }
 
+/// Points of shapes lie within `reach` cells, of which four hold a grid's triangles.
 template <class Make>
-void expect_truth_everywhere(std::uint32_t seed, int grid_rounds, int fine_rounds, Make make) {
+void expect_truth_everywhere(std::uint32_t seed, int grid_rounds, int fine_rounds, int reach,
+                             Make make) {
     Tally grid, fine;
-    for_grid_cases(seed, grid_rounds, [&](const Draw& draw, auto&... rest) {
+    for_grid_cases(seed, grid_rounds, reach, [&](const Draw& draw, auto&... rest) {
         const auto ask = [&](const TestMesh& mesh, const Model& model, const TouchOptions& options,
                              Workspace& workspace) {
             expect_truth(mesh, model, make(draw), options, workspace, grid);
         };
         ask(rest...);
     });
-    for_fine_cases(seed, fine_rounds, [&](const Draw& draw, auto&... rest) {
+    for_fine_cases(seed, fine_rounds, reach / 4.5, [&](const Draw& draw, auto&... rest) {
         const auto ask = [&](const TestMesh& mesh, const Model& model, const TouchOptions& options,
                              Workspace& workspace) {
             expect_truth(mesh, model, make(draw), options, workspace, fine);
@@ -261,24 +263,24 @@ TEST(TouchingLaws, WildSizesLoseNothing) {
                                     corner.z - through.centre.z);
         ask(through);
     }
-    EXPECT_GT(tally.models_hit, tally.models * 2 / 10);
-    EXPECT_LT(tally.models_hit, tally.models * 8 / 10);
+    EXPECT_GT(tally.models_hit, tally.models * 3 / 10) << tally.models_hit;
+    EXPECT_LT(tally.models_hit, tally.models * 7 / 10);
 }
 
 TEST(TouchingLaws, BoxesAgreeWithCutting) {
-    expect_truth_everywhere(91, 120, 20, [](const Draw& draw) { return draw.box(); });
+    expect_truth_everywhere(91, 120, 20, 6, [](const Draw& draw) { return draw.box(); });
 }
 
 TEST(TouchingLaws, SpheresAgreeWithExactDistances) {
-    expect_truth_everywhere(92, 80, 20, [](const Draw& draw) { return draw.sphere(); });
+    expect_truth_everywhere(92, 80, 20, 6, [](const Draw& draw) { return draw.sphere(); });
 }
 
 TEST(TouchingLaws, CapsulesAgreeWithExactDistances) {
-    expect_truth_everywhere(93, 40, 10, [](const Draw& draw) { return draw.capsule(); });
+    expect_truth_everywhere(93, 40, 10, 8, [](const Draw& draw) { return draw.capsule(); });
 }
 
 TEST(TouchingLaws, TrianglesAgreeWithSixSegments) {
-    expect_truth_everywhere(94, 120, 40, [](const Draw& draw) { return draw.triangle(); });
+    expect_truth_everywhere(94, 120, 40, 9, [](const Draw& draw) { return draw.triangle(); });
 }
 
 }  // namespace
