@@ -300,8 +300,8 @@ TEST(CastRayLaws, RaysAtEdgesAgreeWithExactNumbers) {
             }
         }
     }
-    EXPECT_GT(hits, tested * 2 / 10);
-    EXPECT_LT(hits, tested * 8 / 10);
+    EXPECT_GT(hits, tested * 3 / 10) << hits << " " << tested;
+    EXPECT_LT(hits, tested * 7 / 10) << hits << " " << tested;
 }
 
 // By the definition of a line: a direction's length changes nothing, even where origin
@@ -334,7 +334,7 @@ TEST(CastRayLaws, TheDirectionCountsAsGiven) {
         }
     }
     EXPECT_GT(hits, rays * 3 / 10);
-    EXPECT_LT(hits, rays * 9 / 10);
+    EXPECT_LT(hits, rays * 7 / 10) << hits << " " << rays;
 }
 
 // By hand: the direction's small component is lost beside the origin, and beside its
