@@ -164,12 +164,12 @@ struct PlacedLeaves {
 struct LeafScratch {
     PlacedLeaves a;
     PlacedLeaves b;
-    std::uint64_t question = 0;                     ///< begin() makes it a number of its own
     alignas(64) float shift[4][kLeafBatch];         ///< of A's corners to B's, and the error
     alignas(64) std::int32_t place[2][kLeafBatch];  ///< of A's and of B's leaf, in floats
+    std::uint64_t question = 0;                     ///< begin() makes it a number of its own
+    TriangleGap gap[kLanes * kLanes];
     std::uint16_t candidate[kLeafBatch * kLanes * kLanes + 2 * kLanes];  ///< stores reach beyond
     TriangleContactLanes found[kLeafBatch * kLanes * kLanes];
-    TriangleGap gap[kLanes * kLanes];
 
     /// To be called before the first leaves of another placement or other models.
     void begin() noexcept {
