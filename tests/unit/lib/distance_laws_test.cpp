@@ -54,14 +54,25 @@ ExactRational brute_force_distance(const TestMesh& a, const TestMesh& b,
                                    const Placement& placement) {
     const Pose* pose_a = placement.a_is_moved() ? &placement.pose_a() : nullptr;
     const Pose* pose_b = placement.b_is_moved() ? &placement.pose_b() : nullptr;
-    std::optional<ExactRational> best;
+    struct Pair {
+        long double squared_gap;
+        Corners a;
+        Corners b;
+    };
+    std::vector<Pair> pairs;
     for (std::size_t i = 0; i < a.triangles.size(); ++i) {
         for (std::size_t j = 0; j < b.triangles.size(); ++j) {
             const Corners s = corners_of(a, i, pose_a), t = corners_of(b, j, pose_b);
-            if (best && below_squared_gap(box_of(s), box_of(t)) > best->approximation()) continue;
-            const ExactRational d = exact_squared_distance(s, t);
-            if (!best || d < *best) best = d;
+            pairs.push_back({below_squared_gap(box_of(s), box_of(t)), s, t});
         }
+    }
+    std::sort(pairs.begin(), pairs.end(),
+              [](const Pair& x, const Pair& y) { return x.squared_gap < y.squared_gap; });
+    std::optional<ExactRational> best;
+    for (const Pair& pair : pairs) {
+        if (best && (best->sign() == 0 || pair.squared_gap > best->approximation())) break;
+        const ExactRational d = exact_squared_distance(pair.a, pair.b);
+        if (!best || d < *best) best = d;
     }
     return *best;
 }
