@@ -326,6 +326,35 @@ Found find_bad_leaf(const Content& content) {
     return find_bad_float(content);
 }
 
+/// Whether sphere `box` may be walked: an axis near unit length, nothing negative, and
+/// no side that its kind does not have.
+bool is_swept_sphere(const SweptNode& node, std::uint32_t box, SweptKind kind) noexcept {
+    constexpr float kUnitTolerance = 0x1p-10F;
+    bool good = node.radius[box] >= 0;
+    for (std::uint32_t k = 0; k < 2; ++k) {
+        const auto& [axis, half] = node.side[k];
+        const float squared =
+            axis[0][box] * axis[0][box] + axis[1][box] * axis[1][box] + axis[2][box] * axis[2][box];
+        good = good && std::fabs(squared - 1) <= kUnitTolerance && half[box] >= 0 &&
+               (half[box] == 0 || k < static_cast<std::uint32_t>(kind));
+    }
+    return good;
+}
+
+Found find_bad_swept(const Content& content) {
+    if (const Found damage = find_bad_float(content)) return damage;
+    const SweptKind kind = swept_kind(content.header.flags);
+    for (std::uint64_t i = 0; i < content.entry.count; ++i) {
+        const auto node = content.element<SweptNode>(i);
+        for (std::uint32_t box = 0; box < kBvhWidth; ++box) {
+            if (!is_swept_sphere(node, box, kind)) {
+                return content.damage(DamageKind::bad_number, i, box, kBvhWidth - 1);
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 /// The least index that is out of range: one past the last, or 0 when none fits.
 Found find_bad_vertex_index(const Content& content) {
     const std::uint64_t vertices = content.header.vertex_count;
@@ -364,6 +393,9 @@ Found find_bad_content(const Content& content) {
         case SectionId::oriented_nodes:
             return counted(bvh_shape(content.header.triangle_count).node_count,
                            [&] { return find_bad_float(content); });
+        case SectionId::swept_nodes:
+            return counted(bvh_shape(content.header.triangle_count).node_count,
+                           [&] { return find_bad_swept(content); });
         case SectionId::bvh_leaves:
             return counted(bvh_shape(content.header.triangle_count).leaf_count,
                            [&] { return find_bad_leaf(content); });
@@ -415,7 +447,8 @@ Found find_missing(Bytes file) {
     if (has(SectionId::bvh_nodes) && !has(SectionId::triangles)) {
         return missing(SectionId::triangles);
     }
-    if ((has(SectionId::bvh_leaves) || has(SectionId::oriented_nodes)) &&
+    if ((has(SectionId::bvh_leaves) || has(SectionId::oriented_nodes) ||
+         has(SectionId::swept_nodes)) &&
         !has(SectionId::bvh_nodes)) {
         return missing(SectionId::bvh_nodes);
     }

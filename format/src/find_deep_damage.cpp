@@ -187,25 +187,37 @@ OrientedBox oriented_box(const OrientedNode& node, std::uint32_t box) {
     return result;
 }
 
+constexpr double kAxisTolerance = 8 * 0x1p-24;
+
+/// Unit length and at right angles, as float allows.
+bool are_orthonormal(std::span<const Vector> axes) {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        for (std::size_t k = 0; k < axes.size(); ++k) {
+            const double wanted = i == k ? 1 : 0;
+            if (!(std::fabs(dot(axes[i], axes[k]) - wanted) <= kAxisTolerance)) return false;
+        }
+    }
+    return true;
+}
+
+/// A vertex in frame coordinates, from `centre` on.
+Vector vertex_from(const Tree& tree, std::uint32_t vertex, const Vector& centre) {
+    Vector at{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double x = coordinate(tree.positions[vertex], i);
+        const double o = coordinate(tree.header.frame_origin, i);
+        at[i] = std::ldexp(x - o, tree.header.frame_exponent) - centre[i];
+    }
+    return at;
+}
+
 /// Unit axes at right angles, and every vertex of the triangles inside.
 bool oriented_box_holds(const Tree& tree, const OrientedBox& box, std::uint64_t first,
                         std::uint64_t last) {
-    constexpr double kAxisTolerance = 8 * 0x1p-24;
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double wanted = i == k ? 1 : 0;
-            if (!(std::fabs(dot(box.axis[i], box.axis[k]) - wanted) <= kAxisTolerance))
-                return false;
-        }
-    }
+    if (!are_orthonormal(box.axis)) return false;
     for (std::uint64_t t = first; t < last; ++t) {
         for (const std::uint32_t vertex : tree.triangles[t].vertex) {
-            Vector at{};
-            for (std::size_t i = 0; i < 3; ++i) {
-                const double x = coordinate(tree.positions[vertex], i);
-                const double o = coordinate(tree.header.frame_origin, i);
-                at[i] = std::ldexp(x - o, tree.header.frame_exponent) - box.centre[i];
-            }
+            const Vector at = vertex_from(tree, vertex, box.centre);
             for (std::size_t k = 0; k < 3; ++k) {
                 if (!(std::fabs(dot(at, box.axis[k])) <= box.half[k])) return false;
             }
@@ -214,8 +226,51 @@ bool oriented_box_holds(const Tree& tree, const OrientedBox& box, std::uint64_t 
     return true;
 }
 
-Found find_loose_oriented(Bytes file, const Tree& tree) {
-    const auto nodes = copy_of<OrientedNode>(file, SectionId::oriented_nodes);
+/// One swept sphere.
+struct SweptSphere {
+    Vector centre;
+    std::array<Vector, 2> axis;
+    std::array<double, 2> half;
+    double radius;
+};
+
+SweptSphere swept_sphere(const SweptNode& node, std::uint32_t box) {
+    SweptSphere result{};
+    for (std::size_t i = 0; i < 3; ++i) result.centre[i] = double{node.centre[i][box]};
+    for (std::size_t k = 0; k < 2; ++k) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            result.axis[k][i] = double{node.side[k].axis[i][box]};
+        }
+        result.half[k] = double{node.side[k].half[box]};
+    }
+    result.radius = double{node.radius[box]};
+    return result;
+}
+
+/// Unit axes at right angles, and every vertex within the radius of a point of the
+/// middle: the nearest as far as the axes are at right angles.
+bool swept_sphere_holds(const Tree& tree, const SweptSphere& sphere, std::uint64_t first,
+                        std::uint64_t last) {
+    if (!are_orthonormal(sphere.axis)) return false;
+    for (std::uint64_t t = first; t < last; ++t) {
+        for (const std::uint32_t vertex : tree.triangles[t].vertex) {
+            Vector rest = vertex_from(tree, vertex, sphere.centre);
+            for (std::size_t k = 0; k < 2; ++k) {
+                const double along =
+                    std::clamp(dot(rest, sphere.axis[k]), -sphere.half[k], sphere.half[k]);
+                for (std::size_t i = 0; i < 3; ++i) rest[i] -= along * sphere.axis[k][i];
+            }
+            if (!(dot(rest, rest) <= sphere.radius * sphere.radius)) return false;
+        }
+    }
+    return true;
+}
+
+/// The first of the bounds of one section, box by box, for which
+/// `holds(node, box, first, last)` is false; the last two are triangles.
+template <class Node, class Holds>
+Found find_loose_bound(Bytes file, SectionId id, const Tree& tree, Holds holds) {
+    const auto nodes = copy_of<Node>(file, id);
     if (nodes.empty()) return std::nullopt;
     std::uint64_t triangles_per_box = kBvhWidth;
     for (std::uint32_t level = 0; level < tree.shape.levels; ++level) {
@@ -225,16 +280,30 @@ Found find_loose_oriented(Bytes file, const Tree& tree) {
                 const std::uint64_t below = std::uint64_t{i} * kBvhWidth + box;
                 const std::uint64_t last =
                     std::min<std::uint64_t>((below + 1) * triangles_per_box, tree.triangles.size());
-                if (!oriented_box_holds(tree, oriented_box(nodes[index], box),
-                                        below * triangles_per_box, last)) {
-                    return Damage{DamageKind::bad_box, SectionId::oriented_nodes,
-                                  place_of(file, SectionId::oriented_nodes, index), box, 0};
+                if (!holds(nodes[index], box, below * triangles_per_box, last)) {
+                    return Damage{DamageKind::bad_box, id, place_of(file, id, index), box, 0};
                 }
             }
         }
         triangles_per_box *= kBvhWidth;
     }
     return std::nullopt;
+}
+
+Found find_loose_oriented(Bytes file, const Tree& tree) {
+    return find_loose_bound<OrientedNode>(
+        file, SectionId::oriented_nodes, tree,
+        [&](const OrientedNode& node, std::uint32_t box, std::uint64_t first, std::uint64_t last) {
+            return oriented_box_holds(tree, oriented_box(node, box), first, last);
+        });
+}
+
+Found find_loose_swept(Bytes file, const Tree& tree) {
+    return find_loose_bound<SweptNode>(
+        file, SectionId::swept_nodes, tree,
+        [&](const SweptNode& node, std::uint32_t box, std::uint64_t first, std::uint64_t last) {
+            return swept_sphere_holds(tree, swept_sphere(node, box), first, last);
+        });
 }
 
 Found find_repeated_source(Bytes file) {
@@ -308,6 +377,7 @@ std::optional<Damage> find_deep_damage(std::span<const std::byte> file) {
     }
     if (const Found damage = find_wrong_leaf(file, tree)) return damage;
     if (const Found damage = find_loose_oriented(file, tree)) return damage;
+    if (const Found damage = find_loose_swept(file, tree)) return damage;
     if (const Found damage = find_unmarked_degenerate(file, tree)) return damage;
     return find_outside_bounds(file, tree);
 }

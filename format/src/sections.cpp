@@ -15,7 +15,7 @@ struct Kind {
     const char* name;
 };
 
-constexpr std::array<Kind, 20> kKinds = {{
+constexpr std::array<Kind, 21> kKinds = {{
     {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
     {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
     {SectionId::triangles, sizeof(Triangle), "triangles"},
@@ -36,6 +36,7 @@ constexpr std::array<Kind, 20> kKinds = {{
     {SectionId::provenance, 1, "provenance"},
     {SectionId::bvh_leaves, sizeof(BvhLeaf), "bvh_leaves"},
     {SectionId::oriented_nodes, sizeof(OrientedNode), "oriented_nodes"},
+    {SectionId::swept_nodes, sizeof(SweptNode), "swept_nodes"},
 }};
 
 const Kind* find_kind(SectionId id) noexcept {

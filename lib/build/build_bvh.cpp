@@ -10,6 +10,7 @@
 #include "chunks.h"
 #include "make_leaves.h"
 #include "make_oriented.h"
+#include "make_swept.h"
 
 // The builder works on boxes that are already rounded outwards into the frame,
 // so every union of them is exact and no later step can lose a vertex. All
@@ -387,7 +388,13 @@ Bvh build_bvh(std::span<const Double3> positions, std::span<const Triangle> tria
     for (const Item& item : items) bvh.order.push_back(item.triangle);
     bvh.nodes = make_nodes(items);
     make_leaves(bvh, positions, triangles, options.parallel_for);
-    if (options.oriented) make_oriented(bvh, options.parallel_for);
+    if (options.bounds != BvhBounds::aligned) make_oriented(bvh, options.parallel_for);
+    if (options.bounds > BvhBounds::oriented) {
+        const int sides =
+            static_cast<int>(options.bounds) - static_cast<int>(BvhBounds::swept_points);
+        make_swept(bvh, static_cast<format::SweptKind>(sides), options.parallel_for);
+        bvh.oriented_nodes.clear();
+    }
     return bvh;
 }
 

@@ -28,6 +28,7 @@ struct Model::State {
     std::span<const format::BvhNode> nodes;
     std::span<const format::BvhLeaf> leaves;
     std::span<const format::OrientedNode> oriented_nodes;
+    std::span<const format::SweptNode> swept_nodes;
     std::span<const std::uint64_t> degenerate_bits;
     std::span<const format::Component> components;
     std::span<const format::Bounds> bounds;
@@ -68,6 +69,7 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::bvh_nodes, wanted, nodes);
     view(SectionId::bvh_leaves, wanted, leaves);
     view(SectionId::oriented_nodes, wanted, oriented_nodes);
+    view(SectionId::swept_nodes, wanted, swept_nodes);
     view(SectionId::degenerate_bits, wanted, degenerate_bits);
     view(SectionId::components, wanted, components);
     view(SectionId::bounds, wanted, bounds);
@@ -173,6 +175,9 @@ bool Model::has_exact_leaves() const noexcept {
 }
 std::span<const format::OrientedNode> Model::oriented_nodes() const noexcept {
     return state_->oriented_nodes;
+}
+std::span<const format::SweptNode> Model::swept_nodes() const noexcept {
+    return state_->swept_nodes;
 }
 std::span<const std::uint64_t> Model::degenerate_bits() const noexcept {
     return state_->degenerate_bits;

@@ -135,7 +135,7 @@ AlignedBytes assemble(const format::FileHeader& facts, const std::vector<TinySec
 
 AlignedBytes bake_tiny(std::span<const Double3> positions, std::span<const Triangle> triangles,
                        const TinyOptions& options) {
-    const build::Bvh bvh = build::build_bvh(positions, triangles);
+    const build::Bvh bvh = build::build_bvh(positions, triangles, {.bounds = options.bounds});
     const Ordered mesh = in_order(positions, triangles, bvh.order);
 
     std::vector<TinySection> all;
@@ -158,7 +158,11 @@ AlignedBytes bake_tiny(std::span<const Double3> positions, std::span<const Trian
     }
     all.push_back(section(SectionId::components, components(mesh, bvh.order)));
     all.push_back(section(SectionId::bvh_leaves, bvh.leaves));
-    all.push_back(section(SectionId::oriented_nodes, bvh.oriented_nodes));
+    if (options.bounds == build::BvhBounds::oriented) {
+        all.push_back(section(SectionId::oriented_nodes, bvh.oriented_nodes));
+    } else if (options.bounds > build::BvhBounds::oriented) {
+        all.push_back(section(SectionId::swept_nodes, bvh.swept_nodes));
+    }
     std::erase_if(all, [&](const TinySection& s) { return options.leave_out.contains(s.id); });
 
     format::FileHeader facts{};
@@ -166,6 +170,7 @@ AlignedBytes bake_tiny(std::span<const Double3> positions, std::span<const Trian
     facts.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
     if (edges_cancel(mesh.triangles)) facts.flags |= format::model_closed;
     if (bvh.exact_leaves) facts.flags |= format::model_exact_leaves;
+    facts.flags |= format::swept_flags(bvh.swept_kind);
     facts.frame_origin = bvh.frame.origin;
     facts.frame_exponent = bvh.frame.exponent;
     return assemble(facts, all, options.section_alignment);

@@ -7,6 +7,7 @@
 
 #include "support/aligned_bytes.h"
 
+#include "cdprep/build_bvh.h"
 #include "cdprep/format/file_header.h"
 #include "cdprep/format/section_set.h"
 
@@ -21,6 +22,7 @@ struct TinyOptions {
     /// Where sections start; a multiple of format::kSectionAlignment.
     std::uint64_t section_alignment = format::kSectionAlignment;
     format::SectionSet leave_out = {};  ///< sections that are not written
+    build::BvhBounds bounds = build::BvhOptions{}.bounds;
 };
 
 /// One section's id and bytes.

@@ -29,6 +29,7 @@ struct Arguments {
     std::string effects;
     std::string format = "text";
     std::string progress = "auto";
+    std::string bounds = "obb";
     std::size_t threads = 0;
     bool timings = false;
     std::uint64_t import_memory = import::ImportOptions{}.memory_bytes;
@@ -131,6 +132,13 @@ Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
     return is_interrupted() ? Exit::interrupted : worst;
 }
 
+/// Of kBoundsNames; the command line lets no other name through.
+build::BvhBounds bounds_named(const std::string& name) {
+    const auto* at = std::find_if(kBoundsNames.begin(), kBoundsNames.end(),
+                                  [&](const BoundsName& known) { return name == known.name; });
+    return at == kBoundsNames.end() ? build::BvhOptions{}.bounds : at->bounds;
+}
+
 Exit run(Arguments& arguments) {
     const Result<Effects> effects = parse_effects(arguments.effects);
     if (!effects) return fail("bake", effects.error());
@@ -151,6 +159,7 @@ Exit run(Arguments& arguments) {
         }
     }
     arguments.options.effects = effects.value();
+    arguments.options.bounds = bounds_named(arguments.bounds);
     arguments.options.import.memory_bytes = arguments.import_memory;
     arguments.options.import.file_bytes = arguments.import_file_size;
     arguments.options.import.time = std::chrono::seconds(arguments.import_seconds);
@@ -177,6 +186,13 @@ void add_bake(CLI::App& app, Exit& exit) {
         ->add_option("--weld", arguments->options.weld_distance,
                      "Merge vertices this close, in model units")
         ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command
+        ->add_option("--bounds", arguments->bounds,
+                     "Besides aligned boxes, what bounds triangles in pair questions: aabb "
+                     "(nothing), obb (oriented boxes), pss, lss or rss (spheres swept over a "
+                     "point, a line, a rectangle). No answer depends on it")
+        ->check(CLI::IsMember({"aabb", "obb", "pss", "lss", "rss"}))
         ->capture_default_str();
     command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
         ->check(CLI::Range(0, kMostThreads));

@@ -91,7 +91,8 @@ std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) con
     add(SectionId::material_names, bytes_of(material_names_), false);
     add(SectionId::provenance, bytes_of(provenance_), false);
     add(SectionId::bvh_leaves, bytes_of(bvh_.leaves), true);
-    add(SectionId::oriented_nodes, bytes_of(bvh_.oriented_nodes), true);
+    add(SectionId::oriented_nodes, bytes_of(bvh_.oriented_nodes), false);
+    add(SectionId::swept_nodes, bytes_of(bvh_.swept_nodes), false);
     return sections;
 }
 

@@ -17,7 +17,8 @@ constexpr SectionSet kGeometry = {SectionId::positions_f32, SectionId::positions
                                   SectionId::triangles, SectionId::bvh_nodes,
                                   SectionId::degenerate_bits};
 /// What questions about two models need besides.
-constexpr SectionSet kPair = {SectionId::bvh_leaves, SectionId::oriented_nodes};
+constexpr SectionSet kPair = {SectionId::bvh_leaves, SectionId::oriented_nodes,
+                              SectionId::swept_nodes};
 /// Where in the imported file an answer lies.
 constexpr SectionSet kSource = {
     SectionId::source_triangle, SectionId::source_vertex,  SectionId::source_face,

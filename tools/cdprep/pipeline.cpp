@@ -139,8 +139,9 @@ Findings examine(const mesh::Mesh& mesh, const std::filesystem::path& input,
     threads.run_all({
         timed(tree_s,
               [&] {
-                  found.bvh = build::build_bvh(mesh.positions, mesh.triangles,
-                                               {.parallel_for = threads.parallel_for()});
+                  found.bvh = build::build_bvh(
+                      mesh.positions, mesh.triangles,
+                      {.parallel_for = threads.parallel_for(), .bounds = options.bounds});
               }),
         timed(topology_s,
               [&] {
@@ -165,6 +166,7 @@ format::FileHeader facts_of(const mesh::TriangleSoup& soup, const mesh::Mesh& me
     if (found.topology.closed) facts.flags |= format::model_closed;
     if (found.bvh.exact_leaves) facts.flags |= format::model_exact_leaves;
     if (options.normalize) facts.flags |= format::model_normalized;
+    facts.flags |= format::swept_flags(found.bvh.swept_kind);
     facts.up_axis = soup.up_axis;
     facts.metres_per_unit = soup.metres_per_unit;
     facts.frame_origin = found.bvh.frame.origin;
@@ -174,9 +176,17 @@ format::FileHeader facts_of(const mesh::TriangleSoup& soup, const mesh::Mesh& me
     return facts;
 }
 
+const char* bounds_name(build::BvhBounds bounds) {
+    for (const BoundsName& known : kBoundsNames) {
+        if (known.bounds == bounds) return known.name;
+    }
+    return "";
+}
+
 std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash) {
     return report::provenance_json({CDPREP_VERSION, options.effects.names, options.normalize,
-                                    options.weld_distance, source_hash});
+                                    options.weld_distance, bounds_name(options.bounds),
+                                    source_hash});
 }
 
 }  // namespace

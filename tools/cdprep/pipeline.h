@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <functional>
 
+#include "cdprep/build_bvh.h"
 #include "cdprep/result.h"
 #include "effects.h"
 #include "import/import_file.h"
@@ -12,10 +14,24 @@
 
 namespace cdprep::cli {
 
+/// How --bounds calls what a bake bounds its triangles with.
+struct BoundsName {
+    const char* name;
+    build::BvhBounds bounds;
+};
+inline constexpr std::array<BoundsName, 5> kBoundsNames = {{
+    {"aabb", build::BvhBounds::aligned},
+    {"obb", build::BvhBounds::oriented},
+    {"pss", build::BvhBounds::swept_points},
+    {"lss", build::BvhBounds::swept_lines},
+    {"rss", build::BvhBounds::swept_rectangles},
+}};
+
 struct BakeOptions {
     Effects effects;
     bool normalize = false;
     double weld_distance = 0;  ///< model units
+    build::BvhBounds bounds = build::BvhOptions{}.bounds;
     import::ImportOptions import;
 };
 

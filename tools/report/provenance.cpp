@@ -22,7 +22,8 @@ std::string provenance_json(const Provenance& provenance) {
         // Raised whenever a stage gives other bytes for the same input.
         {"algorithms", {{"bvh", 1}, {"weld", 1}, {"topology", 1}, {"bounds", 1}, {"mass", 1}}},
         {"options",
-         {{"effects", provenance.effects},
+         {{"bounds", provenance.bounds},
+          {"effects", provenance.effects},
           {"normalize", provenance.normalize},
           {"weld", provenance.weld_distance}}},
         {"source", {{"xxh3_64", hexadecimal(provenance.source_hash)}}},

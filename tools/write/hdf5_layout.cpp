@@ -110,6 +110,21 @@ Handle oriented_type() {
                      {"half", offsetof(OrientedNode, half), H5T_IEEE_F32LE, {3, kWidth}}});
 }
 
+Handle swept_type() {
+    using format::SweptNode;
+    using format::SweptSide;
+    constexpr hsize_t kWidth = format::kBvhWidth;
+    constexpr std::size_t kSide = offsetof(SweptNode, side);
+    constexpr std::size_t kHalf = offsetof(SweptSide, half);
+    return compound(sizeof(SweptNode),
+                    {{"centre", offsetof(SweptNode, centre), H5T_IEEE_F32LE, {3, kWidth}},
+                     {"radius", offsetof(SweptNode, radius), H5T_IEEE_F32LE, {kWidth}},
+                     {"axis0", kSide, H5T_IEEE_F32LE, {3, kWidth}},
+                     {"half0", kSide + kHalf, H5T_IEEE_F32LE, {kWidth}},
+                     {"axis1", kSide + sizeof(SweptSide), H5T_IEEE_F32LE, {3, kWidth}},
+                     {"half1", kSide + sizeof(SweptSide) + kHalf, H5T_IEEE_F32LE, {kWidth}}});
+}
+
 Handle leaf_type() {
     using format::BvhLeaf;
     return compound(
@@ -224,6 +239,8 @@ const std::vector<Look>& looks() {
          "corners of the eight triangles of each leaf, [corner][axis][triangle]"},
         {SectionId::oriented_nodes, oriented_type, 0, "frame coordinates",
          "oriented boxes of the hierarchy, eight a node, root first"},
+        {SectionId::swept_nodes, swept_type, 0, "frame coordinates",
+         "swept spheres of the hierarchy, eight a node, root first"},
     };
     return all;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cdprep/format/bvh_shape.h"
+#include "cdprep/format/file_header.h"
 #include "cdprep/format/geometry.h"
 
 namespace cdprep::build {
@@ -38,11 +39,24 @@ struct Bvh {
     bool exact_leaves = false;
     /// As many as nodes, or none.
     std::vector<format::OrientedNode> oriented_nodes;
+    /// As many as nodes, or none; swept_kind says what they are.
+    std::vector<format::SweptNode> swept_nodes;
+    format::SweptKind swept_kind = format::SweptKind::point;
+};
+
+/// What questions about two models look at besides the axis-aligned boxes. The answers
+/// are the same with all; tests/bench/results tells what each costs.
+enum class BvhBounds : std::uint8_t {
+    aligned,           ///< nothing: 3.4 bytes a triangle
+    oriented,          ///< oriented boxes: 6.9 bytes a triangle more
+    swept_points,      ///< spheres: as much, of which a third is read
+    swept_lines,       ///< capsules: two thirds
+    swept_rectangles,  ///< rectangles with a radius
 };
 
 struct BvhOptions {
     ParallelFor parallel_for = serial_for;
-    bool oriented = true;  ///< fit oriented boxes too
+    BvhBounds bounds = BvhBounds::oriented;
 };
 
 /// Builds the packed hierarchy of BvhNode.

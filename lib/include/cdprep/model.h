@@ -81,6 +81,8 @@ public:
     [[nodiscard]] bool has_exact_leaves() const noexcept;
     /// Same numbers as nodes(); empty when the model was baked without.
     [[nodiscard]] std::span<const format::OrientedNode> oriented_nodes() const noexcept;
+    /// Likewise; format::swept_kind(header().flags) says what they are.
+    [[nodiscard]] std::span<const format::SweptNode> swept_nodes() const noexcept;
     [[nodiscard]] std::span<const std::uint64_t> degenerate_bits() const noexcept;
     [[nodiscard]] std::span<const format::Component> components() const noexcept;
     [[nodiscard]] std::span<const format::Instance> instances() const noexcept;

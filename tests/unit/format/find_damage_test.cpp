@@ -243,6 +243,46 @@ TEST(FindDeepDamage, SeesAnOrientedBoxThatIsTooSmallOrCrooked) {
     EXPECT_EQ(kind_of(find_deep_damage(with(file, node, 0.5F).span())), DamageKind::bad_box);
 }
 
+AlignedBytes cube_with(build::BvhBounds bounds) {
+    const test::TestMesh cube = test::unit_cube();
+    return test::bake_tiny(cube.positions, cube.triangles, {.bounds = bounds});
+}
+
+TEST(FindDeepDamage, SeesASweptSphereThatIsTooSmallOrCrooked) {
+    for (const auto bounds : {build::BvhBounds::swept_points, build::BvhBounds::swept_lines,
+                              build::BvhBounds::swept_rectangles}) {
+        const AlignedBytes file = cube_with(bounds);
+        EXPECT_FALSE(find_deep_damage(file.span()));
+        const std::uint64_t node = start_of(file, SectionId::swept_nodes);
+        const std::uint64_t radius = node + offsetof(SweptNode, radius);
+        const std::uint64_t axis = node + offsetof(SweptNode, side);
+        EXPECT_EQ(kind_of(find_deep_damage(with(file, radius, 0.0F).span())), DamageKind::bad_box);
+        EXPECT_EQ(kind_of(find_deep_damage(with(file, node, 0.9F).span())), DamageKind::bad_box);
+        const std::array<std::array<float, 8>, 3> skew = {{{0.6F}, {0.8002F}, {0}}};
+        AlignedBytes crooked = copy_of(file);
+        for (std::size_t i = 0; i < 3; ++i) {
+            crooked = with(crooked, axis + sizeof(float) * kBvhWidth * i, skew[i][0]);
+        }
+        EXPECT_EQ(kind_of(find_deep_damage(crooked.span())), DamageKind::bad_box);
+    }
+}
+
+TEST(FindDamage, SweptSpheresHaveUnitAxesAndTheSidesOfTheirKind) {
+    const AlignedBytes file = cube_with(build::BvhBounds::swept_lines);
+    const std::uint64_t node = start_of(file, SectionId::swept_nodes);
+    const std::uint64_t radius = node + offsetof(SweptNode, radius);
+    const std::uint64_t side = node + offsetof(SweptNode, side);
+    const std::uint64_t half = side + offsetof(SweptSide, half);
+    EXPECT_FALSE(check(with(file, radius, 2.0F)));
+    EXPECT_FALSE(check(with(file, half, 2.0F)));
+    for (const auto& [at, wrong] :
+         {std::pair{radius, -1.0F}, std::pair{radius, std::numeric_limits<float>::infinity()},
+          std::pair{node, std::numeric_limits<float>::quiet_NaN()}, std::pair{side, 3.0F},
+          std::pair{half, -1.0F}, std::pair{half + sizeof(SweptSide), 1.0F}}) {
+        EXPECT_EQ(kind_of(check(with(file, at, wrong))), DamageKind::bad_number) << at - node;
+    }
+}
+
 TEST(FindDamage, LeavesNameHowManyTrianglesTheyHold) {
     const AlignedBytes file = baked_cube();
     const std::uint64_t count = start_of(file, SectionId::bvh_leaves) + offsetof(BvhLeaf, count);

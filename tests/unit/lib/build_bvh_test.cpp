@@ -112,6 +112,105 @@ TEST(BuildBvh, LeavesAndOrientedBoxesHoldTheirTriangles) {
     }
 }
 
+constexpr std::array<build::BvhBounds, 3> kSwept = {build::BvhBounds::swept_points,
+                                                    build::BvhBounds::swept_lines,
+                                                    build::BvhBounds::swept_rectangles};
+
+/// Whether a point of a swept sphere's middle is within the radius, in exact arithmetic.
+/// The point is found in double: any point of the middle proves it.
+bool swept_sphere_holds(const format::SweptNode& node, std::uint32_t box,
+                        const std::array<ExactNumber, 3>& vertex) {
+    std::array<ExactNumber, 3> rest;
+    for (std::size_t i = 0; i < 3; ++i) rest[i] = vertex[i] - ExactNumber(node.centre[i][box]);
+    for (const format::SweptSide& side : node.side) {
+        double along = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            along += static_cast<double>(rest[i].approximation()) * side.axis[i][box];
+        }
+        const double half = side.half[box];
+        along = std::clamp(along, -half, half);
+        for (std::size_t i = 0; i < 3; ++i) {
+            rest[i] = rest[i] - ExactNumber(along) * ExactNumber(side.axis[i][box]);
+        }
+    }
+    const ExactNumber squared = rest[0] * rest[0] + rest[1] * rest[1] + rest[2] * rest[2];
+    const ExactNumber radius(node.radius[box]);
+    return squared <= radius * radius;
+}
+
+TEST(BuildBvh, EverySweptSphereHoldsItsTrianglesInExactArithmetic) {
+    for (const TestMesh& mesh : awkward_meshes()) {
+        for (const build::BvhBounds bounds : kSwept) {
+            const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, {.bounds = bounds});
+            const auto count = static_cast<std::uint32_t>(bvh.order.size());
+            const BvhShape shape = format::bvh_shape(count);
+            ASSERT_EQ(bvh.swept_nodes.size(), shape.node_count);
+            ASSERT_TRUE(bvh.oriented_nodes.empty());
+            const double origin[3] = {bvh.frame.origin.x, bvh.frame.origin.y, bvh.frame.origin.z};
+            for (std::uint32_t level = 0; level < shape.levels; ++level) {
+                for (std::uint32_t n = 0; n < shape.count[level]; ++n) {
+                    const format::SweptNode& node = bvh.swept_nodes[shape.first[level] + n];
+                    for (std::uint32_t box = 0; box < shape.used_boxes(level, n); ++box) {
+                        const Range range = below(level, n, box, count);
+                        for (std::uint32_t i = range.first; i < range.last; ++i) {
+                            for (const std::uint32_t v : mesh.triangles[bvh.order[i]].vertex) {
+                                const Double3& p = mesh.positions[v];
+                                const std::array<ExactNumber, 3> at = {
+                                    in_frame(p.x, origin[0], bvh.frame.exponent),
+                                    in_frame(p.y, origin[1], bvh.frame.exponent),
+                                    in_frame(p.z, origin[2], bvh.frame.exponent)};
+                                ASSERT_TRUE(swept_sphere_holds(node, box, at));
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+// find_deep_damage() works it out anew from positions and triangles.
+TEST(BuildBvh, SweptSpheresPassTheDeepCheck) {
+    for (const TestMesh& mesh : awkward_meshes()) {
+        for (const build::BvhBounds bounds : kSwept) {
+            for (const bool double_precision : {false, true}) {
+                if (!double_precision && !all_floats(mesh)) continue;
+                const AlignedBytes file =
+                    bake_tiny(mesh.positions, mesh.triangles,
+                              {.double_precision = double_precision, .bounds = bounds});
+                const auto damage = format::find_deep_damage(file.span());
+                EXPECT_FALSE(damage) << format::section_name(damage->section) << " " << damage->at;
+            }
+        }
+    }
+}
+
+// By hand: the sheet lies in one plane and is longer than wide.
+TEST(BuildBvh, SweptSpheresOfATurnedSheetAreTight) {
+    TestMesh sheet = grid_sheet(4, 16);  // 128 triangles: two levels
+    const Pose pose = Pose::from_quaternion(1, 2, 3, 4, {0, 0, 0}).value();
+    for (Double3& p : sheet.positions) p = moved(pose, p);
+    const auto root_with = [&](build::BvhBounds bounds) {
+        return build_bvh(sheet.positions, sheet.triangles, {.bounds = bounds});
+    };
+    const Bvh points = root_with(build::BvhBounds::swept_points);
+    const Bvh lines = root_with(build::BvhBounds::swept_lines);
+    const Bvh rectangles = root_with(build::BvhBounds::swept_rectangles);
+    EXPECT_EQ(rectangles.swept_kind, format::SweptKind::rectangle);
+    EXPECT_EQ(lines.swept_kind, format::SweptKind::line);
+    for (std::size_t node = 0; node < points.swept_nodes.size(); ++node) {
+        for (std::size_t box = 0; box < format::kBvhWidth; ++box) {
+            const double ball = points.swept_nodes[node].radius[box];
+            if (ball == 0) continue;  // unused
+            const double capsule = lines.swept_nodes[node].radius[box];
+            EXPECT_LT(rectangles.swept_nodes[node].radius[box], 1e-6);
+            EXPECT_LT(capsule, ball * (1 + 1e-5));
+            EXPECT_EQ(points.swept_nodes[node].side[0].half[box], 0);
+            EXPECT_EQ(lines.swept_nodes[node].side[1].half[box], 0);
+        }
+    }
+}
+
 TEST(BuildBvh, LeavesAreExactWhereAllCoordinatesAreFloats) {
     const TestMesh cube = unit_cube();
     EXPECT_TRUE(build_bvh(cube.positions, cube.triangles).exact_leaves);
@@ -191,6 +290,12 @@ TEST(BuildBvh, ThreadsDoNotChangeTheResult) {
     EXPECT_TRUE(same_bytes(serial.nodes, parallel.nodes));
     EXPECT_TRUE(same_bytes(serial.leaves, parallel.leaves));
     EXPECT_TRUE(same_bytes(serial.oriented_nodes, parallel.oriented_nodes));
+    for (const build::BvhBounds bounds : kSwept) {
+        const Bvh one = build_bvh(sphere.positions, sphere.triangles, {.bounds = bounds});
+        const Bvh many = build_bvh(sphere.positions, sphere.triangles,
+                                   {.parallel_for = threads_for, .bounds = bounds});
+        EXPECT_TRUE(same_bytes(one.swept_nodes, many.swept_nodes));
+    }
 }
 
 // The ideal leaf is a square patch; turned anyhow, its box has edges of one side's

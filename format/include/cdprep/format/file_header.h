@@ -52,6 +52,7 @@ enum class SectionId : std::uint32_t {
     provenance = 18,       ///< uint8: canonical JSON, UTF-8: versions, options, source hash
     bvh_leaves = 19,       ///< BvhLeaf per leaf
     oriented_nodes = 20,   ///< OrientedNode per BvhNode
+    swept_nodes = 21,      ///< SweptNode per BvhNode
 };
 
 /// Where a section lies.
@@ -68,7 +69,21 @@ enum ModelFlags : std::uint32_t {
     model_closed = 1,        ///< the oriented uses of every edge cancel: winding numbers are exact
     model_normalized = 2,    ///< baked with --normalize
     model_exact_leaves = 4,  ///< bvh_leaves hold model coordinates without loss
+    model_swept_lines = 8,   ///< swept_nodes hold lines; without this and the next: points
+    model_swept_rectangles = 16,  ///< swept_nodes hold rectangles
 };
+
+/// What the swept_nodes of a model with these flags hold.
+[[nodiscard]] constexpr SweptKind swept_kind(std::uint32_t flags) noexcept {
+    if ((flags & model_swept_rectangles) != 0) return SweptKind::rectangle;
+    return (flags & model_swept_lines) != 0 ? SweptKind::line : SweptKind::point;
+}
+
+/// The flags that say so.
+[[nodiscard]] constexpr std::uint32_t swept_flags(SweptKind kind) noexcept {
+    if (kind == SweptKind::rectangle) return model_swept_rectangles;
+    return kind == SweptKind::line ? model_swept_lines : 0U;
+}
 
 /// Direction that the imported file calls up. Data only: nothing is turned.
 enum class UpAxis : std::uint32_t { unknown = 0, x = 1, y = 2, z = 3 };

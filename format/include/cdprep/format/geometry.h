@@ -61,6 +61,32 @@ struct OrientedNode {
     std::array<std::array<float, kBvhWidth>, 3> half;                 ///< [axis][box]
 };
 
+/// How far the middle of a swept sphere reaches: a point, a line or a rectangle.
+/// One kind for all of a file (swept_kind() of FileHeader).
+enum class SweptKind : std::uint32_t { point = 0, line = 1, rectangle = 2 };
+
+/// One direction in which the spheres of a SweptNode are swept.
+struct SweptSide {
+    std::array<std::array<float, kBvhWidth>, 3> axis;  ///< [component][box], unit length
+    std::array<float, kBvhWidth> half;                 ///< how far along it, either way, >= 0
+};
+
+/// Eight swept spheres side by side, around what the boxes of the BvhNode of the
+/// same number hold: row = component, column = box.
+///
+/// One holds the points at most `radius` from its middle: centre + t_0 axis_0 +
+/// t_1 axis_1 with |t_k| <= half_k. A point has both halves 0, a line the second:
+/// a reader of points needs the first 128 bytes of a node alone, of lines 256. Axes
+/// are unit and at right angles up to the rounding of float; axis 0 is the one along
+/// which the surface spreads most. With the axes as stored every vertex below is held
+/// in exact arithmetic. Frame coordinates. Unused ones hold centre 0, axes x and y,
+/// halves and radius 0.
+struct SweptNode {
+    std::array<std::array<float, kBvhWidth>, 3> centre;  ///< [component][box]
+    std::array<float, kBvhWidth> radius;                 ///< >= 0
+    std::array<SweptSide, 2> side;
+};
+
 /// The corners of the eight triangles of one leaf, ready for eight lanes.
 ///
 /// With model_exact_leaves (FileHeader), corners and origin are in model
@@ -150,6 +176,10 @@ static_assert(sizeof(BvhNode) == 192 && alignof(BvhNode) == 4);
 static_assert(offsetof(BvhNode, upper) == 96);
 static_assert(sizeof(OrientedNode) == 384 && alignof(OrientedNode) == 4);
 static_assert(offsetof(OrientedNode, centre) == 192);
+static_assert(sizeof(SweptSide) == 128 && alignof(SweptSide) == 4);
+static_assert(sizeof(SweptNode) == 384 && alignof(SweptNode) == 4);
+static_assert(offsetof(SweptNode, radius) == 96);
+static_assert(offsetof(SweptNode, side) == 128);
 static_assert(sizeof(BvhLeaf) == 320 && alignof(BvhLeaf) == 4);
 static_assert(offsetof(BvhLeaf, origin) == 288);
 static_assert(offsetof(BvhLeaf, count) == 312);
@@ -166,6 +196,7 @@ static_assert(sizeof(NamedRun) == 16 && alignof(NamedRun) == 4);
 static_assert(std::is_trivially_copyable_v<BvhNode> && std::is_standard_layout_v<BvhNode>);
 static_assert(std::is_trivially_copyable_v<OrientedNode> &&
               std::is_standard_layout_v<OrientedNode>);
+static_assert(std::is_trivially_copyable_v<SweptNode> && std::is_standard_layout_v<SweptNode>);
 static_assert(std::is_trivially_copyable_v<BvhLeaf> && std::is_standard_layout_v<BvhLeaf>);
 static_assert(std::is_trivially_copyable_v<Instance> && std::is_standard_layout_v<Instance>);
 static_assert(std::is_trivially_copyable_v<Bounds> && std::is_standard_layout_v<Bounds>);
