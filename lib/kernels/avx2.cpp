@@ -96,6 +96,9 @@ struct F8 {
     void store_all(float* p) const noexcept {
         store(p);
     }
+    static F8 load_rows(const float* first, const float* /*second*/) noexcept {
+        return load(first);
+    }
     void store_rows(float* first, float* /*second*/) const noexcept {
         store(first);
     }
@@ -153,7 +156,7 @@ inline F8 select(Mask8 where, F8 a, F8 b) noexcept {
 }  // namespace
 }  // namespace cdprep::kernels
 
-#include "distances.h"
+#include "swept_spheres.h"
 
 namespace cdprep::kernels {
 
@@ -162,6 +165,7 @@ const Table kAvx2 = {"avx2",
                      overlap_depths_of<F8, F8>,
                      near_boxes_of<F8, F8>,
                      near_triangles_of<F8, F8, F8>,
-                     find_contacts_of<F8, F8, F8>};
+                     find_contacts_of<F8, F8, F8>,
+                     {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>}};
 
 }  // namespace cdprep::kernels

@@ -141,6 +141,10 @@ struct F16 {
     void store_row(float* p) const noexcept {
         _mm256_storeu_ps(p, _mm512_castps512_ps256(x));
     }
+    static F16 load_rows(const float* first, const float* second) noexcept {
+        return _mm512_insertf32x8(_mm512_castps256_ps512(_mm256_loadu_ps(first)),
+                                  _mm256_loadu_ps(second), 1);
+    }
     void store_rows(float* first, float* second) const noexcept {
         _mm256_storeu_ps(second, _mm512_extractf32x8_ps(x, 1));
         _mm256_storeu_ps(first, _mm512_castps512_ps256(x));
@@ -201,7 +205,7 @@ inline F16 select(F16::Mask where, F16 a, F16 b) noexcept {
 }  // namespace
 }  // namespace cdprep::kernels
 
-#include "distances.h"
+#include "swept_spheres.h"
 
 namespace cdprep::kernels {
 
@@ -210,6 +214,7 @@ const Table kAvx512 = {"avx512",
                        overlap_depths_of<F8, F16>,
                        near_boxes_of<F8, F16>,
                        near_triangles_of<F8, F16, F16>,
-                       find_contacts_of<F8, F16, F16>};
+                       find_contacts_of<F8, F16, F16>,
+                       {kSweptTests<0, F8, F16>, kSweptTests<1, F8, F16>, kSweptTests<2, F8, F16>}};
 
 }  // namespace cdprep::kernels

@@ -13,7 +13,7 @@
 /// proven margin: the answers of the queries are the same for every table.
 ///
 /// A kernel source includes this header, the vendor's intrinsics, and the bodies
-/// that all share (box_overlap.h, leaf_contacts.h, distances.h). Those stand in an
+/// that all share (box_overlap.h, leaf_contacts.h, distances.h, swept_spheres.h). Those stand in an
 /// unnamed namespace: an inline function with a name that the linker sees could be
 /// emitted with AVX2 inside and then be the copy it keeps for everyone.
 namespace cdprep::kernels {
@@ -32,10 +32,12 @@ struct BoxPlacement {
 };
 
 /// The boxes of one node: 48 floats, lower x, y, z, then upper x, y, z, eight
-/// each; and, or null, its oriented boxes: 96 floats, as format::OrientedNode.
+/// each; and, or null, its oriented boxes: 96 floats, as format::OrientedNode; or its
+/// swept spheres, as format::SweptNode.
 struct NodeBoxes {
     const float* boxes;
     const float* oriented;
+    const float* swept = nullptr;
 };
 
 /// What of two nodes is to be tested: bit sets of boxes, and, or null, the box
@@ -181,6 +183,23 @@ struct LeafScratch {
     }
 };
 
+/// The tests of two nodes' boxes by what bounds their children.
+struct BoundTests {
+    /// As Table::overlapping_boxes: of swept spheres, what neither six face directions of
+    /// the axis-aligned boxes separate nor the direction between nearest points.
+    BoxPairs (*overlapping)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
+                            const BoxChoice& choice, BoxSizes& sizes) noexcept;
+
+    /// The same, and depths as Table::overlap_depths has them: with swept spheres, of the
+    /// axis-aligned boxes.
+    BoxPairs (*depths)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
+                       const BoxChoice& choice, BoxSizes& sizes, BoxPairFloats& depths) noexcept;
+
+    /// As Table::near_boxes.
+    BoxPairs (*near)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
+                     const BoxChoice& choice, const Reach& reach, BoxPairFloats& gaps) noexcept;
+};
+
 /// One instruction set's kernels.
 struct Table {
     const char* name;  ///< "scalar", "avx2", "avx512": shown in tests and benchmarks
@@ -217,6 +236,9 @@ struct Table {
     /// stand in scratch.found.
     std::size_t (*find_contacts)(const LeafPlacement& placement, const LeafPair* pairs,
                                  std::size_t count, LeafScratch& scratch) noexcept;
+
+    /// The tests of nodes that both have swept spheres, by format::SweptKind.
+    BoundTests swept[3];
 };
 
 extern const Table kScalar;  ///< the reference, for any processor

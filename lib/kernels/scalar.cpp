@@ -81,6 +81,9 @@ struct F8 {
     void store_all(float* p) const noexcept {
         store(p);
     }
+    static F8 load_rows(const float* first, const float* /*second*/) noexcept {
+        return load(first);
+    }
     void store_rows(float* first, float* /*second*/) const noexcept {
         store(first);
     }
@@ -163,7 +166,7 @@ inline F8 select(Mask8 where, const F8& a, const F8& b) noexcept {
 }  // namespace
 }  // namespace cdprep::kernels
 
-#include "distances.h"
+#include "swept_spheres.h"
 
 namespace cdprep::kernels {
 
@@ -172,6 +175,7 @@ const Table kScalar = {"scalar",
                        overlap_depths_of<F8, F8>,
                        near_boxes_of<F8, F8>,
                        near_triangles_of<F8, F8, F8>,
-                       find_contacts_of<F8, F8, F8>};
+                       find_contacts_of<F8, F8, F8>,
+                       {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>}};
 
 }  // namespace cdprep::kernels

@@ -51,12 +51,16 @@ static_assert(format::kMaxBvhLevels < 16);
 struct Tree {
     const format::BvhNode* nodes;
     const format::OrientedNode* oriented;  ///< or null
+    const format::SweptNode* swept;        ///< or null
+    format::SweptKind swept_kind;
     format::BvhShape shape;
     std::uint32_t triangles;
 
     explicit Tree(const Model& model) noexcept
         : nodes(model.nodes().data()),
           oriented(model.oriented_nodes().data()),
+          swept(model.swept_nodes().data()),
+          swept_kind(format::swept_kind(model.header().flags)),
           shape(model.shape()),
           triangles(model.triangle_count()) {}
 };
@@ -143,6 +147,13 @@ inline void count_step(const Tree& a, const Tree& b, const PendingPair& pair,
     counts.box_pairs += std::uint64_t{side_a.last - side_a.first} * (side_b.last - side_b.first);
 }
 
+/// Of a node's swept spheres, what its kind's test reads.
+inline void prefetch_swept(const format::SweptNode& node, format::SweptKind kind) noexcept {
+    prefetch(&node.centre);
+    prefetch(&node.radius);
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(kind); ++k) prefetch(&node.side[k]);
+}
+
 /// Asks ahead for what the walk will read of some children: nodes of `below`, one a
 /// bit.
 inline void prefetch_children(const Tree& tree, const TreePlace& below, unsigned bits) noexcept {
@@ -152,6 +163,7 @@ inline void prefetch_children(const Tree& tree, const TreePlace& below, unsigned
         const std::uint32_t index = first + static_cast<std::uint32_t>(std::countr_zero(bits));
         prefetch(&tree.nodes[index]);
         if (tree.oriented != nullptr) prefetch(&tree.oriented[index]);
+        if (tree.swept != nullptr) prefetch_swept(tree.swept[index], tree.swept_kind);
     }
 }
 
@@ -173,7 +185,19 @@ inline kernels::NodeBoxes node_boxes(const Tree& tree, const TestedBoxes& side) 
     const float* oriented = tree.oriented == nullptr
                                 ? nullptr
                                 : tree.oriented[side.node - tree.nodes].axis[0][0].data();
-    return {side.node->lower[0].data(), oriented};
+    const float* swept =
+        tree.swept == nullptr ? nullptr : tree.swept[side.node - tree.nodes].centre[0].data();
+    return {side.node->lower[0].data(), oriented, swept};
+}
+
+/// The tests that suit what both models have: swept spheres of one kind, or else what
+/// Table's own make of the boxes.
+inline kernels::BoundTests tests_for(const Tree& a, const Tree& b) noexcept {
+    const kernels::Table& kernel = kernels::active();
+    if (a.swept != nullptr && b.swept != nullptr && a.swept_kind == b.swept_kind) {
+        return kernel.swept[static_cast<std::size_t>(a.swept_kind)];
+    }
+    return {kernel.overlapping_boxes, kernel.overlap_depths, kernel.near_boxes};
 }
 
 inline std::uint8_t chosen(const TestedBoxes& side) noexcept {
@@ -192,7 +216,7 @@ inline void prefetch_step(const Tree& a, const Tree& b, const OpenStep& step) no
 template <Search kSearch>
 void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed, const PendingPair& pair,
                const Descent& descent, OpenStep& step, kernels::BoxPairFloats& depths) noexcept {
-    const kernels::Table& kernel = kernels::active();
+    const kernels::BoundTests tests = tests_for(a, b);
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     const kernels::BoxChoice choice = {chosen(side_a), chosen(side_b),
@@ -200,10 +224,9 @@ void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed, const Pe
     const kernels::NodeBoxes in_a = node_boxes(a, side_a);
     const kernels::NodeBoxes in_b = node_boxes(b, side_b);
     step.base = PendingPair{side_a.first_below, side_b.first_below}.packed();
-    step.pairs =
-        kSearch == Search::first
-            ? kernel.overlap_depths(placed.placement, in_a, in_b, choice, step.sizes, depths)
-            : kernel.overlapping_boxes(placed.placement, in_a, in_b, choice, step.sizes);
+    step.pairs = kSearch == Search::first
+                     ? tests.depths(placed.placement, in_a, in_b, choice, step.sizes, depths)
+                     : tests.overlapping(placed.placement, in_a, in_b, choice, step.sizes);
 }
 
 inline unsigned first_of(kernels::BoxPairs pairs) noexcept {

@@ -54,15 +54,36 @@ void ask_about_shapes(const Model& m, const Pose& turn, Workspace& workspace) {
     static_cast<void>(ray_hits(m, {{0, 0, 5}, {0.1, 0, 1}}, workspace));
 }
 
+/// The same for what opening lets through of swept spheres: centres, and sizes that are
+/// not negative, of sides that the kind has.
+void spoil_swept(AlignedBytes& file, std::mt19937& random) {
+    constexpr std::array<float, 6> kAbsurd = {3e38F, 0, 1, 1e-38F, 1e-40F, 2};
+    const auto entry = format::find_section(file.span(), SectionId::swept_nodes).value();
+    const auto kind =
+        static_cast<std::size_t>(format::swept_kind(format::read_header(file.span()).flags));
+    for (std::uint64_t at = 0; at < entry.count * entry.element_size; at += sizeof(float)) {
+        const std::uint64_t row = at % entry.element_size / (sizeof(float) * format::kBvhWidth);
+        const bool is_size = row == 3 || (row == 7 && kind > 0) || (row == 11 && kind > 1);
+        if (random() % 2 == 0 || (row > 2 && !is_size)) continue;
+        const float sign = row < 3 && random() % 2 == 0 ? -1 : 1;
+        const float x = sign * kAbsurd[random() % kAbsurd.size()];
+        std::memcpy(file.span().data() + entry.offset + at, &x, sizeof x);
+    }
+}
+
 // A file whose checksums are right may still hold boxes that make no sense: the
 // answers are then worth nothing, but every question ends and stays in the file.
 TEST(AbsurdBoxes, EveryQuestionEnds) {
     std::mt19937 random(1);
     for (int round = 0; round < 200; ++round) {
         const TestMesh mesh = random_soup(random(), 150, 0.3);
-        AlignedBytes file = bake_tiny(mesh.positions, mesh.triangles);
+        const auto bounds = static_cast<build::BvhBounds>(1 + round % 4);
+        AlignedBytes file = bake_tiny(mesh.positions, mesh.triangles, {.bounds = bounds});
         if (round % 3 != 0) spoil(file, SectionId::bvh_nodes, random);
-        if (round % 3 != 1) spoil(file, SectionId::oriented_nodes, random);
+        if (round % 3 != 1 && bounds == build::BvhBounds::oriented) {
+            spoil(file, SectionId::oriented_nodes, random);
+        }
+        if (round % 3 != 1 && bounds > build::BvhBounds::oriented) spoil_swept(file, random);
         reseal(file.span());
         const auto model = Model::open(file.span());
         ASSERT_TRUE(model) << model.error().message;
