@@ -105,14 +105,18 @@ BoxPairs near_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxe
     BoxPairs pairs = 0;
     for (unsigned rest = choice.of_b; rest != 0;) {
         const RowPair at = take_rows<R>(rest);
-        R squared = max(squared_gap(boxes_a, along_a, at), squared_gap(turned_a, along_b, at));
-        if (oriented) {
+        const R squared =
+            max(squared_gap(boxes_a, along_a, at), squared_gap(turned_a, along_b, at));
+        R gap = max(root(squared) * R(kGapRounding), R::spread(begins, at) - ends);
+        unsigned near = wanted & ~bits(greater(gap, R(reach.limit)));
+        if (oriented && near != 0) {
             const FaceGaps<R> face = oriented_gaps(oriented_a, oriented_b, at, p);
-            squared = max(squared, max(squared_length(face.of_a), squared_length(face.of_b)));
+            const R length = root(max(squared_length(face.of_a), squared_length(face.of_b)));
+            gap = max(gap, length * R(kGapRounding));
+            near = wanted & ~bits(greater(gap, R(reach.limit)));
         }
-        const R gap = max(root(squared) * R(kGapRounding), R::spread(begins, at) - ends);
         gap.store_rows(gaps.value[at.first], gaps.value[at.second]);
-        pairs |= pairs_in_rows<R>(wanted & ~bits(greater(gap, R(reach.limit))), at);
+        pairs |= pairs_in_rows<R>(near, at);
     }
     return pairs;
 }
