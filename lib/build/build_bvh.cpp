@@ -389,12 +389,7 @@ Bvh build_bvh(std::span<const Double3> positions, std::span<const Triangle> tria
     bvh.nodes = make_nodes(items);
     make_leaves(bvh, positions, triangles, options.parallel_for);
     if (options.bounds != BvhBounds::aligned) make_oriented(bvh, options.parallel_for);
-    if (options.bounds > BvhBounds::oriented) {
-        const int sides =
-            static_cast<int>(options.bounds) - static_cast<int>(BvhBounds::swept_points);
-        make_swept(bvh, static_cast<format::SweptKind>(sides), options.parallel_for);
-        bvh.oriented_nodes.clear();
-    }
+    if (options.bounds > BvhBounds::oriented) make_swept(bvh, options.bounds, options.parallel_for);
     return bvh;
 }
 

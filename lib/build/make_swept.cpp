@@ -233,7 +233,9 @@ void set_sphere(SweptNode& node, std::size_t box, const OrientedNode& oriented,
 
 }  // namespace
 
-void make_swept(Bvh& bvh, SweptKind kind, const ParallelFor& parallel_for) {
+void make_swept(Bvh& bvh, BvhBounds bounds, const ParallelFor& parallel_for) {
+    const auto kind = static_cast<SweptKind>(static_cast<std::uint32_t>(bounds) -
+                                             static_cast<std::uint32_t>(BvhBounds::swept_points));
     const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
     bvh.swept_kind = kind;
     bvh.swept_nodes.assign(shape.node_count, SweptNode{});
@@ -261,6 +263,7 @@ void make_swept(Bvh& bvh, SweptKind kind, const ParallelFor& parallel_for) {
                    });
         leaves_per_box *= kBvhWidth;
     }
+    bvh.oriented_nodes.clear();
 }
 
 }  // namespace cdprep::build

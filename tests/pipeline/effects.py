@@ -16,7 +16,7 @@ from shared_models import bake, must, run
 GEOMETRY = {"positions_f32", "triangles", "bvh_nodes", "degenerate_bits", "bounds", "provenance"}
 SOURCE = {"source_triangle", "source_vertex", "source_face", "group_runs", "group_names",
           "material_runs", "material_names", "instances", "instance_names"}
-PAIR = {"bvh_leaves", "oriented_nodes"}
+PAIR = {"bvh_leaves", "oriented_nodes", "swept_nodes"}
 # What each effect may hold; sections that would say nothing are left out.
 ALLOWED = {
     "collide": GEOMETRY | PAIR | {"components"}, "inside": GEOMETRY | {"components"},

@@ -12,6 +12,7 @@
 #include "interrupt.h"
 #include "pipeline.h"
 #include "progress.h"
+#include "report/bounds_name.h"
 
 namespace cdprep::cli {
 namespace {
@@ -132,11 +133,12 @@ Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
     return is_interrupted() ? Exit::interrupted : worst;
 }
 
-/// Of kBoundsNames; the command line lets no other name through.
+/// Of report::kBoundsNames; the command line lets no other name through.
 build::BvhBounds bounds_named(const std::string& name) {
-    const auto* at = std::find_if(kBoundsNames.begin(), kBoundsNames.end(),
-                                  [&](const BoundsName& known) { return name == known.name; });
-    return at == kBoundsNames.end() ? build::BvhOptions{}.bounds : at->bounds;
+    const auto* at =
+        std::find_if(report::kBoundsNames.begin(), report::kBoundsNames.end(),
+                     [&](const report::BoundsName& known) { return name == known.name; });
+    return at == report::kBoundsNames.end() ? build::BvhOptions{}.bounds : at->bounds;
 }
 
 Exit run(Arguments& arguments) {

@@ -22,6 +22,7 @@
 #include "mesh/topology.h"
 #include "mesh/tree_order.h"
 #include "mesh/weld.h"
+#include "report/bounds_name.h"
 #include "report/provenance.h"
 #include "write/write_file.h"
 
@@ -176,16 +177,9 @@ format::FileHeader facts_of(const mesh::TriangleSoup& soup, const mesh::Mesh& me
     return facts;
 }
 
-const char* bounds_name(build::BvhBounds bounds) {
-    for (const BoundsName& known : kBoundsNames) {
-        if (known.bounds == bounds) return known.name;
-    }
-    return "";
-}
-
 std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash) {
     return report::provenance_json({CDPREP_VERSION, options.effects.names, options.normalize,
-                                    options.weld_distance, bounds_name(options.bounds),
+                                    options.weld_distance, report::bounds_name(options.bounds),
                                     source_hash});
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <functional>
 
@@ -13,19 +12,6 @@
 #include "report/bake_report.h"
 
 namespace cdprep::cli {
-
-/// How --bounds calls what a bake bounds its triangles with.
-struct BoundsName {
-    const char* name;
-    build::BvhBounds bounds;
-};
-inline constexpr std::array<BoundsName, 5> kBoundsNames = {{
-    {"aabb", build::BvhBounds::aligned},
-    {"obb", build::BvhBounds::oriented},
-    {"pss", build::BvhBounds::swept_points},
-    {"lss", build::BvhBounds::swept_lines},
-    {"rss", build::BvhBounds::swept_rectangles},
-}};
 
 struct BakeOptions {
     Effects effects;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cdprep/format/sections.h"
+#include "report/bounds_name.h"
 
 namespace cdprep::report {
 namespace {
@@ -53,6 +54,8 @@ std::string info_text(const std::string& file, const Model& model,
     text += std::string("surface questions: exact; positions ") + precision(model) + "\n";
     text += model.is_closed() ? "solid questions: exact, the mesh is closed\n"
                               : "solid questions: unknown, the mesh is open\n";
+    text +=
+        std::string("questions about pairs: bounded by ") + bounds_name(bounds_of(model)) + "\n";
     text += "section                  offset        bytes\n";
     for (const format::SectionEntry& entry : sections) {
         std::array<char, 96> line{};
@@ -78,6 +81,7 @@ std::string info_json(const std::string& file, const Model& model,
         {"normalized", is_normalized(model)},
         {"metres_per_unit", model.header().metres_per_unit},
         {"up_axis", up_axis(model)},
+        {"bounds", bounds_name(bounds_of(model))},
         {"guarantees", {{"surface", "exact"}, {"solid", model.is_closed() ? "exact" : "unknown"}}},
     };
     json["sections"] = nlohmann::ordered_json::array();

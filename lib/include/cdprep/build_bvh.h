@@ -54,6 +54,12 @@ enum class BvhBounds : std::uint8_t {
     swept_rectangles,  ///< rectangles with a radius
 };
 
+/// Returns those whose swept spheres are of one kind.
+[[nodiscard]] constexpr BvhBounds swept_bounds(format::SweptKind kind) noexcept {
+    return static_cast<BvhBounds>(static_cast<std::uint32_t>(BvhBounds::swept_points) +
+                                  static_cast<std::uint32_t>(kind));
+}
+
 struct BvhOptions {
     ParallelFor parallel_for = serial_for;
     BvhBounds bounds = BvhBounds::oriented;
