@@ -47,8 +47,8 @@ struct OverlapOptions {
 /// Exact: the answer is that of exact arithmetic on the vertices as `placement`
 /// moves them (Pose, level E1), the same on every machine. Both models need
 /// bvh_nodes and bvh_leaves and, unless Model::has_exact_leaves(), triangles and
-/// positions; oriented_nodes make it faster. Without source_triangle the numbering
-/// is that of the tree order. An empty model overlaps nothing.
+/// positions; oriented_nodes or swept_nodes make it faster. Without source_triangle the
+/// numbering is that of the tree order. An empty model overlaps nothing.
 ///
 /// Costs O(log n + pairs) for compact surfaces, O(n m) at worst. Never
 /// allocates. If only "do they touch?" matters, collide() stops at the first.
