@@ -115,12 +115,15 @@ struct F16 {
     static F16 load(const float* p) noexcept {
         return _mm512_broadcast_f32x8(_mm256_loadu_ps(p));
     }
-    /// One of eight for the lower lanes, one for the upper.
+    /// One of eight for the lower lanes, one for the upper: a load and a permutation, where
+    /// two broadcasts would be two loads and a blend.
     template <class Rows>
     static F16 spread(const float* p, const Rows& at) noexcept {
         constexpr __mmask16 kUpper = 0xff00;
-        return _mm512_mask_broadcastss_ps(_mm512_set1_ps(p[at.first]), kUpper,
-                                          _mm_load_ss(p + at.second));
+        const __m512i lower = _mm512_set1_epi32(static_cast<std::int32_t>(at.first));
+        const __m512i index =
+            _mm512_mask_set1_epi32(lower, kUpper, static_cast<std::int32_t>(at.second));
+        return _mm512_permutexvar_ps(index, _mm512_castps256_ps512(_mm256_loadu_ps(p)));
     }
     /// For each bit that is set, one after the other: first + i for bit i, second + i
     /// for bit 8 + i. May write sixteen.
