@@ -178,19 +178,18 @@ MiddleGap<R> gap_between_nearest(const SweptSpheres<R>& a, const SweptPair<R>& p
         for (std::size_t k = 0; k < kSides; ++k) at.a[k] = -at.a[k];
         R w[3];
         for (std::size_t i = 0; i < 3; ++i) {
+            // B's points are known before A's: their products go first.
             w[i] = pair.d[i];
-            for (std::size_t k = 0; k < kSides; ++k) {
-                w[i] = fma(at.b[k], pair.axis_b[k][i], w[i]);
-                w[i] = fma(at.a[k], a.axis[k][i], w[i]);
-            }
+            for (std::size_t k = 0; k < kSides; ++k) w[i] = fma(at.b[k], pair.axis_b[k][i], w[i]);
+            for (std::size_t k = 0; k < kSides; ++k) w[i] = fma(at.a[k], a.axis[k][i], w[i]);
         }
-        R reach = a.half[0] * abs(dot(w, a.axis[0]));
-        reach = fma(pair.half_b[0], abs(dot(w, pair.axis_b[0])), reach);
+        R reach_a = a.half[0] * abs(dot(w, a.axis[0]));
+        R reach_b = pair.half_b[0] * abs(dot(w, pair.axis_b[0]));
         if constexpr (kSides == 2) {
-            reach = fma(a.half[1], abs(dot(w, a.axis[1])), reach);
-            reach = fma(pair.half_b[1], abs(dot(w, pair.axis_b[1])), reach);
+            reach_a = fma(a.half[1], abs(dot(w, a.axis[1])), reach_a);
+            reach_b = fma(pair.half_b[1], abs(dot(w, pair.axis_b[1])), reach_b);
         }
-        return {dot(w, pair.d) - reach, dot(w, w)};
+        return {dot(w, pair.d) - (reach_a + reach_b), dot(w, w)};
     }
 }
 
