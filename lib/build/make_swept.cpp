@@ -231,11 +231,15 @@ void set_sphere(SweptNode& node, std::size_t box, const OrientedNode& oriented,
     node.radius[box] = radius_of(node, box, corners, exact);
 }
 
+SweptKind kind_of(BvhBounds bounds) {
+    if (bounds == BvhBounds::swept_points) return SweptKind::point;
+    return bounds == BvhBounds::swept_lines ? SweptKind::line : SweptKind::rectangle;
+}
+
 }  // namespace
 
 void make_swept(Bvh& bvh, BvhBounds bounds, const ParallelFor& parallel_for) {
-    const auto kind = static_cast<SweptKind>(static_cast<std::uint32_t>(bounds) -
-                                             static_cast<std::uint32_t>(BvhBounds::swept_points));
+    const SweptKind kind = kind_of(bounds);
     const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
     bvh.swept_kind = kind;
     bvh.swept_nodes.assign(shape.node_count, SweptNode{});
@@ -263,7 +267,7 @@ void make_swept(Bvh& bvh, BvhBounds bounds, const ParallelFor& parallel_for) {
                    });
         leaves_per_box *= kBvhWidth;
     }
-    bvh.oriented_nodes.clear();
+    if (bounds != BvhBounds::oriented_and_swept) bvh.oriented_nodes.clear();
 }
 
 }  // namespace cdprep::build

@@ -162,8 +162,11 @@ inline void prefetch_children(const Tree& tree, const TreePlace& below, unsigned
     for (; bits != 0; bits &= bits - 1) {
         const std::uint32_t index = first + static_cast<std::uint32_t>(std::countr_zero(bits));
         prefetch(&tree.nodes[index]);
-        if (tree.oriented != nullptr) prefetch(&tree.oriented[index]);
-        if (tree.swept != nullptr) prefetch_swept(tree.swept[index], tree.swept_kind);
+        if (tree.oriented != nullptr) {
+            prefetch(&tree.oriented[index]);
+        } else if (tree.swept != nullptr) {
+            prefetch_swept(tree.swept[index], tree.swept_kind);
+        }
     }
 }
 
@@ -190,11 +193,19 @@ inline kernels::NodeBoxes node_boxes(const Tree& tree, const TestedBoxes& side) 
     return {side.node->lower[0].data(), oriented, swept};
 }
 
+/// Which bounds a question takes where both models have both.
+enum class Prefer : std::uint8_t {
+    oriented,  ///< separates with less work
+    swept,     ///< comes closer to the distance
+};
+
 /// The tests that suit what both models have: swept spheres of one kind, or else what
 /// Table's own make of the boxes.
-inline kernels::BoundTests tests_for(const Tree& a, const Tree& b) noexcept {
+inline kernels::BoundTests tests_for(const Tree& a, const Tree& b, Prefer prefer) noexcept {
     const kernels::Table& kernel = kernels::active();
-    if (a.swept != nullptr && b.swept != nullptr && a.swept_kind == b.swept_kind) {
+    const bool oriented = a.oriented != nullptr && b.oriented != nullptr;
+    const bool swept = a.swept != nullptr && b.swept != nullptr && a.swept_kind == b.swept_kind;
+    if (swept && (prefer == Prefer::swept || !oriented)) {
         return kernel.swept[static_cast<std::size_t>(a.swept_kind)];
     }
     return {kernel.overlapping_boxes, kernel.overlap_depths, kernel.near_boxes};
@@ -216,7 +227,7 @@ inline void prefetch_step(const Tree& a, const Tree& b, const OpenStep& step) no
 template <Search kSearch>
 void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed, const PendingPair& pair,
                const Descent& descent, OpenStep& step, kernels::BoxPairFloats& depths) noexcept {
-    const kernels::BoundTests tests = tests_for(a, b);
+    const kernels::BoundTests tests = tests_for(a, b, Prefer::oriented);
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     const kernels::BoxChoice choice = {chosen(side_a), chosen(side_b),

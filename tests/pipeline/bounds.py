@@ -14,7 +14,8 @@ from killed_bake import digest, write_sheet
 from shared_models import answers, bake, must, run, shared_models_if_there
 
 SECTION = {"aabb": set(), "obb": {"oriented_nodes"}, "pss": {"swept_nodes"},
-           "lss": {"swept_nodes"}, "rss": {"swept_nodes"}}
+           "lss": {"swept_nodes"}, "rss": {"swept_nodes"},
+           "obb+rss": {"oriented_nodes", "swept_nodes"}}
 QUESTIONS = (["overlap"], ["collide"], ["distance"], ["within", "--tolerance", "0.01"])
 
 
@@ -61,7 +62,7 @@ def check(program, path, folder):
         name, *options = question
         truth = without_timing(answers(program, name, baked["aabb"], baked["aabb"], *poses,
                                        *options))
-        for a, b in [(x, x) for x in SECTION] + [("rss", "lss"), ("obb", "rss")]:
+        for a, b in [(x, x) for x in SECTION] + [("rss", "lss"), ("obb", "rss"), ("obb+rss", "rss")]:
             found = without_timing(answers(program, name, baked[a], baked[b], *poses, *options))
             must(len(found) == len(truth), f"{name}: {len(found)} lines with {a}, {b}")
             for one, other in zip(found, truth):

@@ -158,9 +158,10 @@ AlignedBytes bake_tiny(std::span<const Double3> positions, std::span<const Trian
     }
     all.push_back(section(SectionId::components, components(mesh, bvh.order)));
     all.push_back(section(SectionId::bvh_leaves, bvh.leaves));
-    if (options.bounds == build::BvhBounds::oriented) {
+    if (!bvh.oriented_nodes.empty()) {
         all.push_back(section(SectionId::oriented_nodes, bvh.oriented_nodes));
-    } else if (options.bounds > build::BvhBounds::oriented) {
+    }
+    if (!bvh.swept_nodes.empty()) {
         all.push_back(section(SectionId::swept_nodes, bvh.swept_nodes));
     }
     std::erase_if(all, [&](const TinySection& s) { return options.leave_out.contains(s.id); });

@@ -194,7 +194,7 @@ void add_bake(CLI::App& app, Exit& exit) {
                      "Besides aligned boxes, what bounds triangles in pair questions: aabb "
                      "(nothing), obb (oriented boxes), pss, lss or rss (spheres swept over a "
                      "point, a line, a rectangle). No answer depends on it")
-        ->check(CLI::IsMember({"aabb", "obb", "pss", "lss", "rss"}))
+        ->check(CLI::IsMember({"aabb", "obb", "pss", "lss", "rss", "obb+rss"}))
         ->capture_default_str();
     command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
         ->check(CLI::Range(0, kMostThreads));

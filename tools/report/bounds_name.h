@@ -13,12 +13,13 @@ struct BoundsName {
     const char* name;
     build::BvhBounds bounds;
 };
-inline constexpr std::array<BoundsName, 5> kBoundsNames = {{
+inline constexpr std::array<BoundsName, 6> kBoundsNames = {{
     {"aabb", build::BvhBounds::aligned},
     {"obb", build::BvhBounds::oriented},
     {"pss", build::BvhBounds::swept_points},
     {"lss", build::BvhBounds::swept_lines},
     {"rss", build::BvhBounds::swept_rectangles},
+    {"obb+rss", build::BvhBounds::oriented_and_swept},
 }};
 
 [[nodiscard]] constexpr const char* bounds_name(build::BvhBounds bounds) noexcept {
@@ -30,11 +31,12 @@ inline constexpr std::array<BoundsName, 5> kBoundsNames = {{
 
 /// Of an open model, by the sections it has.
 [[nodiscard]] inline build::BvhBounds bounds_of(const Model& model) noexcept {
-    if (model.sections().contains(SectionId::swept_nodes)) {
-        return build::swept_bounds(format::swept_kind(model.header().flags));
+    const bool oriented = model.sections().contains(SectionId::oriented_nodes);
+    if (!model.sections().contains(SectionId::swept_nodes)) {
+        return oriented ? build::BvhBounds::oriented : build::BvhBounds::aligned;
     }
-    return model.sections().contains(SectionId::oriented_nodes) ? build::BvhBounds::oriented
-                                                                : build::BvhBounds::aligned;
+    if (oriented) return build::BvhBounds::oriented_and_swept;
+    return build::swept_bounds(format::swept_kind(model.header().flags));
 }
 
 }  // namespace cdprep::report

@@ -12,9 +12,9 @@ namespace {
 
 using build::BvhBounds;
 
-constexpr std::array<BvhBounds, 5> kAll = {BvhBounds::aligned, BvhBounds::oriented,
-                                           BvhBounds::swept_points, BvhBounds::swept_lines,
-                                           BvhBounds::swept_rectangles};
+constexpr std::array<BvhBounds, 6> kAll = {
+    BvhBounds::aligned,     BvhBounds::oriented,         BvhBounds::swept_points,
+    BvhBounds::swept_lines, BvhBounds::swept_rectangles, BvhBounds::oriented_and_swept};
 
 /// Everything that is asked of one pair of models.
 struct Answers {
