@@ -16,6 +16,7 @@ from shared_models import answers, bake, must, run, shared_models_if_there
 SECTION = {"aabb": set(), "obb": {"oriented_nodes"}, "pss": {"swept_nodes"},
            "lss": {"swept_nodes"}, "rss": {"swept_nodes"},
            "obb+rss": {"oriented_nodes", "swept_nodes"}}
+BOUNDS = {"oriented_nodes", "swept_nodes"}
 QUESTIONS = (["overlap"], ["collide"], ["distance"], ["within", "--tolerance", "0.01"])
 
 
@@ -48,7 +49,7 @@ def check(program, path, folder):
         baked[name] = folder / f"{name}.cdp.h5"
         bake(program, path, "-o", baked[name], "--normalize", "--bounds", name, "-j", 1)
         found = sections(program, baked[name], name)
-        must({"oriented_nodes", "swept_nodes"} & set(found) == expected, f"{name}: {set(found)}")
+        must(BOUNDS & set(found) == expected, f"{name}: {set(found)}")
         for section in expected:
             must(found[section] == 2 * found["bvh_nodes"], f"{name}: {found}")
         other = folder / "threads.cdp.h5"
@@ -87,6 +88,12 @@ def main():
     for path in [folder / "sheet.off", *shared_models_if_there("seed/bunny.ply")]:
         hits.append(check(program, path, folder))
         must(0.2 * count < hits[-1] < 0.8 * count, f"{path.name}: {hits[-1]} of {count} collide")
+
+    for effects, chosen in (("collide,overlap", "obb"), ("collide,within", "obb+rss"),
+                            ("distance", "obb+rss")):
+        auto = folder / "auto.cdp.h5"
+        bake(program, folder / "sheet.off", "-o", auto, "--effects", effects)
+        must(set(sections(program, auto, chosen)) & BOUNDS == SECTION[chosen], effects)
 
     done = run(program, "bake", folder / "sheet.off", "--bounds", "sphere")
     must(done.returncode == 2 and "rss" in done.stderr, f"{done.returncode}: {done.stderr}")

@@ -30,7 +30,7 @@ struct Arguments {
     std::string effects;
     std::string format = "text";
     std::string progress = "auto";
-    std::string bounds = "obb";
+    std::string bounds = "auto";
     std::size_t threads = 0;
     bool timings = false;
     std::uint64_t import_memory = import::ImportOptions{}.memory_bytes;
@@ -133,12 +133,21 @@ Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
     return is_interrupted() ? Exit::interrupted : worst;
 }
 
-/// Of report::kBoundsNames; the command line lets no other name through.
-build::BvhBounds bounds_named(const std::string& name) {
+/// What wins for the questions that a bake is to serve: swept rectangles come nearer to
+/// a distance, and nothing else uses them.
+build::BvhBounds bounds_for(const Effects& effects) {
+    const bool measures =
+        std::any_of(effects.names.begin(), effects.names.end(),
+                    [](const std::string& name) { return name == "distance" || name == "within"; });
+    return measures ? build::BvhBounds::oriented_and_swept : build::BvhBounds::oriented;
+}
+
+/// Of kBoundsNames, or "auto"; the command line lets no other name through.
+build::BvhBounds bounds_named(const std::string& name, const Effects& effects) {
     const auto* at =
         std::find_if(report::kBoundsNames.begin(), report::kBoundsNames.end(),
                      [&](const report::BoundsName& known) { return name == known.name; });
-    return at == report::kBoundsNames.end() ? build::BvhOptions{}.bounds : at->bounds;
+    return at == report::kBoundsNames.end() ? bounds_for(effects) : at->bounds;
 }
 
 Exit run(Arguments& arguments) {
@@ -161,7 +170,7 @@ Exit run(Arguments& arguments) {
         }
     }
     arguments.options.effects = effects.value();
-    arguments.options.bounds = bounds_named(arguments.bounds);
+    arguments.options.bounds = bounds_named(arguments.bounds, effects.value());
     arguments.options.import.memory_bytes = arguments.import_memory;
     arguments.options.import.file_bytes = arguments.import_file_size;
     arguments.options.import.time = std::chrono::seconds(arguments.import_seconds);
@@ -193,8 +202,9 @@ void add_bake(CLI::App& app, Exit& exit) {
         ->add_option("--bounds", arguments->bounds,
                      "Besides aligned boxes, what bounds triangles in pair questions: aabb "
                      "(nothing), obb (oriented boxes), pss, lss or rss (spheres swept over a "
-                     "point, a line, a rectangle). No answer depends on it")
-        ->check(CLI::IsMember({"aabb", "obb", "pss", "lss", "rss", "obb+rss"}))
+                     "point, a line, a rectangle), obb+rss, or auto: obb+rss for distance and "
+                     "within, else obb. No answer depends on it")
+        ->check(CLI::IsMember({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
         ->capture_default_str();
     command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
         ->check(CLI::Range(0, kMostThreads));

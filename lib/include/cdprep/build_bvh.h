@@ -46,16 +46,16 @@ struct Bvh {
 
 /// What questions about two models look at besides the axis-aligned boxes. The answers
 /// are the same with all. Oriented boxes are the fastest for overlap and collisions, by
-/// up to a tenth, swept rectangles for distance and tolerance, by one to two; the others
-/// lose nearly everywhere (tests/bench/results/xeon_avx512/bounds.csv). A tree with swept
-/// ones takes 1.6 to 4 times as long to build.
+/// little, swept rectangles for distance and tolerance, by 1.1 to 1.3 times; the others
+/// lose nearly everywhere (FORMAT.md has the table). A tree with swept ones takes 1.5 to 4
+/// times as long to build.
 enum class BvhBounds : std::uint8_t {
     aligned,           ///< nothing: 3.4 bytes a triangle
     oriented,          ///< oriented boxes: 6.9 bytes a triangle more
     swept_points,      ///< spheres: as much, of which a third is read
     swept_lines,       ///< capsules: two thirds
     swept_rectangles,  ///< rectangles with a radius
-    /// Both, 13.7 bytes: the boxes for overlap and collisions, the rectangles for distance.
+    /// Both, 13.7 bytes more: the boxes for overlap and collisions, the rectangles for distance.
     oriented_and_swept,
 };
 
