@@ -121,9 +121,9 @@ std::size_t NearestSearch::push_children(const Tree& a, const Tree& b, const Pen
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     kernels::BoxPairFloats gaps;
-    kernels::BoxPairs pairs =
-        tests_for(a, b, Prefer::swept).near(placement, node_boxes(a, side_a), node_boxes(b, side_b),
-                             {chosen(side_a), chosen(side_b), nullptr}, reach_, gaps);
+    kernels::BoxPairs pairs = tests_for(a, b, Prefer::swept)
+                                  .near(placement, node_boxes(a, side_a), node_boxes(b, side_b),
+                                        {chosen(side_a), chosen(side_b), nullptr}, reach_, gaps);
     const std::uint64_t base = PendingPair{side_a.first_below, side_b.first_below}.packed();
     for (; pairs != 0; pairs &= pairs - 1) {
         const auto bit = static_cast<unsigned>(std::countr_zero(pairs));
