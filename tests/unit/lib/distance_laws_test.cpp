@@ -113,7 +113,11 @@ Case random_case(std::mt19937& random, int round, int triangles = 10) {
 
 // The oracle: every pair of triangles in rational arithmetic; squares are compared.
 TEST(DistanceLaws, TheIntervalHoldsTheTruthAndIsNarrow) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    constexpr int kRounds = 500;  // many times slower there, and nothing new to see
+#else
     constexpr int kRounds = 10'000;
+#endif
     std::mt19937 random(20261121);
     int apart = 0;
     for (int round = 0; round < kRounds; ++round) {
@@ -138,7 +142,7 @@ TEST(DistanceLaws, TheIntervalHoldsTheTruthAndIsNarrow) {
         apart += touch ? 0 : 1;
     }
     EXPECT_GT(apart, kRounds / 2);
-    EXPECT_LT(apart, kRounds - 500);
+    EXPECT_LT(apart, kRounds * 19 / 20);
 }
 
 TEST(DistanceLaws, PermittedErrorsAreKept) {
