@@ -2,131 +2,162 @@
 #include "make_leaves.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
-#include <cmath>
-#include <limits>
 
 #include "chunks.h"
+#include "frame_map.h"
+#include "lanes.h"
+#include "prefetch.h"
 
 namespace cdprep::build {
 namespace {
 
 using format::BvhLeaf;
+using format::BvhNode;
+using format::BvhShape;
 using format::Double3;
 using format::kBvhWidth;
 using format::Triangle;
 
-/// Exponents of frames whose scale is an ordinary float.
-constexpr std::int32_t kMaxExactExponent = 100;
+/// One coordinate of the corners of a leaf, corner by corner, lanes past the last
+/// triangle repeating it.
+using CornerRow = Lanes<double, 3 * kBvhWidth>;
+using LeafCorners = std::array<CornerRow, 3>;
 
-using Point = std::array<double, 3>;
+struct Bound {
+    double lower;
+    double upper;
+};
 
-/// The corners of one leaf, lanes past the last triangle repeating it.
-using LeafCorners = std::array<std::array<Point, 3>, kBvhWidth>;
-
-bool is_float(const Double3& p) {
-    const auto same = [](double x) { return static_cast<double>(static_cast<float>(x)) == x; };
-    return same(p.x) && same(p.y) && same(p.z);
-}
-
-bool all_floats(std::span<const Double3> positions, std::span<const Triangle> triangles,
-                const ParallelFor& parallel_for) {
-    std::atomic<bool> all = true;
-    for_chunks(triangles.size(), kItemsPerTask, parallel_for,
-               [&](std::size_t first, std::size_t last) {
-                   bool good = true;
-                   for (std::size_t i = first; i < last; ++i) {
-                       for (const std::uint32_t vertex : triangles[i].vertex) {
-                           good = good && is_float(positions[vertex]);
-                       }
-                   }
-                   if (!good) all = false;
-               });
-    return all;
-}
-
-float float_above(double x) {
-    const auto rounded = static_cast<float>(x);
-    return rounded < x ? std::nextafter(rounded, std::numeric_limits<float>::infinity()) : rounded;
+Bound bound_of(const CornerRow& row) {
+    Lanes<double, kBvhWidth> lower;
+    std::copy_n(row.begin(), kBvhWidth, lower.begin());
+    Lanes<double, kBvhWidth> upper = lower;
+    for (std::size_t corner = 1; corner < 3; ++corner) {
+        for_lanes<kBvhWidth>([&](std::size_t lane) {
+            const double x = row[corner * kBvhWidth + lane];
+            lower[lane] = x < lower[lane] ? x : lower[lane];
+            upper[lane] = upper[lane] < x ? x : upper[lane];
+        });
+    }
+    return {least(lower), greatest(upper)};
 }
 
 /// Where a leaf's corners are kept: in model coordinates, or in frame coordinates.
 class LeafMaker {
 public:
-    LeafMaker(const Frame& frame, bool exact) : frame_(frame), exact_(exact) {}
+    LeafMaker(const Frame& frame, bool exact) : map_(frame), exact_(exact) {}
 
-    BvhLeaf make(const LeafCorners& corners, std::uint32_t count) const {
-        BvhLeaf leaf{};
+    /// Writes one leaf and its box.
+    void make(LeafCorners& corners, std::uint32_t count, BvhLeaf& leaf, BvhNode& node,
+              std::size_t box) const {
         leaf.count = count;
+        leaf.reserved = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            double lower = std::numeric_limits<double>::infinity();
-            double upper = -lower;
-            for (const auto& triangle : corners) {
-                for (const Point& p : triangle) {
-                    const double x = stored(p[axis], axis);
-                    lower = std::min(lower, x);
-                    upper = std::max(upper, x);
-                }
+            CornerRow& row = corners[axis];
+            Bound bound = bound_of(row);
+            node.lower[axis][box] = map_.around(bound.lower, axis).lower;
+            node.upper[axis][box] = map_.around(bound.upper, axis).upper;
+            if (!exact_) {
+                for (double& x : row) x = map_.near(x, axis);
+                bound = {map_.near(bound.lower, axis), map_.near(bound.upper, axis)};
             }
-            const auto origin = static_cast<float>(0.5 * lower + 0.5 * upper);
+            const auto origin = static_cast<float>(0.5 * bound.lower + 0.5 * bound.upper);
             leaf.origin[axis] = origin;
-            fill_axis(leaf, corners, axis);
-            const double reach = std::max(upper - double{origin}, double{origin} - lower);
+            fill_axis(leaf, row, axis);
+            const double reach =
+                std::max(bound.upper - double{origin}, double{origin} - bound.lower);
             // The difference of two doubles is off by half an ulp at most.
             const double enlarged = reach * (1 + 0x1p-50);
-            leaf.half[axis] =
-                float_above(exact_ ? std::ldexp(enlarged, frame_.exponent) : enlarged);
+            leaf.half[axis] = float_above(exact_ ? map_.scaled(enlarged) : enlarged);
         }
-        return leaf;
     }
 
 private:
-    double stored(double x, std::size_t axis) const {
-        return exact_ ? x : std::ldexp(x - origin(axis), frame_.exponent);
-    }
-    double origin(std::size_t axis) const {
-        return axis == 0 ? frame_.origin.x : axis == 1 ? frame_.origin.y : frame_.origin.z;
-    }
-    void fill_axis(BvhLeaf& leaf, const LeafCorners& corners, std::size_t axis) const {
+    void fill_axis(BvhLeaf& leaf, const CornerRow& row, std::size_t axis) const {
         const double taken_off = exact_ ? 0.0 : double{leaf.origin[axis]};
-        for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                leaf.corner[i][axis][lane] =
-                    static_cast<float>(stored(corners[lane][i][axis], axis) - taken_off);
-            }
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const double* from = &row[corner * kBvhWidth];
+            Lanes<float, kBvhWidth>& to = leaf.corner[corner][axis];
+            for_lanes<kBvhWidth>(
+                [&](std::size_t lane) { to[lane] = static_cast<float>(from[lane] - taken_off); });
         }
     }
 
-    Frame frame_;
+    FrameMap map_;
     bool exact_;
 };
+
+/// Asks for what leaves ahead will read: the tree order is not that of the memory.
+class Ahead {
+public:
+    Ahead(std::span<const std::uint32_t> order, std::span<const Double3> positions,
+          std::span<const Triangle> triangles)
+        : order_(order), positions_(positions), triangles_(triangles) {}
+
+    void ask_for(std::size_t leaf) const {
+        each_of(leaf + 2 * kLeavesAhead, [](const Triangle& t) { prefetch(&t); });
+        each_of(leaf + kLeavesAhead, [&](const Triangle& t) {
+            for (const std::uint32_t vertex : t.vertex) prefetch(&positions_[vertex]);
+        });
+    }
+
+private:
+    static constexpr std::size_t kLeavesAhead = 2;
+
+    template <class Ask>
+    void each_of(std::size_t leaf, const Ask& ask) const {
+        const std::size_t begin = leaf * kBvhWidth;
+        if (begin + kBvhWidth > order_.size()) return;
+        for (const std::uint32_t number : order_.subspan(begin, kBvhWidth)) ask(triangles_[number]);
+    }
+
+    std::span<const std::uint32_t> order_;
+    std::span<const Double3> positions_;
+    std::span<const Triangle> triangles_;
+};
+
+/// Boxes past the last leaf.
+void set_unused_boxes(BvhNode& node, std::size_t first) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t box = first; box < kBvhWidth; ++box) {
+            node.lower[axis][box] = 1;
+            node.upper[axis][box] = -1;
+        }
+    }
+}
 
 }  // namespace
 
 void make_leaves(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
                  const ParallelFor& parallel_for) {
-    bvh.exact_leaves = std::abs(bvh.frame.exponent) <= kMaxExactExponent &&
-                       all_floats(positions, triangles, parallel_for);
     const LeafMaker maker(bvh.frame, bvh.exact_leaves);
     const std::size_t count = bvh.order.size();
-    bvh.leaves.resize((count + kBvhWidth - 1) / kBvhWidth);
+    const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(count));
+    BvhNode* const lowest = &bvh.nodes[shape.first[0]];
     for_chunks(
         bvh.leaves.size(), kLeavesPerTask, parallel_for, [&](std::size_t first, std::size_t last) {
+            LeafCorners corners;
+            const Ahead ahead(bvh.order, positions, triangles);
             for (std::size_t leaf = first; leaf < last; ++leaf) {
+                ahead.ask_for(leaf);
                 const std::size_t begin = leaf * kBvhWidth;
                 const std::size_t used = std::min<std::size_t>(kBvhWidth, count - begin);
-                LeafCorners corners{};
                 for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
                     const Triangle& t = triangles[bvh.order[begin + std::min(lane, used - 1)]];
-                    for (std::size_t i = 0; i < 3; ++i) {
-                        const Double3& p = positions[t.vertex[i]];
-                        corners[lane][i] = {p.x, p.y, p.z};
+                    for (std::size_t corner = 0; corner < 3; ++corner) {
+                        const Double3& p = positions[t.vertex[corner]];
+                        const std::size_t at = corner * kBvhWidth + lane;
+                        corners[0][at] = p.x;
+                        corners[1][at] = p.y;
+                        corners[2][at] = p.z;
                     }
                 }
-                bvh.leaves[leaf] = maker.make(corners, static_cast<std::uint32_t>(used));
+                maker.make(corners, static_cast<std::uint32_t>(used), bvh.leaves[leaf],
+                           lowest[leaf / kBvhWidth], leaf % kBvhWidth);
             }
         });
+    const std::size_t last = bvh.leaves.size();
+    if (last % kBvhWidth != 0) set_unused_boxes(lowest[last / kBvhWidth], last % kBvhWidth);
 }
 
 }  // namespace cdprep::build

@@ -3,14 +3,19 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
 #include "chunks.h"
+#include "frame_map.h"
+#include "lanes.h"
 
 // Axes are the eigenvectors of the covariance of the surface below a box, every
 // triangle counted by its area (Gottschalk, Lin and Manocha 1996, without their
-// convex hull): they do not depend on how finely a part is tessellated.
+// convex hull): they do not depend on how finely a part is tessellated. The moments
+// of a box are those of what it holds added up; its extents are those of all
+// vertices below. Eight boxes are fitted side by side.
 
 namespace cdprep::build {
 namespace {
@@ -22,6 +27,12 @@ using format::kBvhWidth;
 using format::OrientedNode;
 
 using Vector = std::array<double, 3>;
+using Floats = Lanes<float, kBvhWidth>;
+using Doubles = Lanes<double, kBvhWidth>;
+
+/// Rows and columns of a symmetric matrix kept as xx, yy, zz, xy, yz, zx.
+constexpr std::array<std::size_t, 6> kRow = {0, 1, 2, 0, 1, 2};
+constexpr std::array<std::size_t, 6> kColumn = {0, 1, 2, 1, 2, 0};
 
 double dot(const Vector& a, const Vector& b) {
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
@@ -31,84 +42,194 @@ Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Area, and the integrals of x and of x x^T over a surface. Frame coordinates.
+/// Area, its middle, and the integral of (x - middle) (x - middle)^T. Frame
+/// coordinates.
 struct Moments {
     double area = 0;
-    Vector first{};
-    std::array<double, 6> second{};  ///< xx, yy, zz, xy, yz, zx
+    Vector middle{};
+    std::array<double, 6> second{};
 };
 
-void add(Moments& sum, const Moments& other) {
-    sum.area += other.area;
-    for (std::size_t i = 0; i < 3; ++i) sum.first[i] += other.first[i];
-    for (std::size_t i = 0; i < 6; ++i) sum.second[i] += other.second[i];
+/// The moments of eight things.
+struct MomentLanes {
+    Doubles area{};
+    std::array<Doubles, 3> middle{};
+    std::array<Doubles, 6> second{};
+
+    void set(std::size_t lane, const Moments& moments) {
+        area[lane] = moments.area;
+        for (std::size_t i = 0; i < 3; ++i) middle[i][lane] = moments.middle[i];
+        for (std::size_t i = 0; i < 6; ++i) second[i][lane] = moments.second[i];
+    }
+};
+
+/// In pairs, so that half of a vector is added to the other.
+template <class T>
+T sum_of(Lanes<T, kBvhWidth> lanes) {
+    for_lanes<4>([&](std::size_t lane) { lanes[lane] += lanes[lane + 4]; });
+    return (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]);
 }
 
-/// Of one triangle: the integral of x x^T is area / 12 (9 m m^T + sum of p p^T).
-Moments moments_of(const std::array<Vector, 3>& corner) {
-    Vector edge1{};
-    Vector edge2{};
-    Vector middle{};
+/// Of eight things together (Steiner).
+Moments sum_of(const MomentLanes& lanes) {
+    Moments sum;
+    sum.area = sum_of(lanes.area);
+    if (!(sum.area > 0)) return sum;
+    std::array<Doubles, 3> away;
     for (std::size_t i = 0; i < 3; ++i) {
-        edge1[i] = corner[1][i] - corner[0][i];
-        edge2[i] = corner[2][i] - corner[0][i];
-        middle[i] = (corner[0][i] + corner[1][i] + corner[2][i]) / 3;
+        Doubles weighed;
+        for_lanes<8>([&](std::size_t k) { weighed[k] = lanes.area[k] * lanes.middle[i][k]; });
+        sum.middle[i] = sum_of(weighed) / sum.area;
+        for_lanes<8>([&](std::size_t k) { away[i][k] = lanes.middle[i][k] - sum.middle[i]; });
     }
-    const Vector normal = cross(edge1, edge2);
+    for (std::size_t m = 0; m < 6; ++m) {
+        const Doubles& row = away[kRow[m]];
+        const Doubles& column = away[kColumn[m]];
+        Doubles second;
+        for_lanes<8>([&](std::size_t k) {
+            second[k] = lanes.second[m][k] + lanes.area[k] * row[k] * column[k];
+        });
+        sum.second[m] = sum_of(second);
+    }
+    return sum;
+}
+
+/// A leaf's corners from its own middle on, in floats, and where that middle lies.
+struct LocalLeaf {
+    std::array<std::array<Floats, 3>, 3> corner;  ///< [corner][axis], times 2^-exponent frame units
+    Vector middle;                                ///< frame coordinates
+};
+
+class LeafReader {
+public:
+    explicit LeafReader(const Bvh& bvh)
+        : map_(bvh.frame),
+          exact_(bvh.exact_leaves),
+          scale_(bvh.exact_leaves ? std::ldexp(1.0F, bvh.frame.exponent) : 1) {}
+
+    /// Corners in frame units.
+    [[nodiscard]] LocalLeaf read(const BvhLeaf& leaf) const {
+        LocalLeaf local;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float origin = exact_ ? leaf.origin[axis] : 0;
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                const Floats& from = leaf.corner[corner][axis];
+                Floats& to = local.corner[corner][axis];
+                for_lanes<8>([&](std::size_t k) { to[k] = (from[k] - origin) * scale_; });
+            }
+            local.middle[axis] =
+                exact_ ? map_.near(double{leaf.origin[axis]}, axis) : double{leaf.origin[axis]};
+        }
+        return local;
+    }
+
+private:
+    FrameMap map_;
+    bool exact_;
+    float scale_;
+};
+
+/// A power of two near 1 / size, so that squares of squares stay in float's range.
+float unit_of(const BvhLeaf& leaf) {
+    const float size = std::max({leaf.half[0], leaf.half[1], leaf.half[2], 0x1p-100F});
+    return std::bit_cast<float>((254U << 23U) - (std::bit_cast<std::uint32_t>(size) & 0x7f800000U));
+}
+
+/// Of one triangle the integral of x x^T is area / 12 (9 m m^T + sum of p p^T).
+Moments moments_of(const BvhLeaf& leaf, const LocalLeaf& local) {
+    const float unit = unit_of(leaf);
+    auto p = local.corner;
+    for (auto& corner : p) {
+        for (Floats& row : corner) for_lanes<8>([&](std::size_t k) { row[k] *= unit; });
+    }
+    Floats area;
+    for_lanes<8>([&](std::size_t k) {
+        const float ux = p[1][0][k] - p[0][0][k];
+        const float uy = p[1][1][k] - p[0][1][k];
+        const float uz = p[1][2][k] - p[0][2][k];
+        const float vx = p[2][0][k] - p[0][0][k];
+        const float vy = p[2][1][k] - p[0][1][k];
+        const float vz = p[2][2][k] - p[0][2][k];
+        const float x = uy * vz - uz * vy;
+        const float y = uz * vx - ux * vz;
+        const float z = ux * vy - uy * vx;
+        area[k] = 0.5F * std::sqrt((x * x + y * y) + z * z);
+    });
+    // Lanes past the last triangle repeat it.
+    for (std::size_t k = leaf.count; k < kBvhWidth; ++k) area[k] = 0;
+    const float whole = sum_of(area);
     Moments moments;
-    moments.area = 0.5 * std::sqrt(dot(normal, normal));
-    constexpr std::array<std::size_t, 6> kRow = {0, 1, 2, 0, 1, 2};
-    constexpr std::array<std::size_t, 6> kColumn = {0, 1, 2, 1, 2, 0};
-    for (std::size_t i = 0; i < 3; ++i) moments.first[i] = moments.area * middle[i];
-    for (std::size_t i = 0; i < 6; ++i) {
-        double sum = 9 * middle[kRow[i]] * middle[kColumn[i]];
-        for (const Vector& p : corner) sum += p[kRow[i]] * p[kColumn[i]];
-        moments.second[i] = moments.area / 12 * sum;
+    moments.middle = local.middle;
+    if (!(whole > 0)) return moments;
+    std::array<Floats, 3> sum;  // of the corners: three times the middle
+    for (std::size_t i = 0; i < 3; ++i) {
+        for_lanes<8>([&](std::size_t k) { sum[i][k] = (p[0][i][k] + p[1][i][k]) + p[2][i][k]; });
+    }
+    std::array<double, 3> middle;
+    for (std::size_t i = 0; i < 3; ++i) {
+        Floats weighed;
+        for_lanes<8>([&](std::size_t k) { weighed[k] = area[k] * sum[i][k]; });
+        middle[i] = double{sum_of(weighed)} / (3 * double{whole});
+        moments.middle[i] += middle[i] / double{unit};
+    }
+    const double square = 1 / (double{unit} * double{unit});
+    moments.area = double{whole} * square;
+    for (std::size_t m = 0; m < 6; ++m) {
+        const std::size_t i = kRow[m];
+        const std::size_t j = kColumn[m];
+        Floats weighed;
+        for_lanes<8>([&](std::size_t k) {
+            const float squares =
+                (p[0][i][k] * p[0][j][k] + p[1][i][k] * p[1][j][k]) + p[2][i][k] * p[2][j][k];
+            weighed[k] = area[k] * (sum[i][k] * sum[j][k] + squares);
+        });
+        moments.second[m] = (double{sum_of(weighed)} / 12 - double{whole} * middle[i] * middle[j]) *
+                            square * square;
     }
     return moments;
 }
 
-/// Columns of `vectors` become the eigenvectors of a symmetric matrix, columns of
-/// least eigenvalue first. Cyclic Jacobi (Golub and Van Loan 8.5).
-std::array<Vector, 3> eigenvectors(std::array<Vector, 3> m) {
-    std::array<Vector, 3> v = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // v[k]: k-th vector
-    constexpr int kSweeps = 8;
-    for (int sweep = 0; sweep < kSweeps; ++sweep) {
-        const double off = std::fabs(m[0][1]) + std::fabs(m[0][2]) + std::fabs(m[1][2]);
-        const double diagonal = std::fabs(m[0][0]) + std::fabs(m[1][1]) + std::fabs(m[2][2]);
-        if (!(off > 1e-9 * diagonal)) break;
-        for (const auto& [p, q] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
-            const auto i = static_cast<std::size_t>(p);
-            const auto j = static_cast<std::size_t>(q);
-            if (m[i][j] == 0) continue;
-            const double theta = (m[j][j] - m[i][i]) / (2 * m[i][j]);
-            const double t =
-                (theta < 0 ? -1 : 1) / (std::fabs(theta) + std::sqrt(theta * theta + 1));
-            const double c = 1 / std::sqrt(t * t + 1);
-            const double s = t * c;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double x = m[k][i];
-                const double y = m[k][j];
-                m[k][i] = c * x - s * y;
-                m[k][j] = s * x + c * y;
-            }
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double x = m[i][k];
-                const double y = m[j][k];
-                m[i][k] = c * x - s * y;
-                m[j][k] = s * x + c * y;
-                const double vx = v[i][k];
-                const double vy = v[j][k];
-                v[i][k] = c * vx - s * vy;
-                v[j][k] = s * vx + c * vy;
-            }
-        }
-    }
-    std::array<std::size_t, 3> order = {0, 1, 2};
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return m[a][a] != m[b][b] ? m[a][a] < m[b][b] : a < b;
+/// Eight symmetric matrices and their eigenvectors, after `turn`.
+struct Eigen {
+    std::array<std::array<Floats, 3>, 3> m;  ///< [row][column]
+    std::array<std::array<Floats, 3>, 3> v;  ///< v[k]: k-th vector
+};
+
+/// A Jacobi rotation that makes m[i][j] zero (Golub and Van Loan 8.5), without a
+/// branch: tan = 2 m_ij / (d +- sqrt(d^2 + 4 m_ij^2)), d = m_jj - m_ii.
+void turn(Eigen& e, std::size_t i, std::size_t j) {
+    const std::size_t other = 3 - i - j;
+    Floats c;
+    Floats s;
+    Floats moved;
+    for_lanes<8>([&](std::size_t k) {
+        const float off = 2 * e.m[i][j][k];
+        const float d = e.m[j][j][k] - e.m[i][i][k];
+        const float root = std::sqrt(d * d + off * off);
+        const float size = std::fabs(d) + root + std::numeric_limits<float>::min();
+        const float t = (d < 0 ? -off : off) / size;
+        c[k] = 1 / std::sqrt(t * t + 1);
+        s[k] = t * c[k];
+        moved[k] = 0.5F * t * off;
     });
-    return {v[order[0]], v[order[1]], v[order[2]]};
+    for_lanes<8>([&](std::size_t k) { e.m[i][i][k] -= moved[k]; });
+    for_lanes<8>([&](std::size_t k) { e.m[j][j][k] += moved[k]; });
+    e.m[i][j].fill(0);
+    // Only the upper half is kept.
+    Floats& x = e.m[std::min(i, other)][std::max(i, other)];
+    Floats& y = e.m[std::min(j, other)][std::max(j, other)];
+    const auto rotate = [&](Floats& a, Floats& b) {
+        Floats new_a;
+        Floats new_b;
+        for_lanes<8>([&](std::size_t k) {
+            new_a[k] = c[k] * a[k] - s[k] * b[k];
+            new_b[k] = s[k] * a[k] + c[k] * b[k];
+        });
+        a = new_a;
+        b = new_b;
+    };
+    rotate(x, y);
+    for (std::size_t row = 0; row < 3; ++row) rotate(e.v[i][row], e.v[j][row]);
 }
 
 /// Orthonormal axes rounded to float, the third their cross product.
@@ -117,7 +238,14 @@ struct Axes {
     std::array<Vector, 3> used;
 };
 
-Axes rounded(const Vector& first, const Vector& second) {
+/// Makes two vectors unit and normal to each other.
+Axes rounded(Vector first, Vector second) {
+    const double length = 1 / std::sqrt(dot(first, first));
+    for (double& x : first) x *= length;
+    const double along = dot(first, second);
+    for (std::size_t i = 0; i < 3; ++i) second[i] -= along * first[i];
+    const double other_length = 1 / std::sqrt(dot(second, second));
+    for (double& x : second) x *= other_length;
     Axes axes{};
     for (std::size_t i = 0; i < 3; ++i) {
         axes.stored[0][i] = static_cast<float>(first[i]);
@@ -129,99 +257,151 @@ Axes rounded(const Vector& first, const Vector& second) {
     return axes;
 }
 
-Axes axes_of(const Moments& moments) {
-    if (!(moments.area > 0)) return rounded({1, 0, 0}, {0, 1, 0});
-    Vector mean{};
-    for (std::size_t i = 0; i < 3; ++i) mean[i] = moments.first[i] / moments.area;
-    const auto& s = moments.second;
-    const auto centred = [&](std::size_t index, std::size_t i, std::size_t j) {
-        return s[index] / moments.area - mean[i] * mean[j];
-    };
-    const double xy = centred(3, 0, 1);
-    const double yz = centred(4, 1, 2);
-    const double zx = centred(5, 2, 0);
-    const auto v = eigenvectors(
-        {{{centred(0, 0, 0), xy, zx}, {xy, centred(1, 1, 1), yz}, {zx, yz, centred(2, 2, 2)}}});
-    return rounded(v[0], v[1]);
+/// Of the matrices, divided by their traces; those that have none get x, y, z.
+Eigen diagonal_of(const MomentLanes& moments) {
+    constexpr int kSweeps = 3;  // the error of one is squared by the next
+    Eigen e{};
+    Doubles scale;
+    for_lanes<8>([&](std::size_t k) {
+        const double trace = (moments.second[0][k] + moments.second[1][k]) + moments.second[2][k];
+        scale[k] = trace > 0 ? 1 / trace : 0;
+    });
+    for (std::size_t m = 0; m < 6; ++m) {
+        Floats& to = e.m[std::min(kRow[m], kColumn[m])][std::max(kRow[m], kColumn[m])];
+        for_lanes<8>(
+            [&](std::size_t k) { to[k] = static_cast<float>(moments.second[m][k] * scale[k]); });
+    }
+    for (std::size_t i = 0; i < 3; ++i) e.v[i][i].fill(1);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+        turn(e, 0, 1);
+        turn(e, 0, 2);
+        turn(e, 1, 2);
+    }
+    return e;
 }
 
-/// Of an axis-aligned box: near everything in it.
+using NodeAxes = std::array<Axes, kBvhWidth>;
+
+/// The direction of least extent first, then that of the middle one.
+NodeAxes axes_of(const MomentLanes& moments) {
+    const Eigen e = diagonal_of(moments);
+    NodeAxes result;
+    for (std::size_t k = 0; k < kBvhWidth; ++k) {
+        const std::array<float, 3> value = {e.m[0][0][k], e.m[1][1][k], e.m[2][2][k]};
+        std::size_t first = value[1] < value[0] ? 1 : 0;
+        if (value[2] < value[first]) first = 2;
+        std::size_t last = value[1] >= value[0] ? 1 : 0;
+        if (value[2] >= value[last]) last = 2;
+        if (first == last) last = (first + 1) % 3;
+        const std::size_t second = 3 - first - last;
+        const auto vector = [&](std::size_t i) {
+            return Vector{double{e.v[i][0][k]}, double{e.v[i][1][k]}, double{e.v[i][2][k]}};
+        };
+        result[k] = rounded(vector(first), vector(second));
+    }
+    return result;
+}
+
+/// Of an axis-aligned box, as floats: near everything in it.
 Vector middle_of(const BvhNode& node, std::size_t box) {
     Vector middle{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        middle[axis] = 0.5 * (double{node.lower[axis][box]} + double{node.upper[axis][box]});
+        middle[axis] = double{0.5F * (node.lower[axis][box] + node.upper[axis][box])};
     }
     return middle;
 }
 
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Extents of eight things along three axes.
 struct Range {
-    std::array<double, 3> lower;
-    std::array<double, 3> upper;
+    std::array<Floats, 3> lower;
+    std::array<Floats, 3> upper;
 };
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Range kNothing = {{kInfinity, kInfinity, kInfinity},
-                            {-kInfinity, -kInfinity, -kInfinity}};
+/// Extents along three axes.
+struct Bound {
+    std::array<float, 3> lower = {kInfinity, kInfinity, kInfinity};
+    std::array<float, 3> upper = {-kInfinity, -kInfinity, -kInfinity};
 
-/// The leaves in frame coordinates, in double.
-class FrameLeaves {
-public:
-    explicit FrameLeaves(const Bvh& bvh) : bvh_(bvh) {}
+    void grow(std::size_t axis, const Floats& low, const Floats& high) {
+        lower[axis] = std::min(lower[axis], least(low));
+        upper[axis] = std::max(upper[axis], greatest(high));
+    }
+    [[nodiscard]] bool holds(const Range& range, std::size_t lane) const {
+        int inside = 1;
+        for (std::size_t k = 0; k < 3; ++k) {
+            inside &= int{lower[k] <= range.lower[k][lane]} & int{range.upper[k][lane] <= upper[k]};
+        }
+        return inside != 0;
+    }
+};
 
-    [[nodiscard]] std::array<Vector, 3> triangle(const BvhLeaf& leaf, std::size_t lane) const {
-        std::array<Vector, 3> corner{};
-        const Vector origin = {bvh_.frame.origin.x, bvh_.frame.origin.y, bvh_.frame.origin.z};
-        const double scale = bvh_.exact_leaves ? std::ldexp(1.0, bvh_.frame.exponent) : 1;
+/// Takes the coordinates of a leaf's corners along the axes, from `origin` on.
+void widen(Bound& bound, const LocalLeaf& leaf, const Vector& origin, const Axes& axes) {
+    const Vector from = {leaf.middle[0] - origin[0], leaf.middle[1] - origin[1],
+                         leaf.middle[2] - origin[2]};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto x = static_cast<float>(axes.used[k][0]);
+        const auto y = static_cast<float>(axes.used[k][1]);
+        const auto z = static_cast<float>(axes.used[k][2]);
+        const auto along = static_cast<float>(dot(from, axes.used[k]));
+        Floats lower;
+        Floats upper;
+        const auto& p = leaf.corner;
+        for_lanes<8>([&](std::size_t i) {
+            const float a = (p[0][0][i] * x + p[0][1][i] * y) + p[0][2][i] * z;
+            const float b = (p[1][0][i] * x + p[1][1][i] * y) + p[1][2][i] * z;
+            const float c = (p[2][0][i] * x + p[2][1][i] * y) + p[2][2][i] * z;
+            const float low = (a < b ? a : b);
+            const float high = (a < b ? b : a);
+            lower[i] = (c < low ? c : low) + along;
+            upper[i] = (high < c ? c : high) + along;
+        });
+        bound.grow(k, lower, upper);
+    }
+}
+
+/// How far the boxes of a node reach along the axes, from `origin` on: of each the
+/// corners that lie farthest back and farthest on.
+Range reach_of(const BvhNode& node, const Vector& origin, const Axes& axes) {
+    Range reach;
+    for (std::size_t k = 0; k < 3; ++k) {
+        reach.lower[k].fill(0);
+        reach.upper[k].fill(0);
         for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const double x = double{leaf.corner[i][axis][lane]};
-                corner[i][axis] =
-                    bvh_.exact_leaves ? (x - origin[axis]) * scale : x + double{leaf.origin[axis]};
-            }
-        }
-        return corner;
-    }
-
-    [[nodiscard]] Moments moments(const BvhLeaf& leaf) const {
-        Moments sum;
-        for (std::size_t lane = 0; lane < leaf.count; ++lane) {
-            add(sum, moments_of(triangle(leaf, lane)));
-        }
-        return sum;
-    }
-
-    /// Coordinates along the axes, from `origin` on.
-    void widen(Range& range, const BvhLeaf& leaf, const Vector& origin, const Axes& axes) const {
-        for (std::size_t lane = 0; lane < leaf.count; ++lane) {
-            for (const Vector& p : triangle(leaf, lane)) {
-                const Vector from = {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
-                for (std::size_t k = 0; k < 3; ++k) {
-                    const double t = dot(from, axes.used[k]);
-                    range.lower[k] = std::min(range.lower[k], t);
-                    range.upper[k] = std::max(range.upper[k], t);
-                }
-            }
+            const auto along = static_cast<float>(axes.used[k][i]);
+            const auto from = static_cast<float>(origin[i]);
+            const Floats& back = along < 0 ? node.upper[i] : node.lower[i];
+            const Floats& on = along < 0 ? node.lower[i] : node.upper[i];
+            for_lanes<8>(
+                [&](std::size_t box) { reach.lower[k][box] += (back[box] - from) * along; });
+            for_lanes<8>([&](std::size_t box) { reach.upper[k][box] += (on[box] - from) * along; });
         }
     }
+    return reach;
+}
 
-private:
-    const Bvh& bvh_;
-};
-
-/// Writes the box of one range. The axes are unit and at right angles to 8 u (u =
+/// Writes the box of one bound. The axes are unit and at right angles to 8 u (u =
 /// 2^-24), the third however it is rounded; so the coordinates of a point along
 /// them are off by 24 u times the largest, and the tests treat the cross terms as
-/// zero, for as much again: 2^-18 in all. Leaves that are not exact were rounded
-/// by u; 2^-23 of the frame's size covers that and the rounding of the centre.
+/// zero, for as much again. No corner, and no leaf's middle, is farther from
+/// `origin` than 3 times the largest half extent; the coordinates were found in
+/// floats from such a middle on: 12 u for the products and sums, 5 u for the third
+/// axis, 3 u for the middle and 6 u for adding it; 21 u where a box that seemed to
+/// lie within was not looked into. 95 u of the largest; 2^-17 is taken. Leaves that are not exact
+/// were rounded by u; 2^-23 of the frame's size covers that and the rounding of the centre.
 void set_box(OrientedNode& node, std::size_t box, const Vector& origin, const Axes& axes,
-             const Range& range, bool exact) {
+             const Bound& bound, bool exact) {
     std::array<double, 3> half{};
     double largest = 0;
     Vector centre = origin;
     for (std::size_t k = 0; k < 3; ++k) {
-        half[k] = 0.5 * (range.upper[k] - range.lower[k]);
+        const double lower = double{bound.lower[k]};
+        const double upper = double{bound.upper[k]};
+        half[k] = 0.5 * (upper - lower);
         largest = std::max(largest, half[k]);
-        const double middle = 0.5 * (range.upper[k] + range.lower[k]);
+        const double middle = 0.5 * (upper + lower);
         for (std::size_t i = 0; i < 3; ++i) centre[i] += middle * axes.used[k][i];
     }
     double moved = 0;
@@ -234,60 +414,157 @@ void set_box(OrientedNode& node, std::size_t box, const Vector& origin, const Ax
     const double rounding = exact ? 0 : 0x1p-24;
     for (std::size_t k = 0; k < 3; ++k) {
         node.half[k][box] =
-            static_cast<float>((half[k] + moved + rounding + largest * 0x1p-18) * (1 + 0x1p-22));
+            static_cast<float>((half[k] + moved + rounding + largest * 0x1p-17) * (1 + 0x1p-22));
     }
 }
 
 void set_unused(OrientedNode& node, std::size_t box) {
-    node.axis[0][0][box] = 1;
-    node.axis[1][1][box] = 1;
-    for (std::size_t k = 0; k < 3; ++k) node.half[k][box] = -1;
+    for (std::size_t i = 0; i < 3; ++i) {
+        node.axis[0][i][box] = i == 0 ? 1.0F : 0.0F;
+        node.axis[1][i][box] = i == 1 ? 1.0F : 0.0F;
+        node.centre[i][box] = 0;
+        node.half[i][box] = -1;
+    }
+}
+
+/// Which of the first `used` lanes is the least.
+std::size_t least_of(const Floats& lanes, std::size_t used) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < used; ++i) best = lanes[i] < lanes[best] ? i : best;
+    return best;
+}
+
+std::size_t greatest_of(const Floats& lanes, std::size_t used) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < used; ++i) best = lanes[best] < lanes[i] ? i : best;
+    return best;
+}
+
+class Fitter {
+public:
+    explicit Fitter(Bvh& bvh)
+        : bvh_(bvh),
+          shape_(format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()))),
+          reader_(bvh) {}
+
+    /// Fits all boxes of a node and of everything below it.
+    Moments fit_subtree(std::uint32_t level, std::size_t index) const {
+        if (level == 0) return fit_leaves(index);
+        MomentLanes below;
+        for (std::size_t box = 0; box < used_boxes(level, index); ++box) {
+            below.set(box, fit_subtree(level - 1, index * kBvhWidth + box));
+        }
+        return fit_node(level, index, below);
+    }
+
+    /// Fits the boxes of a node above level 0 from the moments of what they hold;
+    /// returns their sum.
+    Moments fit_node(std::uint32_t level, std::size_t index, const MomentLanes& below) const {
+        set_boxes(level, index, below,
+                  [&](Bound& bound, std::size_t box, const Vector& origin, const Axes& axes) {
+                      widen_by(bound, level, index * kBvhWidth + box, origin, axes);
+                  });
+        return sum_of(below);
+    }
+
+    [[nodiscard]] const BvhShape& shape() const {
+        return shape_;
+    }
+    [[nodiscard]] std::size_t used_boxes(std::uint32_t level, std::size_t index) const {
+        return shape_.used_boxes(level, static_cast<std::uint32_t>(index));
+    }
+
+private:
+    Moments fit_leaves(std::size_t index) const {
+        MomentLanes below;
+        std::array<LocalLeaf, kBvhWidth> local;
+        for (std::size_t box = 0; box < used_boxes(0, index); ++box) {
+            const BvhLeaf& leaf = bvh_.leaves[index * kBvhWidth + box];
+            local[box] = reader_.read(leaf);
+            below.set(box, moments_of(leaf, local[box]));
+        }
+        set_boxes(0, index, below,
+                  [&](Bound& bound, std::size_t box, const Vector& origin, const Axes& axes) {
+                      widen(bound, local[box], origin, axes);
+                  });
+        return sum_of(below);
+    }
+
+    /// widen_box(bound, box, origin, axes) finds the extents of one box.
+    template <class WidenBox>
+    void set_boxes(std::uint32_t level, std::size_t index, const MomentLanes& below,
+                   const WidenBox& widen_box) const {
+        const std::size_t number = shape_.first[level] + index;
+        const NodeAxes axes = axes_of(below);
+        OrientedNode& node = bvh_.oriented_nodes[number];
+        for (std::size_t box = 0; box < kBvhWidth; ++box) {
+            if (box >= used_boxes(level, index)) {
+                set_unused(node, box);
+                continue;
+            }
+            const Vector origin = middle_of(bvh_.nodes[number], box);
+            Bound bound;
+            widen_box(bound, box, origin, axes[box]);
+            set_box(node, box, origin, axes[box], bound, bvh_.exact_leaves);
+        }
+    }
+
+    /// Widens a bound by the corners below a place, leaf `index` at height 0, node
+    /// `index` of level h - 1 at height h; what cannot widen it is not looked into.
+    void widen_by(Bound& bound, std::uint32_t height, std::size_t index, const Vector& origin,
+                  const Axes& axes) const {
+        if (height == 0) return widen(bound, reader_.read(bvh_.leaves[index]), origin, axes);
+        const std::size_t used = used_boxes(height - 1, index);
+        const Range reach = reach_of(bvh_.nodes[shape_.first[height - 1] + index], origin, axes);
+        // First the box that reaches farthest, either way along each axis: the others
+        // are then likely to lie within.
+        unsigned left = (1U << used) - 1;
+        const auto visit = [&](std::size_t box) {
+            if ((left >> box & 1U) == 0) return;
+            left &= ~(1U << box);
+            if (bound.holds(reach, box)) return;
+            widen_by(bound, height - 1, index * kBvhWidth + box, origin, axes);
+        };
+        for (std::size_t k = 0; k < 3; ++k) {
+            visit(least_of(reach.lower[k], used));
+            visit(greatest_of(reach.upper[k], used));
+        }
+        for (std::size_t box = 0; box < used; ++box) visit(box);
+    }
+
+    Bvh& bvh_;
+    BvhShape shape_;
+    LeafReader reader_;
+};
+
+/// Nodes of this level, 4096 triangles each, are tasks.
+constexpr std::uint32_t kTaskLevel = 2;
+
+/// Fits one level above the tasks.
+std::vector<Moments> fit_level(const Fitter& fitter, std::uint32_t level,
+                               const std::vector<Moments>& below, const ParallelFor& parallel_for) {
+    std::vector<Moments> sums(fitter.shape().count[level]);
+    for_each_task(sums.size(), parallel_for, [&](std::size_t i) {
+        MomentLanes lanes;
+        for (std::size_t box = 0; box < fitter.used_boxes(level, i); ++box) {
+            lanes.set(box, below[i * kBvhWidth + box]);
+        }
+        sums[i] = fitter.fit_node(level, i, lanes);
+    });
+    return sums;
 }
 
 }  // namespace
 
 void make_oriented(Bvh& bvh, const ParallelFor& parallel_for) {
-    const auto triangles = static_cast<std::uint32_t>(bvh.order.size());
-    const BvhShape shape = format::bvh_shape(triangles);
-    const FrameLeaves leaves(bvh);
-    bvh.oriented_nodes.assign(shape.node_count, OrientedNode{});
-    std::vector<Moments> below(bvh.leaves.size());
-    for_chunks(below.size(), kLeavesPerTask, parallel_for,
-               [&](std::size_t first, std::size_t last) {
-                   for (std::size_t i = first; i < last; ++i)
-                       below[i] = leaves.moments(bvh.leaves[i]);
-               });
-    std::size_t leaves_per_box = 1;
-    for (std::uint32_t level = 0; level < shape.levels; ++level) {
-        std::vector<Moments> nodes(shape.count[level]);
-        const auto fit = [&](std::size_t i) {
-            const auto index = static_cast<std::uint32_t>(i);
-            OrientedNode& node = bvh.oriented_nodes[shape.first[level] + i];
-            const std::uint32_t used = shape.used_boxes(level, index);
-            for (std::size_t box = 0; box < kBvhWidth; ++box) {
-                if (box >= used) {
-                    set_unused(node, box);
-                    continue;
-                }
-                const std::size_t child = i * kBvhWidth + box;
-                add(nodes[i], below[child]);
-                const Axes axes = axes_of(below[child]);
-                const Vector origin = middle_of(bvh.nodes[shape.first[level] + i], box);
-                Range range = kNothing;
-                const std::size_t end = std::min(bvh.leaves.size(), (child + 1) * leaves_per_box);
-                for (std::size_t leaf = child * leaves_per_box; leaf < end; ++leaf) {
-                    leaves.widen(range, bvh.leaves[leaf], origin, axes);
-                }
-                set_box(node, box, origin, axes, range, bvh.exact_leaves);
-            }
-        };
-        const std::size_t per_task =
-            std::max<std::size_t>(1, kLeavesPerTask / (kBvhWidth * leaves_per_box));
-        for_chunks(nodes.size(), per_task, parallel_for, [&](std::size_t first, std::size_t last) {
-            for (std::size_t i = first; i < last; ++i) fit(i);
-        });
-        below = std::move(nodes);
-        leaves_per_box *= kBvhWidth;
+    bvh.oriented_nodes.resize(bvh.nodes.size());
+    const Fitter fitter(bvh);
+    const std::uint32_t lowest = std::min(kTaskLevel, fitter.shape().levels - 1);
+    std::vector<Moments> sums(fitter.shape().count[lowest]);
+    for_each_task(sums.size(), parallel_for,
+                  [&](std::size_t i) { sums[i] = fitter.fit_subtree(lowest, i); });
+    for (std::uint32_t level = lowest + 1; level < fitter.shape().levels; ++level) {
+        sums = fit_level(fitter, level, sums, parallel_for);
     }
 }
 

@@ -65,9 +65,16 @@ enum class BvhBounds : std::uint8_t {
                                   static_cast<std::uint32_t>(kind));
 }
 
+/// What a build takes time for.
+enum class Quality : std::uint8_t {
+    best,  ///< for hierarchies that are kept
+    fast,  ///< for objects rebuilt at run time
+};
+
 struct BvhOptions {
     ParallelFor parallel_for = serial_for;
     BvhBounds bounds = BvhBounds::oriented;
+    Quality quality = Quality::best;
 };
 
 /// Builds the packed hierarchy of BvhNode.
@@ -82,5 +89,10 @@ struct BvhOptions {
 [[nodiscard]] Bvh build_bvh(std::span<const format::Double3> positions,
                             std::span<const format::Triangle> triangles,
                             const BvhOptions& options = {});
+
+/// The same, into the arrays that `bvh` has: what is large enough is not allocated
+/// anew, which spares an eighth of the time of a fast build.
+void rebuild_bvh(Bvh& bvh, std::span<const format::Double3> positions,
+                 std::span<const format::Triangle> triangles, const BvhOptions& options = {});
 
 }  // namespace cdprep::build

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "frame_map.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "chunks.h"
+#include "lanes.h"
+
+namespace cdprep::build {
+namespace {
+
+using format::Double3;
+using format::Triangle;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The fourth lane repeats the third.
+struct PointBounds {
+    Lanes<double, 4> lower = all_lanes<double, 4>(kInfinity);
+    Lanes<double, 4> upper = all_lanes<double, 4>(-kInfinity);
+    Lanes<std::int64_t, 4> lost = {};  ///< bits that differ once rounded to float
+
+    void grow(const PointBounds& other) {
+        take_lower(lower, other.lower);
+        take_upper(upper, other.upper);
+        for_lanes<4>([&](std::size_t lane) { lost[lane] |= other.lost[lane]; });
+    }
+    void grow(const Double3& p) {
+        const Lanes<double, 4> point = {p.x, p.y, p.z, p.z};
+        take_lower(lower, point);
+        take_upper(upper, point);
+        Lanes<double, 4> back;
+        for_lanes<4>(
+            [&](std::size_t lane) { back[lane] = double{static_cast<float>(point[lane])}; });
+        const auto bits = std::bit_cast<Lanes<std::int64_t, 4>>(point);
+        const auto bits_back = std::bit_cast<Lanes<std::int64_t, 4>>(back);
+        for_lanes<4>([&](std::size_t lane) { lost[lane] |= bits[lane] ^ bits_back[lane]; });
+    }
+};
+
+}  // namespace
+
+Extent extent_of(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                 const ParallelFor& parallel_for) {
+    constexpr std::size_t kMostParts = 64;
+    std::array<PointBounds, kMostParts> parts;
+    const std::size_t size =
+        std::max(kItemsPerTask, (triangles.size() + kMostParts - 1) / kMostParts);
+    for_chunks(triangles.size(), size, parallel_for, [&](std::size_t first, std::size_t last) {
+        // One for each corner: they do not wait for each other.
+        std::array<PointBounds, 3> corner;
+        for (std::size_t i = first; i < last; ++i) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                corner[k].grow(positions[triangles[i].vertex[k]]);
+            }
+        }
+        corner[0].grow(corner[1]);
+        corner[0].grow(corner[2]);
+        parts[first / size] = corner[0];
+    });
+    for (std::size_t i = 1; i < kMostParts; ++i) parts[0].grow(parts[i]);
+    const auto& [lower, upper, lost] = parts[0];
+    return {{lower[0], lower[1], lower[2]},
+            {upper[0], upper[1], upper[2]},
+            (lost[0] | lost[1] | lost[2]) == 0};
+}
+
+Frame frame_of(const Extent& extent) {
+    std::array<double, 3> origin{};
+    double reach = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        origin[axis] = 0.5 * extent.lower[axis] + 0.5 * extent.upper[axis];
+        reach =
+            std::max({reach, extent.upper[axis] - origin[axis], origin[axis] - extent.lower[axis]});
+    }
+    Frame frame{{origin[0], origin[1], origin[2]}, 0};
+    if (reach > 0) {
+        int exponent = 0;
+        std::frexp(reach, &exponent);
+        frame.exponent = -exponent - 1;
+    }
+    return frame;
+}
+
+}  // namespace cdprep::build

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "cdprep/build_bvh.h"
+
+namespace cdprep::build {
+
+[[nodiscard]] inline double coordinate(const format::Double3& p, std::size_t axis) {
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// The next float above x, or x when it is one. Finite numbers of float's range.
+[[nodiscard]] inline float float_above(double x) {
+    const auto rounded = static_cast<float>(x);
+    const float zero_is_positive = rounded + 0.0F;
+    const auto bits = std::bit_cast<std::int32_t>(zero_is_positive);
+    const std::int32_t away = bits < 0 ? -1 : 1;
+    return double{rounded} < x ? std::bit_cast<float>(bits + away) : rounded;
+}
+
+[[nodiscard]] inline float float_below(double x) {
+    return -float_above(-x);
+}
+
+/// What all vertices that triangles use have in common.
+struct Extent {
+    std::array<double, 3> lower;
+    std::array<double, 3> upper;
+    bool floats;  ///< every coordinate is a float
+};
+
+[[nodiscard]] Extent extent_of(std::span<const format::Double3> positions,
+                               std::span<const format::Triangle> triangles,
+                               const ParallelFor& parallel_for);
+
+/// Centres the box and scales it by a power of two so that no coordinate leaves
+/// [-1, 1], not even after rounding: the largest distance lands in [1/4, 1/2].
+[[nodiscard]] Frame frame_of(const Extent& extent);
+
+/// A frame coordinate between two floats.
+struct Interval {
+    float lower;
+    float upper;
+};
+
+/// Takes model coordinates to frame coordinates.
+class FrameMap {
+public:
+    explicit FrameMap(const Frame& frame)
+        : origin_{frame.origin.x, frame.origin.y, frame.origin.z},
+          // Two steps: neither power of two leaves the range of double.
+          scale_{std::ldexp(1.0, frame.exponent / 2),
+                 std::ldexp(1.0, frame.exponent - frame.exponent / 2)},
+          back_{std::ldexp(1.0, -(frame.exponent / 2)),
+                std::ldexp(1.0, -(frame.exponent - frame.exponent / 2))} {}
+
+    /// A length. Rounds only below the normal range.
+    [[nodiscard]] double scaled(double length) const {
+        return length * scale_[0] * scale_[1];
+    }
+
+    /// Rounds twice at most.
+    [[nodiscard]] double near(double x, std::size_t axis) const {
+        return scaled(x - origin_[axis]);
+    }
+
+    /// The difference rounds by at most half an ulp and the scaling only when it
+    /// falls below the normal range; both are noticed, and then the double is
+    /// widened before it becomes a float.
+    [[nodiscard]] Interval around(double x, std::size_t axis) const {
+        const double origin = origin_[axis];
+        const double difference = x - origin;
+        const double virtual_origin = x - difference;
+        const double virtual_x = difference + virtual_origin;
+        const double tail = (x - virtual_x) + (virtual_origin - origin);
+        const double at = scaled(difference);
+        const bool rounded = tail != 0 || at * back_[1] * back_[0] != difference;
+        constexpr double kBelowEveryFloat = 0x1p-1000;
+        const double slack = rounded ? std::fabs(at) * 0x1p-51 + kBelowEveryFloat : 0;
+        return {float_below(at - slack), float_above(at + slack)};
+    }
+
+private:
+    std::array<double, 3> origin_;
+    std::array<double, 2> scale_;
+    std::array<double, 2> back_;
+};
+
+}  // namespace cdprep::build

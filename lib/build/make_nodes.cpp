@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "make_nodes.h"
+
+#include "chunks.h"
+#include "lanes.h"
+
+namespace cdprep::build {
+namespace {
+
+using format::BvhNode;
+using format::BvhShape;
+using format::kBvhWidth;
+
+/// Unused boxes, at 1 and -1, leave every union unchanged: no coordinate lies
+/// outside.
+void set_box_around(BvhNode& node, std::size_t box, const BvhNode& below) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        node.lower[axis][box] = least(below.lower[axis]);
+        node.upper[axis][box] = greatest(below.upper[axis]);
+    }
+}
+
+}  // namespace
+
+void make_nodes(Bvh& bvh, const ParallelFor& parallel_for) {
+    const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
+    constexpr std::size_t kNodesPerTask = 256;
+    for (std::uint32_t level = 1; level < shape.levels; ++level) {
+        BvhNode* const nodes = &bvh.nodes[shape.first[level]];
+        const BvhNode* const below = &bvh.nodes[shape.first[level - 1]];
+        const auto make = [&](std::size_t i) {
+            const std::uint32_t used = shape.used_boxes(level, static_cast<std::uint32_t>(i));
+            nodes[i].lower.fill(all_lanes<float, kBvhWidth>(1));
+            nodes[i].upper.fill(all_lanes<float, kBvhWidth>(-1));
+            for (std::size_t box = 0; box < used; ++box) {
+                set_box_around(nodes[i], box, below[i * kBvhWidth + box]);
+            }
+        };
+        for_chunks(shape.count[level], kNodesPerTask, parallel_for,
+                   [&](std::size_t first, std::size_t last) {
+                       for (std::size_t i = first; i < last; ++i) make(i);
+                   });
+    }
+}
+
+}  // namespace cdprep::build

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cdprep/build_bvh.h"
+
+namespace cdprep::build {
+
+/// Fills the levels of bvh.nodes above the lowest, from that one.
+void make_nodes(Bvh& bvh, const ParallelFor& parallel_for);
+
+}  // namespace cdprep::build

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "chunks.h"
+#include "lanes.h"
+
+// Cuts a set of items in two until all are runs of eight, so that every subtree
+// but the last is full. What is cut where is the policy's choice; this is how.
+//
+// A cut is by rank along one axis. The policy has counted the items of each bin of
+// that axis; the items before the bin in which the rank falls go to the left side,
+// those behind it to the right, and only the few in it are told apart one by one.
+// Every item moves once per cut, into the other of two arrays. Large sets are cut
+// in pieces of a fixed size, all of one generation side by side. Each step keeps the
+// order in which it found the items, and what it decides depends on nothing else: the
+// result is the same for any schedule and any standard library.
+
+namespace cdprep::build {
+
+inline constexpr std::size_t kSmallSet = 64;  ///< items that a policy cuts by sorting them
+
+/// Size of the largest full subtree that is smaller than `count` triangles.
+[[nodiscard]] inline std::size_t subtree_size(std::size_t count) {
+    std::size_t unit = format::kBvhWidth;
+    while (unit * format::kBvhWidth < count) unit *= format::kBvhWidth;
+    return unit;
+}
+
+inline constexpr float kFarOff = std::numeric_limits<float>::infinity();
+
+/// Least and greatest middles of a set along each axis. The fourth lane is not used.
+struct MiddleBounds {
+    Lanes<float, 4> lower = all_lanes<float, 4>(kFarOff);
+    Lanes<float, 4> upper = all_lanes<float, 4>(-kFarOff);
+
+    void grow(const MiddleBounds& other) {
+        take_lower(lower, other.lower);
+        take_upper(upper, other.upper);
+    }
+    [[nodiscard]] float width(std::size_t axis) const {
+        return upper[axis] - lower[axis];
+    }
+};
+
+/// Maps middles of one axis to bins.
+struct Binning {
+    float least = 0;
+    float scale = 0;
+
+    /// Middles closer than 2^-100 of the frame count as equal: all in bin 0.
+    [[nodiscard]] static Binning of(const MiddleBounds& bounds, std::size_t axis,
+                                    std::size_t bins) {
+        const float width = bounds.width(axis);
+        // A little less than what would put the greatest middle in bin `bins`.
+        const float most = static_cast<float>(bins) * (1 - 0x1p-20F);
+        return {bounds.lower[axis], width > 0x1p-100F ? most / width : 0};
+    }
+    [[nodiscard]] std::size_t bin(float middle) const {
+        return static_cast<std::size_t>(static_cast<std::int32_t>((middle - least) * scale));
+    }
+};
+
+/// Where a set is cut.
+struct Cut {
+    std::size_t axis = 0;
+    Binning binning;
+    std::size_t left = 0;  ///< items on the left, a multiple of subtree_size()
+    std::size_t bin = 0;   ///< in which the first item of the right side lies
+};
+
+/// Items of a set before the cut's bin, in it, and in all.
+struct CutCounts {
+    std::size_t before = 0;
+    std::size_t in = 0;
+    std::size_t all = 0;
+};
+
+using Ranks = std::array<std::int16_t, kSmallSet>;
+
+/// Sorts items by rank along an axis. Keys: where middles lie among 2^10 steps from
+/// least to greatest, then the place they had, so that no two are equal. Every item
+/// is compared with every other, without a branch.
+template <class Item>
+void ranks_along(std::span<const Item> items, std::size_t axis, const MiddleBounds& bounds,
+                 Ranks& rank) {
+    constexpr std::int32_t kSteps = 0x10000 / std::int32_t{kSmallSet};
+    const Binning steps = Binning::of(bounds, axis, kSteps);
+    Ranks key;
+    const std::size_t count = items.size();
+    const std::size_t padded = (count + 7) / 8 * 8;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto step = static_cast<std::int32_t>(steps.bin(items[i].middle(axis)));
+        key[i] = static_cast<std::int16_t>((step - kSteps / 2) * std::int32_t{kSmallSet} +
+                                           static_cast<std::int32_t>(i));
+    }
+    for (std::size_t i = count; i < padded; ++i) key[i] = INT16_MAX;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::int16_t own = key[i];
+        std::int16_t smaller = 0;
+        for (std::size_t k = 0; k < padded; ++k) {
+            smaller = static_cast<std::int16_t>(smaller + (key[k] < own ? 1 : 0));
+        }
+        rank[i] = smaller;
+    }
+}
+
+template <class Policy>
+class SetSplitter {
+public:
+    using Item = typename Policy::Item;
+
+    /// Orders `items`; `spare` is as long. order[i] becomes the number of the i-th.
+    SetSplitter(std::span<Item> items, std::span<Item> spare, std::span<std::uint32_t> order)
+        : arrays_{items, spare}, order_(order) {}
+
+    void split(const ParallelFor& parallel_for) {
+        std::vector<Set> large;
+        std::vector<Set> tasks;
+        (is_large(order_.size()) ? large : tasks).push_back({0, order_.size(), 0});
+        while (!large.empty()) large = split_generation(large, tasks, parallel_for);
+        for_each_task(tasks.size(), parallel_for, [&](std::size_t i) { split_all(tasks[i]); });
+    }
+
+private:
+    /// [first, first + count) of one of the two arrays.
+    struct Set {
+        std::size_t first;
+        std::size_t count;
+        std::size_t array;
+    };
+
+    /// A part of a large set that one task works on.
+    struct Piece {
+        std::size_t set;
+        std::size_t first;
+        std::size_t count;
+        MiddleBounds bounds = {};
+        typename Policy::Bins bins = {};
+        /// Where its items before the bin, in it and behind it go.
+        std::array<std::size_t, 3> target = {};
+    };
+
+    /// Whether a set is too much for one task: few tasks share badly, small ones go
+    /// through all the memory once more for each generation.
+    [[nodiscard]] bool is_large(std::size_t count) const {
+        return count > std::max(2 * kItemsPerTask, order_.size() / 16 + 1);
+    }
+
+    std::span<Item> items_of(const Set& set) const {
+        return arrays_[set.array].subspan(set.first, set.count);
+    }
+    std::span<Item> target_of(const Set& set) const {
+        return arrays_[1 - set.array].subspan(set.first, set.count);
+    }
+
+    static MiddleBounds bounds_of(std::span<const Item> items) {
+        MiddleBounds bounds;
+        for (const Item& item : items) {
+            const Lanes<float, 4> middle = item.middle();
+            take_lower(bounds.lower, middle);
+            take_upper(bounds.upper, middle);
+        }
+        return bounds;
+    }
+
+    /// Moves each item to where its bin says. Which side is a matter of chance: no
+    /// branch depends on it. That it falls into the one bin is not.
+    static void scatter(std::span<const Item> items, const Cut& cut,
+                        std::array<std::size_t, 3> target, std::span<Item> out) {
+        const auto border = static_cast<std::ptrdiff_t>(cut.bin);
+        auto [before, in, behind] = target;
+        for (const Item& item : items) {
+            const auto bin = static_cast<std::ptrdiff_t>(cut.binning.bin(item.middle(cut.axis)));
+            if (bin == border) {
+                out[in++] = item;
+                continue;
+            }
+            // All ones behind the border.
+            const auto mask = static_cast<std::size_t>((border - bin) >> 63);
+            out[before ^ ((before ^ behind) & mask)] = item;
+            before += 1 + mask;
+            behind -= mask;
+        }
+    }
+
+    /// Sorts the items of the cut's bin by side; first come those of the left.
+    static void settle(std::span<Item> items, std::size_t left, std::size_t axis,
+                       std::span<Item> scratch) {
+        if (left == 0 || left == items.size()) return;
+        struct Key {
+            float middle;
+            std::uint32_t place;
+            bool operator<(const Key& other) const {
+                return middle != other.middle ? middle < other.middle : place < other.place;
+            }
+        };
+        std::vector<Key> keys(items.size());
+        for (std::size_t i = 0; i < keys.size(); ++i) {
+            keys[i] = {items[i].middle(axis), static_cast<std::uint32_t>(i)};
+        }
+        const auto border = keys.begin() + static_cast<std::ptrdiff_t>(left);
+        std::nth_element(keys.begin(), border, keys.end());
+        const Key first_right = *border;
+        std::array<std::size_t, 2> target = {0, left};
+        std::copy(items.begin(), items.end(), scratch.begin());
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const Key key = {scratch[i].middle(axis), static_cast<std::uint32_t>(i)};
+            items[target[key < first_right ? 0 : 1]++] = scratch[i];
+        }
+    }
+
+    static void settle(const Set& set, const Cut& cut, const CutCounts& counts,
+                       std::span<Item> from, std::span<Item> to) {
+        (void)set;
+        settle(to.subspan(counts.before, counts.in), cut.left - counts.before, cut.axis,
+               from.first(counts.in));
+    }
+
+    /// Cuts a set; both sides stand in the other array.
+    std::size_t cut_in_two(const Set& set) const {
+        const std::span<Item> items = items_of(set);
+        const std::span<Item> to = target_of(set);
+        const MiddleBounds bounds = bounds_of(items);
+        if (set.count <= kSmallSet) return Policy::cut_small(items, bounds, to);
+        typename Policy::Bins bins;
+        Policy::clear(bins, bounds);
+        Policy::count(bins, items);
+        const Cut cut = Policy::choose(bins, set.count);
+        const CutCounts counts = Policy::counts(bins, cut);
+        scatter(items, cut, {0, counts.before, counts.before + counts.in}, to);
+        settle(set, cut, counts, items, to);
+        return cut.left;
+    }
+
+    void split_all(Set set) const {
+        while (set.count > format::kBvhWidth) {
+            const std::size_t left = cut_in_two(set);
+            set.array = 1 - set.array;
+            split_all({set.first, left, set.array});
+            set.first += left;
+            set.count -= left;
+        }
+        put_in_order(items_of(set), order_.subspan(set.first, set.count));
+    }
+
+    /// Writes the numbers of one leaf, least first: each to as many places from the
+    /// front as there are lesser ones.
+    static void put_in_order(std::span<const Item> items, std::span<std::uint32_t> numbers) {
+        Lanes<std::int32_t, 8> number = all_lanes<std::int32_t, 8>(INT32_MAX);
+        Lanes<std::int32_t, 8> lesser = {};
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            number[i] = static_cast<std::int32_t>(items[i].number());
+        }
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const std::int32_t own = number[i];
+            for_lanes<8>([&](std::size_t lane) { lesser[lane] += own < number[lane] ? 1 : 0; });
+        }
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            numbers[static_cast<std::size_t>(lesser[i])] = items[i].number();
+        }
+    }
+
+    static std::vector<Piece> pieces_of(const std::vector<Set>& sets) {
+        std::vector<Piece> pieces;
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            for (std::size_t first = 0; first < sets[i].count; first += kItemsPerTask) {
+                pieces.push_back({i, first, std::min(kItemsPerTask, sets[i].count - first)});
+            }
+        }
+        return pieces;
+    }
+
+    /// Cuts all sets; returns the sides that are large still.
+    std::vector<Set> split_generation(const std::vector<Set>& sets, std::vector<Set>& tasks,
+                                      const ParallelFor& parallel_for) const {
+        std::vector<Piece> pieces = pieces_of(sets);
+        const auto items = [&](const Piece& piece) {
+            return items_of(sets[piece.set]).subspan(piece.first, piece.count);
+        };
+        for_each_task(pieces.size(), parallel_for,
+                      [&](std::size_t i) { pieces[i].bounds = bounds_of(items(pieces[i])); });
+        std::vector<MiddleBounds> bounds(sets.size());
+        for (const Piece& piece : pieces) bounds[piece.set].grow(piece.bounds);
+        for_each_task(pieces.size(), parallel_for, [&](std::size_t i) {
+            Policy::clear(pieces[i].bins, bounds[pieces[i].set]);
+            Policy::count(pieces[i].bins, items(pieces[i]));
+        });
+        std::vector<Cut> cuts(sets.size());
+        std::vector<CutCounts> counts(sets.size());
+        aim(sets, pieces, cuts, counts);
+        for_each_task(pieces.size(), parallel_for, [&](std::size_t i) {
+            const Piece& piece = pieces[i];
+            scatter(items(piece), cuts[piece.set], piece.target, target_of(sets[piece.set]));
+        });
+        for_each_task(sets.size(), parallel_for, [&](std::size_t i) {
+            settle(sets[i], cuts[i], counts[i], items_of(sets[i]), target_of(sets[i]));
+        });
+        std::vector<Set> next;
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            const Set& set = sets[i];
+            const std::size_t left = cuts[i].left;
+            for (const Set side : {Set{set.first, left, 1 - set.array},
+                                   Set{set.first + left, set.count - left, 1 - set.array}}) {
+                (is_large(side.count) ? next : tasks).push_back(side);
+            }
+        }
+        return next;
+    }
+
+    /// Chooses the cuts, and where the items of each piece go.
+    static void aim(const std::vector<Set>& sets, std::vector<Piece>& pieces,
+                    std::vector<Cut>& cuts, std::vector<CutCounts>& counts) {
+        std::vector<typename Policy::Bins> bins(sets.size());
+        std::vector<bool> begun(sets.size());
+        for (const Piece& piece : pieces) {
+            if (begun[piece.set]) {
+                Policy::add(bins[piece.set], piece.bins);
+            } else {
+                bins[piece.set] = piece.bins;
+                begun[piece.set] = true;
+            }
+        }
+        std::vector<std::array<std::size_t, 3>> target(sets.size());
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            cuts[i] = Policy::choose(bins[i], sets[i].count);
+            counts[i] = Policy::counts(bins[i], cuts[i]);
+            target[i] = {0, counts[i].before, counts[i].before + counts[i].in};
+        }
+        for (Piece& piece : pieces) {
+            std::array<std::size_t, 3>& next = target[piece.set];
+            piece.target = next;
+            const CutCounts own = Policy::counts(piece.bins, cuts[piece.set]);
+            next[0] += own.before;
+            next[1] += own.in;
+            next[2] += own.all - own.before - own.in;
+        }
+    }
+
+    std::array<std::span<Item>, 2> arrays_;
+    std::span<std::uint32_t> order_;
+};
+
+}  // namespace cdprep::build

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+// How fast hierarchies are built and refitted, and how fast a tree of each kind
+// answers.
+//
+// Usage: build_bvh_bench BAKES [ROUNDS [POSES [PAIR...]]]
+// BAKES holds NAME.cdp.h5: their triangles are built anew, in the order of their
+// source. POSES holds A-B.pose files as pair_queries_bench reads them. Every way of
+// building takes its turn, ROUNDS times (5); figures are medians. Prints two CSV
+// tables.
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cdprep/build_bvh.h"
+#include "cdprep/collide.h"
+#include "cdprep/overlapping_triangles.h"
+#include "support/tiny_baker.h"
+
+namespace cdprep {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+[[noreturn]] void stop(const std::string& message) {
+    std::fprintf(stderr, "build_bvh_bench: %s\n", message.c_str());
+    std::exit(2);
+}
+
+/// A mesh in the numbering of its source.
+struct SourceMesh {
+    std::vector<Double3> positions;
+    std::vector<format::Triangle> triangles;
+};
+
+SourceMesh source_mesh(const fs::path& path) {
+    auto opened = Model::open(path);
+    if (!opened) stop(opened.error().message);
+    const Model& model = opened.value();
+    SourceMesh mesh;
+    std::vector<Double3> points(model.positions_f64().begin(), model.positions_f64().end());
+    for (const Float3& p : model.positions_f32()) points.push_back({p.x, p.y, p.z});
+    // Vertices stand in the order of their source's numbers.
+    std::vector<std::uint32_t> by_source(points.size());
+    for (std::uint32_t i = 0; i < by_source.size(); ++i) by_source[i] = i;
+    const auto source = model.source_vertex();
+    std::sort(by_source.begin(), by_source.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return source[a] < source[b]; });
+    std::vector<std::uint32_t> new_number(points.size());
+    for (std::uint32_t i = 0; i < by_source.size(); ++i) {
+        new_number[by_source[i]] = i;
+        mesh.positions.push_back(points[by_source[i]]);
+    }
+    mesh.triangles.resize(model.triangles().size());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        format::Triangle triangle = model.triangles()[i];
+        for (std::uint32_t& vertex : triangle.vertex) vertex = new_number[vertex];
+        mesh.triangles[model.source_triangle()[i]] = triangle;
+    }
+    return mesh;
+}
+
+/// Threads that wait for work: a parallel_for whose cost is not that of starting them.
+class Crew {
+public:
+    explicit Crew(std::size_t threads) {
+        for (std::size_t i = 1; i < threads; ++i) {
+            threads_.emplace_back([this] { wait_for_work(); });
+        }
+    }
+    ~Crew() {
+        {
+            const std::lock_guard lock(mutex_);
+            ended_ = true;
+        }
+        changed_.notify_all();
+        for (std::thread& thread : threads_) thread.join();
+    }
+    Crew(const Crew&) = delete;
+    Crew& operator=(const Crew&) = delete;
+
+    void run(std::size_t count, const std::function<void(std::size_t)>& body) {
+        if (threads_.empty() || count < 2) return build::serial_for(count, body);
+        {
+            const std::lock_guard lock(mutex_);
+            body_ = &body;
+            count_ = count;
+            next_ = 0;
+            busy_ = threads_.size();
+            ++round_;
+        }
+        changed_.notify_all();
+        take_part();
+        std::unique_lock lock(mutex_);
+        done_.wait(lock, [this] { return busy_ == 0; });
+    }
+
+private:
+    void take_part() {
+        for (std::size_t i = next_++; i < count_; i = next_++) (*body_)(i);
+    }
+    void wait_for_work() {
+        std::size_t seen = 0;
+        for (;;) {
+            {
+                std::unique_lock lock(mutex_);
+                changed_.wait(lock, [&] { return ended_ || round_ != seen; });
+                if (ended_) return;
+                seen = round_;
+            }
+            take_part();
+            const std::lock_guard lock(mutex_);
+            if (--busy_ == 0) done_.notify_one();
+        }
+    }
+
+    std::vector<std::thread> threads_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::condition_variable done_;
+    const std::function<void(std::size_t)>* body_ = nullptr;
+    std::size_t count_ = 0;
+    std::atomic<std::size_t> next_ = 0;
+    std::size_t busy_ = 0;
+    std::size_t round_ = 0;
+    bool ended_ = false;
+};
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[(values.size() - 1) / 2];
+}
+
+template <class T>
+test::TinySection section(SectionId id, const std::vector<T>& elements) {
+    const auto bytes = std::as_bytes(std::span(elements));
+    return {id, {bytes.begin(), bytes.end()}};
+}
+
+/// A model with this hierarchy, and the bytes that it lives in.
+struct OpenModel {
+    test::AlignedBytes bytes;
+    Model model;
+};
+
+/// Only what overlapping_triangles() and collide() read.
+OpenModel open_model(const SourceMesh& mesh, const build::Bvh& bvh) {
+    std::vector<Float3> points;
+    for (const Double3& p : mesh.positions) {
+        points.push_back(
+            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    }
+    std::vector<format::Triangle> triangles;
+    for (const std::uint32_t source : bvh.order) triangles.push_back(mesh.triangles[source]);
+    format::FileHeader facts{};
+    facts.vertex_count = static_cast<std::uint32_t>(points.size());
+    facts.triangle_count = static_cast<std::uint32_t>(triangles.size());
+    if (bvh.exact_leaves) facts.flags |= format::model_exact_leaves;
+    facts.frame_origin = bvh.frame.origin;
+    facts.frame_exponent = bvh.frame.exponent;
+    std::vector<test::TinySection> sections = {
+        section(SectionId::positions_f32, points), section(SectionId::triangles, triangles),
+        section(SectionId::source_triangle, bvh.order), section(SectionId::bvh_nodes, bvh.nodes),
+        section(SectionId::bvh_leaves, bvh.leaves)};
+    if (!bvh.oriented_nodes.empty()) {
+        sections.push_back(section(SectionId::oriented_nodes, bvh.oriented_nodes));
+    }
+    test::AlignedBytes bytes = test::assemble(facts, sections);
+    auto opened = Model::open(std::as_const(bytes).span());
+    if (!opened) stop(opened.error().message);
+    return {std::move(bytes), std::move(opened).value()};
+}
+
+std::vector<Pose> read_poses(const fs::path& path) {
+    std::ifstream file(path);
+    std::vector<Pose> poses;
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; file >> rows[i % 12]; ++i) {
+        if (i % 12 != 11) continue;
+        auto pose = Pose::from_rows(rows);
+        if (!pose) stop(path.string() + ": " + pose.error().message);
+        poses.push_back(pose.value());
+    }
+    return poses;
+}
+
+struct Way {
+    std::string name;
+    build::BvhOptions options;
+    std::vector<double> seconds = {};
+};
+
+void time_builds(const std::string& name, const SourceMesh& mesh, int rounds) {
+    std::vector<std::unique_ptr<Crew>> crews;
+    std::vector<Way> ways;
+    for (const std::size_t threads : {1U, 2U, 4U}) {
+        crews.push_back(std::make_unique<Crew>(threads));
+        const build::ParallelFor on_crew = [crew = crews.back().get()](
+                                               std::size_t count,
+                                               const std::function<void(std::size_t)>& body) {
+            crew->run(count, body);
+        };
+        for (const build::Quality quality : {build::Quality::best, build::Quality::fast}) {
+            for (const bool oriented : {true, false}) {
+                ways.push_back({std::string(quality == build::Quality::best ? "best" : "fast") +
+                                    (oriented ? ",yes," : ",no,") + std::to_string(threads),
+                                {on_crew, quality, oriented}});
+            }
+        }
+    }
+    for (int round = 0; round < rounds; ++round) {
+        for (Way& way : ways) {
+            const Clock::time_point begun = Clock::now();
+            const build::Bvh bvh = build_bvh(mesh.positions, mesh.triangles, way.options);
+            way.seconds.push_back(std::chrono::duration<double>(Clock::now() - begun).count());
+        }
+    }
+    for (const Way& way : ways) {
+        const double seconds = median(way.seconds);
+        std::printf("%s,%zu,%s,%.1f,%.2f\n", name.c_str(), mesh.triangles.size(), way.name.c_str(),
+                    1e3 * seconds, 1e-6 * static_cast<double>(mesh.triangles.size()) / seconds);
+    }
+    std::fflush(stdout);
+}
+
+/// A way of building that queries are timed on.
+struct Tree {
+    const char* name;
+    build::BvhOptions options;
+};
+const std::array<Tree, 4> kTrees = {{
+    {"best", {}},
+    {"fast", {.quality = build::Quality::fast}},
+    {"best without oriented boxes", {.bounds = build::BvhBounds::aligned}},
+    {"fast without oriented boxes", {.bounds = build::BvhBounds::aligned, .quality = build::Quality::fast}},
+}};
+
+/// Microseconds that each pose took, the least of the rounds.
+std::vector<double> time_poses(const std::vector<Pose>& poses, int rounds,
+                               const std::function<void(const Placement&)>& ask) {
+    std::vector<double> us(poses.size(), 1e300);
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            const Clock::time_point begun = Clock::now();
+            ask(Placement::b_moves(poses[i]));
+            const std::chrono::duration<double, std::micro> taken = Clock::now() - begun;
+            us[i] = std::min(us[i], taken.count());
+        }
+    }
+    return us;
+}
+
+void time_queries(const std::string& pair, const SourceMesh& a, const SourceMesh& b,
+                  const std::vector<Pose>& all, int rounds) {
+    constexpr std::array<const char*, 2> kKinds = {"light", "deep"};
+    Workspace workspace;
+    std::vector<TrianglePair> found(std::size_t{1} << 22);
+    std::vector<OpenModel> models_a, models_b;
+    for (const Tree& tree : kTrees) {
+        models_a.push_back(open_model(a, build_bvh(a.positions, a.triangles, tree.options)));
+        models_b.push_back(open_model(b, build_bvh(b.positions, b.triangles, tree.options)));
+    }
+    for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+        std::vector<Pose> poses;
+        for (std::size_t i = kind; i < all.size(); i += 3) poses.push_back(all[i]);
+        for (const bool overlap : {true, false}) {
+            std::array<std::vector<double>, kTrees.size()> totals;
+            for (int round = 0; round < rounds; ++round) {
+                for (std::size_t tree = 0; tree < kTrees.size(); ++tree) {
+                    const Model& model_a = models_a[tree].model;
+                    const Model& model_b = models_b[tree].model;
+                    const auto us = time_poses(poses, 3, [&](const Placement& placement) {
+                        if (overlap) {
+                            overlapping_triangles(model_a, model_b, placement, workspace, found);
+                        } else {
+                            (void)collide(model_a, model_b, placement, workspace);
+                        }
+                    });
+                    totals[tree].push_back(median(us));
+                }
+            }
+            for (std::size_t tree = 0; tree < kTrees.size(); ++tree) {
+                std::printf("%s,%s/%s,%s,%.2f,%.2f\n", pair.c_str(),
+                            overlap ? "overlap" : "collide", kKinds[kind], kTrees[tree].name,
+                            median(totals[tree]), median(totals[tree]) / median(totals[0]));
+            }
+            std::fflush(stdout);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace cdprep
+
+int main(int count, char** arguments) {
+    using namespace cdprep;
+    if (count < 2) {
+        std::fprintf(stderr, "usage: %s BAKES [ROUNDS [POSES [PAIR...]]]\n", arguments[0]);
+        return 2;
+    }
+    const fs::path bakes = arguments[1];
+    const auto mesh = [&](const std::string& name) {
+        return source_mesh(bakes / (name + ".cdp.h5"));
+    };
+    const int rounds = count > 2 ? std::max(1, std::atoi(arguments[2])) : 5;
+    std::printf("model,triangles,mode,oriented,threads,median_ms,million_triangles_per_s\n");
+    for (const char* name : {"dragon", "armadillo"}) time_builds(name, mesh(name), rounds);
+    if (count < 4) return 0;
+    const fs::path poses = arguments[3];
+    std::vector<std::string> pairs(arguments + std::min(count, 4), arguments + count);
+    if (pairs.empty()) pairs = {"dragon-armadillo", "armadillo-bunny", "buddha-horse"};
+    std::printf("\npair,question,tree,median_us,times_best\n");
+    for (const std::string& pair : pairs) {
+        const std::size_t dash = pair.find('-');
+        if (dash == std::string::npos) stop("'" + pair + "' is not two names with a dash between");
+        time_queries(pair, mesh(pair.substr(0, dash)), mesh(pair.substr(dash + 1)),
+                     read_poses(poses / (pair + ".pose")), rounds);
+    }
+}
