@@ -3,7 +3,9 @@
 
 #include <cstdlib>
 
+#include "cdprep/refit_bvh.h"
 #include "frame_map.h"
+#include "lanes.h"
 #include "make_leaves.h"
 #include "make_nodes.h"
 #include "make_oriented.h"
@@ -13,7 +15,9 @@
 namespace cdprep::build {
 namespace {
 
+using format::BvhNode;
 using format::Double3;
+using format::kBvhWidth;
 using format::Triangle;
 
 /// Exponents of frames whose scale is an ordinary float.
@@ -74,6 +78,43 @@ Bvh build_bvh(std::span<const Double3> positions, std::span<const Triangle> tria
     Bvh bvh;
     rebuild_bvh(bvh, positions, triangles, options);
     return bvh;
+}
+
+double refit_bvh(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
+                 const BvhOptions& options) {
+    if (triangles.empty()) return 0;
+    set_frame(bvh, positions, triangles, options.parallel_for);
+    fill_nodes(bvh, positions, triangles, options);
+    return surface_cost(bvh);
+}
+
+double surface_cost(const Bvh& bvh) noexcept {
+    if (bvh.nodes.empty()) return 0;
+    // Of boxes that are not used the sides are -2: they count for nothing.
+    const auto half_areas = [](const BvhNode& node) {
+        Lanes<double, kBvhWidth> area;
+        for_lanes<kBvhWidth>([&](std::size_t box) {
+            const double x = double{node.upper[0][box]} - double{node.lower[0][box]};
+            const double y = double{node.upper[1][box]} - double{node.lower[1][box]};
+            const double z = double{node.upper[2][box]} - double{node.lower[2][box]};
+            area[box] = x < 0 ? 0 : x * y + y * z + z * x;
+        });
+        return area;
+    };
+    Lanes<double, kBvhWidth> sum{};
+    for (const BvhNode& node : bvh.nodes) {
+        const Lanes<double, kBvhWidth> area = half_areas(node);
+        for_lanes<kBvhWidth>([&](std::size_t box) { sum[box] += area[box]; });
+    }
+    double total = 0;
+    for (const double area : sum) total += area;
+    std::array<double, 3> side{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        side[axis] =
+            double{greatest(bvh.nodes[0].upper[axis])} - double{least(bvh.nodes[0].lower[axis])};
+    }
+    const double whole = side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
+    return whole > 0 ? total / whole : 0;
 }
 
 }  // namespace cdprep::build

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "chunks.h"
-#include "lanes.h"
 
 namespace cdprep::build {
 namespace {
@@ -15,27 +14,26 @@ using format::Triangle;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The fourth lane repeats the third.
 struct PointBounds {
-    Lanes<double, 4> lower = all_lanes<double, 4>(kInfinity);
-    Lanes<double, 4> upper = all_lanes<double, 4>(-kInfinity);
-    Lanes<std::int64_t, 4> lost = {};  ///< bits that differ once rounded to float
+    std::array<double, 3> lower = {kInfinity, kInfinity, kInfinity};
+    std::array<double, 3> upper = {-kInfinity, -kInfinity, -kInfinity};
+    std::uint64_t lost = 0;  ///< bits that differ once rounded to float
 
     void grow(const PointBounds& other) {
-        take_lower(lower, other.lower);
-        take_upper(upper, other.upper);
-        for_lanes<4>([&](std::size_t lane) { lost[lane] |= other.lost[lane]; });
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            lower[axis] = std::min(lower[axis], other.lower[axis]);
+            upper[axis] = std::max(upper[axis], other.upper[axis]);
+        }
+        lost |= other.lost;
     }
     void grow(const Double3& p) {
-        const Lanes<double, 4> point = {p.x, p.y, p.z, p.z};
-        take_lower(lower, point);
-        take_upper(upper, point);
-        Lanes<double, 4> back;
-        for_lanes<4>(
-            [&](std::size_t lane) { back[lane] = double{static_cast<float>(point[lane])}; });
-        const auto bits = std::bit_cast<Lanes<std::int64_t, 4>>(point);
-        const auto bits_back = std::bit_cast<Lanes<std::int64_t, 4>>(back);
-        for_lanes<4>([&](std::size_t lane) { lost[lane] |= bits[lane] ^ bits_back[lane]; });
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double x = coordinate(p, axis);
+            lower[axis] = std::min(lower[axis], x);
+            upper[axis] = std::max(upper[axis], x);
+            lost |= std::bit_cast<std::uint64_t>(x) ^
+                    std::bit_cast<std::uint64_t>(double{static_cast<float>(x)});
+        }
     }
 };
 
@@ -61,9 +59,7 @@ Extent extent_of(std::span<const Double3> positions, std::span<const Triangle> t
     });
     for (std::size_t i = 1; i < kMostParts; ++i) parts[0].grow(parts[i]);
     const auto& [lower, upper, lost] = parts[0];
-    return {{lower[0], lower[1], lower[2]},
-            {upper[0], upper[1], upper[2]},
-            (lost[0] | lost[1] | lost[2]) == 0};
+    return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}, lost == 0};
 }
 
 Frame frame_of(const Extent& extent) {

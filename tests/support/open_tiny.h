@@ -18,16 +18,20 @@ struct OpenModel {
     Model model;
 };
 
-/// Bakes and opens; ends the test program when that fails.
-inline OpenModel open_tiny(std::span<const Double3> positions, std::span<const Triangle> triangles,
-                           const TinyOptions& options = {}) {
-    AlignedBytes bytes = bake_tiny(positions, triangles, options);
+/// Opens; ends the test program when that fails.
+inline OpenModel open_tiny(AlignedBytes bytes) {
     Result<Model> opened = Model::open(std::as_const(bytes).span());
     if (!opened) {
         std::fprintf(stderr, "%s\n", opened.error().message.c_str());
         std::abort();
     }
     return {std::move(bytes), std::move(opened).value()};
+}
+
+/// Bakes and opens.
+inline OpenModel open_tiny(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                           const TinyOptions& options = {}) {
+    return open_tiny(bake_tiny(positions, triangles, options));
 }
 
 inline OpenModel open_tiny(const TestMesh& mesh, const TinyOptions& options = {}) {

@@ -8,7 +8,6 @@
 #include <numeric>
 #include <utility>
 
-#include "cdprep/build_bvh.h"
 #include "cdprep/format/checksum.h"
 #include "cdprep/format/make_user_block.h"
 #include "cdprep/format/sections.h"
@@ -135,7 +134,14 @@ AlignedBytes assemble(const format::FileHeader& facts, const std::vector<TinySec
 
 AlignedBytes bake_tiny(std::span<const Double3> positions, std::span<const Triangle> triangles,
                        const TinyOptions& options) {
-    const build::Bvh bvh = build::build_bvh(positions, triangles, {.bounds = options.bounds});
+    return bake_tiny(positions, triangles,
+                     build::build_bvh(positions, triangles,
+                                      {.bounds = options.bounds, .quality = options.quality}),
+                     options);
+}
+
+AlignedBytes bake_tiny(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                       const build::Bvh& bvh, const TinyOptions& options) {
     const Ordered mesh = in_order(positions, triangles, bvh.order);
 
     std::vector<TinySection> all;

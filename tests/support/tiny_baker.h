@@ -23,6 +23,7 @@ struct TinyOptions {
     std::uint64_t section_alignment = format::kSectionAlignment;
     format::SectionSet leave_out = {};  ///< sections that are not written
     build::BvhBounds bounds = build::BvhOptions{}.bounds;
+    build::Quality quality = build::Quality::best;
 };
 
 /// One section's id and bytes.
@@ -36,6 +37,11 @@ struct TinySection {
 /// taken as they are shared; positions must be finite.
 [[nodiscard]] AlignedBytes bake_tiny(std::span<const Double3> positions,
                                      std::span<const Triangle> triangles,
+                                     const TinyOptions& options = {});
+
+/// The same with a hierarchy over these triangles that is there already.
+[[nodiscard]] AlignedBytes bake_tiny(std::span<const Double3> positions,
+                                     std::span<const Triangle> triangles, const build::Bvh& bvh,
                                      const TinyOptions& options = {});
 
 /// Lays sections out behind a user block with these facts; what bake_tiny does

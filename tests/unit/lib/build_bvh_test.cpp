@@ -4,29 +4,61 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <cstring>
 #include <numeric>
+#include <random>
 #include <thread>
 
+#include "cdprep/collide.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/pose.h"
-#include "support/exact_rational.h"
-#include "support/meshes.h"
-#include "support/tiny_baker.h"
+#include "support/brute_force.h"
+#include "support/bvh_boxes.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
 
 namespace cdprep::test {
 namespace {
 
 using build::build_bvh;
 using build::Bvh;
+using build::Quality;
 using format::BvhShape;
+
+constexpr Quality kQualities[] = {Quality::best, Quality::fast};
+
+/// Triangles that are one point each, the same for all.
+TestMesh one_point(int count) {
+    TestMesh mesh = copies_of_one_triangle(count);
+    for (Double3& p : mesh.positions) p = {3, -2, 0.5};
+    return mesh;
+}
+
+/// Middles all along one line, most of them in one place.
+TestMesh crowded(int count) {
+    TestMesh mesh = random_soup(7, count, 0.001);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        Double3& p = mesh.positions[i];
+        const bool outlier = i / 3 % 50 == 0;
+        p = {outlier ? p.x : 1e-30 * p.x, 0, outlier ? 1 : 1e-30};
+    }
+    return mesh;
+}
 
 std::vector<TestMesh> awkward_meshes() {
     return {TestMesh{},
             fan(1),
+            fan(8),
             fan(9),
+            fan(64),
+            fan(65),
+            one_point(1),
+            one_point(700),
+            crowded(600),
+            moved_by(fan(70), 0x1p-1060, {}),  // subnormal
+            moved_by(unit_cube(), 0x1p999, {-0x1p999, 0, 0}),
             unit_cube(),
             grid_sheet(20, 30),
             icosphere(3),
@@ -45,56 +77,12 @@ bool all_floats(const TestMesh& mesh) {
                        [&](const Double3& p) { return same(p.x) && same(p.y) && same(p.z); });
 }
 
-ExactNumber in_frame(double x, double origin, std::int32_t exponent) {
-    ExactNumber value = ExactNumber(x) - ExactNumber(origin);
-    // Two steps: neither power of two leaves the range of double.
-    value = value * ExactNumber(std::ldexp(1.0, exponent / 2));
-    return value * ExactNumber(std::ldexp(1.0, exponent - exponent / 2));
-}
-
-struct Range {
-    std::uint32_t first, last;
-};
-
-/// Triangles in tree order below box `box` of node `node` of a level.
-Range below(std::uint32_t level, std::uint32_t node, std::uint32_t box, std::size_t count) {
-    std::uint64_t size = format::kBvhWidth;
-    for (std::uint32_t l = 0; l < level; ++l) size *= format::kBvhWidth;
-    const std::uint64_t first = (std::uint64_t{node} * format::kBvhWidth + box) * size;
-    return {static_cast<std::uint32_t>(std::min<std::uint64_t>(first, count)),
-            static_cast<std::uint32_t>(std::min<std::uint64_t>(first + size, count))};
-}
-
-/// Boxes must hold their triangles in exact arithmetic.
-void expect_boxes_hold(const TestMesh& mesh, const Bvh& bvh) {
-    const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
-    const double origin[3] = {bvh.frame.origin.x, bvh.frame.origin.y, bvh.frame.origin.z};
-    for (std::uint32_t level = 0; level < shape.levels; ++level) {
-        for (std::uint32_t n = 0; n < shape.count[level]; ++n) {
-            const format::BvhNode& node = bvh.nodes[shape.first[level] + n];
-            for (std::uint32_t box = 0; box < shape.used_boxes(level, n); ++box) {
-                const Range range = below(level, n, box, bvh.order.size());
-                ASSERT_LT(range.first, range.last);
-                for (std::uint32_t i = range.first; i < range.last; ++i) {
-                    for (const std::uint32_t v : mesh.triangles[bvh.order[i]].vertex) {
-                        const Double3& p = mesh.positions[v];
-                        const double x[3] = {p.x, p.y, p.z};
-                        for (std::size_t axis = 0; axis < 3; ++axis) {
-                            const ExactNumber at =
-                                in_frame(x[axis], origin[axis], bvh.frame.exponent);
-                            ASSERT_TRUE(ExactNumber(node.lower[axis][box]) <= at);
-                            ASSERT_TRUE(at <= ExactNumber(node.upper[axis][box]));
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
 TEST(BuildBvh, EveryBoxHoldsItsTrianglesInExactArithmetic) {
-    for (const TestMesh& mesh : awkward_meshes()) {
-        expect_boxes_hold(mesh, build_bvh(mesh.positions, mesh.triangles));
+    for (const Quality quality : kQualities) {
+        for (const TestMesh& mesh : awkward_meshes()) {
+            EXPECT_TRUE(boxes_hold_all(
+                mesh, build_bvh(mesh.positions, mesh.triangles, {.quality = quality})));
+        }
     }
 }
 
@@ -104,10 +92,13 @@ TEST(BuildBvh, LeavesAndOrientedBoxesHoldTheirTriangles) {
     for (const TestMesh& mesh : awkward_meshes()) {
         for (const bool double_precision : {false, true}) {
             if (!double_precision && !all_floats(mesh)) continue;
-            const AlignedBytes file =
-                bake_tiny(mesh.positions, mesh.triangles, {.double_precision = double_precision});
-            const auto damage = format::find_deep_damage(file.span());
-            EXPECT_FALSE(damage) << format::section_name(damage->section) << " " << damage->at;
+            for (const Quality quality : kQualities) {
+                const AlignedBytes file =
+                    bake_tiny(mesh.positions, mesh.triangles,
+                              {.double_precision = double_precision, .quality = quality});
+                const auto damage = format::find_deep_damage(file.span());
+                EXPECT_FALSE(damage) << format::section_name(damage->section) << " " << damage->at;
+            }
         }
     }
 }
@@ -236,12 +227,15 @@ TEST(BuildBvh, OrientedBoxesOfATurnedSheetAreThin) {
 }
 
 TEST(BuildBvh, TheOrderNamesEveryTriangleOnce) {
-    for (const TestMesh& mesh : awkward_meshes()) {
-        std::vector<std::uint32_t> order = build_bvh(mesh.positions, mesh.triangles).order;
-        std::sort(order.begin(), order.end());
-        std::vector<std::uint32_t> all(mesh.triangles.size());
-        std::iota(all.begin(), all.end(), 0U);
-        EXPECT_EQ(order, all);
+    for (const Quality quality : kQualities) {
+        for (const TestMesh& mesh : awkward_meshes()) {
+            std::vector<std::uint32_t> order =
+                build_bvh(mesh.positions, mesh.triangles, {.quality = quality}).order;
+            std::sort(order.begin(), order.end());
+            std::vector<std::uint32_t> all(mesh.triangles.size());
+            std::iota(all.begin(), all.end(), 0U);
+            EXPECT_EQ(order, all);
+        }
     }
 }
 
@@ -268,11 +262,6 @@ TEST(BuildBvh, UsedBoxesLieInTheUnitFrameAndUnusedOnesAreEmpty) {
     }
 }
 
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
-}
-
 /// Every body on a thread of its own, last first.
 void threads_for(std::size_t count, const std::function<void(std::size_t)>& body) {
     std::vector<std::thread> threads;
@@ -280,21 +269,124 @@ void threads_for(std::size_t count, const std::function<void(std::size_t)>& body
     for (std::thread& thread : threads) thread.join();
 }
 
-// Large enough that the builder hands work out.
-TEST(BuildBvh, ThreadsDoNotChangeTheResult) {
+/// On this many threads, in an order drawn anew each time.
+build::ParallelFor shuffled_on(std::size_t threads, std::uint32_t seed) {
+    return [threads, random = std::mt19937(seed)](
+               std::size_t count, const std::function<void(std::size_t)>& body) mutable {
+        std::vector<std::size_t> order(count);
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::shuffle(order.begin(), order.end(), random);
+        std::atomic<std::size_t> next = 0;
+        std::vector<std::thread> crew;
+        for (std::size_t t = 0; t < threads; ++t) {
+            crew.emplace_back([&] {
+                for (std::size_t i = next++; i < count; i = next++) body(order[i]);
+            });
+        }
+        for (std::thread& thread : crew) thread.join();
+    };
+}
+
+/// A sphere beside a soup, of which some triangles are equal: 96,920 triangles, so many
+/// that the builder hands work out, in sets of several pieces.
+TestMesh large_mesh() {
+    return joined(joined(icosphere(6), random_soup(3, 14'000, 0.05)), copies_of_one_triangle(1000));
+}
+
+TEST(BuildBvh, ThreadsAndTheirScheduleDoNotChangeTheResult) {
+    const TestMesh mesh = large_mesh();
+    for (const Quality quality : kQualities) {
+        const Bvh serial = build_bvh(mesh.positions, mesh.triangles, {.quality = quality});
+        EXPECT_TRUE(
+            same_bytes(serial, build_bvh(mesh.positions, mesh.triangles,
+                                         {.parallel_for = threads_for, .quality = quality})));
+        for (std::uint32_t threads = 1; threads <= 8; ++threads) {
+            const Bvh parallel =
+                build_bvh(mesh.positions, mesh.triangles,
+                          {.parallel_for = shuffled_on(threads, threads), .quality = quality});
+            EXPECT_TRUE(same_bytes(serial, parallel)) << threads << " threads";
+        }
+    }
+}
+
+// Large sets are cut in pieces, by other code than small ones. find_deep_damage()
+// works out anew what every box must hold.
+TEST(BuildBvh, BoxesOfLargeModelsHoldTheirTriangles) {
+    const TestMesh mesh = large_mesh();
+    for (const Quality quality : kQualities) {
+        const Bvh bvh = build_bvh(mesh.positions, mesh.triangles, {.quality = quality});
+        const AlignedBytes file =
+            bake_tiny(mesh.positions, mesh.triangles, bvh, {.double_precision = true});
+        EXPECT_FALSE(format::find_deep_damage(file.span()));
+    }
+}
+
+TEST(BuildBvh, RebuildingIntoOldArraysIsBuilding) {
+    const TestMesh mesh = icosphere(4);
+    Bvh bvh = build_bvh(fan(700).positions, fan(700).triangles);
+    for (const Quality quality : kQualities) {
+        rebuild_bvh(bvh, mesh.positions, mesh.triangles, {.quality = quality});
+        EXPECT_TRUE(
+            same_bytes(bvh, build_bvh(mesh.positions, mesh.triangles, {.quality = quality})));
+    }
+    rebuild_bvh(bvh, mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned});
+    EXPECT_TRUE(bvh.oriented_nodes.empty());
+    rebuild_bvh(bvh, {}, {});
+    EXPECT_TRUE(same_bytes(bvh, Bvh{}));
+}
+
+// The oracle: questions to the hierarchy that other tests hold against brute force.
+TEST(BuildBvh, AFastHierarchyGivesTheSameAnswers) {
+    const TestMesh soup = random_soup(11, 3000, 0.2);
+    const TestMesh ball = icosphere(4);
+    const OpenModel best_a = open_tiny(soup, {.double_precision = true});
+    const OpenModel fast_a = open_tiny(soup, {.double_precision = true, .quality = Quality::fast});
+    const OpenModel best_b = open_tiny(ball, {.double_precision = true});
+    const OpenModel fast_b = open_tiny(ball, {.double_precision = true, .quality = Quality::fast});
+    std::mt19937 random(5);
+    Workspace workspace;
+    int hits = 0;
+    constexpr int kPoses = 60;
+    for (int i = 0; i < kPoses; ++i) {
+        const Placement placement = Placement::b_moves(random_pose(random, 2.6));
+        const auto expected = all_pairs(best_a.model, best_b.model, placement, workspace);
+        EXPECT_EQ(all_pairs(fast_a.model, fast_b.model, placement, workspace), expected);
+        EXPECT_EQ(collide(fast_a.model, fast_b.model, placement, workspace).hit, !expected.empty());
+        hits += expected.empty() ? 0 : 1;
+    }
+    EXPECT_GE(hits, kPoses * 3 / 10);
+    EXPECT_LE(hits, kPoses * 7 / 10);
+}
+
+// By hand: one leaf of one flat triangle fills its box; two leaves that share theirs
+// count twice; points have no area.
+TEST(SurfaceCost, IsTheAreaOfAllBoxesByThatOfTheWhole) {
+    const TestMesh one = copies_of_one_triangle(1);
+    EXPECT_NEAR(surface_cost(build_bvh(one.positions, one.triangles)), 1, 1e-6);
+    const TestMesh copies = copies_of_one_triangle(16);
+    EXPECT_NEAR(surface_cost(build_bvh(copies.positions, copies.triangles)), 2, 1e-6);
+    const TestMesh point = one_point(16);
+    EXPECT_EQ(surface_cost(build_bvh(point.positions, point.triangles)), 0);
+    EXPECT_EQ(surface_cost(Bvh{}), 0);
+}
+
+TEST(SurfaceCost, IsLittleHigherForAFastHierarchy) {
     const TestMesh sphere = icosphere(6);
-    const Bvh serial = build_bvh(sphere.positions, sphere.triangles);
-    const Bvh parallel = build_bvh(sphere.positions, sphere.triangles, {threads_for});
-    EXPECT_EQ(serial.order, parallel.order);
-    ASSERT_EQ(serial.nodes.size(), parallel.nodes.size());
-    EXPECT_TRUE(same_bytes(serial.nodes, parallel.nodes));
-    EXPECT_TRUE(same_bytes(serial.leaves, parallel.leaves));
-    EXPECT_TRUE(same_bytes(serial.oriented_nodes, parallel.oriented_nodes));
+    const double best = surface_cost(build_bvh(sphere.positions, sphere.triangles));
+    const double fast =
+        surface_cost(build_bvh(sphere.positions, sphere.triangles, {.quality = Quality::fast}));
+    EXPECT_GT(best, 1);
+    EXPECT_LT(best, 1.02 * fast);
+    EXPECT_LT(fast, 1.2 * best);
+}
+
+TEST(BuildBvh, ThreadsDoNotChangeSweptSpheres) {
+    const TestMesh sphere = icosphere(6);
     for (const build::BvhBounds bounds : kSwept) {
         const Bvh one = build_bvh(sphere.positions, sphere.triangles, {.bounds = bounds});
         const Bvh many = build_bvh(sphere.positions, sphere.triangles,
                                    {.parallel_for = threads_for, .bounds = bounds});
-        EXPECT_TRUE(same_bytes(one.swept_nodes, many.swept_nodes));
+        EXPECT_TRUE(same_bytes(one, many));
     }
 }
 
