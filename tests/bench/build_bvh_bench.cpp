@@ -5,8 +5,9 @@
 // Usage: build_bvh_bench BAKES [ROUNDS [POSES [PAIR...]]]
 // BAKES holds NAME.cdp.h5: their triangles are built anew, in the order of their
 // source. POSES holds A-B.pose files as pair_queries_bench reads them. Every way of
-// building takes its turn, ROUNDS times (5); figures are medians. Prints two CSV
-// tables.
+// building takes its turn, ROUNDS times (5); figures are medians. "rebuilt" builds into
+// the arrays of the round before, "refitted" keeps their order. Prints two CSV tables:
+// builds, and what queries take by the way the two trees were built.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -17,6 +18,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -25,6 +27,7 @@
 #include "cdprep/build_bvh.h"
 #include "cdprep/collide.h"
 #include "cdprep/overlapping_triangles.h"
+#include "cdprep/refit_bvh.h"
 #include "support/tiny_baker.h"
 
 namespace cdprep {
@@ -195,41 +198,65 @@ std::vector<Pose> read_poses(const fs::path& path) {
     return poses;
 }
 
+/// A way to come to a hierarchy, and the one of the round before.
 struct Way {
     std::string name;
-    build::BvhOptions options;
+    std::function<void(const SourceMesh&, build::Bvh&)> make;
+    build::Bvh bvh = {};
     std::vector<double> seconds = {};
 };
+
+/// What is done with how many threads, oriented boxes or not.
+void add_ways(const std::string& setting, const build::BvhOptions& options,
+              std::vector<Way>& ways) {
+    build::BvhOptions fast = options;
+    fast.quality = build::Quality::fast;
+    ways.push_back({"best," + setting, [options](const SourceMesh& mesh, build::Bvh& bvh) {
+                        bvh = build_bvh(mesh.positions, mesh.triangles, options);
+                    }});
+    ways.push_back({"fast," + setting, [fast](const SourceMesh& mesh, build::Bvh& bvh) {
+                        bvh = build_bvh(mesh.positions, mesh.triangles, fast);
+                    }});
+    ways.push_back({"fast rebuilt," + setting, [fast](const SourceMesh& mesh, build::Bvh& bvh) {
+                        rebuild_bvh(bvh, mesh.positions, mesh.triangles, fast);
+                    }});
+    ways.push_back({"best refitted," + setting, [options](const SourceMesh& mesh, build::Bvh& bvh) {
+                        if (bvh.order.empty()) {
+                            bvh = build_bvh(mesh.positions, mesh.triangles, options);
+                        } else {
+                            refit_bvh(bvh, mesh.positions, mesh.triangles, options);
+                        }
+                    }});
+}
 
 void time_builds(const std::string& name, const SourceMesh& mesh, int rounds) {
     std::vector<std::unique_ptr<Crew>> crews;
     std::vector<Way> ways;
     for (const std::size_t threads : {1U, 2U, 4U}) {
         crews.push_back(std::make_unique<Crew>(threads));
-        const build::ParallelFor on_crew = [crew = crews.back().get()](
-                                               std::size_t count,
-                                               const std::function<void(std::size_t)>& body) {
+        const auto on_crew = [crew = crews.back().get()](
+                                 std::size_t count, const std::function<void(std::size_t)>& body) {
             crew->run(count, body);
         };
-        for (const build::Quality quality : {build::Quality::best, build::Quality::fast}) {
-            for (const bool oriented : {true, false}) {
-                ways.push_back({std::string(quality == build::Quality::best ? "best" : "fast") +
-                                    (oriented ? ",yes," : ",no,") + std::to_string(threads),
-                                {on_crew, quality, oriented}});
-            }
+        for (const bool oriented : {true, false}) {
+            add_ways((oriented ? "yes," : "no,") + std::to_string(threads),
+                     {.parallel_for = on_crew, .oriented = oriented}, ways);
         }
     }
+    for (Way& way : ways) way.make(mesh, way.bvh);  // warms up
     for (int round = 0; round < rounds; ++round) {
         for (Way& way : ways) {
             const Clock::time_point begun = Clock::now();
-            const build::Bvh bvh = build_bvh(mesh.positions, mesh.triangles, way.options);
+            way.make(mesh, way.bvh);
             way.seconds.push_back(std::chrono::duration<double>(Clock::now() - begun).count());
         }
     }
     for (const Way& way : ways) {
         const double seconds = median(way.seconds);
-        std::printf("%s,%zu,%s,%.1f,%.2f\n", name.c_str(), mesh.triangles.size(), way.name.c_str(),
-                    1e3 * seconds, 1e-6 * static_cast<double>(mesh.triangles.size()) / seconds);
+        std::printf("%s,%zu,%s,%.1f,%.2f,%.3f\n", name.c_str(), mesh.triangles.size(),
+                    way.name.c_str(), 1e3 * seconds,
+                    1e-6 * static_cast<double>(mesh.triangles.size()) / seconds,
+                    surface_cost(way.bvh));
     }
     std::fflush(stdout);
 }
@@ -282,7 +309,8 @@ void time_queries(const std::string& pair, const SourceMesh& a, const SourceMesh
                     const Model& model_b = models_b[tree].model;
                     const auto us = time_poses(poses, 3, [&](const Placement& placement) {
                         if (overlap) {
-                            overlapping_triangles(model_a, model_b, placement, workspace, found);
+                            (void)overlapping_triangles(model_a, model_b, placement, workspace,
+                                                        found);
                         } else {
                             (void)collide(model_a, model_b, placement, workspace);
                         }
@@ -314,7 +342,8 @@ int main(int count, char** arguments) {
         return source_mesh(bakes / (name + ".cdp.h5"));
     };
     const int rounds = count > 2 ? std::max(1, std::atoi(arguments[2])) : 5;
-    std::printf("model,triangles,mode,oriented,threads,median_ms,million_triangles_per_s\n");
+    std::printf(
+        "model,triangles,mode,oriented,threads,median_ms,million_triangles_per_s,surface_cost\n");
     for (const char* name : {"dragon", "armadillo"}) time_builds(name, mesh(name), rounds);
     if (count < 4) return 0;
     const fs::path poses = arguments[3];
