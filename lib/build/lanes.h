@@ -19,11 +19,17 @@ template <class T, std::size_t kCount>
     return lanes;
 }
 
-/// Calls body(lane) for each lane.
+/// Calls body(lane) for each lane. Eight are twice four: of floats one vector each, and
+/// no loop is left.
 template <std::size_t kCount, class Body>
 inline void for_lanes(const Body& body) {
+    if constexpr (kCount == 8) {
+        for_lanes<4>(body);
+        for_lanes<4>([&](std::size_t lane) { body(lane + 4); });
+    } else {
 #pragma GCC unroll 1
-    for (std::size_t lane = 0; lane < kCount; ++lane) body(lane);
+        for (std::size_t lane = 0; lane < kCount; ++lane) body(lane);
+    }
 }
 
 template <class T, std::size_t kCount>

@@ -137,9 +137,16 @@ struct QuickPolicy {
         bins.count.fill(0);
     }
     static void count(Bins& bins, std::span<const Item> items) {
-        for (const Item& item : items) {
-            ++bins.count[bins.binning.bin(item.middle(bins.axis))];
+        // Neighbours in the list often are neighbours in space: two counters, so that one
+        // need not wait for the other.
+        std::array<std::uint32_t, kBins> odd{};
+        const auto bin = [&](std::size_t i) { return bins.binning.bin(items[i].middle(bins.axis)); };
+        for (std::size_t i = 0; i + 1 < items.size(); i += 2) {
+            ++bins.count[bin(i)];
+            ++odd[bin(i + 1)];
         }
+        if (items.size() % 2 != 0) ++bins.count[bin(items.size() - 1)];
+        for (std::size_t i = 0; i < kBins; ++i) bins.count[i] += odd[i];
     }
     static void add(Bins& bins, const Bins& other) {
         for (std::size_t i = 0; i < kBins; ++i) bins.count[i] += other.count[i];
