@@ -36,9 +36,6 @@ struct alignas(16) MiddleItem {
     [[nodiscard]] float middle(std::size_t axis) const {
         return lanes[axis];
     }
-    [[nodiscard]] const Lanes<float, 4>& middle() const {
-        return lanes;
-    }
     [[nodiscard]] std::uint32_t number() const {
         return std::bit_cast<std::uint32_t>(lanes[kNumberLane]);
     }
@@ -50,11 +47,6 @@ struct alignas(32) BoxItem {
     /// Twice the middle: the halving would change no comparison.
     [[nodiscard]] float middle(std::size_t axis) const {
         return box[axis] - box[4 + axis];
-    }
-    [[nodiscard]] Lanes<float, 4> middle() const {
-        Lanes<float, 4> middle;
-        for_lanes<4>([&](std::size_t lane) { middle[lane] = box[lane] - box[4 + lane]; });
-        return middle;
     }
     [[nodiscard]] std::uint32_t number() const {
         return std::bit_cast<std::uint32_t>(box[kNumberLane]);

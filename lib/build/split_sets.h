@@ -45,9 +45,13 @@ struct MiddleBounds {
         take_lower(lower, other.lower);
         take_upper(upper, other.upper);
     }
-    void grow(const Lanes<float, 4>& middle) {
-        take_lower(lower, middle);
-        take_upper(upper, middle);
+    template <class Item>
+    void grow_by(const Item& item) {
+        for_lanes<4>([&](std::size_t lane) {
+            const float middle = item.middle(lane);
+            lower[lane] = middle < lower[lane] ? middle : lower[lane];
+            upper[lane] = upper[lane] < middle ? middle : upper[lane];
+        });
     }
     [[nodiscard]] float width(std::size_t axis) const {
         return upper[axis] - lower[axis];
@@ -170,10 +174,10 @@ private:
         MiddleBounds even;
         MiddleBounds odd;
         for (std::size_t i = 0; i + 1 < items.size(); i += 2) {
-            even.grow(items[i].middle());
-            odd.grow(items[i + 1].middle());
+            even.grow_by(items[i]);
+            odd.grow_by(items[i + 1]);
         }
-        even.grow(items.back().middle());
+        even.grow_by(items.back());
         even.grow(odd);
         return even;
     }
