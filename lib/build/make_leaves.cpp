@@ -20,7 +20,7 @@ using format::Triangle;
 
 /// One coordinate of the corners of a leaf, corner by corner, lanes past the last
 /// triangle repeating it.
-using CornerRow = Lanes<double, 3 * kBvhWidth>;
+using CornerRow = Lanes<double, std::size_t{3} * kBvhWidth>;
 using LeafCorners = std::array<CornerRow, 3>;
 
 struct Bound {
