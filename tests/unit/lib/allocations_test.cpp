@@ -12,6 +12,7 @@
 #include "cdprep/collide.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
+#include "cdprep/refit_bvh.h"
 #include "cdprep/split_overlap.h"
 #include "cdprep/touching_box.h"
 #include "cdprep/touching_capsule.h"
@@ -163,6 +164,17 @@ TEST(Allocations, NoQuestionAllocates) {
     EXPECT_EQ(allocations, before);
     EXPECT_GT(hits, 2u);
     EXPECT_GT(misses, 2u);
+}
+
+// Frame, leaves and boxes all move: every array is written anew, none is made.
+TEST(Allocations, RefittingDoesNotAllocate) {
+    const TestMesh sphere = icosphere(4);
+    const TestMesh larger = moved_by(sphere, 3, {1, 2, 3});
+    const build::BvhOptions options = {.bounds = build::BvhBounds::aligned};
+    build::Bvh bvh = build_bvh(sphere.positions, sphere.triangles, options);
+    const std::size_t before = allocations;
+    refit_bvh(bvh, larger.positions, larger.triangles, options);
+    EXPECT_EQ(allocations, before);
 }
 
 }  // namespace

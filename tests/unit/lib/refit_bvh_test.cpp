@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <random>
 
 #include "cdprep/collide.h"
@@ -15,23 +13,6 @@
 #include "support/bvh_boxes.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
-
-namespace {
-std::size_t allocations = 0;
-}  // namespace
-
-// Counts every allocation of this program.
-void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-    std::free(memory);
-}
-void operator delete(void* memory, std::size_t /*unused*/) noexcept {
-    std::free(memory);
-}
 
 namespace cdprep::test {
 namespace {
@@ -162,16 +143,6 @@ TEST(RefitBvh, TheCostTellsWhenTheOrderIsSpoilt) {
     TestMesh mixed = sphere;
     std::shuffle(mixed.positions.begin(), mixed.positions.end(), std::mt19937(6));
     EXPECT_GT(refit_bvh(bvh, mixed.positions, mixed.triangles), 5 * built);
-}
-
-TEST(RefitBvh, AllocatesNothingTheSecondTime) {
-    const TestMesh sphere = icosphere(5);
-    const TestMesh moved = twisted(sphere, 2);
-    Bvh bvh = build_bvh(sphere.positions, sphere.triangles, {.bounds = build::BvhBounds::aligned});
-    const build::BvhOptions options = {.bounds = build::BvhBounds::aligned};
-    const std::size_t before = allocations;
-    refit_bvh(bvh, moved.positions, moved.triangles, options);
-    EXPECT_EQ(allocations, before);
 }
 
 // The oracle: questions to a hierarchy built for the moved triangles.
