@@ -6,6 +6,7 @@
 #include "chunks.h"
 #include "frame_map.h"
 #include "lanes.h"
+#include "make_nodes.h"
 #include "prefetch.h"
 
 namespace cdprep::build {
@@ -115,16 +116,6 @@ private:
     std::span<const Double3> positions_;
     std::span<const Triangle> triangles_;
 };
-
-/// Boxes past the last leaf.
-void set_unused_boxes(BvhNode& node, std::size_t first) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        for (std::size_t box = first; box < kBvhWidth; ++box) {
-            node.lower[axis][box] = 1;
-            node.upper[axis][box] = -1;
-        }
-    }
-}
 
 }  // namespace
 

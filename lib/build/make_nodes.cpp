@@ -22,6 +22,15 @@ void set_box_around(BvhNode& node, std::size_t box, const BvhNode& below) {
 
 }  // namespace
 
+void set_unused_boxes(BvhNode& node, std::size_t first) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        for (std::size_t box = first; box < kBvhWidth; ++box) {
+            node.lower[axis][box] = 1;
+            node.upper[axis][box] = -1;
+        }
+    }
+}
+
 void make_nodes(Bvh& bvh, const ParallelFor& parallel_for) {
     const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
     constexpr std::size_t kNodesPerTask = 256;
@@ -30,11 +39,10 @@ void make_nodes(Bvh& bvh, const ParallelFor& parallel_for) {
         const BvhNode* const below = &bvh.nodes[shape.first[level - 1]];
         const auto make = [&](std::size_t i) {
             const std::uint32_t used = shape.used_boxes(level, static_cast<std::uint32_t>(i));
-            nodes[i].lower.fill(all_lanes<float, kBvhWidth>(1));
-            nodes[i].upper.fill(all_lanes<float, kBvhWidth>(-1));
             for (std::size_t box = 0; box < used; ++box) {
                 set_box_around(nodes[i], box, below[i * kBvhWidth + box]);
             }
+            set_unused_boxes(nodes[i], used);
         };
         for_chunks(shape.count[level], kNodesPerTask, parallel_for,
                    [&](std::size_t first, std::size_t last) {

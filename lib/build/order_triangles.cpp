@@ -53,15 +53,26 @@ struct alignas(32) BoxItem {
     }
 };
 
-/// Fills items from their boxes. Cuts need no conservative box: to the nearest float.
+struct Reach {
+    double lower;
+    double upper;
+};
+
+/// Of a triangle along an axis. Cuts need no box that is rounded outwards.
+Reach reach_of(const Triangle& triangle, std::span<const Double3> positions, const FrameMap& map,
+               std::size_t axis) {
+    const double a = coordinate(positions[triangle.vertex[0]], axis);
+    const double b = coordinate(positions[triangle.vertex[1]], axis);
+    const double c = coordinate(positions[triangle.vertex[2]], axis);
+    return {map.near(std::min({a, b, c}), axis), map.near(std::max({a, b, c}), axis)};
+}
+
 void make_item(const Triangle& triangle, std::uint32_t number, std::span<const Double3> positions,
                const FrameMap& map, BoxItem& item) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double a = coordinate(positions[triangle.vertex[0]], axis);
-        const double b = coordinate(positions[triangle.vertex[1]], axis);
-        const double c = coordinate(positions[triangle.vertex[2]], axis);
-        item.box[axis] = static_cast<float>(map.near(std::min({a, b, c}), axis));
-        item.box[4 + axis] = -static_cast<float>(map.near(std::max({a, b, c}), axis));
+        const Reach reach = reach_of(triangle, positions, map, axis);
+        item.box[axis] = static_cast<float>(reach.lower);
+        item.box[4 + axis] = -static_cast<float>(reach.upper);
     }
     item.box[kNumberLane] = std::bit_cast<float>(number);
     item.box[7] = 0;
@@ -70,11 +81,8 @@ void make_item(const Triangle& triangle, std::uint32_t number, std::span<const D
 void make_item(const Triangle& triangle, std::uint32_t number, std::span<const Double3> positions,
                const FrameMap& map, MiddleItem& item) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double a = coordinate(positions[triangle.vertex[0]], axis);
-        const double b = coordinate(positions[triangle.vertex[1]], axis);
-        const double c = coordinate(positions[triangle.vertex[2]], axis);
-        item.lanes[axis] = static_cast<float>(map.near(std::min({a, b, c}), axis) +
-                                              map.near(std::max({a, b, c}), axis));
+        const Reach reach = reach_of(triangle, positions, map, axis);
+        item.lanes[axis] = static_cast<float>(reach.lower + reach.upper);
     }
     item.lanes[kNumberLane] = std::bit_cast<float>(number);
 }
@@ -132,7 +140,9 @@ struct QuickPolicy {
         // Neighbours in the list often are neighbours in space: two counters, so that one
         // need not wait for the other.
         std::array<std::uint32_t, kBins> odd{};
-        const auto bin = [&](std::size_t i) { return bins.binning.bin(items[i].middle(bins.axis)); };
+        const auto bin = [&](std::size_t i) {
+            return bins.binning.bin(items[i].middle(bins.axis));
+        };
         for (std::size_t i = 0; i + 1 < items.size(); i += 2) {
             ++bins.count[bin(i)];
             ++odd[bin(i + 1)];
@@ -154,9 +164,7 @@ struct QuickPolicy {
                                  std::span<Item> to) {
         Ranks rank;
         ranks_along(items, longest(bounds), bounds, rank);
-        for (std::size_t i = 0; i < items.size(); ++i) {
-            to[static_cast<std::size_t>(rank[i])] = items[i];
-        }
+        place_by_rank(items, rank, to);
         return snap(items.size() / 2, items.size());
     }
 };
@@ -207,6 +215,18 @@ struct BestPolicy {
         std::array<float, kBins + 1> area_before{};
         std::array<float, kBins + 1> area_from{};
         std::array<std::size_t, kBins + 1> items_before{};
+
+        /// What the cut with `left` items on the left costs, of all `count`; it falls
+        /// into `bin`.
+        [[nodiscard]] float cost(std::size_t left, std::size_t count, std::size_t bin) const {
+            const auto in = static_cast<float>(items_before[bin + 1] - items_before[bin]);
+            const float share = static_cast<float>(left - items_before[bin]) / in;
+            const float left_area =
+                area_before[bin] + share * (area_before[bin + 1] - area_before[bin]);
+            const float right_area = area_from[bin] + share * (area_from[bin + 1] - area_from[bin]);
+            return left_area * static_cast<float>(left) +
+                   right_area * static_cast<float>(count - left);
+        }
     };
     static Sweep sweep(const Bins& bins, std::size_t axis) {
         Sweep result;
@@ -232,66 +252,60 @@ struct BestPolicy {
             std::size_t bin = 0;
             for (std::size_t left = unit; left < count; left += unit) {
                 while (areas.items_before[bin + 1] <= left) ++bin;
-                const auto in =
-                    static_cast<float>(areas.items_before[bin + 1] - areas.items_before[bin]);
-                const float share = static_cast<float>(left - areas.items_before[bin]) / in;
-                const float left_area =
-                    areas.area_before[bin] +
-                    share * (areas.area_before[bin + 1] - areas.area_before[bin]);
-                const float right_area = areas.area_from[bin] +
-                                         share * (areas.area_from[bin + 1] - areas.area_from[bin]);
-                const float cost = left_area * static_cast<float>(left) +
-                                   right_area * static_cast<float>(count - left);
-                if (cost < least_cost) {
-                    least_cost = cost;
-                    best = {axis, bins.binning[axis], left, bin};
-                }
+                const float cost = areas.cost(left, count, bin);
+                if (cost >= least_cost) continue;
+                least_cost = cost;
+                best = {axis, bins.binning[axis], left, bin};
             }
         }
         return best;
     }
 
+    struct RunCut {
+        float cost = kFarOff;
+        std::size_t left = 0;
+    };
+
+    /// The best cut behind one of the runs of eight that ranks make.
+    static RunCut cut_between_runs(std::span<const Item> items, const Ranks& rank) {
+        const std::size_t count = items.size();
+        const std::size_t runs = (count + kBvhWidth - 1) / kBvhWidth;
+        std::array<BoxLanes, kBvhWidth> run;
+        run.fill(kEmpty);
+        for (std::size_t i = 0; i < count; ++i) {
+            take_lower(run[static_cast<std::size_t>(rank[i]) / kBvhWidth], items[i].box);
+        }
+        std::array<float, kBvhWidth> area_from{};
+        BoxLanes box = kEmpty;
+        for (std::size_t i = runs - 1; i > 0; --i) {
+            take_lower(box, run[i]);
+            area_from[i] = half_area(box);
+        }
+        box = kEmpty;
+        RunCut best;
+        for (std::size_t i = 1; i < runs; ++i) {
+            take_lower(box, run[i - 1]);
+            const std::size_t left = i * kBvhWidth;
+            const float cost = half_area(box) * static_cast<float>(left) +
+                               area_from[i] * static_cast<float>(count - left);
+            if (cost < best.cost) best = {cost, left};
+        }
+        return best;
+    }
     static std::size_t cut_small(std::span<const Item> items, const MiddleBounds& bounds,
                                  std::span<Item> to) {
-        const std::size_t count = items.size();
-        float least_cost = kFarOff;
-        std::size_t left = snap(count / 2, count);
+        RunCut best;
         Ranks best_rank;
-        for (std::size_t i = 0; i < count; ++i) best_rank[i] = static_cast<std::int16_t>(i);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!(bounds.width(axis) > 0x1p-100F)) continue;
             Ranks rank;
             ranks_along(items, axis, bounds, rank);
-            std::array<BoxLanes, kBvhWidth> run;
-            run.fill(kEmpty);
-            for (std::size_t i = 0; i < count; ++i) {
-                take_lower(run[static_cast<std::size_t>(rank[i]) / kBvhWidth], items[i].box);
-            }
-            const std::size_t runs = (count + kBvhWidth - 1) / kBvhWidth;
-            std::array<float, kBvhWidth> area_from{};
-            BoxLanes box = kEmpty;
-            for (std::size_t i = runs - 1; i > 0; --i) {
-                take_lower(box, run[i]);
-                area_from[i] = half_area(box);
-            }
-            box = kEmpty;
-            bool better = false;
-            for (std::size_t i = 1; i < runs; ++i) {
-                take_lower(box, run[i - 1]);
-                const float cost = half_area(box) * static_cast<float>(i * kBvhWidth) +
-                                   area_from[i] * static_cast<float>(count - i * kBvhWidth);
-                if (cost < least_cost) {
-                    least_cost = cost;
-                    left = i * kBvhWidth;
-                    better = true;
-                }
-            }
-            if (better) best_rank = rank;
+            const RunCut cut = cut_between_runs(items, rank);
+            if (cut.cost >= best.cost) continue;
+            best = cut;
+            best_rank = rank;
         }
-        for (std::size_t i = 0; i < count; ++i) {
-            to[static_cast<std::size_t>(best_rank[i])] = items[i];
-        }
-        return left;
+        place_by_rank(items, best_rank, to);
+        return best.left;
     }
 };
 

@@ -120,6 +120,16 @@ void ranks_along(std::span<const Item> items, std::size_t axis, const MiddleBoun
     }
 }
 
+template <class Item>
+void place_by_rank(std::span<const Item> items, const Ranks& rank, std::span<Item> to) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        to[static_cast<std::size_t>(rank[i])] = items[i];
+    }
+}
+
+/// A policy has an Item, with a middle and a number; Bins, which clear() makes ready, a
+/// piece's items are counted into, and add() joins; choose() cuts by them; and cut_small(),
+/// which orders a set of at most kSmallSet and returns how many are left of the cut.
 template <class Policy>
 class SetSplitter {
 public:
@@ -228,9 +238,8 @@ private:
         }
     }
 
-    static void settle(const Set& set, const Cut& cut, const CutCounts& counts,
-                       std::span<Item> from, std::span<Item> to) {
-        (void)set;
+    static void settle(const Cut& cut, const CutCounts& counts, std::span<Item> from,
+                       std::span<Item> to) {
         settle(to.subspan(counts.before, counts.in), cut.left - counts.before, cut.axis,
                from.first(counts.in));
     }
@@ -247,7 +256,7 @@ private:
         const Cut cut = Policy::choose(bins, set.count);
         const CutCounts counts = Policy::counts(bins, cut);
         scatter(items, cut, {0, counts.before, counts.before + counts.in}, to);
-        settle(set, cut, counts, items, to);
+        settle(cut, counts, items, to);
         return cut.left;
     }
 
@@ -312,7 +321,7 @@ private:
             scatter(items(piece), cuts[piece.set], piece.target, target_of(sets[piece.set]));
         });
         for_each_task(sets.size(), parallel_for, [&](std::size_t i) {
-            settle(sets[i], cuts[i], counts[i], items_of(sets[i]), target_of(sets[i]));
+            settle(cuts[i], counts[i], items_of(sets[i]), target_of(sets[i]));
         });
         std::vector<Set> next;
         for (std::size_t i = 0; i < sets.size(); ++i) {
