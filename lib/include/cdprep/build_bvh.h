@@ -72,14 +72,16 @@ enum class Quality : std::uint8_t {
     /// exactly in sets of up to 64.
     best,
     /// For objects rebuilt at run time. Halves, as nearly as full subtrees allow,
-    /// across the longest axis. surface_cost() is 5 to 15 % higher on scans, queries
-    /// take up to a quarter longer, the build a third of the time.
+    /// across the longest axis. On scans surface_cost() is 5 to 15 % higher, collide() and
+    /// overlapping_triangles() take 2 to 9 % longer in the median and 60 % at worst, the
+    /// build takes two fifths of the time.
     fast,
 };
 
 struct BvhOptions {
     ParallelFor parallel_for = serial_for;
-    /// Overlap queries take 1.2 to 1.5 times as long without oriented boxes.
+    /// Overlap queries take 1.1 to 1.3 times as long without oriented boxes, 1.3 to 1.5
+    /// times when fast.
     BvhBounds bounds = BvhBounds::oriented;
     Quality quality = Quality::best;
 };
@@ -91,14 +93,15 @@ struct BvhOptions {
 ///
 /// `positions` must be finite and at most format::kMaxCoordinate; triangles may
 /// be degenerate or equal. Middles that are equal along all axes, to 2^-100 of the
-/// model, are cut by number. O(n log n), but O(n log^2 n) at worst; scratch of 64
-/// bytes per triangle, 32 when fast. tests/bench/build_bvh_bench measures.
+/// model, are cut by number. O(n log n); scratch of 64 bytes per triangle, 32 when
+/// fast. tests/bench/build_bvh_bench measures.
 [[nodiscard]] Bvh build_bvh(std::span<const format::Double3> positions,
                             std::span<const format::Triangle> triangles,
                             const BvhOptions& options = {});
 
 /// The same, into the arrays that `bvh` has: those that are large enough are not
-/// allocated anew, which spares an eighth of the time of a fast build.
+/// allocated anew, which spares a tenth of the time of a fast build, and more of one on
+/// several threads.
 void rebuild_bvh(Bvh& bvh, std::span<const format::Double3> positions,
                  std::span<const format::Triangle> triangles, const BvhOptions& options = {});
 

@@ -2,6 +2,7 @@
 // The examples of README.md and of the public headers, as programs that run.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include "cdprep/batch.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/refit_bvh.h"
 #include "support/open_tiny.h"
 #include "support/scratch_folder.h"
 
@@ -118,6 +120,35 @@ TEST_F(DocExamples, ParallelForAndBatch) {
     cdprep::collide_all(jobs, workspaces, run, answers);
     EXPECT_TRUE(answers[0].hit && answers[2].hit);
     EXPECT_FALSE(answers[1].hit || answers[3].hit);
+}
+
+/// Moves the hierarchy along; returns its cost after.
+double refit_example(build::Bvh& bvh, double& cost_when_built,
+                     const std::vector<Double3>& positions,
+                     const std::vector<Triangle>& triangles) {
+    using build::Quality;
+    double cost = refit_bvh(bvh, positions, triangles);
+    if (cost > 1.5 * cost_when_built) {
+        rebuild_bvh(bvh, positions, triangles, {.quality = Quality::fast});
+        cost_when_built = surface_cost(bvh);
+    }
+    return surface_cost(bvh);
+}
+
+// Turned inside out, neighbours stay neighbours; in another order, they do not.
+TEST_F(DocExamples, RefitBvh) {
+    const TestMesh sphere = icosphere(4);
+    build::Bvh bvh = build::build_bvh(sphere.positions, sphere.triangles);
+    const double built = surface_cost(bvh);
+    double cost_when_built = built;
+    const TestMesh inside_out = moved_by(sphere, -1, {});
+    EXPECT_NEAR(refit_example(bvh, cost_when_built, inside_out.positions, sphere.triangles), built,
+                0.01 * built);
+    EXPECT_EQ(cost_when_built, built);
+    TestMesh soup = sphere;
+    std::reverse(soup.triangles.begin(), soup.triangles.end());
+    EXPECT_LT(refit_example(bvh, cost_when_built, soup.positions, soup.triangles), 1.5 * built);
+    EXPECT_NE(cost_when_built, built);
 }
 
 }  // namespace
