@@ -386,11 +386,13 @@ Range reach_of(const BvhNode& node, const Vector& origin, const Axes& axes) {
 /// 2^-24), the third however it is rounded; so the coordinates of a point along
 /// them are off by 24 u times the largest, and the tests treat the cross terms as
 /// zero, for as much again. No corner, and no leaf's middle, is farther from
-/// `origin` than 3 times the largest half extent; the coordinates were found in
-/// floats from such a middle on: 12 u for the products and sums, 5 u for the third
-/// axis, 3 u for the middle and 6 u for adding it; 21 u where a box that seemed to
-/// lie within was not looked into. 95 u of the largest; 2^-17 is taken. Leaves that are not exact
-/// were rounded by u; 2^-23 of the frame's size covers that and the rounding of the centre.
+/// `origin` than 3 times the largest half extent, but for 2^-23 by which boxes and
+/// middles were rounded; the coordinates were found in floats from such a middle on:
+/// 12 u for the products and sums, 5 u for the third axis, 3 u for the middle and 6 u
+/// for adding it; 21 u where a box that seemed to lie within was not looked into. 95 u
+/// of the largest, for which 2^-17 is taken, and of that 2^-23 less than 2^-40. Leaves
+/// that are not exact were rounded by u; 2^-23 of the frame's size covers that and the
+/// rounding of the centre.
 void set_box(OrientedNode& node, std::size_t box, const Vector& origin, const Axes& axes,
              const Bound& bound, bool exact) {
     std::array<double, 3> half{};
@@ -411,7 +413,7 @@ void set_box(OrientedNode& node, std::size_t box, const Vector& origin, const Ax
         node.centre[i][box] = rounded_centre;
         for (std::size_t k = 0; k < 2; ++k) node.axis[k][i][box] = axes.stored[k][i];
     }
-    const double rounding = exact ? 0 : 0x1p-24;
+    const double rounding = exact ? 0x1p-40 : 0x1p-24;
     for (std::size_t k = 0; k < 3; ++k) {
         node.half[k][box] =
             static_cast<float>((half[k] + moved + rounding + largest * 0x1p-17) * (1 + 0x1p-22));
