@@ -171,10 +171,10 @@ struct QuickPolicy {
 
 /// By the surface-area heuristic: of the cuts between full subtrees, along any axis,
 /// the one with the least sum of area times items of either side. Of larger sets the
-/// areas are those of 16 bins, and between their borders a share of it.
+/// areas are those of 32 bins, and between their borders a share of it.
 struct BestPolicy {
     using Item = BoxItem;
-    static constexpr std::size_t kBins = 16;
+    static constexpr std::size_t kBins = 32;
 
     struct Bins {
         std::array<Binning, 3> binning;

@@ -68,7 +68,7 @@ enum class BvhBounds : std::uint8_t {
 /// What a build takes time for.
 enum class Quality : std::uint8_t {
     /// For hierarchies that are kept. Of the cuts between full subtrees the one of
-    /// least cost by the surface-area heuristic, along any axis: over 16 bins, and
+    /// least cost by the surface-area heuristic, along any axis: over 32 bins, and
     /// exactly in sets of up to 64.
     best,
     /// For objects rebuilt at run time. Halves, as nearly as full subtrees allow,
