@@ -236,7 +236,9 @@ void time_builds(const std::string& name, const SourceMesh& mesh, int rounds) {
         };
         for (const bool oriented : {true, false}) {
             add_ways((oriented ? "yes," : "no,") + std::to_string(threads),
-                     {.parallel_for = on_crew, .oriented = oriented}, ways);
+                     {.parallel_for = on_crew,
+                      .bounds = oriented ? build::BvhBounds::oriented : build::BvhBounds::aligned},
+                     ways);
         }
     }
     build::Bvh bvh;
@@ -267,7 +269,8 @@ const std::array<Tree, 4> kTrees = {{
     {"best", {}},
     {"fast", {.quality = build::Quality::fast}},
     {"best without oriented boxes", {.bounds = build::BvhBounds::aligned}},
-    {"fast without oriented boxes", {.bounds = build::BvhBounds::aligned, .quality = build::Quality::fast}},
+    {"fast without oriented boxes",
+     {.bounds = build::BvhBounds::aligned, .quality = build::Quality::fast}},
 }};
 
 /// Microseconds that each pose took, the least of the rounds.

@@ -139,20 +139,17 @@ TEST(BuildBvh, EverySweptSphereHoldsItsTrianglesInExactArithmetic) {
             ASSERT_TRUE(bvh.oriented_nodes.empty());
             const double origin[3] = {bvh.frame.origin.x, bvh.frame.origin.y, bvh.frame.origin.z};
             for (std::uint32_t level = 0; level < shape.levels; ++level) {
-                for (std::uint32_t n = 0; n < shape.count[level]; ++n) {
-                    const format::SweptNode& node = bvh.swept_nodes[shape.first[level] + n];
-                    for (std::uint32_t box = 0; box < shape.used_boxes(level, n); ++box) {
-                        const Range range = below(level, n, box, count);
-                        for (std::uint32_t i = range.first; i < range.last; ++i) {
-                            for (const std::uint32_t v : mesh.triangles[bvh.order[i]].vertex) {
-                                const Double3& p = mesh.positions[v];
-                                const std::array<ExactNumber, 3> at = {
-                                    in_frame(p.x, origin[0], bvh.frame.exponent),
-                                    in_frame(p.y, origin[1], bvh.frame.exponent),
-                                    in_frame(p.z, origin[2], bvh.frame.exponent)};
-                                ASSERT_TRUE(swept_sphere_holds(node, box, at));
-                            }
-                        }
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const std::uint32_t place = i >> (3 * (level + 1));  // of 8^(level + 1)
+                    const format::SweptNode& node =
+                        bvh.swept_nodes[shape.first[level] + place / format::kBvhWidth];
+                    for (const std::uint32_t v : mesh.triangles[bvh.order[i]].vertex) {
+                        const Double3& p = mesh.positions[v];
+                        const std::array<ExactNumber, 3> at = {
+                            in_frame(p.x, origin[0], bvh.frame.exponent),
+                            in_frame(p.y, origin[1], bvh.frame.exponent),
+                            in_frame(p.z, origin[2], bvh.frame.exponent)};
+                        ASSERT_TRUE(swept_sphere_holds(node, place % format::kBvhWidth, at));
                     }
                 }
             }
