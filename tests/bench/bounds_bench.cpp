@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_input.h"
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
 #include "cdprep/overlapping_triangles.h"
@@ -38,28 +39,6 @@ constexpr std::array<const char*, 3> kKinds = {"light", "deep", "near"};
 enum Question : std::size_t { overlap, collides, how_far, within };
 constexpr std::array<const char*, 4> kQuestions = {"overlap", "collide", "distance", "within"};
 constexpr double kTolerance = 0.008;  ///< the near poses are 1 % of the diagonal apart
-
-[[noreturn]] void stop(const std::string& message) {
-    std::fprintf(stderr, "bounds_bench: %s\n", message.c_str());
-    std::exit(2);
-}
-
-Model open_or_stop(const fs::path& path) {
-    auto opened = Model::open(path);
-    if (!opened) stop(opened.error().message);
-    return std::move(opened).value();
-}
-
-std::vector<Pose> read_poses(const fs::path& path) {
-    std::ifstream file(path);
-    std::vector<Pose> poses;
-    std::array<double, 12> rows{};
-    for (std::size_t i = 0; file >> rows[i % 12]; ++i) {
-        if (i % 12 == 11) poses.push_back(Pose::from_rows(rows).value());
-    }
-    if (poses.empty()) stop("no poses in " + path.string());
-    return poses;
-}
 
 /// One pair of models from one folder.
 struct Baked {
@@ -92,11 +71,6 @@ QueryCounts count_set(const Baked& baked, std::size_t question, const std::vecto
     for (const Pose& pose : poses) static_cast<void>(ask(baked, question, pose, workspace));
     workspace.count_into(nullptr);
     return counts;
-}
-
-double median(std::vector<double> values, double share = 0.5) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 /// Microseconds by pose and round.

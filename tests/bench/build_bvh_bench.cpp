@@ -24,6 +24,7 @@
 #include <thread>
 #include <vector>
 
+#include "bench_input.h"
 #include "cdprep/build_bvh.h"
 #include "cdprep/collide.h"
 #include "cdprep/overlapping_triangles.h"
@@ -35,11 +36,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-[[noreturn]] void stop(const std::string& message) {
-    std::fprintf(stderr, "build_bvh_bench: %s\n", message.c_str());
-    std::exit(2);
-}
 
 /// A mesh in the numbering of its source.
 struct SourceMesh {
@@ -140,11 +136,6 @@ private:
     bool ended_ = false;
 };
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[(values.size() - 1) / 2];
-}
-
 template <class T>
 test::TinySection section(SectionId id, const std::vector<T>& elements) {
     const auto bytes = std::as_bytes(std::span(elements));
@@ -183,19 +174,6 @@ OpenModel open_model(const SourceMesh& mesh, const build::Bvh& bvh) {
     auto opened = Model::open(std::as_const(bytes).span());
     if (!opened) stop(opened.error().message);
     return {std::move(bytes), std::move(opened).value()};
-}
-
-std::vector<Pose> read_poses(const fs::path& path) {
-    std::ifstream file(path);
-    std::vector<Pose> poses;
-    std::array<double, 12> rows{};
-    for (std::size_t i = 0; file >> rows[i % 12]; ++i) {
-        if (i % 12 != 11) continue;
-        auto pose = Pose::from_rows(rows);
-        if (!pose) stop(path.string() + ": " + pose.error().message);
-        poses.push_back(pose.value());
-    }
-    return poses;
 }
 
 /// A way to come to a hierarchy, from one that is there.

@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_input.h"
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
 
@@ -39,30 +40,6 @@ constexpr std::array<const char*, 3> kQuestions = {"collide", "distance", "withi
 constexpr double kTolerance = 0.01;
 
 using Walk = std::vector<Placement>;
-
-[[noreturn]] void stop(const std::string& message) {
-    std::fprintf(stderr, "coherent_motion_bench: %s\n", message.c_str());
-    std::exit(2);
-}
-
-Model open_or_stop(const std::filesystem::path& path) {
-    auto opened = Model::open(path);
-    if (!opened) stop(opened.error().message);
-    return std::move(opened).value();
-}
-
-std::vector<Pose> read_poses(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::vector<Pose> poses;
-    std::array<double, 12> rows{};
-    for (std::size_t i = 0; file >> rows[i % 12]; ++i) {
-        if (i % 12 != 11) continue;
-        auto pose = Pose::from_rows(rows);
-        if (!pose) stop(path.string() + ": " + pose.error().message);
-        poses.push_back(pose.value());
-    }
-    return poses;
-}
 
 Double3 random_direction(std::mt19937& random) {
     std::normal_distribution<double> normal;
@@ -101,11 +78,6 @@ Walk walk_from(const Pose& start, std::mt19937& random) {
             turned_about(start, axis, kTurn * i, {x * along.x, x * along.y, x * along.z})));
     }
     return walk;
-}
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[(values.size() - 1) / 2];
 }
 
 bool ask(const Model& a, const Model& b, std::size_t question, const Placement& placement,

@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_input.h"
 #include "cdprep/overlapping_triangles.h"
 #include "cdprep/query_counts.h"
 #include "support/open_tiny.h"
@@ -38,13 +39,6 @@ struct Family {
     std::size_t pairs = 0;
     QueryCounts counts = {};
 };
-
-Model open_or_stop(const std::filesystem::path& path) {
-    auto opened = Model::open(path);
-    if (opened) return std::move(opened).value();
-    std::fprintf(stderr, "contact_families_bench: %s\n", opened.error().message.c_str());
-    std::exit(2);
-}
 
 Pose shift(double x, double y, double z) {
     return Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, x, y, z}).value();

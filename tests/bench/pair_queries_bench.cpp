@@ -28,6 +28,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_input.h"
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
 #include "cdprep/overlapping_triangles.h"
@@ -49,30 +50,6 @@ constexpr std::array<const char*, 5> kQuestions = {"overlap", "collide", "distan
 /// The gap of the near poses is 1 % of the diagonal: these two lie around it.
 constexpr double kTrueTolerance = 0.012;
 constexpr double kFalseTolerance = 0.008;
-
-[[noreturn]] void stop(const std::string& message) {
-    std::fprintf(stderr, "pair_queries_bench: %s\n", message.c_str());
-    std::exit(2);
-}
-
-Model open_or_stop(const std::filesystem::path& path) {
-    auto opened = Model::open(path);
-    if (!opened) stop(opened.error().message);
-    return std::move(opened).value();
-}
-
-std::vector<Pose> read_poses(const std::filesystem::path& path) {
-    std::ifstream file(path);
-    std::vector<Pose> poses;
-    std::array<double, 12> rows{};
-    for (std::size_t i = 0; file >> rows[i % 12]; ++i) {
-        if (i % 12 != 11) continue;
-        auto pose = Pose::from_rows(rows);
-        if (!pose) stop(path.string() + ": " + pose.error().message);
-        poses.push_back(pose.value());
-    }
-    return poses;
-}
 
 class Contender {
 public:
@@ -190,11 +167,6 @@ private:
 void flush_caches() {
     static std::vector<char> memory(std::size_t{256} << 20);
     for (std::size_t i = 0; i < memory.size(); i += 64) ++memory[i];
-}
-
-double median(std::vector<double> values, double share = 0.5) {
-    std::sort(values.begin(), values.end());
-    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 /// What one contender took for one question over one set.

@@ -24,6 +24,7 @@
 #include <thread>
 #include <vector>
 
+#include "bench_input.h"
 #include "cdprep/split_overlap.h"
 
 namespace cdprep {
@@ -32,28 +33,6 @@ namespace {
 constexpr std::size_t kLine = 76;
 constexpr double kShift = 0.01;  ///< of the diagonal, which is 1
 constexpr std::size_t kMostPairs = 1U << 20;
-
-[[noreturn]] void stop(const std::string& message) {
-    std::fprintf(stderr, "split_overlap_bench: %s\n", message.c_str());
-    std::exit(2);
-}
-
-Model open_or_stop(const std::filesystem::path& path) {
-    auto opened = Model::open(path);
-    if (!opened) stop(opened.error().message);
-    return std::move(opened).value();
-}
-
-Pose read_pose(const std::filesystem::path& path, std::size_t line) {
-    std::ifstream file(path);
-    std::array<double, 12> rows{};
-    for (std::size_t i = 0; i < 12 * (line + 1); ++i) {
-        if (!(file >> rows[i % 12])) stop(path.string() + " is too short");
-    }
-    auto pose = Pose::from_rows(rows);
-    if (!pose) stop(pose.error().message);
-    return pose.value();
-}
 
 /// Threads that sleep until there are tasks. The caller's thread takes tasks too, and
 /// waits only for those that others have begun: on a busy machine a thread may wake late.
@@ -118,11 +97,6 @@ private:
     std::atomic<int> rounds_ = 0;  ///< what sleepers wait for
     std::atomic<std::uint64_t> ticket_ = 0;
 };
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[(values.size() - 1) / 2];
-}
 
 double least(const std::vector<double>& values) {
     return *std::min_element(values.begin(), values.end());
@@ -192,6 +166,6 @@ int main(int count, char** arguments) {
     const Pose shifted = Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, kShift, 0, 0}).value();
     std::printf("question,how,pairs,median_ms,times,least_ms,times\n");
     compare("dragon-armadillo", dragon, armadillo,
-            read_pose(poses / "dragon-armadillo.pose", kLine), workers, rounds);
+            read_poses(poses / "dragon-armadillo.pose").at(kLine), workers, rounds);
     compare("dragon-dragon", dragon, dragon, shifted, workers, rounds);
 }

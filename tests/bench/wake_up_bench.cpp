@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_input.h"
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
 #include "cdprep/overlapping_triangles.h"
@@ -37,28 +38,12 @@ constexpr std::array<const char*, 3> kOpenings = {"all_sections", "pair_sections
 enum class Question : std::uint8_t { collide, overlap, distance };
 constexpr std::array<const char*, 3> kQuestions = {"collide", "overlap", "distance"};
 
-[[noreturn]] void stop(const std::string& message) {
-    std::fprintf(stderr, "wake_up_bench: %s\n", message.c_str());
-    std::exit(2);
-}
-
 Model open_or_stop(const char* path, Opening opening) {
     auto opened = opening == Opening::all    ? Model::open(path)
                   : opening == Opening::pair ? Model::open(path, kPair)
                                              : Model::open_trusted(path);
     if (!opened) stop(opened.error().message);
     return std::move(opened).value();
-}
-
-Pose first_pose(const char* path) {
-    std::ifstream file(path);
-    std::array<double, 12> rows{};
-    for (double& number : rows) {
-        if (!(file >> number)) stop(std::string(path) + " does not begin with 12 numbers.");
-    }
-    auto pose = Pose::from_rows(rows);
-    if (!pose) stop(pose.error().message);
-    return pose.value();
 }
 
 /// Pages that nothing maps and that are on disk leave the cache.
@@ -114,12 +99,6 @@ Times wake_up(const Files& files, Opening opening, Question question) {
             microseconds(again - answered)};
 }
 
-double median(std::vector<double> values) {
-    std::nth_element(values.begin(),
-                     values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-    return values[values.size() / 2];
-}
-
 void measure(const Files& files, int rounds) {
     for (const bool cold : {true, false}) {
         for (std::size_t opening = 0; opening < kOpenings.size(); ++opening) {
@@ -160,6 +139,6 @@ int main(int argc, char** argv) {
         return 2;
     }
     std::printf("cache,opening,question,rounds,open_us,first_us,second_us\n");
-    cdprep::measure({files[0], files[1], cdprep::first_pose(files[2])}, rounds);
+    cdprep::measure({files[0], files[1], cdprep::read_poses(files[2]).front()}, rounds);
     return 0;
 }

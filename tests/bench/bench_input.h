@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cdprep/model.h"
+#include "cdprep/pose.h"
+
+namespace cdprep {
+
+/// Ends the program with a sentence.
+[[noreturn]] inline void stop(const std::string& message) {
+    std::fprintf(stderr, "%s\n", message.c_str());
+    std::exit(2);
+}
+
+inline Model open_or_stop(const std::filesystem::path& path) {
+    auto opened = Model::open(path);
+    if (!opened) stop(opened.error().message);
+    return std::move(opened).value();
+}
+
+/// Poses of 12 numbers a line, R row by row, then T.
+inline std::vector<Pose> read_poses(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    std::vector<Pose> poses;
+    std::array<double, 12> rows{};
+    for (std::size_t i = 0; file >> rows[i % 12]; ++i) {
+        if (i % 12 != 11) continue;
+        auto pose = Pose::from_rows(rows);
+        if (!pose) stop(path.string() + ": " + pose.error().message);
+        poses.push_back(pose.value());
+    }
+    if (poses.empty()) stop(path.string() + " holds no pose.");
+    return poses;
+}
+
+/// The median, or another quantile; there is at least one value.
+inline double median(std::vector<double> values, double share = 0.5) {
+    std::sort(values.begin(), values.end());
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+}  // namespace cdprep
