@@ -8,31 +8,12 @@
 #include <limits>
 #include <vector>
 
-#include "support/open_tiny.h"
+#include "support/touched.h"
 
 namespace cdprep::test {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-using Numbers = std::vector<std::uint32_t>;
-
-/// All triangles of the mesh that the shape touches.
-template <class Shape>
-Numbers touched(const TestMesh& mesh, const Shape& shape, const TouchOptions& options = {}) {
-    const OpenModel model = open_tiny(mesh, {.double_precision = true});
-    Workspace workspace;
-    Numbers triangles(mesh.triangles.size());
-    triangles.resize(touching_triangles(model.model, shape, workspace, triangles, options));
-    EXPECT_EQ(touches(model.model, shape, workspace, options), !triangles.empty());
-    return triangles;
-}
-
-Numbers first_numbers(std::uint32_t count) {
-    Numbers numbers(count);
-    for (std::uint32_t i = 0; i < count; ++i) numbers[i] = i;
-    return numbers;
-}
 
 /// Corners (0, 0, 0), (4, 0, 0), (0, 4, 0).
 TestMesh one_triangle() {
