@@ -16,6 +16,8 @@
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/containment.h"
+#include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/touching_box.h"
 #include "cdprep/touching_capsule.h"
@@ -135,6 +137,11 @@ CollideOptions contact_options(const cdprep_contact_options& given) noexcept {
     if (given.contact == CDPREP_PROPER) options.contact = Contact::proper;
     if (given.degenerate == CDPREP_SKIP_DEGENERATE) options.degenerate = Degenerate::skip;
     return options;
+}
+
+OverlapOptions overlap_options(const cdprep_contact_options& given) noexcept {
+    const CollideOptions options = contact_options(given);
+    return {options.contact, options.degenerate};
 }
 
 int word(Answer answer) noexcept {
@@ -335,11 +342,61 @@ int cdprep_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
-            const cdprep::CollideOptions wanted = cdprep::contact_options(given);
             const std::span<cdprep::TrianglePair> kept(
                 reinterpret_cast<cdprep::TrianglePair*>(pairs), room);
             *count = cdprep::overlapping_triangles(ma, mb, placed, scratch, kept,
-                                                   {wanted.contact, wanted.degenerate});
+                                                   cdprep::overlap_options(given));
+            return CDPREP_OK;
+        });
+}
+
+int cdprep_mark_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
+                                      const cdprep_placement* placement,
+                                      cdprep_workspace* workspace,
+                                      const cdprep_contact_options* options, uint64_t* bits_a,
+                                      size_t words_a, uint64_t* bits_b, size_t words_b,
+                                      size_t* count, cdprep_error* error) {
+    if (count == nullptr || (bits_a == nullptr && words_a > 0) ||
+        (bits_b == nullptr && words_b > 0)) {
+        return cdprep::null_argument(error);
+    }
+    cdprep_contact_options given{};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    return cdprep::ask_pair(
+        a, b, placement, workspace, error,
+        [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            *count = cdprep::mark_overlapping_triangles(ma, mb, placed, scratch, {bits_a, words_a},
+                                                        {bits_b, words_b},
+                                                        cdprep::overlap_options(given));
+            return CDPREP_OK;
+        });
+}
+
+int cdprep_crossing_segments(const cdprep_model* a, const cdprep_model* b,
+                             const cdprep_placement* placement, cdprep_workspace* workspace,
+                             const cdprep_contact_options* options, cdprep_crossing* crossings,
+                             size_t room, size_t* count, cdprep_error* error) {
+    if (count == nullptr || (crossings == nullptr && room > 0)) {
+        return cdprep::null_argument(error);
+    }
+    cdprep_contact_options given{};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    return cdprep::ask_pair(
+        a, b, placement, workspace, error,
+        [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            std::size_t found = 0;
+            const auto take = [&](const cdprep::Crossing& crossing) {
+                if (found++ >= room) return true;
+                cdprep_crossing& to = crossings[found - 1];
+                to.pair = {crossing.pair.a, crossing.pair.b};
+                to.is_flat = crossing.is_flat ? 1 : 0;
+                cdprep::store(crossing.from, to.from);
+                cdprep::store(crossing.to, to.to);
+                return true;
+            };
+            cdprep::visit_crossing_segments(ma, mb, placed, scratch, take,
+                                            cdprep::overlap_options(given));
+            *count = found;
             return CDPREP_OK;
         });
 }
@@ -350,16 +407,21 @@ int cdprep_distance_between(const cdprep_model* a, const cdprep_model* b,
                             int* found, cdprep_distance* distance, cdprep_error* error) {
     if (cdprep::any_null(found, distance)) return cdprep::null_argument(error);
     const cdprep::DistanceOptions defaults;
-    cdprep_distance_options given{sizeof given, defaults.relative_error, defaults.absolute_error,
-                                  defaults.max_distance};
+    cdprep_distance_options given{sizeof given, CDPREP_SURFACE, defaults.relative_error,
+                                  defaults.absolute_error, defaults.max_distance};
     if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
             cdprep::CacheCopy copy(cache);
-            const auto result = cdprep::distance(
-                ma, mb, placed, scratch,
-                {given.relative_error, given.absolute_error, given.max_distance}, copy.get());
+            const cdprep::As as =
+                given.as == CDPREP_SOLID ? cdprep::As::solid : cdprep::As::surface;
+            const auto result = cdprep::distance(ma, mb, placed, scratch,
+                                                 {.relative_error = given.relative_error,
+                                                  .absolute_error = given.absolute_error,
+                                                  .max_distance = given.max_distance,
+                                                  .as = as},
+                                                 copy.get());
             *found = result ? 1 : 0;
             *distance = {};
             if (!result) return CDPREP_OK;

@@ -135,8 +135,35 @@ int cdprep_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
                                  const cdprep_contact_options* options, cdprep_triangle_pair* pairs,
                                  size_t room, size_t* count, cdprep_error* error);
 
+/* Sets bit i % 64 of element i / 64 for each triangle i that overlaps any of the other
+ * model, and clears all others; an array with fewer than a word for every 64 triangles
+ * is only cleared, and may be null when it has none. `count` is the number of pairs. */
+int cdprep_mark_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
+                                      const cdprep_placement* placement,
+                                      cdprep_workspace* workspace,
+                                      const cdprep_contact_options* options, uint64_t* bits_a,
+                                      size_t words_a, uint64_t* bits_b, size_t words_b,
+                                      size_t* count, cdprep_error* error);
+
+/* A pair of triangles in contact and the segment that they share: see
+ * crossing_segments.h. */
+typedef struct cdprep_crossing {
+    cdprep_triangle_pair pair;
+    int is_flat;    /* they may share an area; the ends are 0 */
+    double from[3]; /* equal ends where they touch in a point */
+    double to[3];
+} cdprep_crossing;
+
+/* Writes at most `room` crossings, in no particular order; `count` is how many there
+ * are. `crossings` may be null when `room` is 0. */
+int cdprep_crossing_segments(const cdprep_model* a, const cdprep_model* b,
+                             const cdprep_placement* placement, cdprep_workspace* workspace,
+                             const cdprep_contact_options* options, cdprep_crossing* crossings,
+                             size_t room, size_t* count, cdprep_error* error);
+
 typedef struct cdprep_distance_options {
     uint32_t size;
+    uint32_t as; /* CDPREP_SURFACE */
     double relative_error;
     double absolute_error;
     double max_distance; /* inclusive; HUGE_VAL for none */

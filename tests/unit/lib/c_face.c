@@ -49,6 +49,31 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
          CDPREP_OK);
     MUST(counted == count);
 
+    /* Every marked triangle stands in a pair, and every crossing is one of the pairs. */
+    uint64_t bits_a[1] = {~(uint64_t)0};
+    MUST(cdprep_mark_overlapping_triangles(cube, cube, &near, scratch, NULL, bits_a, 1, NULL, 0,
+                                           &counted, &error) == CDPREP_OK);
+    MUST(counted == count);
+    for (uint32_t i = 0; i < 64; ++i) {
+        int paired = 0;
+        for (size_t k = 0; k < count; ++k) paired |= pairs[k].a == i;
+        MUST((int)(bits_a[0] >> i & 1) == paired);
+    }
+    cdprep_crossing crossings[144];
+    MUST(cdprep_crossing_segments(cube, cube, &near, scratch, NULL, crossings, 144, &counted,
+                                  &error) == CDPREP_OK);
+    MUST(counted == count);
+    int segments = 0;
+    for (size_t i = 0; i < count; ++i) {
+        int paired = 0;
+        for (size_t k = 0; k < count; ++k) {
+            paired |= pairs[k].a == crossings[i].pair.a && pairs[k].b == crossings[i].pair.b;
+        }
+        MUST(paired);
+        segments += crossings[i].is_flat == 0;
+    }
+    MUST(segments > 0);
+
     cdprep_pair_cache cache = {{0}};
     cdprep_distance distance;
     int found = 0;
@@ -61,7 +86,7 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
     MUST(collision.hit == 1);
     MUST(cdprep_collide(cube, cube, &far, scratch, NULL, &cache, &collision, NULL) == CDPREP_OK);
     MUST(collision.hit == 0);
-    cdprep_distance_options nearby = {sizeof nearby, 0, 0, 1};
+    cdprep_distance_options nearby = {sizeof nearby, CDPREP_SURFACE, 0, 0, 1};
     MUST(cdprep_distance_between(cube, cube, &far, scratch, &nearby, &cache, &found, &distance,
                                  &error) == CDPREP_OK);
     MUST(found == 0);
