@@ -4,22 +4,39 @@
 #include <gtest/gtest.h>
 
 #include "cdprep/collide.h"
+#include "cdprep/split_overlap.h"
 #include "support/brute_force.h"
 #include "support/hard_triangles.h"
 #include "support/open_tiny.h"
+#include "support/run_threads.h"
 #include "support/seed_mesh.h"
 
 namespace cdprep::test {
 namespace {
 
-/// Asks for all pairs; swapped, with the same model moving, and as a mere yes or no
-/// the answer must be the same.
+/// Whether one to eight threads give these pairs.
+bool threads_agree(const Model& a, const Model& b, const Placement& placement,
+                   const std::vector<TrianglePair>& expected) {
+    std::vector<Workspace> workspaces(8);
+    std::vector<TrianglePair> pairs(expected.size());
+    for (std::size_t threads = 1; threads <= workspaces.size(); ++threads) {
+        const auto workers = std::span(workspaces).first(threads);
+        const std::size_t count =
+            split_overlapping_triangles(a, b, placement, workers, run_threads, pairs);
+        if (count != expected.size() || pairs != expected) return false;
+    }
+    return true;
+}
+
+/// Asks for all pairs; swapped, with the same model moving, on many threads, and as a
+/// mere yes or no the answer must be the same.
 std::vector<TrianglePair> ask(const HardPlacement& p) {
     const OpenModel a = open_tiny(p.a, {.double_precision = true});
     const OpenModel b = open_tiny(p.b, {.double_precision = true});
     Workspace workspace;
     const auto pairs = all_pairs(a.model, b.model, p.placement, workspace);
     EXPECT_EQ(collide(a.model, b.model, p.placement, workspace).hit, !pairs.empty()) << p.name;
+    EXPECT_TRUE(threads_agree(a.model, b.model, p.placement, pairs)) << p.name;
     const Placement exchanged = p.placement.a_is_moved()
                                     ? Placement::world(p.placement.pose_b(), p.placement.pose_a())
                                     : Placement::a_moves(p.placement.pose_b());
