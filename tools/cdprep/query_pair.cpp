@@ -110,7 +110,10 @@ public:
                     return report::WithinAnswer{number, within};
                 }));
             default:
-                return answers.add(timed([&] { return ask(number, placement); }));
+                return answers.add(timed([&] {
+                    cache_ = before;
+                    return ask(number, placement);
+                }));
         }
     }
 
@@ -169,7 +172,7 @@ private:
             }
             if (options_.as == As::surface) return answer;
         }
-        const Collision collision = collide(a_, b_, placement, workspace_, options_);
+        const Collision collision = collide(a_, b_, placement, workspace_, options_, &cache_);
         answer.hit = collision.hit;
         if (options_.as == As::solid) answer.containment = collision.containment;
         return answer;
