@@ -362,6 +362,8 @@ std::optional<CrossingEnds> crossing_ends(const Corners& a, const Corners& b) no
     const Signs a_signs = plane_signs(b, a);
     const Signs b_signs = plane_signs(a, b);
     if (all_zero(a_signs) || all_zero(b_signs)) return std::nullopt;
+    // Boxes that make no sense can name a pair that is not in contact.
+    if (strictly_one_side(a_signs) || strictly_one_side(b_signs)) return std::nullopt;
     const auto [s, t] = canonical(a, a_signs, b, b_signs);
     const bool first_of_a = orient3d(s[0], s[1], t[0], t[2]) > 0;
     const bool second_of_a = orient3d(s[0], s[2], t[0], t[1]) <= 0;

@@ -17,8 +17,12 @@
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 #include "cdprep/containment.h"
+#include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/format/find_damage.h"
+#include "cdprep/touching_box.h"
+#include "cdprep/touching_capsule.h"
+#include "cdprep/touching_sphere.h"
 
 namespace {
 
@@ -53,12 +57,30 @@ void ask_pair(const Model& model, Workspace& workspace) {
         Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {3, 0.25, 0.5}).value());
     (void)distance(model, model, apart, workspace);
     (void)is_within(model, model, apart, 0.5, workspace);
+    PairCache cache;
+    for (const Placement& placement : {apart, Placement::b_moves(Pose()), apart, apart}) {
+        (void)collide(model, model, placement, workspace, {}, &cache);
+        (void)distance(model, model, placement, workspace, {}, &cache);
+    }
+    const auto every = [](const Crossing&) { return true; };
+    (void)visit_crossing_segments(model, model, Placement::b_moves(Pose()), workspace, every);
+}
+
+void ask_shapes(const Model& model, Workspace& workspace) {
+    std::array<std::uint32_t, 16> numbers{};
+    const Capsule capsule = {{0, 0, 0.5}, {0.1, 0, -1}, 0.1};
+    (void)touching_triangles(model, Box{{-0.5, 0, 0}, {0.5, 1, 1}}, workspace, numbers);
+    (void)touching_triangles(model, Sphere{{0, 0, 0}, 0.5}, workspace, numbers);
+    (void)touching_triangles(model, capsule, workspace, numbers);
+    (void)distance_to(model, capsule, workspace);
+    (void)ray_hits(model, {{0, 0, 5}, {0.1, 0, -1}}, workspace);
 }
 
 void ask(const Model& model) {
     static Workspace workspace;
     if (can_answer_pairs(model)) ask_pair(model, workspace);
     (void)cast_ray(model, {{0.5, 0.25, -3}, {0.125, 0, 1}}, workspace);
+    ask_shapes(model, workspace);
     (void)closest_point(model, {0.25, 0.5, 2}, workspace);
     (void)includes(model, {0.5, 0.5, 0.5}, workspace);
     for (std::uint32_t i = 0; i < 4; ++i) (void)model.name(SectionId::group_names, i);

@@ -7,6 +7,7 @@
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/touching_box.h"
@@ -99,6 +100,8 @@ TEST(AbsurdBoxes, EveryQuestionEnds) {
             static_cast<void>(collide(m, m, placement, workspace, {.as = As::solid}));
             static_cast<void>(distance(m, m, placement, workspace));
             static_cast<void>(is_within(m, m, placement, 0.5, workspace));
+            const auto every = [](const Crossing&) { return true; };
+            EXPECT_TRUE(visit_crossing_segments(m, m, placement, workspace, every));
         }
         static_cast<void>(cast_ray(m, {{0, 0, 5}, {0.1, 0, -1}}, workspace));
         static_cast<void>(closest_point(m, {0, 0, 5}, workspace));
