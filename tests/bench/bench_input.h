@@ -43,6 +43,25 @@ inline std::vector<Pose> read_poses(const std::filesystem::path& path) {
     return poses;
 }
 
+/// Every `kinds`-th pose from `kind` on.
+inline std::vector<Pose> poses_of_kind(const std::vector<Pose>& all, std::size_t kind,
+                                       std::size_t kinds) {
+    std::vector<Pose> poses;
+    for (std::size_t i = kind; i < all.size(); i += kinds) poses.push_back(all[i]);
+    return poses;
+}
+
+/// The pairs A-B that were named, or, when none was, all that the folder has poses of.
+inline std::vector<std::string> pairs_or_all(std::vector<std::string> named,
+                                             const std::filesystem::path& poses) {
+    if (!named.empty()) return named;
+    for (const auto& entry : std::filesystem::directory_iterator(poses)) {
+        if (entry.path().extension() == ".pose") named.push_back(entry.path().stem().string());
+    }
+    std::sort(named.begin(), named.end());
+    return named;
+}
+
 /// The median, or another quantile; there is at least one value.
 inline double median(std::vector<double> values, double share = 0.5) {
     std::sort(values.begin(), values.end());

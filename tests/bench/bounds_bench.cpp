@@ -147,8 +147,7 @@ void run_pair(const std::string& pair, const fs::path& poses_folder, int rounds,
     }
     const std::vector<Pose> all = read_poses(poses_folder / (pair + ".pose"));
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
-        std::vector<Pose> poses;
-        for (std::size_t i = kind; i < all.size(); i += kKinds.size()) poses.push_back(all[i]);
+        const std::vector<Pose> poses = poses_of_kind(all, kind, kKinds.size());
         for (std::size_t question = 0; question < kQuestions.size(); ++question) {
             const bool is_near = kind == 2;
             if (question == overlap && is_near) continue;   // nothing overlaps

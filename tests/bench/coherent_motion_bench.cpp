@@ -154,7 +154,6 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
         const Model a = open_or_stop(bakes / (pair.substr(0, dash) + ".cdp.h5"));
         const Model b = open_or_stop(bakes / (pair.substr(dash + 1) + ".cdp.h5"));
         const std::vector<Pose> poses = read_poses(poses_folder / (pair + ".pose"));
-        if (poses.empty()) stop("no poses for " + pair);
         compare(pair, a, b, poses, rounds, ratios);
     }
     for (const auto& [key, values] : ratios) {
@@ -174,13 +173,8 @@ int main(int count, char** arguments) {
         return 2;
     }
     const std::filesystem::path poses = arguments[2];
-    std::vector<std::string> pairs(arguments + std::min(count, 4), arguments + count);
-    if (pairs.empty()) {
-        for (const auto& entry : std::filesystem::directory_iterator(poses)) {
-            if (entry.path().extension() == ".pose") pairs.push_back(entry.path().stem().string());
-        }
-        std::sort(pairs.begin(), pairs.end());
-    }
+    const auto pairs =
+        cdprep::pairs_or_all({arguments + std::min(count, 4), arguments + count}, poses);
     const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 5;
     cdprep::run(arguments[1], poses, pairs, rounds);
 }

@@ -214,8 +214,7 @@ using Ratios = std::map<std::string, std::vector<double>>;
 void compare(const std::string& pair, const std::vector<std::unique_ptr<Contender>>& contenders,
              const std::vector<Pose>& all, int rounds, bool cold, Ratios& ratios) {
     for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
-        std::vector<Pose> poses;
-        for (std::size_t i = kind; i < all.size(); i += kKinds.size()) poses.push_back(all[i]);
+        const std::vector<Pose> poses = poses_of_kind(all, kind, kKinds.size());
         for (std::size_t question = 0; question < kQuestions.size(); ++question) {
             const bool is_near = kind == 2;
             if (question == overlap && is_near) continue;   // nothing overlaps
@@ -267,7 +266,6 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
         const Model a = open_or_stop(bakes / (pair.substr(0, dash) + ".cdp.h5"));
         const Model b = open_or_stop(bakes / (pair.substr(dash + 1) + ".cdp.h5"));
         const std::vector<Pose> poses = read_poses(poses_folder / (pair + ".pose"));
-        if (poses.empty()) stop("no poses for " + pair);
         std::vector<std::unique_ptr<Contender>> contenders;
         contenders.push_back(std::make_unique<Ours>(a, b));
 #ifdef CDPREP_HAVE_FCL
@@ -295,13 +293,8 @@ int main(int count, char** arguments) {
         return 2;
     }
     const std::filesystem::path poses = arguments[2];
-    std::vector<std::string> pairs(arguments + std::min(count, 4), arguments + count);
-    if (pairs.empty()) {
-        for (const auto& entry : std::filesystem::directory_iterator(poses)) {
-            if (entry.path().extension() == ".pose") pairs.push_back(entry.path().stem().string());
-        }
-        std::sort(pairs.begin(), pairs.end());
-    }
+    const auto pairs =
+        cdprep::pairs_or_all({arguments + std::min(count, 4), arguments + count}, poses);
     const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 5;
     cdprep::run(arguments[1], poses, pairs, rounds);
 }
