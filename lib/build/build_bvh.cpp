@@ -24,7 +24,7 @@ using format::Triangle;
 constexpr std::int32_t kMaxExactExponent = 100;
 
 void set_frame(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
-               const ParallelFor& parallel_for) {
+               ParallelFor parallel_for) {
     const Extent extent = extent_of(positions, triangles, parallel_for);
     bvh.frame = frame_of(extent);
     bvh.exact_leaves = extent.floats && std::abs(bvh.frame.exponent) <= kMaxExactExponent;
@@ -57,10 +57,6 @@ void fill_nodes(Bvh& bvh, std::span<const Double3> positions, std::span<const Tr
 }
 
 }  // namespace
-
-void serial_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-    for (std::size_t i = 0; i < count; ++i) body(i);
-}
 
 void rebuild_bvh(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
                  const BvhOptions& options) {

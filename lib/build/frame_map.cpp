@@ -40,7 +40,7 @@ struct PointBounds {
 }  // namespace
 
 Extent extent_of(std::span<const Double3> positions, std::span<const Triangle> triangles,
-                 const ParallelFor& parallel_for) {
+                 ParallelFor parallel_for) {
     constexpr std::size_t kMostParts = 64;
     std::array<PointBounds, kMostParts> parts;
     const std::size_t size =

@@ -36,7 +36,7 @@ struct Extent {
 
 [[nodiscard]] Extent extent_of(std::span<const format::Double3> positions,
                                std::span<const format::Triangle> triangles,
-                               const ParallelFor& parallel_for);
+                               ParallelFor parallel_for);
 
 /// Centres the box and scales it by a power of two so that no coordinate leaves
 /// [-1, 1], not even after rounding: the largest distance lands in [1/4, 1/2].

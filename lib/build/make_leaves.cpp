@@ -120,7 +120,7 @@ private:
 }  // namespace
 
 void make_leaves(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
-                 const ParallelFor& parallel_for) {
+                 ParallelFor parallel_for) {
     const LeafMaker maker(bvh.frame, bvh.exact_leaves);
     const std::size_t count = bvh.order.size();
     const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(count));

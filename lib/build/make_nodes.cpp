@@ -31,7 +31,7 @@ void set_unused_boxes(BvhNode& node, std::size_t first) {
     }
 }
 
-void make_nodes(Bvh& bvh, const ParallelFor& parallel_for) {
+void make_nodes(Bvh& bvh, ParallelFor parallel_for) {
     const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
     constexpr std::size_t kNodesPerTask = 256;
     for (std::uint32_t level = 1; level < shape.levels; ++level) {

@@ -544,9 +544,9 @@ constexpr std::uint32_t kTaskLevel = 2;
 
 /// Fits one level above the tasks.
 std::vector<Moments> fit_level(const Fitter& fitter, std::uint32_t level,
-                               const std::vector<Moments>& below, const ParallelFor& parallel_for) {
+                               const std::vector<Moments>& below, ParallelFor parallel_for) {
     std::vector<Moments> sums(fitter.shape().count[level]);
-    for_each_task(sums.size(), parallel_for, [&](std::size_t i) {
+    parallel_for(sums.size(), [&](std::size_t i) {
         MomentLanes lanes;
         for (std::size_t box = 0; box < fitter.used_boxes(level, i); ++box) {
             lanes.set(box, below[i * kBvhWidth + box]);
@@ -558,13 +558,12 @@ std::vector<Moments> fit_level(const Fitter& fitter, std::uint32_t level,
 
 }  // namespace
 
-void make_oriented(Bvh& bvh, const ParallelFor& parallel_for) {
+void make_oriented(Bvh& bvh, ParallelFor parallel_for) {
     bvh.oriented_nodes.resize(bvh.nodes.size());
     const Fitter fitter(bvh);
     const std::uint32_t lowest = std::min(kTaskLevel, fitter.shape().levels - 1);
     std::vector<Moments> sums(fitter.shape().count[lowest]);
-    for_each_task(sums.size(), parallel_for,
-                  [&](std::size_t i) { sums[i] = fitter.fit_subtree(lowest, i); });
+    parallel_for(sums.size(), [&](std::size_t i) { sums[i] = fitter.fit_subtree(lowest, i); });
     for (std::uint32_t level = lowest + 1; level < fitter.shape().levels; ++level) {
         sums = fit_level(fitter, level, sums, parallel_for);
     }

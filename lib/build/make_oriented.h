@@ -6,6 +6,6 @@
 namespace cdprep::build {
 
 /// Fills bvh.oriented_nodes from bvh.leaves, bvh.nodes and bvh.frame.
-void make_oriented(Bvh& bvh, const ParallelFor& parallel_for);
+void make_oriented(Bvh& bvh, ParallelFor parallel_for);
 
 }  // namespace cdprep::build

@@ -238,7 +238,7 @@ SweptKind kind_of(BvhBounds bounds) {
 
 }  // namespace
 
-void make_swept(Bvh& bvh, BvhBounds bounds, const ParallelFor& parallel_for) {
+void make_swept(Bvh& bvh, BvhBounds bounds, ParallelFor parallel_for) {
     const SweptKind kind = kind_of(bounds);
     const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
     bvh.swept_kind = kind;

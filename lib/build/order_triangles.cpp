@@ -311,7 +311,7 @@ struct BestPolicy {
 
 template <class Policy>
 void order_by(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
-              const ParallelFor& parallel_for) {
+              ParallelFor parallel_for) {
     using Item = typename Policy::Item;
     const std::size_t count = triangles.size();
     const FrameMap map(bvh.frame);

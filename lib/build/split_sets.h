@@ -139,12 +139,12 @@ public:
     SetSplitter(std::span<Item> items, std::span<Item> spare, std::span<std::uint32_t> order)
         : arrays_{items, spare}, order_(order) {}
 
-    void split(const ParallelFor& parallel_for) {
+    void split(ParallelFor parallel_for) {
         std::vector<Set> large;
         std::vector<Set> tasks;
         (is_large(order_.size()) ? large : tasks).push_back({0, order_.size(), 0});
         while (!large.empty()) large = split_generation(large, tasks, parallel_for);
-        for_each_task(tasks.size(), parallel_for, [&](std::size_t i) { split_all(tasks[i]); });
+        parallel_for(tasks.size(), [&](std::size_t i) { split_all(tasks[i]); });
     }
 
 private:
@@ -300,27 +300,27 @@ private:
 
     /// Cuts all sets; returns the sides that are large still.
     std::vector<Set> split_generation(const std::vector<Set>& sets, std::vector<Set>& tasks,
-                                      const ParallelFor& parallel_for) const {
+                                      ParallelFor parallel_for) const {
         std::vector<Piece> pieces = pieces_of(sets);
         const auto items = [&](const Piece& piece) {
             return items_of(sets[piece.set]).subspan(piece.first, piece.count);
         };
-        for_each_task(pieces.size(), parallel_for,
-                      [&](std::size_t i) { pieces[i].bounds = bounds_of(items(pieces[i])); });
+        parallel_for(pieces.size(),
+                     [&](std::size_t i) { pieces[i].bounds = bounds_of(items(pieces[i])); });
         std::vector<MiddleBounds> bounds(sets.size());
         for (const Piece& piece : pieces) bounds[piece.set].grow(piece.bounds);
-        for_each_task(pieces.size(), parallel_for, [&](std::size_t i) {
+        parallel_for(pieces.size(), [&](std::size_t i) {
             Policy::clear(pieces[i].bins, bounds[pieces[i].set]);
             Policy::count(pieces[i].bins, items(pieces[i]));
         });
         std::vector<Cut> cuts(sets.size());
         std::vector<CutCounts> counts(sets.size());
         aim(sets, pieces, cuts, counts);
-        for_each_task(pieces.size(), parallel_for, [&](std::size_t i) {
+        parallel_for(pieces.size(), [&](std::size_t i) {
             const Piece& piece = pieces[i];
             scatter(items(piece), cuts[piece.set], piece.target, target_of(sets[piece.set]));
         });
-        for_each_task(sets.size(), parallel_for, [&](std::size_t i) {
+        parallel_for(sets.size(), [&](std::size_t i) {
             settle(cuts[i], counts[i], items_of(sets[i]), target_of(sets[i]));
         });
         std::vector<Set> next;

@@ -89,11 +89,11 @@ public:
     Crew(const Crew&) = delete;
     Crew& operator=(const Crew&) = delete;
 
-    void run(std::size_t count, const std::function<void(std::size_t)>& body) {
-        if (threads_.empty() || count < 2) return build::serial_for(count, body);
+    void operator()(std::size_t count, Task task) {
+        if (threads_.empty() || count < 2) return serial_for(count, task);
         {
             const std::lock_guard lock(mutex_);
-            body_ = &body;
+            task_ = task;
             count_ = count;
             next_ = 0;
             busy_ = threads_.size();
@@ -106,8 +106,10 @@ public:
     }
 
 private:
+    static constexpr auto kNothing = [](std::size_t /*number*/) {};
+
     void take_part() {
-        for (std::size_t i = next_++; i < count_; i = next_++) (*body_)(i);
+        for (std::size_t i = next_++; i < count_; i = next_++) task_(i);
     }
     void wait_for_work() {
         std::size_t seen = 0;
@@ -128,7 +130,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::condition_variable done_;
-    const std::function<void(std::size_t)>* body_ = nullptr;
+    Task task_ = kNothing;
     std::size_t count_ = 0;
     std::atomic<std::size_t> next_ = 0;
     std::size_t busy_ = 0;
@@ -208,13 +210,9 @@ void time_builds(const std::string& name, const SourceMesh& mesh, int rounds) {
     std::vector<Way> ways;
     for (const std::size_t threads : {1U, 2U, 4U}) {
         crews.push_back(std::make_unique<Crew>(threads));
-        const auto on_crew = [crew = crews.back().get()](
-                                 std::size_t count, const std::function<void(std::size_t)>& body) {
-            crew->run(count, body);
-        };
         for (const bool oriented : {true, false}) {
             add_ways((oriented ? "yes," : "no,") + std::to_string(threads),
-                     {.parallel_for = on_crew,
+                     {.parallel_for = *crews.back(),
                       .bounds = oriented ? build::BvhBounds::oriented : build::BvhBounds::aligned},
                      ways);
         }

@@ -189,22 +189,24 @@ private:
     std::vector<std::filesystem::path> paths_;
 };
 
-build::ParallelFor on_threads(int threads) {
-    if (threads == 1) return build::serial_for;
-    return [threads](std::size_t count, const std::function<void(std::size_t)>& body) {
+/// A parallel_for on so many threads; one is the caller's.
+auto on_threads(int threads) {
+    return [threads](std::size_t count, Task task) {
+        if (threads == 1) return serial_for(count, task);
         std::atomic<std::size_t> next{0};
         std::vector<std::jthread> team;
         for (int t = 0; t < threads; ++t) {
             team.emplace_back([&] {
-                for (std::size_t i = next++; i < count; i = next++) body(i);
+                for (std::size_t i = next++; i < count; i = next++) task(i);
             });
         }
     };
 }
 
 void import_again(benchmark::State& state, const std::filesystem::path& path, int threads) {
+    const auto run = on_threads(threads);
     ImportOptions options;
-    options.parallel_for = on_threads(threads);
+    options.parallel_for = run;
     std::size_t triangles = 0;
     for ([[maybe_unused]] auto step : state) {
         const auto soup = import_file(path, options);

@@ -50,28 +50,31 @@ private:
 
 }  // namespace
 
-struct Threads::Limit {
-    oneapi::tbb::global_control control;
+/// oneTBB's, as ParallelFor wants it.
+struct Threads::Pool {
+    oneapi::tbb::global_control limit;
+
+    void operator()(std::size_t count, Task task) const {
+        ForkJoin edges;
+        oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+            edges.begin_task();
+            task(i);
+            edges.end_task();
+        });
+        edges.joined();
+    }
 };
 
 Threads::Threads(std::size_t count)
-    : limit_(new Limit{oneapi::tbb::global_control(
+    : pool_(new Pool{oneapi::tbb::global_control(
           oneapi::tbb::global_control::max_allowed_parallelism,
           count > 0 ? count
                     : static_cast<std::size_t>(oneapi::tbb::info::default_concurrency()))}) {}
 
 Threads::~Threads() = default;
 
-build::ParallelFor Threads::parallel_for() const {
-    return [](std::size_t count, const std::function<void(std::size_t)>& body) {
-        ForkJoin edges;
-        oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-            edges.begin_task();
-            body(i);
-            edges.end_task();
-        });
-        edges.joined();
-    };
+ParallelFor Threads::parallel_for() const {
+    return *pool_;
 }
 
 void Threads::run_all(std::initializer_list<std::function<void()>> jobs) const {

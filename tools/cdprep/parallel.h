@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <memory>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/parallel_for.h"
 
 namespace cdprep::cli {
 
@@ -18,14 +18,14 @@ public:
     ~Threads();
 
     /// For stages and builders; valid while this object lives.
-    [[nodiscard]] build::ParallelFor parallel_for() const;
+    [[nodiscard]] ParallelFor parallel_for() const;
 
     /// Runs the jobs side by side and returns when all are done.
     void run_all(std::initializer_list<std::function<void()>> jobs) const;
 
 private:
-    struct Limit;
-    std::unique_ptr<Limit> limit_;
+    struct Pool;
+    std::unique_ptr<Pool> pool_;
 };
 
 }  // namespace cdprep::cli

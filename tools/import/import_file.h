@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/parallel_for.h"
 #include "cdprep/result.h"
 #include "mesh/mesh.h"
 
@@ -17,7 +17,7 @@ struct ImportOptions {
     std::uint64_t memory_bytes = std::uint64_t{8} << 30;  ///< --import-memory
     std::chrono::seconds time{300};                       ///< --import-time
     std::uint64_t file_bytes = std::uint64_t{16} << 30;   ///< --import-file-size
-    build::ParallelFor parallel_for = build::serial_for;
+    ParallelFor parallel_for = serial_for;
 };
 
 /// Reads OBJ, STL, PLY and OFF by our own readers and every other format by

@@ -231,7 +231,7 @@ std::optional<Error> find_excess(const SourceFile& file, const Place& total,
 }
 
 void move_positions(mesh::TriangleSoup& soup, std::vector<PolygonChunk>& chunks,
-                    const std::vector<Place>& places, const build::ParallelFor& parallel_for) {
+                    const std::vector<Place>& places, ParallelFor parallel_for) {
     soup.single_precision = std::all_of(chunks.begin(), chunks.end(),
                                         [](const PolygonChunk& c) { return c.single_precision; });
     if (!chunks.empty() && chunks[0].positions.size() == places.back().first_vertex) {
@@ -272,7 +272,7 @@ mesh::NamedRuns join_runs(std::vector<PolygonChunk>& chunks, const std::vector<P
 }  // namespace
 
 void list_bad_numbers(mesh::TriangleSoup& soup, const std::vector<BadNumber>& bad_triangles,
-                      const build::ParallelFor& parallel_for) {
+                      ParallelFor parallel_for) {
     constexpr std::size_t kBlock = 65536;
     std::vector<std::vector<std::uint32_t>> bad((soup.positions.size() + kBlock - 1) / kBlock);
     parallel_for(bad.size(), [&](std::size_t block) {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/parallel_for.h"
 #include "cdprep/result.h"
 #include "import/polygon_chunk.h"
 #include "import/source_file.h"
@@ -20,7 +20,7 @@ struct JoinOptions {
     std::int64_t first_index = 0;
     FaceNumbers face_numbers = FaceNumbers::once;
     std::uint64_t memory_bytes = ~std::uint64_t{0};
-    build::ParallelFor parallel_for = build::serial_for;
+    ParallelFor parallel_for = serial_for;
 };
 
 /// Makes one soup of chunks in file order.
@@ -39,6 +39,6 @@ struct JoinOptions {
 /// Lists the non-finite positions of a soup in front of `bad_triangles`, which
 /// are sorted, as TriangleSoup::bad_numbers says.
 void list_bad_numbers(mesh::TriangleSoup& soup, const std::vector<mesh::BadNumber>& bad_triangles,
-                      const build::ParallelFor& parallel_for);
+                      ParallelFor parallel_for);
 
 }  // namespace cdprep::import

@@ -23,7 +23,7 @@ const char* next_row(const char* at, const char* end) noexcept {
     return end;
 }
 
-std::vector<RowChunk> split_rows(std::string_view text, const build::ParallelFor& parallel_for) {
+std::vector<RowChunk> split_rows(std::string_view text, ParallelFor parallel_for) {
     std::vector<RowChunk> chunks;
     for (const std::string_view part : split_lines(text, [](auto, auto) { return true; })) {
         chunks.push_back({part, 0, 0});

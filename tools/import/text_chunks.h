@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/parallel_for.h"
 
 namespace cdprep::import {
 
@@ -69,7 +69,6 @@ struct RowChunk {
 
 /// Cuts text into chunks of rows and numbers them. Rows are lines, without blank
 /// ones and comments.
-[[nodiscard]] std::vector<RowChunk> split_rows(std::string_view text,
-                                               const build::ParallelFor& parallel_for);
+[[nodiscard]] std::vector<RowChunk> split_rows(std::string_view text, ParallelFor parallel_for);
 
 }  // namespace cdprep::import

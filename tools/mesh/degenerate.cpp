@@ -7,8 +7,7 @@
 
 namespace cdprep::mesh {
 
-std::vector<std::uint64_t> find_degenerate(const Mesh& mesh,
-                                           const build::ParallelFor& parallel_for) {
+std::vector<std::uint64_t> find_degenerate(const Mesh& mesh, ParallelFor parallel_for) {
     constexpr std::size_t kBits = 64;
     constexpr std::size_t kWordsPerTask = 64;
     std::vector<std::uint64_t> words((mesh.triangles.size() + kBits - 1) / kBits);

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/parallel_for.h"
 #include "mesh/mesh.h"
 
 namespace cdprep::mesh {
@@ -12,6 +12,6 @@ namespace cdprep::mesh {
 /// Returns one bit per triangle, 64 a word, set where the corners are exactly
 /// collinear; no words at all when none is.
 [[nodiscard]] std::vector<std::uint64_t> find_degenerate(const Mesh& mesh,
-                                                         const build::ParallelFor& parallel_for);
+                                                         ParallelFor parallel_for);
 
 }  // namespace cdprep::mesh

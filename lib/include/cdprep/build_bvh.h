@@ -2,23 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/file_header.h"
 #include "cdprep/format/geometry.h"
+#include "cdprep/parallel_for.h"
 
 namespace cdprep::build {
-
-/// Runs body(0) ... body(count - 1), in any order, on any threads, and returns
-/// when all are done. The library starts no threads: this is the caller's.
-using ParallelFor =
-    std::function<void(std::size_t count, const std::function<void(std::size_t)>& body)>;
-
-/// Runs them one after the other.
-void serial_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// The map from model coordinates to box coordinates:
 /// (x - origin) * 2^exponent, in [-1, 1].

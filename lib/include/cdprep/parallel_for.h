@@ -7,30 +7,33 @@
 namespace cdprep {
 
 /// Work in numbered pieces: something to be called with each number. Refers to the
-/// callable and copies nothing; as cheap to copy as two pointers.
+/// callable, which may be a lambda written where the task is handed over, and copies
+/// nothing; as cheap to copy as two pointers.
 class Task {
 public:
     template <class Body>
-    requires(!std::is_same_v<std::remove_const_t<Body>, Task>) Task(Body& body)
+    requires(!std::is_same_v<Body, Task>) Task(const Body& body)
     noexcept  // NOLINT(google-explicit-constructor)
-        : context_(const_cast<void*>(static_cast<const void*>(&body))),
-          call_([](void* context, std::size_t number) { (*static_cast<Body*>(context))(number); }) {
-    }
+        : context_(&body), call_([](const void* context, std::size_t number) {
+              (*static_cast<const Body*>(context))(number);
+          }) {}
     void operator()(std::size_t number) const {
         call_(context_, number);
     }
 
 private:
-    void* context_;
-    void (*call_)(void*, std::size_t);
+    const void* context_;
+    void (*call_)(const void*, std::size_t);
 };
 
 /// The caller's threads. The library starts none: what can be shared out is handed to
 /// `run(count, task)`, which calls task(0) ... task(count - 1), in any order, on any
-/// threads, also all on one, and returns when all are done. It may not throw. Tasks that
-/// begin late find little left to do: best is a `run` whose own thread takes tasks too
-/// and waits only for those that have begun. Refers to the callable, an object such as
-/// a lambda, and copies nothing; it must outlive the call it is handed to.
+/// threads, also all on one, and returns when all are done. It may not throw, but of what
+/// a task throws: those of questions throw nothing, those of build_bvh() nothing but
+/// std::bad_alloc. Tasks that begin late find little left to do: best is a `run` whose own
+/// thread takes tasks too and waits only for those that have begun. Refers to the callable,
+/// an object with a name such as a lambda, and copies nothing; it must outlive the call it
+/// is handed to, and options that hold it.
 ///
 ///     const auto run = [&](std::size_t count, cdprep::Task task) {
 ///         std::vector<std::jthread> threads;
@@ -52,6 +55,11 @@ public:
 private:
     void* context_;
     void (*call_)(void*, std::size_t, Task);
+};
+
+/// Runs the tasks one after the other, here.
+inline constexpr auto serial_for = [](std::size_t count, Task task) {
+    for (std::size_t i = 0; i < count; ++i) task(i);
 };
 
 }  // namespace cdprep

@@ -260,16 +260,15 @@ TEST(BuildBvh, UsedBoxesLieInTheUnitFrameAndUnusedOnesAreEmpty) {
 }
 
 /// Every body on a thread of its own, last first.
-void threads_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+constexpr auto threads_for = [](std::size_t count, Task task) {
     std::vector<std::thread> threads;
-    for (std::size_t i = count; i-- > 0;) threads.emplace_back(body, i);
+    for (std::size_t i = count; i-- > 0;) threads.emplace_back(task, i);
     for (std::thread& thread : threads) thread.join();
-}
+};
 
 /// On this many threads, in an order drawn anew each time.
-build::ParallelFor shuffled_on(std::size_t threads, std::uint32_t seed) {
-    return [threads, random = std::mt19937(seed)](
-               std::size_t count, const std::function<void(std::size_t)>& body) mutable {
+auto shuffled_on(std::size_t threads, std::uint32_t seed) {
+    return [threads, random = std::mt19937(seed)](std::size_t count, Task task) mutable {
         std::vector<std::size_t> order(count);
         std::iota(order.begin(), order.end(), std::size_t{0});
         std::shuffle(order.begin(), order.end(), random);
@@ -277,7 +276,7 @@ build::ParallelFor shuffled_on(std::size_t threads, std::uint32_t seed) {
         std::vector<std::thread> crew;
         for (std::size_t t = 0; t < threads; ++t) {
             crew.emplace_back([&] {
-                for (std::size_t i = next++; i < count; i = next++) body(order[i]);
+                for (std::size_t i = next++; i < count; i = next++) task(order[i]);
             });
         }
         for (std::thread& thread : crew) thread.join();
@@ -298,9 +297,9 @@ TEST(BuildBvh, ThreadsAndTheirScheduleDoNotChangeTheResult) {
             same_bytes(serial, build_bvh(mesh.positions, mesh.triangles,
                                          {.parallel_for = threads_for, .quality = quality})));
         for (std::uint32_t threads = 1; threads <= 8; ++threads) {
-            const Bvh parallel =
-                build_bvh(mesh.positions, mesh.triangles,
-                          {.parallel_for = shuffled_on(threads, threads), .quality = quality});
+            auto shuffled = shuffled_on(threads, threads);
+            const Bvh parallel = build_bvh(mesh.positions, mesh.triangles,
+                                           {.parallel_for = shuffled, .quality = quality});
             EXPECT_TRUE(same_bytes(serial, parallel)) << threads << " threads";
         }
     }

@@ -108,8 +108,8 @@ TEST(RefitBvh, ThreadsDoNotChangeTheResult) {
     Bvh serial = build_bvh(sphere.positions, sphere.triangles);
     Bvh backwards = serial;
     refit_bvh(serial, moved.positions, moved.triangles);
-    const auto last_first = [](std::size_t count, const std::function<void(std::size_t)>& body) {
-        for (std::size_t i = count; i-- > 0;) body(i);
+    const auto last_first = [](std::size_t count, Task task) {
+        for (std::size_t i = count; i-- > 0;) task(i);
     };
     refit_bvh(backwards, moved.positions, moved.triangles, {.parallel_for = last_first});
     EXPECT_TRUE(same_bytes(serial, backwards));

@@ -296,10 +296,11 @@ Long make_long() {
 // Longer than several chunks, whose order of reading must not matter.
 TEST(ReadObj, ChunksJoinToTheSameSoupInAnyOrder) {
     const Long expected = make_long();
-    ImportOptions backwards;
-    backwards.parallel_for = [](std::size_t count, const std::function<void(std::size_t)>& body) {
-        for (std::size_t i = count; i-- > 0;) body(i);
+    const auto last_first = [](std::size_t count, Task task) {
+        for (std::size_t i = count; i-- > 0;) task(i);
     };
+    ImportOptions backwards;
+    backwards.parallel_for = last_first;
     for (const ImportOptions& options : {ImportOptions{}, backwards}) {
         const Result<TriangleSoup> result = read(expected.text, options);
         ASSERT_TRUE(result.ok()) << result.error().message;

@@ -65,10 +65,11 @@ TEST(ReadStl, ABinaryFileMayBeginWithSolid) {
 }
 
 TEST(ReadStl, ManyBinaryTrianglesComeInAnyOrderOfBlocks) {
-    ImportOptions backwards;
-    backwards.parallel_for = [](std::size_t count, const std::function<void(std::size_t)>& body) {
-        for (std::size_t i = count; i-- > 0;) body(i);
+    const auto last_first = [](std::size_t count, Task task) {
+        for (std::size_t i = count; i-- > 0;) task(i);
     };
+    ImportOptions backwards;
+    backwards.parallel_for = last_first;
     const auto result = read(binary(50'000, 50'000), backwards);
     ASSERT_TRUE(result.ok());
     for (std::uint32_t i = 0; i < 50'000; ++i) {
