@@ -2,7 +2,6 @@
 #include "cdprep/batch.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "share_out.h"
 
@@ -13,16 +12,9 @@ namespace {
 template <class Answer, class Ask>
 void ask_all(std::span<const PairJob> jobs, std::span<Workspace> workspaces,
              ParallelFor parallel_for, std::span<Answer> answers, Ask ask) noexcept {
-    assert(!workspaces.empty());
-    // Jobs differ: small shares keep all busy to the end, large ones seldom meet.
-    constexpr std::size_t kSharesOfAWorker = 16;
-    const std::size_t count = std::min(jobs.size(), answers.size());
-    const std::size_t workers = std::min(workspaces.size(), count);
-    if (workers == 0) return;
-    Shares shares(count, 1 + count / (kSharesOfAWorker * workers));
-    run_workers(workers, parallel_for, [&](std::size_t worker) {
-        shares.take([&](std::size_t i) { ask(jobs[i], answers[i], workspaces[worker]); });
-    });
+    share_jobs(
+        std::min(jobs.size(), answers.size()), workspaces.size(), parallel_for,
+        [&](std::size_t i, std::size_t worker) { ask(jobs[i], answers[i], workspaces[worker]); });
 }
 
 }  // namespace

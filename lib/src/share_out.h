@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <cstddef>
 
 #include "cdprep/parallel_for.h"
@@ -40,6 +41,22 @@ void run_workers(std::size_t workers, ParallelFor parallel_for, Work&& work) noe
     } else {
         parallel_for(workers, Task(work));
     }
+}
+
+/// Calls `body(job, worker)` once for each job below `count`, by the caller's threads;
+/// a worker is below `most_workers` and does one job at a time.
+template <class Body>
+void share_jobs(std::size_t count, std::size_t most_workers, ParallelFor parallel_for,
+                Body body) noexcept {
+    assert(most_workers > 0);
+    // Jobs differ: small shares keep all busy to the end, large ones seldom meet.
+    constexpr std::size_t kSharesOfAWorker = 16;
+    const std::size_t workers = std::min(most_workers, count);
+    if (workers == 0) return;
+    Shares shares(count, 1 + count / (kSharesOfAWorker * workers));
+    run_workers(workers, parallel_for, [&](std::size_t worker) {
+        shares.take([&](std::size_t job) { body(job, worker); });
+    });
 }
 
 }  // namespace cdprep
