@@ -9,6 +9,7 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -19,10 +20,13 @@
 #include "cdprep/containment.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
+#include "cdprep/parallel_for.h"
+#include "cdprep/split_overlap.h"
 #include "cdprep/touching_box.h"
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
 #include "cdprep/touching_triangle.h"
+#include "share_out.h"
 
 struct cdprep_model {
     cdprep::Model model;
@@ -30,6 +34,10 @@ struct cdprep_model {
 
 struct cdprep_workspace {
     cdprep::Workspace workspace;
+};
+
+struct cdprep_workspaces {
+    std::span<cdprep::Workspace> all;
 };
 
 namespace cdprep {
@@ -139,6 +147,19 @@ CollideOptions contact_options(const cdprep_contact_options& given) noexcept {
     return options;
 }
 
+DistanceOptions distance_options(const cdprep_distance_options& given) noexcept {
+    return {.relative_error = given.relative_error,
+            .absolute_error = given.absolute_error,
+            .max_distance = given.max_distance,
+            .as = given.as == CDPREP_SOLID ? As::solid : As::surface};
+}
+
+cdprep_distance_options default_distance_options() noexcept {
+    const DistanceOptions defaults;
+    return {sizeof(cdprep_distance_options), CDPREP_SURFACE, defaults.relative_error,
+            defaults.absolute_error, defaults.max_distance};
+}
+
 OverlapOptions overlap_options(const cdprep_contact_options& given) noexcept {
     const CollideOptions options = contact_options(given);
     return {options.contact, options.degenerate};
@@ -159,6 +180,44 @@ void store(const Double3& p, double* numbers) noexcept {
     numbers[0] = p.x;
     numbers[1] = p.y;
     numbers[2] = p.z;
+}
+
+void store(const Collision& found, cdprep_collision& to) noexcept {
+    to = {found.hit ? 1 : 0, word(found.containment.answer), found.containment.a_inside_b ? 1 : 0,
+          found.containment.winding};
+}
+
+void store(const std::optional<Distance>& result, int& found, cdprep_distance& to) noexcept {
+    found = result ? 1 : 0;
+    to = {};
+    if (!result) return;
+    to.lower = result->lower;
+    to.upper = result->upper;
+    store(result->witness_a, to.witness_a);
+    store(result->witness_b, to.witness_b);
+    to.triangle_a = result->triangle_a;
+    to.triangle_b = result->triangle_b;
+}
+
+cdprep_crossing crossing_of(const Crossing& crossing) noexcept {
+    cdprep_crossing to{};
+    to.pair = {crossing.pair.a, crossing.pair.b};
+    to.is_flat = crossing.is_flat ? 1 : 0;
+    store(crossing.from, to.from);
+    store(crossing.to, to.to);
+    return to;
+}
+
+cdprep_ray_hit hit_of(const RayHit& hit) noexcept {
+    cdprep_ray_hit to{};
+    to.t = hit.t;
+    store(hit.point, to.point);
+    to.triangle = hit.triangle;
+    return to;
+}
+
+std::span<TrianglePair> room_of(cdprep_triangle_pair* pairs, std::size_t room) noexcept {
+    return {reinterpret_cast<TrianglePair*>(pairs), room};
 }
 
 Double3 point_of(const double* numbers) noexcept {
@@ -209,6 +268,20 @@ int ask_shape(const cdprep_shape& s, cdprep_error* error, Ask ask) {
     }
 }
 
+/// What a workspace's scratch takes where another one's follows.
+std::size_t scratch_bytes() noexcept {
+    return (Workspace::size() + Workspace::alignment() - 1) / Workspace::alignment() *
+           Workspace::alignment();
+}
+
+/// Beside its scratch, the object itself.
+std::size_t workspace_bytes() noexcept {
+    return scratch_bytes() + sizeof(Workspace);
+}
+
+constexpr std::size_t kWorkspacesObject = sizeof(cdprep_workspaces);
+static_assert(alignof(cdprep_workspaces) <= alignof(Workspace));
+
 int opened(Result<Model> result, cdprep_model** model, cdprep_error* error) {
     if (!result) return fail(error, result.error());
     *model = new cdprep_model{std::move(result).value()};
@@ -247,10 +320,67 @@ private:
     PairCache inner_;
 };
 
+/// Like every task of a C program's threads: `work` is ours, a Task.
+void run_task(const void* work, std::size_t number) {
+    (*static_cast<const Task*>(work))(number);
+}
+
+/// The threads of a C program, as ParallelFor wants them.
+struct CThreads {
+    cdprep_parallel_for given;
+
+    void operator()(std::size_t count, Task task) const {
+        if (given.run == nullptr) return serial_for(count, task);
+        given.run(given.context, count, run_task, &task);
+    }
+};
+
+/// Whether the job can be asked, or a code with `error` filled.
+int check_job(const cdprep_pair_job& job, cdprep_error* error) {
+    if (any_null(job.a, job.b, job.placement)) return null_argument(error);
+    std::optional<Placement> placed;
+    return read_placement(*job.placement, placed, error);
+}
+
+/// The first thing that is wrong with a job, and its number.
+int check_jobs(std::span<const cdprep_pair_job> jobs, cdprep_error* error) {
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        cdprep_error wrong{};
+        const int code = check_job(jobs[i], &wrong);
+        if (code == CDPREP_OK) continue;
+        return fail(error, code,
+                    "Job " + std::to_string(i) + ", the first being 0: " + wrong.message);
+    }
+    return CDPREP_OK;
+}
+
+/// A question about many pairs: checks what every such question checks, then calls
+/// `ask(i, a, b, placement, workspace, cache)` for each.
+template <class Ask>
+int ask_jobs(const cdprep_pair_job* jobs, std::size_t count, cdprep_workspaces* workspaces,
+             const cdprep_parallel_for* parallel_for, cdprep_error* error, Ask ask) noexcept {
+    if (workspaces == nullptr || (jobs == nullptr && count > 0)) return null_argument(error);
+    CThreads threads{};
+    if (!read_sized(parallel_for, threads.given)) return bad_size(error);
+    return guarded(error, [&]() -> int {
+        if (const int code = check_jobs({jobs, count}, error)) return code;
+        const std::span<Workspace> all = workspaces->all;
+        share_jobs(count, all.size(), threads, [&](std::size_t i, std::size_t worker) {
+            const cdprep_pair_job& job = jobs[i];
+            std::optional<Placement> placed;
+            if (read_placement(*job.placement, placed, nullptr) != CDPREP_OK) return;
+            CacheCopy copy(job.cache);
+            ask(i, job.a->model, job.b->model, *placed, all[worker], copy.get());
+        });
+        return CDPREP_OK;
+    });
+}
+
 }  // namespace
 }  // namespace cdprep
 
 using cdprep::Model;
+using cdprep::PairCache;
 using cdprep::Placement;
 using cdprep::Workspace;
 
@@ -309,9 +439,28 @@ cdprep_workspace* cdprep_make_workspace(void* memory, size_t size) {
     const std::span<std::byte> bytes(static_cast<std::byte*>(memory), size);
     std::optional<Workspace> workspace = Workspace::in(bytes);
     if (!workspace) return nullptr;
-    const std::size_t behind = (Workspace::size() + Workspace::alignment() - 1) /
-                               Workspace::alignment() * Workspace::alignment();
-    return new (bytes.data() + behind) cdprep_workspace{std::move(*workspace)};
+    return new (bytes.data() + cdprep::scratch_bytes()) cdprep_workspace{std::move(*workspace)};
+}
+
+size_t cdprep_workspaces_size(size_t count) {
+    if (count > (SIZE_MAX - cdprep::kWorkspacesObject) / cdprep::workspace_bytes()) {
+        return SIZE_MAX;
+    }
+    return count * cdprep::workspace_bytes() + cdprep::kWorkspacesObject;
+}
+
+// First every one's scratch, then their own objects, then what knows where those are.
+cdprep_workspaces* cdprep_make_workspaces(void* memory, size_t size, size_t count) {
+    if (memory == nullptr || count == 0 || size < cdprep_workspaces_size(count)) return nullptr;
+    auto* const bytes = static_cast<std::byte*>(memory);
+    auto* const objects = reinterpret_cast<Workspace*>(bytes + count * cdprep::scratch_bytes());
+    for (size_t i = 0; i < count; ++i) {
+        const std::size_t at = i * cdprep::scratch_bytes();
+        std::optional<Workspace> workspace = Workspace::in({bytes + at, Workspace::size()});
+        if (!workspace) return nullptr;
+        new (objects + i) Workspace(std::move(*workspace));
+    }
+    return new (objects + count) cdprep_workspaces{{std::launder(objects), count}};
 }
 
 int cdprep_collide(const cdprep_model* a, const cdprep_model* b, const cdprep_placement* placement,
@@ -324,10 +473,22 @@ int cdprep_collide(const cdprep_model* a, const cdprep_model* b, const cdprep_pl
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
             cdprep::CacheCopy copy(cache);
-            const cdprep::Collision found = cdprep::collide(
-                ma, mb, placed, scratch, cdprep::contact_options(given), copy.get());
-            *collision = {found.hit ? 1 : 0, cdprep::word(found.containment.answer),
-                          found.containment.a_inside_b ? 1 : 0, found.containment.winding};
+            cdprep::store(cdprep::collide(ma, mb, placed, scratch, cdprep::contact_options(given),
+                                          copy.get()),
+                          *collision);
+            return CDPREP_OK;
+        });
+}
+
+int cdprep_find_containment(const cdprep_model* a, const cdprep_model* b,
+                            const cdprep_placement* placement, cdprep_workspace* workspace,
+                            cdprep_containment* containment, cdprep_error* error) {
+    if (containment == nullptr) return cdprep::null_argument(error);
+    return cdprep::ask_pair(
+        a, b, placement, workspace, error,
+        [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            const cdprep::Containment found = cdprep::find_containment(ma, mb, placed, scratch);
+            *containment = {cdprep::word(found.answer), found.a_inside_b ? 1 : 0, found.winding};
             return CDPREP_OK;
         });
 }
@@ -342,10 +503,31 @@ int cdprep_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
-            const std::span<cdprep::TrianglePair> kept(
-                reinterpret_cast<cdprep::TrianglePair*>(pairs), room);
-            *count = cdprep::overlapping_triangles(ma, mb, placed, scratch, kept,
-                                                   cdprep::overlap_options(given));
+            *count =
+                cdprep::overlapping_triangles(ma, mb, placed, scratch, cdprep::room_of(pairs, room),
+                                              cdprep::overlap_options(given));
+            return CDPREP_OK;
+        });
+}
+
+int cdprep_visit_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
+                                       const cdprep_placement* placement,
+                                       cdprep_workspace* workspace,
+                                       const cdprep_contact_options* options,
+                                       cdprep_pair_visitor visit, void* context,
+                                       cdprep_error* error) {
+    if (visit == nullptr) return cdprep::null_argument(error);
+    cdprep_contact_options given{};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    return cdprep::ask_pair(
+        a, b, placement, workspace, error,
+        [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            const auto hand_on = [&](const cdprep::TrianglePair& pair) {
+                const cdprep_triangle_pair found = {pair.a, pair.b};
+                return visit(context, &found) != 0;
+            };
+            cdprep::visit_overlapping_triangles(ma, mb, placed, scratch, hand_on,
+                                                cdprep::overlap_options(given));
             return CDPREP_OK;
         });
 }
@@ -386,12 +568,7 @@ int cdprep_crossing_segments(const cdprep_model* a, const cdprep_model* b,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
             std::size_t found = 0;
             const auto take = [&](const cdprep::Crossing& crossing) {
-                if (found++ >= room) return true;
-                cdprep_crossing& to = crossings[found - 1];
-                to.pair = {crossing.pair.a, crossing.pair.b};
-                to.is_flat = crossing.is_flat ? 1 : 0;
-                cdprep::store(crossing.from, to.from);
-                cdprep::store(crossing.to, to.to);
+                if (found++ < room) crossings[found - 1] = cdprep::crossing_of(crossing);
                 return true;
             };
             cdprep::visit_crossing_segments(ma, mb, placed, scratch, take,
@@ -401,36 +578,41 @@ int cdprep_crossing_segments(const cdprep_model* a, const cdprep_model* b,
         });
 }
 
+int cdprep_visit_crossing_segments(const cdprep_model* a, const cdprep_model* b,
+                                   const cdprep_placement* placement, cdprep_workspace* workspace,
+                                   const cdprep_contact_options* options,
+                                   cdprep_crossing_visitor visit, void* context,
+                                   cdprep_error* error) {
+    if (visit == nullptr) return cdprep::null_argument(error);
+    cdprep_contact_options given{};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    return cdprep::ask_pair(
+        a, b, placement, workspace, error,
+        [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            const auto hand_on = [&](const cdprep::Crossing& crossing) {
+                const cdprep_crossing found = cdprep::crossing_of(crossing);
+                return visit(context, &found) != 0;
+            };
+            cdprep::visit_crossing_segments(ma, mb, placed, scratch, hand_on,
+                                            cdprep::overlap_options(given));
+            return CDPREP_OK;
+        });
+}
+
 int cdprep_distance_between(const cdprep_model* a, const cdprep_model* b,
                             const cdprep_placement* placement, cdprep_workspace* workspace,
                             const cdprep_distance_options* options, cdprep_pair_cache* cache,
                             int* found, cdprep_distance* distance, cdprep_error* error) {
     if (cdprep::any_null(found, distance)) return cdprep::null_argument(error);
-    const cdprep::DistanceOptions defaults;
-    cdprep_distance_options given{sizeof given, CDPREP_SURFACE, defaults.relative_error,
-                                  defaults.absolute_error, defaults.max_distance};
+    cdprep_distance_options given = cdprep::default_distance_options();
     if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
             cdprep::CacheCopy copy(cache);
-            const cdprep::As as =
-                given.as == CDPREP_SOLID ? cdprep::As::solid : cdprep::As::surface;
-            const auto result = cdprep::distance(ma, mb, placed, scratch,
-                                                 {.relative_error = given.relative_error,
-                                                  .absolute_error = given.absolute_error,
-                                                  .max_distance = given.max_distance,
-                                                  .as = as},
-                                                 copy.get());
-            *found = result ? 1 : 0;
-            *distance = {};
-            if (!result) return CDPREP_OK;
-            distance->lower = result->lower;
-            distance->upper = result->upper;
-            cdprep::store(result->witness_a, distance->witness_a);
-            cdprep::store(result->witness_b, distance->witness_b);
-            distance->triangle_a = result->triangle_a;
-            distance->triangle_b = result->triangle_b;
+            cdprep::store(cdprep::distance(ma, mb, placed, scratch, cdprep::distance_options(given),
+                                           copy.get()),
+                          *found, *distance);
             return CDPREP_OK;
         });
 }
@@ -457,11 +639,7 @@ int cdprep_cast_ray(const cdprep_model* model, const double origin[3], const dou
     const auto result = cdprep::cast_ray(model->model, cdprep::ray_of(origin, direction),
                                          workspace->workspace, {max_t});
     *found = result ? 1 : 0;
-    *hit = {};
-    if (!result) return CDPREP_OK;
-    hit->t = result->t;
-    hit->triangle = result->triangle;
-    cdprep::store(result->point, hit->point);
+    *hit = result ? cdprep::hit_of(*result) : cdprep_ray_hit{};
     return CDPREP_OK;
 }
 
@@ -485,6 +663,21 @@ int cdprep_all_ray_hits(const cdprep_model* model, const double origin[3],
     const std::span<cdprep::RayHit> kept(reinterpret_cast<cdprep::RayHit*>(hits), room);
     *count = cdprep::all_ray_hits(model->model, cdprep::ray_of(origin, direction),
                                   workspace->workspace, kept, {max_t});
+    return CDPREP_OK;
+}
+
+int cdprep_visit_ray_hits(const cdprep_model* model, const double origin[3],
+                          const double direction[3], double max_t, cdprep_workspace* workspace,
+                          cdprep_ray_visitor visit, void* context, cdprep_error* error) {
+    if (cdprep::any_null(model, origin, direction, workspace, visit)) {
+        return cdprep::null_argument(error);
+    }
+    const auto hand_on = [&](const cdprep::RayHit& hit) {
+        const cdprep_ray_hit found = cdprep::hit_of(hit);
+        return visit(context, &found) != 0;
+    };
+    cdprep::visit_ray_hits(model->model, cdprep::ray_of(origin, direction), workspace->workspace,
+                           hand_on, {max_t});
     return CDPREP_OK;
 }
 
@@ -540,6 +733,26 @@ int cdprep_touching_triangles(const cdprep_model* model, const cdprep_shape* sha
     });
 }
 
+int cdprep_visit_touching_triangles(const cdprep_model* model, const cdprep_shape* shape,
+                                    cdprep_workspace* workspace,
+                                    const cdprep_shape_options* options,
+                                    cdprep_triangle_visitor visit, void* context,
+                                    cdprep_error* error) {
+    if (cdprep::any_null(model, shape, workspace, visit)) return cdprep::null_argument(error);
+    return cdprep::guarded(error, [&]() -> int {
+        cdprep::ShapeAsked asked;
+        if (const int code = cdprep::read_shape(*shape, options, asked, error)) return code;
+        return cdprep::ask_shape(asked.shape, error, [&](const auto& given) {
+            const auto hand_on = [&](std::uint32_t triangle) {
+                return visit(context, triangle) != 0;
+            };
+            cdprep::visit_touching_triangles(model->model, given, workspace->workspace, hand_on,
+                                             asked.options);
+            return CDPREP_OK;
+        });
+    });
+}
+
 int cdprep_distance_to(const cdprep_model* model, const cdprep_shape* shape,
                        cdprep_workspace* workspace, const cdprep_shape_options* options, int* found,
                        cdprep_shape_distance* distance, cdprep_error* error) {
@@ -581,4 +794,124 @@ int cdprep_includes(const cdprep_model* model, const double point[3], cdprep_wor
         cdprep::includes(model->model, {point[0], point[1], point[2]}, workspace->workspace);
     *inclusion = {cdprep::word(result.answer), result.on_surface ? 1 : 0, result.winding};
     return CDPREP_OK;
+}
+
+int cdprep_collide_all(const cdprep_pair_job* jobs, size_t count, cdprep_workspaces* workspaces,
+                       const cdprep_parallel_for* parallel_for,
+                       const cdprep_contact_options* options, cdprep_collision* collisions,
+                       cdprep_error* error) {
+    if (collisions == nullptr && count > 0) return cdprep::null_argument(error);
+    cdprep_contact_options given{};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    const cdprep::CollideOptions asked = cdprep::contact_options(given);
+    return cdprep::ask_jobs(
+        jobs, count, workspaces, parallel_for, error,
+        [&](size_t i, const Model& a, const Model& b, const Placement& placement,
+            Workspace& scratch, PairCache* cache) {
+            cdprep::store(cdprep::collide(a, b, placement, scratch, asked, cache), collisions[i]);
+        });
+}
+
+int cdprep_distance_between_all(const cdprep_pair_job* jobs, size_t count,
+                                cdprep_workspaces* workspaces,
+                                const cdprep_parallel_for* parallel_for,
+                                const cdprep_distance_options* options, int* found,
+                                cdprep_distance* distances, cdprep_error* error) {
+    if (count > 0 && cdprep::any_null(found, distances)) return cdprep::null_argument(error);
+    cdprep_distance_options given = cdprep::default_distance_options();
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    const cdprep::DistanceOptions asked = cdprep::distance_options(given);
+    return cdprep::ask_jobs(jobs, count, workspaces, parallel_for, error,
+                            [&](size_t i, const Model& a, const Model& b,
+                                const Placement& placement, Workspace& scratch, PairCache* cache) {
+                                cdprep::store(
+                                    cdprep::distance(a, b, placement, scratch, asked, cache),
+                                    found[i], distances[i]);
+                            });
+}
+
+int cdprep_is_within_all(const cdprep_pair_job* jobs, size_t count, cdprep_workspaces* workspaces,
+                         const cdprep_parallel_for* parallel_for, double tolerance, int* within,
+                         cdprep_error* error) {
+    if (within == nullptr && count > 0) return cdprep::null_argument(error);
+    return cdprep::ask_jobs(
+        jobs, count, workspaces, parallel_for, error,
+        [&](size_t i, const Model& a, const Model& b, const Placement& placement,
+            Workspace& scratch, PairCache* cache) {
+            within[i] = cdprep::is_within(a, b, placement, tolerance, scratch, cache) ? 1 : 0;
+        });
+}
+
+int cdprep_overlapping_triangles_all(const cdprep_pair_job* jobs, size_t count,
+                                     cdprep_workspaces* workspaces,
+                                     const cdprep_parallel_for* parallel_for,
+                                     const cdprep_contact_options* options,
+                                     cdprep_overlap_answer* answers, cdprep_error* error) {
+    if (answers == nullptr && count > 0) return cdprep::null_argument(error);
+    for (size_t i = 0; i < count; ++i) {
+        if (answers[i].pairs == nullptr && answers[i].room > 0) {
+            return cdprep::null_argument(error);
+        }
+    }
+    cdprep_contact_options given{};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    const cdprep::OverlapOptions asked = cdprep::overlap_options(given);
+    return cdprep::ask_jobs(
+        jobs, count, workspaces, parallel_for, error,
+        [&](size_t i, const Model& a, const Model& b, const Placement& placement,
+            Workspace& scratch, PairCache* /*cache*/) {
+            cdprep_overlap_answer& to = answers[i];
+            to.count = cdprep::overlapping_triangles(a, b, placement, scratch,
+                                                     cdprep::room_of(to.pairs, to.room), asked);
+        });
+}
+
+int cdprep_mark_overlapping_triangles_all(const cdprep_pair_job* jobs, size_t count,
+                                          cdprep_workspaces* workspaces,
+                                          const cdprep_parallel_for* parallel_for,
+                                          const cdprep_contact_options* options,
+                                          cdprep_marked_triangles* answers, cdprep_error* error) {
+    if (answers == nullptr && count > 0) return cdprep::null_argument(error);
+    for (size_t i = 0; i < count; ++i) {
+        const cdprep_marked_triangles& to = answers[i];
+        if ((to.bits_a == nullptr && to.words_a > 0) || (to.bits_b == nullptr && to.words_b > 0)) {
+            return cdprep::null_argument(error);
+        }
+    }
+    cdprep_contact_options given{};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    const cdprep::OverlapOptions asked = cdprep::overlap_options(given);
+    return cdprep::ask_jobs(
+        jobs, count, workspaces, parallel_for, error,
+        [&](size_t i, const Model& a, const Model& b, const Placement& placement,
+            Workspace& scratch, PairCache* /*cache*/) {
+            cdprep_marked_triangles& to = answers[i];
+            to.count = cdprep::mark_overlapping_triangles(
+                a, b, placement, scratch, {to.bits_a, to.words_a}, {to.bits_b, to.words_b}, asked);
+        });
+}
+
+int cdprep_split_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
+                                       const cdprep_placement* placement,
+                                       cdprep_workspaces* workspaces,
+                                       const cdprep_parallel_for* parallel_for,
+                                       const cdprep_contact_options* options,
+                                       cdprep_triangle_pair* pairs, size_t room, size_t* count,
+                                       cdprep_error* error) {
+    if (cdprep::any_null(a, b, placement, workspaces, count) || (pairs == nullptr && room > 0)) {
+        return cdprep::null_argument(error);
+    }
+    cdprep_contact_options given{};
+    cdprep::CThreads threads{};
+    if (!cdprep::read_sized(options, given) || !cdprep::read_sized(parallel_for, threads.given)) {
+        return cdprep::bad_size(error);
+    }
+    return cdprep::guarded(error, [&]() -> int {
+        std::optional<Placement> placed;
+        if (const int code = cdprep::read_placement(*placement, placed, error)) return code;
+        *count = cdprep::split_overlapping_triangles(a->model, b->model, *placed, workspaces->all,
+                                                     threads, cdprep::room_of(pairs, room),
+                                                     cdprep::overlap_options(given));
+        return CDPREP_OK;
+    });
 }

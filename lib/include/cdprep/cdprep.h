@@ -9,7 +9,8 @@
  * call C. What a question means, costs and needs stands in the header of the same
  * name: collide.h, overlapping_triangles.h, distance.h, cast_ray.h,
  * closest_point.h, containment.h, touching_box.h, touching_sphere.h,
- * touching_capsule.h, touching_triangle.h.
+ * touching_capsule.h, touching_triangle.h; batch.h and split_overlap.h for many
+ * questions at once and for one on many threads.
  *
  * Every function returns CDPREP_OK or a code, and then fills `error`, which may be
  * null. No exception leaves a function. A struct that may grow starts with its
@@ -70,6 +71,13 @@ size_t cdprep_workspace_alignment(void);
  * small or not aligned. Nothing to free: it ends with the memory. */
 cdprep_workspace* cdprep_make_workspace(void* memory, size_t size);
 
+/* Several in one piece of memory, for questions on several threads; the same alignment,
+ * and the same when it cannot be. The size of too many is SIZE_MAX. */
+typedef struct cdprep_workspaces cdprep_workspaces;
+
+size_t cdprep_workspaces_size(size_t count);
+cdprep_workspaces* cdprep_make_workspaces(void* memory, size_t size, size_t count);
+
 /* --- Placement ------------------------------------------------------------------ */
 
 enum {
@@ -123,6 +131,17 @@ int cdprep_collide(const cdprep_model* a, const cdprep_model* b, const cdprep_pl
                    cdprep_workspace* workspace, const cdprep_contact_options* options,
                    cdprep_pair_cache* cache, cdprep_collision* collision, cdprep_error* error);
 
+typedef struct cdprep_containment {
+    int answer; /* CDPREP_NO, _YES, _UNKNOWN */
+    int a_inside_b;
+    double winding;
+} cdprep_containment;
+
+/* For two models whose surfaces do not touch. */
+int cdprep_find_containment(const cdprep_model* a, const cdprep_model* b,
+                            const cdprep_placement* placement, cdprep_workspace* workspace,
+                            cdprep_containment* containment, cdprep_error* error);
+
 typedef struct cdprep_triangle_pair {
     uint32_t a;
     uint32_t b;
@@ -134,6 +153,18 @@ int cdprep_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
                                  const cdprep_placement* placement, cdprep_workspace* workspace,
                                  const cdprep_contact_options* options, cdprep_triangle_pair* pairs,
                                  size_t room, size_t* count, cdprep_error* error);
+
+/* Called with every answer as it is found, and with the caller's `context`; 0 ends the
+ * search. Like everything that the caller hands over to be called, it returns: by no
+ * exception and no longjmp(). */
+typedef int (*cdprep_pair_visitor)(void* context, const cdprep_triangle_pair* pair);
+
+int cdprep_visit_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
+                                       const cdprep_placement* placement,
+                                       cdprep_workspace* workspace,
+                                       const cdprep_contact_options* options,
+                                       cdprep_pair_visitor visit, void* context,
+                                       cdprep_error* error);
 
 /* Sets bit i % 64 of element i / 64 for each triangle i that overlaps any of the other
  * model, and clears all others; an array with fewer than a word for every 64 triangles
@@ -160,6 +191,14 @@ int cdprep_crossing_segments(const cdprep_model* a, const cdprep_model* b,
                              const cdprep_placement* placement, cdprep_workspace* workspace,
                              const cdprep_contact_options* options, cdprep_crossing* crossings,
                              size_t room, size_t* count, cdprep_error* error);
+
+typedef int (*cdprep_crossing_visitor)(void* context, const cdprep_crossing* crossing);
+
+int cdprep_visit_crossing_segments(const cdprep_model* a, const cdprep_model* b,
+                                   const cdprep_placement* placement, cdprep_workspace* workspace,
+                                   const cdprep_contact_options* options,
+                                   cdprep_crossing_visitor visit, void* context,
+                                   cdprep_error* error);
 
 typedef struct cdprep_distance_options {
     uint32_t size;
@@ -209,6 +248,12 @@ int cdprep_all_ray_hits(const cdprep_model* model, const double origin[3],
                         const double direction[3], double max_t, cdprep_workspace* workspace,
                         cdprep_ray_hit* hits, size_t room, size_t* count, cdprep_error* error);
 
+typedef int (*cdprep_ray_visitor)(void* context, const cdprep_ray_hit* hit);
+
+int cdprep_visit_ray_hits(const cdprep_model* model, const double origin[3],
+                          const double direction[3], double max_t, cdprep_workspace* workspace,
+                          cdprep_ray_visitor visit, void* context, cdprep_error* error);
+
 typedef struct cdprep_closest_point {
     double point[3];
     double lower;
@@ -254,6 +299,14 @@ int cdprep_touching_triangles(const cdprep_model* model, const cdprep_shape* sha
                               cdprep_workspace* workspace, const cdprep_shape_options* options,
                               uint32_t* triangles, size_t room, size_t* count, cdprep_error* error);
 
+typedef int (*cdprep_triangle_visitor)(void* context, uint32_t triangle);
+
+int cdprep_visit_touching_triangles(const cdprep_model* model, const cdprep_shape* shape,
+                                    cdprep_workspace* workspace,
+                                    const cdprep_shape_options* options,
+                                    cdprep_triangle_visitor visit, void* context,
+                                    cdprep_error* error);
+
 typedef struct cdprep_shape_distance {
     double lower;
     double upper;
@@ -276,6 +329,84 @@ typedef struct cdprep_inclusion {
 
 int cdprep_includes(const cdprep_model* model, const double point[3], cdprep_workspace* workspace,
                     cdprep_inclusion* inclusion, cdprep_error* error);
+
+/* --- On the caller's threads ------------------------------------------------------ */
+
+/* The caller's threads: `run` calls task(work, 0) ... task(work, count - 1), in any
+ * order, on any threads, and returns when all are done. See parallel_for.h. */
+typedef void (*cdprep_task)(const void* work, size_t number);
+
+typedef struct cdprep_parallel_for {
+    uint32_t size;
+    void (*run)(void* context, size_t count, cdprep_task task, const void* work);
+    void* context; /* handed to `run` */
+} cdprep_parallel_for;
+
+/* One question of a batch, as the questions about two models take it. */
+typedef struct cdprep_pair_job {
+    const cdprep_model* a;
+    const cdprep_model* b;
+    const cdprep_placement* placement;
+    cdprep_pair_cache* cache; /* or null; no two jobs of a batch share one */
+} cdprep_pair_job;
+
+/* These ask the question of the same name of `count` jobs and store the answers in their
+ * order, the same as one by one. One thread works for each workspace. All jobs are checked
+ * first: when one is asked wrongly, the error says which, and none is asked. Without
+ * `parallel_for` (null, or a null `run`) they are asked one after the other. */
+int cdprep_collide_all(const cdprep_pair_job* jobs, size_t count, cdprep_workspaces* workspaces,
+                       const cdprep_parallel_for* parallel_for,
+                       const cdprep_contact_options* options, cdprep_collision* collisions,
+                       cdprep_error* error);
+
+int cdprep_distance_between_all(const cdprep_pair_job* jobs, size_t count,
+                                cdprep_workspaces* workspaces,
+                                const cdprep_parallel_for* parallel_for,
+                                const cdprep_distance_options* options, int* found,
+                                cdprep_distance* distances, cdprep_error* error);
+
+int cdprep_is_within_all(const cdprep_pair_job* jobs, size_t count, cdprep_workspaces* workspaces,
+                         const cdprep_parallel_for* parallel_for, double tolerance, int* within,
+                         cdprep_error* error);
+
+/* Where one job's pairs go, as cdprep_overlapping_triangles() takes it; only counts where
+ * there is no room. */
+typedef struct cdprep_overlap_answer {
+    cdprep_triangle_pair* pairs;
+    size_t room;
+    size_t count; /* answered */
+} cdprep_overlap_answer;
+
+int cdprep_overlapping_triangles_all(const cdprep_pair_job* jobs, size_t count,
+                                     cdprep_workspaces* workspaces,
+                                     const cdprep_parallel_for* parallel_for,
+                                     const cdprep_contact_options* options,
+                                     cdprep_overlap_answer* answers, cdprep_error* error);
+
+/* Where one job's marks go, as cdprep_mark_overlapping_triangles() takes it. */
+typedef struct cdprep_marked_triangles {
+    uint64_t* bits_a;
+    size_t words_a;
+    uint64_t* bits_b;
+    size_t words_b;
+    size_t count; /* answered */
+} cdprep_marked_triangles;
+
+int cdprep_mark_overlapping_triangles_all(const cdprep_pair_job* jobs, size_t count,
+                                          cdprep_workspaces* workspaces,
+                                          const cdprep_parallel_for* parallel_for,
+                                          const cdprep_contact_options* options,
+                                          cdprep_marked_triangles* answers, cdprep_error* error);
+
+/* cdprep_overlapping_triangles() of one pair of large models, on as many threads as there
+ * are workspaces: the same answer. */
+int cdprep_split_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
+                                       const cdprep_placement* placement,
+                                       cdprep_workspaces* workspaces,
+                                       const cdprep_parallel_for* parallel_for,
+                                       const cdprep_contact_options* options,
+                                       cdprep_triangle_pair* pairs, size_t room, size_t* count,
+                                       cdprep_error* error);
 
 #ifdef __cplusplus
 }

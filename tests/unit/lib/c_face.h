@@ -4,6 +4,8 @@
 
 #include <stddef.h>
 
+#include "cdprep/cdprep.h"
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -11,6 +13,11 @@ extern "C" {
 /* Asks every question of cdprep.h about a baked unit cube, in memory and at
  * `path`, as a C99 program would. Returns null, or the first thing that was wrong. */
 const char* ask_everything(const void* bytes, size_t size, const char* path);
+
+/* Asks a baked ball of radius 1 and a smaller solid many times over by `threads`, one to eight of
+ * them, and compares with the same questions asked one by one. Returns likewise. */
+const char* ask_many(const void* bytes_a, size_t size_a, const void* bytes_b, size_t size_b,
+                     const cdprep_parallel_for* threads);
 
 #ifdef __cplusplus
 }

@@ -7,6 +7,7 @@
 
 #include "cdprep/collide.h"
 #include "support/meshes.h"
+#include "support/run_threads.h"
 #include "support/scratch_folder.h"
 #include "support/tiny_baker.h"
 
@@ -23,6 +24,23 @@ TEST(CFace, AProgramInC99GetsTheAnswers) {
                static_cast<std::streamsize>(file.size()));
     const char* wrong = ask_everything(file.span().data(), file.size(), path.c_str());
     EXPECT_EQ(wrong, nullptr) << wrong;
+}
+
+/// A thread for every task, as a C program has them; counts the tasks.
+void run_on_threads(void* tasks, std::size_t count, cdprep_task task, const void* work) {
+    *static_cast<std::size_t*>(tasks) += count;
+    run_threads(count, [&](std::size_t i) { task(work, i); });
+}
+
+TEST(CFace, ManyThreadsGetTheAnswersOfOne) {
+    const TestMesh ball = icosphere(4), ring = torus(0.3, 0.1, 120, 60);
+    const AlignedBytes a = bake_tiny(ball.positions, ball.triangles);
+    const AlignedBytes b = bake_tiny(ring.positions, ring.triangles);
+    std::size_t tasks = 0;
+    const cdprep_parallel_for threads = {sizeof threads, run_on_threads, &tasks};
+    const char* wrong = ask_many(a.span().data(), a.size(), b.span().data(), b.size(), &threads);
+    EXPECT_EQ(wrong, nullptr) << wrong;
+    EXPECT_GT(tasks, 8u * 7u);
 }
 
 TEST(Workspace, MayLiveInTheCallersMemory) {
