@@ -68,4 +68,9 @@ inline double median(std::vector<double> values, double share = 0.5) {
     return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
+/// How far apart the middle half of the values lies; there is at least one.
+inline double spread(const std::vector<double>& values) {
+    return median(values, 0.75) - median(values, 0.25);
+}
+
 }  // namespace cdprep

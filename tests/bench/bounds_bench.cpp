@@ -99,9 +99,7 @@ double median_of(const Times& times) {
 /// How far apart the middle half of a pose's rounds lie: the median of the poses.
 double spread_of(const Times& times) {
     std::vector<double> by_pose;
-    for (const auto& rounds : times) {
-        by_pose.push_back(median(rounds, 0.75) - median(rounds, 0.25));
-    }
+    for (const auto& rounds : times) by_pose.push_back(spread(rounds));
     return median(by_pose);
 }
 

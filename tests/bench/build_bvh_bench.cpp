@@ -5,9 +5,10 @@
 // Usage: build_bvh_bench BAKES [ROUNDS [POSES [PAIR...]]]
 // BAKES holds NAME.cdp.h5: their triangles are built anew, in the order of their
 // source. POSES holds A-B.pose files as pair_queries_bench reads them. Every way of
-// building takes its turn, ROUNDS times (5); figures are medians. "rebuilt" builds into
-// the arrays of the round before, "refitted" keeps their order. Prints two CSV tables:
-// builds, and what queries take by the way the two trees were built.
+// building takes its turn, ROUNDS times (5); figures are medians, with the
+// spread of the middle half of the rounds. "rebuilt" builds into the arrays of the round
+// before, "refitted" keeps their order. Prints two CSV tables: builds, and what queries
+// take by the way the two trees were built.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -229,8 +230,8 @@ void time_builds(const std::string& name, const SourceMesh& mesh, int rounds) {
     }
     for (const Way& way : ways) {
         const double seconds = median(way.seconds);
-        std::printf("%s,%zu,%s,%.1f,%.2f,%.3f\n", name.c_str(), mesh.triangles.size(),
-                    way.name.c_str(), 1e3 * seconds,
+        std::printf("%s,%zu,%s,%.1f,%.1f,%.2f,%.3f\n", name.c_str(), mesh.triangles.size(),
+                    way.name.c_str(), 1e3 * seconds, 1e3 * spread(way.seconds),
                     1e-6 * static_cast<double>(mesh.triangles.size()) / seconds, way.cost);
     }
     std::fflush(stdout);
@@ -295,9 +296,10 @@ void time_queries(const std::string& pair, const SourceMesh& a, const SourceMesh
                 }
             }
             for (std::size_t tree = 0; tree < kTrees.size(); ++tree) {
-                std::printf("%s,%s/%s,%s,%.2f,%.2f\n", pair.c_str(),
+                std::printf("%s,%s/%s,%s,%.2f,%.2f,%.2f\n", pair.c_str(),
                             overlap ? "overlap" : "collide", kKinds[kind], kTrees[tree].name,
-                            median(totals[tree]), median(totals[tree]) / median(totals[0]));
+                            median(totals[tree]), spread(totals[tree]),
+                            median(totals[tree]) / median(totals[0]));
             }
             std::fflush(stdout);
         }
@@ -319,13 +321,14 @@ int main(int count, char** arguments) {
     };
     const int rounds = count > 2 ? std::max(1, std::atoi(arguments[2])) : 5;
     std::printf(
-        "model,triangles,mode,oriented,threads,median_ms,million_triangles_per_s,surface_cost\n");
+        "model,triangles,mode,oriented,threads,median_ms,spread_ms,million_triangles_per_s,"
+        "surface_cost\n");
     for (const char* name : {"dragon", "armadillo"}) time_builds(name, mesh(name), rounds);
     if (count < 4) return 0;
     const fs::path poses = arguments[3];
     std::vector<std::string> pairs(arguments + std::min(count, 4), arguments + count);
     if (pairs.empty()) pairs = {"dragon-armadillo", "armadillo-bunny", "buddha-horse"};
-    std::printf("\npair,question,tree,median_us,times_best\n");
+    std::printf("\npair,question,tree,median_us,spread_us,times_best\n");
     for (const std::string& pair : pairs) {
         const std::size_t dash = pair.find('-');
         if (dash == std::string::npos) stop("'" + pair + "' is not two names with a dash between");

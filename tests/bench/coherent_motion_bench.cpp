@@ -8,8 +8,8 @@
 // Usage: coherent_motion_bench BAKES POSES [ROUNDS [PAIR...]]
 // as pair_queries_bench: models normalised, line i of a file is of kind i mod 3.
 //
-// Prints a CSV table: microseconds a question, the median of the rounds; `times` is
-// the one by the other.
+// Prints a CSV table: microseconds a question, the median of the rounds, and the spread
+// of their middle half; `times` is the one by the other.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -136,8 +136,9 @@ void compare(const std::string& pair, const Model& a, const Model& b,
             if (hits[0] != hits[1]) stop("a cache changed an answer");
             const std::string key = std::string(kQuestions[question]) + "/" + kKinds[kind];
             const double ratio = median(us[0]) / median(us[1]);
-            std::printf("%s,%s,%zu,%zu,%.2f,%.2f,%.2f\n", pair.c_str(), key.c_str(),
-                        walks.size() * kSteps, hits[0], median(us[0]), median(us[1]), ratio);
+            std::printf("%s,%s,%zu,%zu,%.2f,%.2f,%.2f,%.2f,%.2f\n", pair.c_str(), key.c_str(),
+                        walks.size() * kSteps, hits[0], median(us[0]), spread(us[0]), median(us[1]),
+                        spread(us[1]), ratio);
             ratios[key].push_back(ratio);
         }
         std::fflush(stdout);
@@ -146,7 +147,8 @@ void compare(const std::string& pair, const Model& a, const Model& b,
 
 void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_folder,
          const std::vector<std::string>& pairs, int rounds) {
-    std::printf("pair,question,questions,yes,plain_us,cached_us,times\n");
+    std::printf(
+        "pair,question,questions,yes,plain_us,plain_spread_us,cached_us,cached_spread_us,times\n");
     Ratios ratios;
     for (const std::string& pair : pairs) {
         const std::size_t dash = pair.find('-');
@@ -157,9 +159,9 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
         compare(pair, a, b, poses, rounds, ratios);
     }
     for (const auto& [key, values] : ratios) {
-        std::printf("median of %zu pairs,%s,,,,,%.2f\n", values.size(), key.c_str(),
+        std::printf("median of %zu pairs,%s,,,,,,,%.2f\n", values.size(), key.c_str(),
                     median(values));
-        std::printf("worst of %zu pairs,%s,,,,,%.2f\n", values.size(), key.c_str(),
+        std::printf("worst of %zu pairs,%s,,,,,,,%.2f\n", values.size(), key.c_str(),
                     *std::min_element(values.begin(), values.end()));
     }
 }

@@ -8,10 +8,11 @@
 // BAKES holds armadillo, bunny and horse.cdp.h5, baked with --normalize. With FAMILY
 // that one alone is asked: for callgrind.
 //
-// Prints a CSV table; `times` is the cost of a reported pair by that of the generic
-// family; then how many pairs of triangles had to be decided for it, in float, by a
-// common corner, in double and exactly, and what one of those costs. Where rounding
-// takes triangles of one plane apart, most of those are in contact no more.
+// Prints a CSV table; the spread is that of the middle half of the rounds, `times` the
+// cost of a reported pair by that of the generic family; then how many pairs of
+// triangles had to be decided for it, in float, by a common corner, in double and
+// exactly, and what one of those costs. Where rounding takes triangles of one plane
+// apart, most of those are in contact no more.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -81,19 +82,19 @@ void count(Family& family, Workspace& workspace) {
     workspace.count_into(nullptr);
 }
 
-double median_ns(Family& family) {
-    const auto middle = family.us.begin() + static_cast<std::ptrdiff_t>(family.us.size() / 2);
-    std::nth_element(family.us.begin(), middle, family.us.end());
-    return *middle * 1000;
+double median_ns(const Family& family) {
+    return median(family.us) * 1000;
 }
 
-void print(Family& family, double generic_ns_per_pair) {
+void print(const Family& family, double generic_ns_per_pair) {
     const QueryCounts& c = family.counts;
     const double ns = median_ns(family);
-    const double per_pair = ns / static_cast<double>(family.pairs);
+    const auto pairs = static_cast<double>(family.pairs);
+    const double per_pair = ns / pairs;
     const auto decided = static_cast<double>(c.by_kernel + c.by_corner + c.by_filter + c.by_exact);
-    std::printf("%s,%zu,%.1f,%.2f,%llu,%llu,%llu,%llu,%.1f\n", family.name, family.pairs, per_pair,
-                per_pair / generic_ns_per_pair, static_cast<unsigned long long>(c.by_kernel),
+    std::printf("%s,%zu,%.1f,%.1f,%.2f,%llu,%llu,%llu,%llu,%.1f\n", family.name, family.pairs,
+                per_pair, spread(family.us) * 1000 / pairs, per_pair / generic_ns_per_pair,
+                static_cast<unsigned long long>(c.by_kernel),
                 static_cast<unsigned long long>(c.by_corner),
                 static_cast<unsigned long long>(c.by_filter),
                 static_cast<unsigned long long>(c.by_exact), ns / decided);
@@ -134,8 +135,9 @@ void run(const std::filesystem::path& bakes, int rounds, const std::string& only
     }
     if (!only.empty()) return;
     std::printf(
-        "family,pairs,ns_per_pair,times,by_kernel,by_corner,by_filter,by_exact,ns_per_decided\n");
-    Family& generic = families.front();
+        "family,pairs,ns_per_pair,spread_ns,times,by_kernel,by_corner,by_filter,by_exact,"
+        "ns_per_decided\n");
+    const Family& generic = families.front();
     const double ns = median_ns(generic) / static_cast<double>(generic.pairs);
     for (Family& family : families) {
         count(family, workspace);
