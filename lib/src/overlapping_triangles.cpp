@@ -3,23 +3,16 @@
 
 #include <algorithm>
 
-#include "contact_pairs.h"
-#include "smallest.h"
-#include "sort_pairs.h"
+#include "smallest_pairs.h"
 
 namespace cdprep {
 
 std::size_t overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
                                   Workspace& workspace, std::span<TrianglePair> pairs,
                                   const OverlapOptions& options) noexcept {
-    Smallest<TrianglePair> smallest(pairs);
-    for_each_contact<Search::all>(
-        a, b, placement, workspace, options, [&](std::uint32_t at_a, std::uint32_t at_b) {
-            smallest.add({source_number(a, at_a), source_number(b, at_b)});
-            return true;
-        });
-    sort_pairs(smallest.kept(), workspace.storage().sort_scratch);
-    return smallest.count();
+    return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
+        for_each_contact<Search::all>(a, b, placement, workspace, options, found);
+    });
 }
 
 bool visit_overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
