@@ -3,8 +3,9 @@
 // count_instructions runs under callgrind.
 //
 // Usage: fixed_queries QUESTION TIMES
-// QUESTION is overlap, collide_hit, collide_miss, distance, within, ray, ray_miss, ray_any,
-// closest, box, box_turned, sphere, capsule, triangle, to_capsule or to_triangle.
+// QUESTION is overlap, collide_hit, collide_miss, distance, within, pairs_within,
+// ray, ray_miss, ray_any, closest, box, box_turned, sphere, capsule, triangle, to_capsule or
+// to_triangle.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -21,6 +22,7 @@
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
 #include "cdprep/touching_triangle.h"
+#include "cdprep/triangles_within.h"
 #include "support/open_tiny.h"
 
 namespace {
@@ -72,6 +74,9 @@ double ask(const std::string& question, const Model& ball, const Model& ring, Wo
     if (question == "collide_miss") return collide(ball, ring, apart, workspace).hit ? 1 : 0;
     if (question == "distance") return distance(ball, ring, apart, workspace)->upper;
     if (question == "within") return is_within(ball, ring, apart, 0.01, workspace) ? 1 : 0;
+    if (question == "pairs_within") {
+        return static_cast<double>(triangles_within(ball, ring, crossing, 0.02, workspace, pairs));
+    }
     static std::array<std::uint32_t, 4096> triangles;
     if (const auto answer = ask_ring(question, ring, workspace, triangles)) return *answer;
     std::fprintf(stderr, "fixed_queries: no question '%s'\n", question.c_str());

@@ -23,6 +23,7 @@
 #include "cdprep/touching_box.h"
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
+#include "cdprep/triangles_within.h"
 
 namespace {
 
@@ -52,6 +53,7 @@ void ask_pair(const Model& model, Workspace& workspace) {
         (void)collide(model, model, placement, workspace, {.as = As::solid});
         (void)distance(model, model, placement, workspace);
         (void)is_within(model, model, placement, 0.125, workspace);
+        (void)triangles_within(model, model, placement, 0.0625, workspace, pairs);
     }
     const Placement apart =
         Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {3, 0.25, 0.5}).value());

@@ -62,8 +62,8 @@ struct Distance {
 ///
 /// Exact for the vertices as `placement` moves them: a distance that is equal to the
 /// tolerance to the last bit is within it, and one step less is not. Stops at the
-/// first pair of triangles that is near enough. Needs and costs as distance(), less
-/// where the answer is clear.
+/// first pair of triangles that is near enough; triangles_within() finds all of them.
+/// Needs and costs as distance(), less where the answer is clear.
 [[nodiscard]] bool is_within(const Model& a, const Model& b, const Placement& placement,
                              double tolerance, Workspace& workspace,
                              PairCache* cache = nullptr) noexcept;

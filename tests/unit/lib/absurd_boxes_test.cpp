@@ -14,6 +14,7 @@
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
 #include "cdprep/touching_triangle.h"
+#include "cdprep/triangles_within.h"
 #include "support/meshes.h"
 #include "support/random_pose.h"
 #include "support/reseal.h"
@@ -100,6 +101,7 @@ TEST(AbsurdBoxes, EveryQuestionEnds) {
             static_cast<void>(collide(m, m, placement, workspace, {.as = As::solid}));
             static_cast<void>(distance(m, m, placement, workspace));
             static_cast<void>(is_within(m, m, placement, 0.5, workspace));
+            EXPECT_LE(triangles_within(m, m, placement, 0.125, workspace, pairs), all);
             const auto every = [](const Crossing&) { return true; };
             EXPECT_TRUE(visit_crossing_segments(m, m, placement, workspace, every));
         }

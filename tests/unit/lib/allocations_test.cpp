@@ -18,6 +18,7 @@
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
 #include "cdprep/touching_triangle.h"
+#include "cdprep/triangles_within.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
@@ -125,6 +126,12 @@ TEST(Allocations, NoQuestionAllocates) {
             overlapping_triangles(a, b, placement, workspace, std::span(pairs).first(10)));
         visit_overlapping_triangles(a, b, placement, workspace, visit);
         visit_crossing_segments(a, b, placement, workspace, visit_segment);
+        for (const double tolerance : {0.0, 0.05, 0.2}) {
+            static_cast<void>(triangles_within(a, b, placement, tolerance, workspace, pairs));
+            static_cast<void>(triangles_within(a, b, placement, tolerance, workspace, {}));
+            visit_triangles_within(a, b, placement, tolerance, workspace, visit,
+                                   {Degenerate::skip});
+        }
         mark_overlapping_triangles(a, b, placement, workspace, bits_a, bits_b);
         static_cast<void>(distance(a, b, placement, workspace));
         static_cast<void>(distance(a, b, placement, workspace, {.relative_error = 0.1}, &cache));

@@ -13,6 +13,7 @@
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 #include "cdprep/refit_bvh.h"
+#include "cdprep/triangles_within.h"
 #include "support/open_tiny.h"
 #include "support/scratch_folder.h"
 
@@ -99,6 +100,25 @@ TEST_F(DocExamples, ClosestPoint) {
         out << "triangle " << near->triangle << " at " << near->upper << '\n';
     }
     EXPECT_NE(out.str().find(" at 1\n"), std::string::npos) << out.str();
+}
+
+// Of a cube 0.25 above it, the bottom is within 0.25 of the top's two triangles and of
+// those that have an edge or a corner there: all but the bottom's.
+TEST_F(DocExamples, TrianglesWithin) {
+    const auto opened = cdprep::Model::open("bracket.cdp.h5");
+    ASSERT_TRUE(opened);
+    const cdprep::Model& a = opened.value();
+    const cdprep::Model& b = a;
+    const auto pose = cdprep::Pose::from_quaternion(1, 0, 0, 0, {0, 0, 1.25});
+    const auto placement = cdprep::Placement::b_moves(pose.value());
+    cdprep::Workspace workspace;
+    std::vector<bool> is_near(a.triangle_count());
+    const auto visit = [&](const cdprep::TrianglePair& pair) {
+        is_near[pair.a] = true;
+        return true;
+    };
+    cdprep::visit_triangles_within(a, b, placement, 0.25, workspace, visit);
+    EXPECT_EQ(std::count(is_near.begin(), is_near.end(), true), 10);
 }
 
 // The one cube and another, 0.5 and 3 away along x.

@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdlib>
+#include <span>
 #include <string_view>
 #include <thread>
 
@@ -14,6 +15,7 @@
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
 #include "cdprep/touching_triangle.h"
+#include "cdprep/triangles_within.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
@@ -125,7 +127,16 @@ std::uint64_t folded(const std::optional<Distance>& found) {
     return folded(folded(folded(found->triangle_a, found->triangle_b), found->lower), found->upper);
 }
 
-constexpr std::size_t kKinds = 14;
+/// The pairs that there was room for, and how many there are.
+std::uint64_t folded(std::span<const TrianglePair> pairs, std::size_t count) {
+    std::uint64_t sum = 0;
+    for (const TrianglePair& pair : pairs.first(std::min(count, pairs.size()))) {
+        sum = folded(folded(sum, pair.a), pair.b);
+    }
+    return sum + count;
+}
+
+constexpr std::size_t kKinds = 16;
 
 /// Asks a question of one kind and folds all of its answer into one number.
 std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placement& placement,
@@ -147,10 +158,7 @@ std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placem
         case 4: {
             const std::size_t count =
                 overlapping_triangles(a, b, placement, workspace, scratch.pairs);
-            for (std::size_t i = 0; i < std::min(count, scratch.pairs.size()); ++i) {
-                sum = folded(folded(sum, scratch.pairs[i].a), scratch.pairs[i].b);
-            }
-            return sum + count;
+            return folded(scratch.pairs, count);
         }
         case 5: {
             const auto visit = [&](const TrianglePair& pair) {
@@ -180,6 +188,19 @@ std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placem
         case 12: {
             const auto closest = closest_point(a, from, workspace);
             return folded(folded(closest->triangle, closest->lower), closest->upper);
+        }
+        case 13: {
+            const std::size_t count =
+                triangles_within(a, b, placement, 0.0625, workspace, scratch.pairs);
+            return folded(scratch.pairs, count);
+        }
+        case 14: {
+            const auto visit = [&](const TrianglePair& pair) {
+                sum += folded(pair.a, pair.b);
+                return true;
+            };
+            visit_triangles_within(a, b, placement, 0.125, workspace, visit);
+            return sum;
         }
         default: {
             const Inclusion found = includes(a, from, workspace);

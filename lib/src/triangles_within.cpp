@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/triangles_within.h"
+
+#include <cmath>
+#include <limits>
+
+#include "exact_within.h"
+#include "smallest_pairs.h"
+
+// Both hierarchies are walked as for overlaps, with boxes that are wider by the
+// tolerance: two triangles that are within it are no farther apart along any direction.
+// Bounds in float part most triangles of the leaves that are reached; the others are
+// asked exactly.
+
+namespace cdprep {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// A direction of a box test is unit up to 2^-20, and a sum with the tolerance rounds a
+/// few times.
+constexpr double kBoxRounding = 1 + 0x1p-18;
+/// Beyond, in pair units, squares would leave the range of float.
+constexpr double kMostTolerance = 0x1p60;
+
+/// What the places of two models tell before anything is walked.
+enum class Outlook : std::uint8_t { none, some, all };
+
+/// Two balls of radius sqrt 3 times the scale hold all triangles, up to the slack.
+/// `tolerance` in pair units.
+Outlook outlook(const PlacedBoxes& placed, double tolerance) noexcept {
+    constexpr double kRounding = 0x1p-40;
+    const double between = std::hypot(placed.shift[0], placed.shift[1], placed.shift[2]);
+    const double reach =
+        1.7321 * (placed.scale_a + placed.scale_b) + 2 * double{placed.placement.slack};
+    if (tolerance < (between - reach) * (1 - kRounding)) return Outlook::none;
+    const bool is_finite = between <= std::numeric_limits<double>::max();
+    return is_finite && tolerance >= (between + reach) * (1 + kRounding) ? Outlook::all
+                                                                         : Outlook::some;
+}
+
+/// A search for the triangles within a tolerance above 0.
+class WithinSearch {
+public:
+    WithinSearch(const Model& a, const Model& b, const Placement& placement, double tolerance,
+                 Workspace& workspace, const WithinOptions& options) noexcept
+        : a_(a),
+          b_(b),
+          moved_a_(moved_a(a, placement)),
+          moved_b_(moved_b(b, placement)),
+          options_(options),
+          tolerance_(tolerance),
+          placed_(place_boxes(a, b, placement)),
+          scratch_(workspace.storage()),
+          batch_(a, b, placed_, scratch_) {}
+
+    /// Calls `found(a, b)`, tree order, until it returns false; returns false when it did.
+    template <class Found>
+    bool run(Found&& found) noexcept;
+
+private:
+    template <class Found>
+    bool give_all(Found&& found) const noexcept;
+    template <class Found>
+    bool look_at_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Found&& found) noexcept;
+
+    [[nodiscard]] bool is_skipped(std::uint32_t at_a, std::uint32_t at_b) const noexcept {
+        return options_.degenerate == Degenerate::skip &&
+               (is_marked_degenerate(a_, at_a) || is_marked_degenerate(b_, at_b));
+    }
+    /// `lower` bounds the distance; those that touch are told at less cost.
+    [[nodiscard]] bool is_within(std::uint32_t at_a, std::uint32_t at_b,
+                                 float lower) const noexcept {
+        const Corners a = moved_a_.corners(at_a);
+        const Corners b = moved_b_.corners(at_b);
+        if (!(lower > 0) && in_contact(a, b, Contact::closed, scratch_.counts)) return true;
+        if (scratch_.counts != nullptr) ++scratch_.counts->measured;
+        return is_within_exactly(a, b, tolerance_);
+    }
+
+    const Model& a_;
+    const Model& b_;
+    MovedModel moved_a_;
+    MovedModel moved_b_;
+    WithinOptions options_;
+    double tolerance_;
+    PlacedBoxes placed_;
+    Workspace::Storage& scratch_;
+    LeafBatch batch_;
+    kernels::Reach reach_{};
+};
+
+template <class Found>
+bool WithinSearch::run(Found&& found) noexcept {
+    const Tree a(a_);
+    const Tree b(b_);
+    if (a.triangles == 0 || b.triangles == 0) return true;
+    const double scaled = std::ldexp(tolerance_, placed_.exponent);
+    const Outlook outlook_here = outlook(placed_, scaled);
+    if (outlook_here == Outlook::none) return true;
+    if (outlook_here == Outlook::all) return give_all(found);
+    reach_.limit = scaled < kMostTolerance
+                       ? std::nextafter(static_cast<float>(scaled * kBoxRounding), kInfinity)
+                       : kInfinity;
+    placed_.placement.slack += reach_.limit;
+    return walk_pairs_from<Search::all>(
+        roots(a, b), 0, a, b, placed_, scratch_,
+        [&](const PendingPair& pair) { return look_at_leaves(pair.a.index, pair.b.index, found); });
+}
+
+template <class Found>
+bool WithinSearch::give_all(Found&& found) const noexcept {
+    for (std::uint32_t i = 0; i < a_.triangle_count(); ++i) {
+        for (std::uint32_t j = 0; j < b_.triangle_count(); ++j) {
+            if (!is_skipped(i, j) && !found(i, j)) return false;
+        }
+    }
+    return true;
+}
+
+template <class Found>
+bool WithinSearch::look_at_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b,
+                                  Found&& found) noexcept {
+    for (const kernels::TriangleGap& gap : batch_.near_triangles(leaf_a, leaf_b, reach_)) {
+        const std::uint32_t at_a = leaf_a * format::kBvhWidth + gap.a;
+        const std::uint32_t at_b = leaf_b * format::kBvhWidth + gap.b;
+        if (is_skipped(at_a, at_b) || !is_within(at_a, at_b, gap.lower)) continue;
+        if (!found(at_a, at_b)) return false;
+    }
+    return true;
+}
+
+template <class Found>
+bool for_each_within(const Model& a, const Model& b, const Placement& placement, double tolerance,
+                     Workspace& workspace, const WithinOptions& options, Found&& found) noexcept {
+    if (!(tolerance >= 0)) return true;
+    if (tolerance == 0) {
+        return for_each_contact<Search::all>(a, b, placement, workspace,
+                                             {.degenerate = options.degenerate}, found);
+    }
+    return WithinSearch(a, b, placement, tolerance, workspace, options).run(found);
+}
+
+}  // namespace
+
+std::size_t triangles_within(const Model& a, const Model& b, const Placement& placement,
+                             double tolerance, Workspace& workspace, std::span<TrianglePair> pairs,
+                             const WithinOptions& options) noexcept {
+    return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
+        for_each_within(a, b, placement, tolerance, workspace, options, found);
+    });
+}
+
+bool visit_triangles_within(const Model& a, const Model& b, const Placement& placement,
+                            double tolerance, Workspace& workspace, PairVisitor visit,
+                            const WithinOptions& options) noexcept {
+    return for_each_within(a, b, placement, tolerance, workspace, options,
+                           [&](std::uint32_t at_a, std::uint32_t at_b) {
+                               return visit({source_number(a, at_a), source_number(b, at_b)});
+                           });
+}
+
+}  // namespace cdprep
