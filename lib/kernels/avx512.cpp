@@ -217,6 +217,7 @@ const Table kAvx512 = {"avx512",
                        overlap_depths_of<F8, F16>,
                        near_boxes_of<F8, F16>,
                        near_triangles_of<F8, F16, F16>,
+                       triangles_within_of<F8, F16, F16>,
                        find_contacts_of<F8, F16, F16>,
                        {kSweptTests<0, F8, F16>, kSweptTests<1, F8, F16>, kSweptTests<2, F8, F16>}};
 

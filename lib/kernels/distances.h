@@ -173,6 +173,7 @@ template <class W>
 struct LaneNearest {
     W difference[3];  ///< from A's point to B's
     W squared;
+    W between_edges;  ///< the same of points of edges alone, surely the triangles' own
 };
 
 template <class W>
@@ -227,7 +228,7 @@ void offer_foot(const W* corner, const LaneTriangle<W>& t, const W edge[3][3], c
 
 /// A direction across which two triangles lie far apart: between their nearest
 /// points as far as float finds them (Larsen, Gottschalk, Lin and Manocha 1999).
-template <class W>
+template <bool kUpper, class W>
 LaneNearest<W> nearest_of(const LaneTriangle<W>& a, const LaneTriangle<W>& b) noexcept {
     W edge_a[3][3];
     W edge_b[3][3];
@@ -239,7 +240,7 @@ LaneNearest<W> nearest_of(const LaneTriangle<W>& a, const LaneTriangle<W>& b) no
         length_a[i] = dot(edge_a[i], edge_a[i]);
         length_b[i] = dot(edge_b[i], edge_b[i]);
     }
-    LaneNearest<W> nearest{{W(0.0F), W(0.0F), W(0.0F)}, W(3e38F)};
+    LaneNearest<W> nearest{{W(0.0F), W(0.0F), W(0.0F)}, W(3e38F), W(3e38F)};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
             W r[3];
@@ -247,6 +248,7 @@ LaneNearest<W> nearest_of(const LaneTriangle<W>& a, const LaneTriangle<W>& b) no
             offer_edges(edge_a[i], edge_b[j], r, length_a[i], length_b[j], nearest);
         }
     }
+    if constexpr (kUpper) nearest.between_edges = nearest.squared;
     W n_a[3];
     W n_b[3];
     cross(edge_a[0], edge_a[1], n_a);
@@ -260,13 +262,25 @@ LaneNearest<W> nearest_of(const LaneTriangle<W>& a, const LaneTriangle<W>& b) no
     return nearest;
 }
 
-/// The gap between the planes across a direction w through A's farthest and B's
+/// How far triangles are apart, at least and at most.
+template <class W>
+struct LaneGap {
+    W lower;
+    W upper;
+};
+
+/// At least the gap between the planes across a direction w through A's farthest and B's
 /// nearest corner: min w.b - max w.a, over |w|. Whatever w is, the triangles are
 /// that far apart, at least. Products, sums, root and quotient are off by less than
 /// 16 u times the largest coordinate difference, corners by 2 sqrt 3 error.
-template <class W>
-W support_gap(const LaneTriangle<W>& a, const LaneTriangle<W>& b, const LaneNearest<W>& nearest,
-              W error) noexcept {
+///
+/// At most what points of two edges are apart, whatever their weights in [0, 1]. With
+/// coordinates up to M from A's first corner, differences of corners are off by 2 u M,
+/// the two weighted ones and the sums by 14 u M a component in all, 25 u M in length;
+/// square, sums and root by 14 u M: less than 64 u M together.
+template <bool kUpper, class W>
+LaneGap<W> support_gap(const LaneTriangle<W>& a, const LaneTriangle<W>& b,
+                       const LaneNearest<W>& nearest, W error) noexcept {
     W least;
     W greatest;
     W reach(0.0F);
@@ -287,36 +301,49 @@ W support_gap(const LaneTriangle<W>& a, const LaneTriangle<W>& b, const LaneNear
     const W rounding = fma(W(32 * kUlp), reach, W(4.0F) * error);
     // Where the direction is lost in rounding, nothing is known.
     const auto known = greater(length, W(1e-15F));
-    return max(select(known, gap - rounding, W(0.0F)), W(0.0F));
+    LaneGap<W> bounds;
+    bounds.lower = max(select(known, gap - rounding, W(0.0F)), W(0.0F));
+    if constexpr (kUpper) bounds.upper = fma(W(2.0F), rounding, root(nearest.between_edges));
+    return bounds;
 }
 
-/// Bounds the gaps of the candidates, W::kCount at a time; returns how many are kept.
-template <class W>
-std::size_t keep_near(std::size_t candidates, float limit, LeafScratch& scratch) noexcept {
-    std::size_t kept = 0;
+/// Bounds the gaps of the candidates, W::kCount at a time; returns the new number of
+/// those kept. Without kUpper nothing is certain, at less cost.
+template <bool kUpper, class W>
+std::size_t keep_near(std::size_t candidates, std::size_t kept, const Reach& reach,
+                      LeafScratch& scratch) noexcept {
     fill_up<W>(scratch.candidate, candidates);
     for (std::size_t first = 0; first < candidates; first += W::kCount) {
         const LanePairs<W> triangles(scratch, scratch.candidate + first);
-        const W gap = support_gap(triangles.a, triangles.b, nearest_of(triangles.a, triangles.b),
-                                  triangles.error);
+        const LaneNearest<W> nearest = nearest_of<kUpper>(triangles.a, triangles.b);
+        const LaneGap<W> gap =
+            support_gap<kUpper>(triangles.a, triangles.b, nearest, triangles.error);
+        unsigned certain = 0;
+        if constexpr (kUpper) certain = bits(greater(W(reach.certain), gap.upper));
         alignas(64) float lower[W::kCount];
-        gap.store_all(lower);
+        gap.lower.store_all(lower);
         for (std::size_t i = 0; i < lanes_used<W>(first, candidates); ++i) {
-            if (lower[i] > limit) continue;
+            if (lower[i] > reach.limit) continue;
             const unsigned candidate = scratch.candidate[first + i];
-            scratch.gap[kept++] = {lower[i], static_cast<std::uint8_t>(candidate & 7),
-                                   static_cast<std::uint8_t>((candidate >> 3) & 7)};
+            scratch.gap[kept++] = {lower[i], static_cast<std::uint8_t>(candidate >> 6),
+                                   static_cast<std::uint8_t>(candidate & 7),
+                                   static_cast<std::uint8_t>((candidate >> 3) & 7),
+                                   ((certain >> i) & 1) != 0};
         }
     }
     return kept;
 }
 
-/// The body of near_triangles().
-template <class F, class R, class W>
-std::size_t near_triangles_of(const LeafPlacement& placement, const LeafPair& pair,
-                              const Reach& reach, LeafScratch& scratch) noexcept {
-    MetLeaves met = meet<F>(placement, pair, 0, reach.limit, scratch);
-    if (met.rows == 0) return 0;
+/// Appends the candidates of pair `index`; returns their new number. Inlined by order:
+/// two callers make GCC call it, and a search for the nearest takes 2 % longer.
+template <class F, class R>
+[[gnu::always_inline]] inline std::size_t near_candidates(const LeafPlacement& placement,
+                                                          const LeafPair& pair, std::size_t index,
+                                                          const Reach& reach,
+                                                          std::size_t candidates,
+                                                          LeafScratch& scratch) noexcept {
+    MetLeaves met = meet<F>(placement, pair, index, reach.limit, scratch);
+    if (met.rows == 0) return candidates;
     const LeafShift& leaf = met.leaf;
     const Rows& b = scratch.b.leaf[place_of(pair.number_b)].row;
     ShiftedTriangles<R> a;
@@ -325,13 +352,39 @@ std::size_t near_triangles_of(const LeafPlacement& placement, const LeafPair& pa
     alignas(32) float begins[kLanes];
     store_begins<F>(b, reach.direction, begins);
     const R ends = corner_range(a.corner, reach.direction).greatest;
-    std::size_t candidates = 0;
     while (met.rows != 0) {
         const RowPair at = take_rows<R>(met.rows);
         const unsigned found = near_rows(a, b, at, ends, begins, leaf, reach.limit);
-        candidates = append_rows<R>(0, at, found, pair.used_a, scratch.candidate, candidates);
+        candidates = append_rows<R>(static_cast<unsigned>(index), at, found, pair.used_a,
+                                    scratch.candidate, candidates);
     }
-    return keep_near<W>(candidates, reach.limit, scratch);
+    return candidates;
+}
+
+/// The body of near_triangles().
+template <class F, class R, class W>
+std::size_t near_triangles_of(const LeafPlacement& placement, const LeafPair& pair,
+                              const Reach& reach, LeafScratch& scratch) noexcept {
+    const std::size_t candidates = near_candidates<F, R>(placement, pair, 0, reach, 0, scratch);
+    return keep_near<false, W>(candidates, 0, reach, scratch);
+}
+
+/// The body of triangles_within().
+template <class F, class R, class W>
+std::size_t triangles_within_of(const LeafPlacement& placement, const LeafPair* pairs,
+                                std::size_t count, const Reach& reach,
+                                LeafScratch& scratch) noexcept {
+    std::size_t kept = 0;
+    for (std::size_t first = 0; first < count;) {
+        const std::size_t last = end_of_run(pairs, first, count);
+        std::size_t candidates = 0;
+        for (; first < last; ++first) {
+            candidates =
+                near_candidates<F, R>(placement, pairs[first], first, reach, candidates, scratch);
+        }
+        kept = keep_near<true, W>(candidates, kept, reach, scratch);
+    }
+    return kept;
 }
 
 }  // namespace

@@ -125,7 +125,8 @@ struct LeafPlacement {
 
 /// What a search for the nearest pair knows already.
 struct Reach {
-    float limit;  ///< pair units: nothing farther apart is of interest
+    float limit;    ///< pair units: nothing farther apart is of interest
+    float certain;  ///< pair units: triangles nearer than this need no other proof
     /// Of a length below 1, from A to B along A's axes; the better it points along
     /// the shortest way, the more it rules out. 0, 0, 0 rules out nothing.
     float direction[3];
@@ -134,9 +135,11 @@ struct Reach {
 
 /// How far two triangles are apart, at least.
 struct TriangleGap {
-    float lower;     ///< pair units
-    std::uint8_t a;  ///< lane
-    std::uint8_t b;  ///< lane
+    float lower;        ///< pair units
+    std::uint8_t pair;  ///< index of the LeafPair
+    std::uint8_t a;     ///< lane
+    std::uint8_t b;     ///< lane
+    bool certain;       ///< they are less than Reach::certain apart; else nobody knows
 };
 
 /// A pair of triangles that is not certainly disjoint.
@@ -169,7 +172,7 @@ struct LeafScratch {
     alignas(64) float shift[4][kLeafBatch];         ///< of A's corners to B's, and the error
     alignas(64) std::int32_t place[2][kLeafBatch];  ///< of A's and of B's leaf, in floats
     std::uint64_t question = 0;                     ///< begin() makes it a number of its own
-    TriangleGap gap[kLanes * kLanes];
+    TriangleGap gap[kLeafBatch * kLanes * kLanes];
     std::uint16_t candidate[kLeafBatch * kLanes * kLanes + 2 * kLanes];  ///< stores reach beyond
     TriangleContactLanes found[kLeafBatch * kLanes * kLanes];
 
@@ -230,6 +233,12 @@ struct Table {
     /// that touches has a lower bound of 0.
     std::size_t (*near_triangles)(const LeafPlacement& placement, const LeafPair& pair,
                                   const Reach& reach, LeafScratch& scratch) noexcept;
+
+    /// The same among at most kLeafBatch pairs of leaves; and which of them are less than
+    /// reach.certain apart for certain.
+    std::size_t (*triangles_within)(const LeafPlacement& placement, const LeafPair* pairs,
+                                    std::size_t count, const Reach& reach,
+                                    LeafScratch& scratch) noexcept;
 
     /// Finds the pairs of triangles, among at most kLeafBatch pairs of leaves,
     /// that cross or whose contact rounding may hide. Returns their number; they

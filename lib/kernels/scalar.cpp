@@ -175,6 +175,7 @@ const Table kScalar = {"scalar",
                        overlap_depths_of<F8, F8>,
                        near_boxes_of<F8, F8>,
                        near_triangles_of<F8, F8, F8>,
+                       triangles_within_of<F8, F8, F8>,
                        find_contacts_of<F8, F8, F8>,
                        {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>}};
 

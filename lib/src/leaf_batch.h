@@ -79,6 +79,25 @@ public:
         return true;
     }
 
+    /// Calls found(triangle_a, triangle_b, gap), in tree order, for every pair of
+    /// triangles that may be as near as reach.limit, until it returns false; empties the
+    /// batch. Returns false when it did.
+    template <class Found>
+    bool flush_within(const kernels::Reach& reach, Found&& found) noexcept {
+        const std::size_t near = kernels::active().triangles_within(
+            placement_, scratch_.leaf_pairs.data(), count_, reach, scratch_.leaf_scratch);
+        if (scratch_.counts != nullptr) count_batch(*scratch_.counts, count_);
+        count_ = 0;
+        for (std::size_t i = 0; i < near; ++i) {
+            const kernels::TriangleGap& gap = scratch_.leaf_scratch.gap[i];
+            const kernels::LeafPair& pair = scratch_.leaf_pairs[gap.pair];
+            const std::uint32_t at_a = pair.number_a * format::kBvhWidth + gap.a;
+            const std::uint32_t at_b = pair.number_b * format::kBvhWidth + gap.b;
+            if (!found(at_a, at_b, gap)) return false;
+        }
+        return true;
+    }
+
     /// Triangles of one pair of leaves that may be as near as reach.limit. Valid
     /// until the next call.
     std::span<kernels::TriangleGap> near_triangles(std::uint32_t leaf_a, std::uint32_t leaf_b,

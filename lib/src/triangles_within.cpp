@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/triangles_within.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -61,19 +62,20 @@ public:
 private:
     template <class Found>
     bool give_all(Found&& found) const noexcept;
-    template <class Found>
-    bool look_at_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b, Found&& found) noexcept;
-
     [[nodiscard]] bool is_skipped(std::uint32_t at_a, std::uint32_t at_b) const noexcept {
         return options_.degenerate == Degenerate::skip &&
                (is_marked_degenerate(a_, at_a) || is_marked_degenerate(b_, at_b));
     }
-    /// `lower` bounds the distance; those that touch are told at less cost.
+    /// Those that may touch and do are told at less cost than how far others are apart.
     [[nodiscard]] bool is_within(std::uint32_t at_a, std::uint32_t at_b,
-                                 float lower) const noexcept {
+                                 const kernels::TriangleGap& gap) const noexcept {
+        if (gap.certain) {
+            if (scratch_.counts != nullptr) ++scratch_.counts->by_kernel;
+            return true;
+        }
         const Corners a = moved_a_.corners(at_a);
         const Corners b = moved_b_.corners(at_b);
-        if (!(lower > 0) && in_contact(a, b, Contact::closed, scratch_.counts)) return true;
+        if (!(gap.lower > 0) && in_contact(a, b, Contact::closed, scratch_.counts)) return true;
         if (scratch_.counts != nullptr) ++scratch_.counts->measured;
         return is_within_exactly(a, b, tolerance_);
     }
@@ -102,10 +104,19 @@ bool WithinSearch::run(Found&& found) noexcept {
     reach_.limit = scaled < kMostTolerance
                        ? std::nextafter(static_cast<float>(scaled * kBoxRounding), kInfinity)
                        : kInfinity;
+    reach_.certain = static_cast<float>(std::min(scaled, kMostTolerance) / kBoxRounding);
     placed_.placement.slack += reach_.limit;
-    return walk_pairs_from<Search::all>(
-        roots(a, b), 0, a, b, placed_, scratch_,
-        [&](const PendingPair& pair) { return look_at_leaves(pair.a.index, pair.b.index, found); });
+    const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b,
+                            const kernels::TriangleGap& gap) {
+        return is_skipped(at_a, at_b) || !is_within(at_a, at_b, gap) ||
+               static_cast<bool>(found(at_a, at_b));
+    };
+    const bool whole = walk_pairs_from<Search::all>(
+        roots(a, b), 0, a, b, placed_, scratch_, [&](const PendingPair& pair) {
+            batch_.add(pair.a.index, pair.b.index);
+            return !batch_.full() || batch_.flush_within(reach_, decide);
+        });
+    return whole && batch_.flush_within(reach_, decide);
 }
 
 template <class Found>
@@ -114,18 +125,6 @@ bool WithinSearch::give_all(Found&& found) const noexcept {
         for (std::uint32_t j = 0; j < b_.triangle_count(); ++j) {
             if (!is_skipped(i, j) && !found(i, j)) return false;
         }
-    }
-    return true;
-}
-
-template <class Found>
-bool WithinSearch::look_at_leaves(std::uint32_t leaf_a, std::uint32_t leaf_b,
-                                  Found&& found) noexcept {
-    for (const kernels::TriangleGap& gap : batch_.near_triangles(leaf_a, leaf_b, reach_)) {
-        const std::uint32_t at_a = leaf_a * format::kBvhWidth + gap.a;
-        const std::uint32_t at_b = leaf_b * format::kBvhWidth + gap.b;
-        if (is_skipped(at_a, at_b) || !is_within(at_a, at_b, gap.lower)) continue;
-        if (!found(at_a, at_b)) return false;
     }
     return true;
 }
