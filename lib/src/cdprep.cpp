@@ -26,6 +26,7 @@
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
 #include "cdprep/touching_triangle.h"
+#include "cdprep/triangles_within.h"
 #include "share_out.h"
 
 struct cdprep_model {
@@ -626,6 +627,24 @@ int cdprep_is_within(const cdprep_model* a, const cdprep_model* b,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
             cdprep::CacheCopy copy(cache);
             *within = cdprep::is_within(ma, mb, placed, tolerance, scratch, copy.get()) ? 1 : 0;
+            return CDPREP_OK;
+        });
+}
+
+int cdprep_triangles_within(const cdprep_model* a, const cdprep_model* b,
+                            const cdprep_placement* placement, cdprep_workspace* workspace,
+                            double tolerance, const cdprep_contact_options* options,
+                            cdprep_triangle_pair* pairs, size_t room, size_t* count,
+                            cdprep_error* error) {
+    if (count == nullptr || (pairs == nullptr && room > 0)) return cdprep::null_argument(error);
+    cdprep_contact_options given{};
+    if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
+    return cdprep::ask_pair(
+        a, b, placement, workspace, error,
+        [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            *count = cdprep::triangles_within(ma, mb, placed, tolerance, scratch,
+                                              cdprep::room_of(pairs, room),
+                                              {cdprep::overlap_options(given).degenerate});
             return CDPREP_OK;
         });
 }

@@ -7,8 +7,8 @@
 
 /* The C face: every question of the C++ headers, for C99 and for languages that
  * call C. What a question means, costs and needs stands in the header of the same
- * name: collide.h, overlapping_triangles.h, distance.h, cast_ray.h,
- * closest_point.h, containment.h, touching_box.h, touching_sphere.h,
+ * name: collide.h, overlapping_triangles.h, distance.h, triangles_within.h,
+ * cast_ray.h, closest_point.h, containment.h, touching_box.h, touching_sphere.h,
  * touching_capsule.h, touching_triangle.h; batch.h and split_overlap.h for many
  * questions at once and for one on many threads.
  *
@@ -226,6 +226,15 @@ int cdprep_distance_between(const cdprep_model* a, const cdprep_model* b,
 int cdprep_is_within(const cdprep_model* a, const cdprep_model* b,
                      const cdprep_placement* placement, cdprep_workspace* workspace,
                      double tolerance, cdprep_pair_cache* cache, int* within, cdprep_error* error);
+
+/* Writes at most `room` pairs, the smallest, sorted; `count` is how many are within the
+ * tolerance. Of the options `degenerate` alone is read. `pairs` may be null when `room`
+ * is 0. */
+int cdprep_triangles_within(const cdprep_model* a, const cdprep_model* b,
+                            const cdprep_placement* placement, cdprep_workspace* workspace,
+                            double tolerance, const cdprep_contact_options* options,
+                            cdprep_triangle_pair* pairs, size_t room, size_t* count,
+                            cdprep_error* error);
 
 /* --- One model ------------------------------------------------------------------ */
 

@@ -146,6 +146,20 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
     MUST(cdprep_is_within(cube, cube, &far, scratch, 1.99, &cache, &within, NULL) == CDPREP_OK);
     MUST(within == 0);
 
+    /* The faces are 2 apart, and nothing is nearer; at 0 the pairs are those that overlap. */
+    cdprep_triangle_pair near_pairs[144];
+    MUST(cdprep_triangles_within(cube, cube, &far, scratch, 1.99, NULL, NULL, 0, &counted,
+                                 &error) == CDPREP_OK);
+    MUST(counted == 0);
+    MUST(cdprep_triangles_within(cube, cube, &far, scratch, 2, &solid, near_pairs, 1, &counted,
+                                 NULL) == CDPREP_OK);
+    MUST(counted > 4 && near_pairs[0].a < 12 && near_pairs[0].b < 12);
+    MUST(cdprep_triangles_within(cube, cube, &near, scratch, 0, NULL, near_pairs, 144, &counted,
+                                 NULL) == CDPREP_OK);
+    MUST(counted == count && memcmp(near_pairs, pairs, count * sizeof pairs[0]) == 0);
+    MUST(cdprep_triangles_within(cube, cube, &near, scratch, 0, NULL, NULL, 1, &counted, &error) ==
+         CDPREP_BAD_ARGUMENT);
+
     /* All four kinds of placement say the same where nothing turns. */
     for (uint32_t kind = CDPREP_B_MOVES; kind <= CDPREP_WORLD; ++kind) {
         cdprep_placement same = moved_by(0.5);
