@@ -71,6 +71,8 @@ def main():
         (["query", "within", model, model], 2, ["--tolerance"]),
         (["query", "within", model, model, "--tolerance", "-1"], 2, ["--tolerance"]),
         (["query", "within", model, model, "--tolerance", "near"], 2, ["--tolerance"]),
+        (["query", "within", model, model, "--tolerance", "1", "--pairs", "--count"], 2,
+         ["--pairs"]),
         (["query", "distance", model, model, "--relative-error", "-1"], 2, ["--relative-error"]),
         (["query", "distance", model, model, "--repeat", "0"], 2, ["--repeat"]),
         (["query", "overlap", model, folder / "missing.cdp.h5"], 3, ["missing.cdp.h5"]),

@@ -57,6 +57,25 @@ def main():
         must([answer["within"] for answer in within] == [truth <= limit for truth in far],
              f"--tolerance {limit}")
 
+    # A tolerance of 0 lists what overlaps; the two faces that a gap of 1 parts are the
+    # two triangles of each, and those with an edge or a corner there.
+    touching = ask(program, "overlap", *poses)
+    at_zero = ask(program, "within", *poses, "--tolerance", 0, "--pairs")
+    for overlap, near in zip(touching, at_zero):
+        must((near["within"], near["count"], near["pairs"]) ==
+             (overlap["hit"], overlap["count"], overlap["pairs"]), f"{near}, but {overlap}")
+    near = ask(program, "within", *poses, "--tolerance", 1, "--pairs")
+    counted = ask(program, "within", *poses, "--tolerance", 1, "--count")
+    must([answer["within"] for answer in near] == [truth <= 1 for truth in far], "--pairs")
+    for listed, count, before in zip(near, counted, at_zero):
+        must(listed["count"] == len(listed["pairs"]) == count["count"] and "pairs" not in count,
+             f"{listed}, but {count}")
+        must(listed["pairs"] == sorted(listed["pairs"]), f"{listed}")
+        must(all(pair in listed["pairs"] for pair in before["pairs"]), f"{listed}")
+    text = run(program, "query", "within", cube, cube, "--pose", "1 0 0 0 1 0 0 0 1 3 0.5 0.25",
+               "--tolerance", 1, "--pairs").stdout.splitlines()
+    must(text[0] == f"pose 0: within, {len(text) - 1} pairs" and len(text) > 5, f"{text}")
+
     for option, slack in (("--relative-error", lambda d: 0.5 * d), ("--absolute-error",
                                                                      lambda d: 0.5)):
         for truth, answer in zip(far, ask(program, "distance", *poses, option, 0.5)):

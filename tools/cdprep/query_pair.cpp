@@ -13,6 +13,7 @@
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/query_counts.h"
+#include "cdprep/triangles_within.h"
 #include "effects.h"
 #include "interrupt.h"
 #include "open_for.h"
@@ -42,6 +43,7 @@ struct Arguments {
     std::size_t repeat = 1;
     bool timings = false;
     bool count = false;
+    bool pairs = false;
     bool segments = false;
     bool counts = false;
     bool skip_degenerate = false;
@@ -105,9 +107,7 @@ public:
             case Question::within:
                 return answers.add(timed([&] {
                     cache_ = before;
-                    const bool within =
-                        is_within(a_, b_, placement, arguments_.tolerance, workspace_, &cache_);
-                    return report::WithinAnswer{number, within};
+                    return ask_within(number, placement);
                 }));
             default:
                 return answers.add(timed([&] {
@@ -178,15 +178,38 @@ private:
         return answer;
     }
 
-    /// Asks again with more room when the pairs did not fit.
+    /// The answer's pairs stay valid until the next call.
+    report::WithinAnswer ask_within(std::size_t number, const Placement& placement) {
+        const double tolerance = arguments_.tolerance;
+        report::WithinAnswer answer;
+        answer.pose = number;
+        if (!arguments_.pairs && !arguments_.count) {
+            answer.within = is_within(a_, b_, placement, tolerance, workspace_, &cache_);
+            return answer;
+        }
+        answer.count = keep_pairs([&](std::span<TrianglePair> room) {
+            return triangles_within(a_, b_, placement, tolerance, workspace_, room);
+        });
+        answer.within = *answer.count > 0;
+        if (arguments_.pairs) answer.pairs = std::span(pairs_).first(*answer.count);
+        return answer;
+    }
+
     std::size_t find_pairs(const Placement& placement) {
         const OverlapOptions options = {options_.contact, options_.degenerate};
+        return keep_pairs([&](std::span<TrianglePair> room) {
+            return overlapping_triangles(a_, b_, placement, workspace_, room, options);
+        });
+    }
+
+    /// Calls `find(room)`, again with more room when the pairs did not fit; with none
+    /// when they are counted alone.
+    template <class Find>
+    std::size_t keep_pairs(Find find) {
+        if (arguments_.count) return find({});
         while (true) {
-            const std::span<TrianglePair> room =
-                arguments_.count ? std::span<TrianglePair>() : std::span(pairs_);
-            const std::size_t count =
-                overlapping_triangles(a_, b_, placement, workspace_, room, options);
-            if (arguments_.count || count <= pairs_.size()) return count;
+            const std::size_t count = find(std::span(pairs_));
+            if (count <= pairs_.size()) return count;
             pairs_.resize(count);
         }
     }
@@ -222,6 +245,7 @@ format::SectionSet needed_for(const Arguments& arguments) {
     format::SectionSet needed = sections_for("collide");
     if (arguments.question == Question::overlap) needed.insert(sections_for("overlap"));
     if (arguments.question == Question::distance) needed.insert(sections_for("distance"));
+    if (arguments.pairs) needed.insert(sections_for("within"));
     if (arguments.as == "surface") needed.erase(format::SectionId::components);
     return needed;
 }
@@ -272,6 +296,11 @@ void add_distance_options(CLI::App& command, Arguments& arguments) {
                         "The distance that still counts, model units")
             ->check(CLI::NonNegativeNumber)
             ->required();
+        CLI::Option* pairs =
+            command.add_flag("--pairs", arguments.pairs,
+                             "Which triangles are within the tolerance, not only whether any is");
+        command.add_flag("--count", arguments.count, "Count those pairs, do not list them")
+            ->excludes(pairs);
         return;
     }
     command

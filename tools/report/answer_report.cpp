@@ -110,12 +110,25 @@ std::string crossings_text(std::span<const Crossing> crossings) {
     return text;
 }
 
-std::string as_json(const PairAnswer& answer) {
-    std::string text = "{\"pose\": " + number(answer.pose) + ", \"hit\": " + word(answer.hit);
+/// Of an answer that may have them.
+template <class Answer>
+std::string count_and_pairs_json(const Answer& answer) {
+    std::string text;
     if (answer.count) text += ", \"count\": " + number(*answer.count);
     if (answer.pairs) {
         text += ", \"pairs\": [" + pairs_text(*answer.pairs, {"[", ", ", "]", ", "}) + "]";
     }
+    return text;
+}
+
+/// Lines of their own.
+std::string pair_lines(const std::optional<std::span<const TrianglePair>>& pairs) {
+    return pairs ? pairs_text(*pairs, {"\n  ", " ", "", ""}) : "";
+}
+
+std::string as_json(const PairAnswer& answer) {
+    std::string text = "{\"pose\": " + number(answer.pose) + ", \"hit\": " + word(answer.hit);
+    text += count_and_pairs_json(answer);
     if (answer.crossings) text += crossings_json(*answer.crossings);
     if (answer.containment) {
         text += std::string(", \"containment\": \"") + word(answer.containment->answer) +
@@ -130,7 +143,7 @@ std::string as_text(const PairAnswer& answer) {
     if (answer.containment) {
         text += std::string(", containment ") + word(answer.containment->answer);
     }
-    if (answer.pairs) text += pairs_text(*answer.pairs, {"\n  ", " ", "", ""});
+    text += pair_lines(answer.pairs);
     if (answer.crossings) text += crossings_text(*answer.crossings);
     return text;
 }
@@ -158,11 +171,14 @@ std::string as_text(const DistanceAnswer& answer) {
 }
 
 std::string as_json(const WithinAnswer& answer) {
-    return "{\"pose\": " + number(answer.pose) + ", \"within\": " + word(answer.within) + "}";
+    return "{\"pose\": " + number(answer.pose) + ", \"within\": " + word(answer.within) +
+           count_and_pairs_json(answer) + "}";
 }
 
 std::string as_text(const WithinAnswer& answer) {
-    return "pose " + number(answer.pose) + (answer.within ? ": within" : ": farther");
+    std::string text = "pose " + number(answer.pose) + (answer.within ? ": within" : ": farther");
+    if (answer.count) text += ", " + number(*answer.count) + " pairs";
+    return text + pair_lines(answer.pairs);
 }
 
 std::string as_json(const InsideAnswer& answer) {

@@ -37,6 +37,8 @@ struct DistanceAnswer {
 struct WithinAnswer {
     std::size_t pose = 0;
     bool within = false;
+    std::optional<std::size_t> count;                    ///< with --pairs or --count
+    std::optional<std::span<const TrianglePair>> pairs;  ///< with --pairs
 };
 
 /// Whether point number `point` is inside.
