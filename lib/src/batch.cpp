@@ -50,8 +50,8 @@ void count_overlaps_all(std::span<const PairJob> jobs, std::span<Workspace> work
                         const OverlapOptions& options) noexcept {
     ask_all(jobs, workspaces, parallel_for, counts,
             [&](const PairJob& job, std::size_t& count, Workspace& workspace) {
-                count =
-                    overlapping_triangles(*job.a, *job.b, job.placement, workspace, {}, options);
+                count = overlapping_triangles(*job.a, *job.b, job.placement, workspace, {}, options,
+                                              job.cache);
             });
 }
 
@@ -61,7 +61,7 @@ void overlapping_triangles_all(std::span<const PairJob> jobs, std::span<Workspac
     ask_all(jobs, workspaces, parallel_for, answers,
             [&](const PairJob& job, OverlapAnswer& answer, Workspace& workspace) {
                 answer.count = overlapping_triangles(*job.a, *job.b, job.placement, workspace,
-                                                     answer.room, options);
+                                                     answer.room, options, job.cache);
             });
 }
 
@@ -70,8 +70,9 @@ void mark_overlapping_triangles_all(std::span<const PairJob> jobs, std::span<Wor
                                     const OverlapOptions& options) noexcept {
     ask_all(jobs, workspaces, parallel_for, answers,
             [&](const PairJob& job, MarkedTriangles& answer, Workspace& workspace) {
-                answer.count = mark_overlapping_triangles(*job.a, *job.b, job.placement, workspace,
-                                                          answer.bits_a, answer.bits_b, options);
+                answer.count =
+                    mark_overlapping_triangles(*job.a, *job.b, job.placement, workspace,
+                                               answer.bits_a, answer.bits_b, options, job.cache);
             });
 }
 

@@ -3,31 +3,32 @@
 
 #include <algorithm>
 
+#include "cached_contacts.h"
 #include "smallest_pairs.h"
 
 namespace cdprep {
 
 std::size_t overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
                                   Workspace& workspace, std::span<TrianglePair> pairs,
-                                  const OverlapOptions& options) noexcept {
+                                  const OverlapOptions& options, PairCache* cache) noexcept {
     return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
-        for_each_contact<Search::all>(a, b, placement, workspace, options, found);
+        for_each_contact(a, b, placement, workspace, options, cache, found);
     });
 }
 
 bool visit_overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
                                  Workspace& workspace, PairVisitor visit,
-                                 const OverlapOptions& options) noexcept {
-    return for_each_contact<Search::all>(
-        a, b, placement, workspace, options, [&](std::uint32_t at_a, std::uint32_t at_b) {
-            return visit({source_number(a, at_a), source_number(b, at_b)});
-        });
+                                 const OverlapOptions& options, PairCache* cache) noexcept {
+    return for_each_contact(a, b, placement, workspace, options, cache,
+                            [&](std::uint32_t at_a, std::uint32_t at_b) {
+                                return visit({source_number(a, at_a), source_number(b, at_b)});
+                            });
 }
 
 std::size_t mark_overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
                                        Workspace& workspace, std::span<std::uint64_t> bits_a,
                                        std::span<std::uint64_t> bits_b,
-                                       const OverlapOptions& options) noexcept {
+                                       const OverlapOptions& options, PairCache* cache) noexcept {
     std::fill(bits_a.begin(), bits_a.end(), 0);
     std::fill(bits_b.begin(), bits_b.end(), 0);
     const auto mark = [](std::span<std::uint64_t> bits, std::uint32_t triangle) {
@@ -36,13 +37,13 @@ std::size_t mark_overlapping_triangles(const Model& a, const Model& b, const Pla
     const bool wants_a = bits_a.size() * 64 >= a.triangle_count();
     const bool wants_b = bits_b.size() * 64 >= b.triangle_count();
     std::size_t count = 0;
-    for_each_contact<Search::all>(a, b, placement, workspace, options,
-                                  [&](std::uint32_t at_a, std::uint32_t at_b) {
-                                      if (wants_a) mark(bits_a, source_number(a, at_a));
-                                      if (wants_b) mark(bits_b, source_number(b, at_b));
-                                      ++count;
-                                      return true;
-                                  });
+    for_each_contact(a, b, placement, workspace, options, cache,
+                     [&](std::uint32_t at_a, std::uint32_t at_b) {
+                         if (wants_a) mark(bits_a, source_number(a, at_a));
+                         if (wants_b) mark(bits_b, source_number(b, at_b));
+                         ++count;
+                         return true;
+                     });
     return count;
 }
 

@@ -27,6 +27,7 @@
 #include "bench_input.h"
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
+#include "cdprep/overlapping_triangles.h"
 
 namespace cdprep {
 namespace {
@@ -35,8 +36,8 @@ constexpr double kStep = 0.001;  ///< of the diagonal, which is 1
 constexpr double kTurn = 0.2 * std::numbers::pi / 180;
 constexpr int kSteps = 20;  ///< timed
 constexpr std::array<const char*, 3> kKinds = {"light", "deep", "near"};
-enum Question : std::size_t { collides, how_far, within };
-constexpr std::array<const char*, 3> kQuestions = {"collide", "distance", "within"};
+enum Question : std::size_t { collides, overlaps, how_far, within };
+constexpr std::array<const char*, 4> kQuestions = {"collide", "overlap", "distance", "within"};
 constexpr double kTolerance = 0.01;
 
 using Walk = std::vector<Placement>;
@@ -83,6 +84,9 @@ Walk walk_from(const Pose& start, std::mt19937& random) {
 bool ask(const Model& a, const Model& b, std::size_t question, const Placement& placement,
          Workspace& workspace, PairCache* cache) {
     if (question == collides) return collide(a, b, placement, workspace, {}, cache).hit;
+    if (question == overlaps) {
+        return overlapping_triangles(a, b, placement, workspace, {}, {}, cache) > 0;
+    }
     if (question == within) return is_within(a, b, placement, kTolerance, workspace, cache);
     return distance(a, b, placement, workspace, {}, cache)->upper == 0;
 }
@@ -123,7 +127,7 @@ void compare(const std::string& pair, const Model& a, const Model& b,
             walks.push_back(walk_from(poses[i], random));
         }
         for (std::size_t question = 0; question < kQuestions.size(); ++question) {
-            if (question != collides && kind != 2) continue;  // touching: as collide
+            if (question > overlaps && kind != 2) continue;  // touching: as collide
             std::array<std::vector<double>, 2> us;
             std::array<std::size_t, 2> hits{};
             for (int round = 0; round < rounds; ++round) {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cdprep/model.h"
+#include "cdprep/pair_cache.h"
 #include "cdprep/placement.h"
 #include "cdprep/visitor.h"
 #include "cdprep/workspace.h"
@@ -52,10 +53,12 @@ struct OverlapOptions {
 ///
 /// Costs O(log n + pairs) for compact surfaces, O(n m) at worst. Never
 /// allocates. If only "do they touch?" matters, collide() stops at the first.
+/// `cache` may be null; with it, poses in which nothing touches cost what collide() does.
 [[nodiscard]] std::size_t overlapping_triangles(const Model& a, const Model& b,
                                                 const Placement& placement, Workspace& workspace,
                                                 std::span<TrianglePair> pairs,
-                                                const OverlapOptions& options = {}) noexcept;
+                                                const OverlapOptions& options = {},
+                                                PairCache* cache = nullptr) noexcept;
 
 using PairVisitor = Visitor<TrianglePair>;
 
@@ -69,7 +72,8 @@ using PairVisitor = Visitor<TrianglePair>;
 ///     cdprep::visit_overlapping_triangles(a, b, placement, workspace, visit);
 bool visit_overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
                                  Workspace& workspace, PairVisitor visit,
-                                 const OverlapOptions& options = {}) noexcept;
+                                 const OverlapOptions& options = {},
+                                 PairCache* cache = nullptr) noexcept;
 
 /// Marks the triangles of either model that overlap any of the other: bit i % 64 of
 /// element i / 64 for source triangle i. Clears `bits_a` and `bits_b` first; each
@@ -79,6 +83,7 @@ bool visit_overlapping_triangles(const Model& a, const Model& b, const Placement
 std::size_t mark_overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
                                        Workspace& workspace, std::span<std::uint64_t> bits_a,
                                        std::span<std::uint64_t> bits_b,
-                                       const OverlapOptions& options = {}) noexcept;
+                                       const OverlapOptions& options = {},
+                                       PairCache* cache = nullptr) noexcept;
 
 }  // namespace cdprep

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <vector>
 
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
+#include "cdprep/overlapping_triangles.h"
 #include "proven_gap.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
@@ -73,13 +75,23 @@ struct Walker {
     std::size_t asked = 0;
     std::size_t hits = 0;
 
+    void expect_same_pairs(const Placement& placement, const OverlapOptions& options,
+                           PairCache& cache) {
+        std::vector<TrianglePair> plain(10'000), cached(10'000);
+        plain.resize(overlapping_triangles(a, b, placement, workspace, plain, options));
+        cached.resize(overlapping_triangles(a, b, placement, workspace, cached, options, &cache));
+        ASSERT_EQ(plain, cached);
+        hits += plain.empty() ? 0 : 1;
+        ++asked;
+    }
+
     /// Asks one of all questions with the cache and without.
     void ask(unsigned question, const Placement& placement, PairCache& cache) {
         CollideOptions options;
         if (question % 3 == 1) options.contact = Contact::proper;
         if (question % 5 == 1) options.degenerate = Degenerate::skip;
         if (question % 7 == 1) options.as = As::solid;
-        switch (question % 4) {
+        switch (question % 6) {
             case 0: {
                 expect_same(distance(a, b, placement, workspace),
                             distance(a, b, placement, workspace, {}, &cache));
@@ -89,6 +101,11 @@ struct Walker {
                 const double tolerance = 0.03125 * (question % 9);
                 ASSERT_EQ(is_within(a, b, placement, tolerance, workspace),
                           is_within(a, b, placement, tolerance, workspace, &cache));
+                break;
+            }
+            case 2:
+            case 3: {
+                expect_same_pairs(placement, {options.contact, options.degenerate}, cache);
                 break;
             }
             default: {
