@@ -496,17 +496,19 @@ int cdprep_find_containment(const cdprep_model* a, const cdprep_model* b,
 
 int cdprep_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
                                  const cdprep_placement* placement, cdprep_workspace* workspace,
-                                 const cdprep_contact_options* options, cdprep_triangle_pair* pairs,
-                                 size_t room, size_t* count, cdprep_error* error) {
+                                 const cdprep_contact_options* options, cdprep_pair_cache* cache,
+                                 cdprep_triangle_pair* pairs, size_t room, size_t* count,
+                                 cdprep_error* error) {
     if (count == nullptr || (pairs == nullptr && room > 0)) return cdprep::null_argument(error);
     cdprep_contact_options given{};
     if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            cdprep::CacheCopy copy(cache);
             *count =
                 cdprep::overlapping_triangles(ma, mb, placed, scratch, cdprep::room_of(pairs, room),
-                                              cdprep::overlap_options(given));
+                                              cdprep::overlap_options(given), copy.get());
             return CDPREP_OK;
         });
 }
@@ -515,20 +517,21 @@ int cdprep_visit_overlapping_triangles(const cdprep_model* a, const cdprep_model
                                        const cdprep_placement* placement,
                                        cdprep_workspace* workspace,
                                        const cdprep_contact_options* options,
-                                       cdprep_pair_visitor visit, void* context,
-                                       cdprep_error* error) {
+                                       cdprep_pair_cache* cache, cdprep_pair_visitor visit,
+                                       void* context, cdprep_error* error) {
     if (visit == nullptr) return cdprep::null_argument(error);
     cdprep_contact_options given{};
     if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            cdprep::CacheCopy copy(cache);
             const auto hand_on = [&](const cdprep::TrianglePair& pair) {
                 const cdprep_triangle_pair found = {pair.a, pair.b};
                 return visit(context, &found) != 0;
             };
             cdprep::visit_overlapping_triangles(ma, mb, placed, scratch, hand_on,
-                                                cdprep::overlap_options(given));
+                                                cdprep::overlap_options(given), copy.get());
             return CDPREP_OK;
         });
 }
@@ -536,9 +539,10 @@ int cdprep_visit_overlapping_triangles(const cdprep_model* a, const cdprep_model
 int cdprep_mark_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
                                       const cdprep_placement* placement,
                                       cdprep_workspace* workspace,
-                                      const cdprep_contact_options* options, uint64_t* bits_a,
-                                      size_t words_a, uint64_t* bits_b, size_t words_b,
-                                      size_t* count, cdprep_error* error) {
+                                      const cdprep_contact_options* options,
+                                      cdprep_pair_cache* cache, uint64_t* bits_a, size_t words_a,
+                                      uint64_t* bits_b, size_t words_b, size_t* count,
+                                      cdprep_error* error) {
     if (count == nullptr || (bits_a == nullptr && words_a > 0) ||
         (bits_b == nullptr && words_b > 0)) {
         return cdprep::null_argument(error);
@@ -548,9 +552,10 @@ int cdprep_mark_overlapping_triangles(const cdprep_model* a, const cdprep_model*
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
+            cdprep::CacheCopy copy(cache);
             *count = cdprep::mark_overlapping_triangles(ma, mb, placed, scratch, {bits_a, words_a},
                                                         {bits_b, words_b},
-                                                        cdprep::overlap_options(given));
+                                                        cdprep::overlap_options(given), copy.get());
             return CDPREP_OK;
         });
 }
@@ -875,14 +880,14 @@ int cdprep_overlapping_triangles_all(const cdprep_pair_job* jobs, size_t count,
     cdprep_contact_options given{};
     if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
     const cdprep::OverlapOptions asked = cdprep::overlap_options(given);
-    return cdprep::ask_jobs(
-        jobs, count, workspaces, parallel_for, error,
-        [&](size_t i, const Model& a, const Model& b, const Placement& placement,
-            Workspace& scratch, PairCache* /*cache*/) {
-            cdprep_overlap_answer& to = answers[i];
-            to.count = cdprep::overlapping_triangles(a, b, placement, scratch,
-                                                     cdprep::room_of(to.pairs, to.room), asked);
-        });
+    return cdprep::ask_jobs(jobs, count, workspaces, parallel_for, error,
+                            [&](size_t i, const Model& a, const Model& b,
+                                const Placement& placement, Workspace& scratch, PairCache* cache) {
+                                cdprep_overlap_answer& to = answers[i];
+                                to.count = cdprep::overlapping_triangles(
+                                    a, b, placement, scratch, cdprep::room_of(to.pairs, to.room),
+                                    asked, cache);
+                            });
 }
 
 int cdprep_mark_overlapping_triangles_all(const cdprep_pair_job* jobs, size_t count,
@@ -900,14 +905,14 @@ int cdprep_mark_overlapping_triangles_all(const cdprep_pair_job* jobs, size_t co
     cdprep_contact_options given{};
     if (!cdprep::read_sized(options, given)) return cdprep::bad_size(error);
     const cdprep::OverlapOptions asked = cdprep::overlap_options(given);
-    return cdprep::ask_jobs(
-        jobs, count, workspaces, parallel_for, error,
-        [&](size_t i, const Model& a, const Model& b, const Placement& placement,
-            Workspace& scratch, PairCache* /*cache*/) {
-            cdprep_marked_triangles& to = answers[i];
-            to.count = cdprep::mark_overlapping_triangles(
-                a, b, placement, scratch, {to.bits_a, to.words_a}, {to.bits_b, to.words_b}, asked);
-        });
+    return cdprep::ask_jobs(jobs, count, workspaces, parallel_for, error,
+                            [&](size_t i, const Model& a, const Model& b,
+                                const Placement& placement, Workspace& scratch, PairCache* cache) {
+                                cdprep_marked_triangles& to = answers[i];
+                                to.count = cdprep::mark_overlapping_triangles(
+                                    a, b, placement, scratch, {to.bits_a, to.words_a},
+                                    {to.bits_b, to.words_b}, asked, cache);
+                            });
 }
 
 int cdprep_split_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,

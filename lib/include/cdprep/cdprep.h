@@ -148,11 +148,12 @@ typedef struct cdprep_triangle_pair {
 } cdprep_triangle_pair;
 
 /* Writes at most `room` pairs, the smallest, sorted; `count` is how many there are.
- * `pairs` may be null when `room` is 0. */
+ * `pairs` may be null when `room` is 0, and `cache` always. */
 int cdprep_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
                                  const cdprep_placement* placement, cdprep_workspace* workspace,
-                                 const cdprep_contact_options* options, cdprep_triangle_pair* pairs,
-                                 size_t room, size_t* count, cdprep_error* error);
+                                 const cdprep_contact_options* options, cdprep_pair_cache* cache,
+                                 cdprep_triangle_pair* pairs, size_t room, size_t* count,
+                                 cdprep_error* error);
 
 /* Called with every answer as it is found, and with the caller's `context`; 0 ends the
  * search. Like everything that the caller hands over to be called, it returns: by no
@@ -163,8 +164,8 @@ int cdprep_visit_overlapping_triangles(const cdprep_model* a, const cdprep_model
                                        const cdprep_placement* placement,
                                        cdprep_workspace* workspace,
                                        const cdprep_contact_options* options,
-                                       cdprep_pair_visitor visit, void* context,
-                                       cdprep_error* error);
+                                       cdprep_pair_cache* cache, cdprep_pair_visitor visit,
+                                       void* context, cdprep_error* error);
 
 /* Sets bit i % 64 of element i / 64 for each triangle i that overlaps any of the other
  * model, and clears all others; an array with fewer than a word for every 64 triangles
@@ -172,9 +173,10 @@ int cdprep_visit_overlapping_triangles(const cdprep_model* a, const cdprep_model
 int cdprep_mark_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
                                       const cdprep_placement* placement,
                                       cdprep_workspace* workspace,
-                                      const cdprep_contact_options* options, uint64_t* bits_a,
-                                      size_t words_a, uint64_t* bits_b, size_t words_b,
-                                      size_t* count, cdprep_error* error);
+                                      const cdprep_contact_options* options,
+                                      cdprep_pair_cache* cache, uint64_t* bits_a, size_t words_a,
+                                      uint64_t* bits_b, size_t words_b, size_t* count,
+                                      cdprep_error* error);
 
 /* A pair of triangles in contact and the segment that they share: see
  * crossing_segments.h. */

@@ -69,15 +69,15 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
     cdprep_triangle_pair pairs[144];
     size_t count = 0;
     size_t counted = 0;
-    MUST(cdprep_overlapping_triangles(cube, cube, &near, scratch, NULL, pairs, 144, &count,
+    MUST(cdprep_overlapping_triangles(cube, cube, &near, scratch, NULL, NULL, pairs, 144, &count,
                                       &error) == CDPREP_OK);
     MUST(count > 0 && count <= 144);
     for (size_t i = 1; i < count; ++i) {
         MUST(pairs[i - 1].a < pairs[i].a ||
              (pairs[i - 1].a == pairs[i].a && pairs[i - 1].b < pairs[i].b));
     }
-    MUST(cdprep_overlapping_triangles(cube, cube, &near, scratch, NULL, NULL, 0, &counted, NULL) ==
-         CDPREP_OK);
+    MUST(cdprep_overlapping_triangles(cube, cube, &near, scratch, NULL, NULL, NULL, 0, &counted,
+                                      NULL) == CDPREP_OK);
     MUST(counted == count);
 
     /* Visitors see the same pairs, and end the search. */
@@ -87,9 +87,9 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
     visits all_crossings = {0, SIZE_MAX, 0};
     visits two = {0, 2, 0};
     visits two_crossings = {0, 2, 0};
-    MUST(cdprep_visit_overlapping_triangles(cube, cube, &near, scratch, NULL, take_pair, &all,
+    MUST(cdprep_visit_overlapping_triangles(cube, cube, &near, scratch, NULL, NULL, take_pair, &all,
                                             &error) == CDPREP_OK);
-    MUST(cdprep_visit_overlapping_triangles(cube, cube, &near, scratch, NULL, take_pair, &two,
+    MUST(cdprep_visit_overlapping_triangles(cube, cube, &near, scratch, NULL, NULL, take_pair, &two,
                                             NULL) == CDPREP_OK);
     MUST(cdprep_visit_crossing_segments(cube, cube, &near, scratch, NULL, take_crossing,
                                         &all_crossings, &error) == CDPREP_OK);
@@ -101,8 +101,8 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
 
     /* Every marked triangle stands in a pair, and every crossing is one of the pairs. */
     uint64_t bits_a[1] = {~(uint64_t)0};
-    MUST(cdprep_mark_overlapping_triangles(cube, cube, &near, scratch, NULL, bits_a, 1, NULL, 0,
-                                           &counted, &error) == CDPREP_OK);
+    MUST(cdprep_mark_overlapping_triangles(cube, cube, &near, scratch, NULL, NULL, bits_a, 1, NULL,
+                                           0, &counted, &error) == CDPREP_OK);
     MUST(counted == count);
     for (uint32_t i = 0; i < 64; ++i) {
         int paired = 0;
@@ -136,6 +136,12 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
     MUST(collision.hit == 1);
     MUST(cdprep_collide(cube, cube, &far, scratch, NULL, &cache, &collision, NULL) == CDPREP_OK);
     MUST(collision.hit == 0);
+    MUST(cdprep_overlapping_triangles(cube, cube, &far, scratch, NULL, &cache, NULL, 0, &counted,
+                                      NULL) == CDPREP_OK);
+    MUST(counted == 0);
+    MUST(cdprep_overlapping_triangles(cube, cube, &near, scratch, NULL, &cache, NULL, 0, &counted,
+                                      NULL) == CDPREP_OK);
+    MUST(counted == count);
     cdprep_distance_options nearby = {sizeof nearby, CDPREP_SURFACE, 0, 0, 1};
     MUST(cdprep_distance_between(cube, cube, &far, scratch, &nearby, &cache, &found, &distance,
                                  &error) == CDPREP_OK);
@@ -165,7 +171,7 @@ static const char* ask_two(const cdprep_model* cube, cdprep_workspace* scratch) 
         cdprep_placement same = moved_by(0.5);
         same.kind = kind;
         if (kind == CDPREP_A_MOVES) same.a.rows[9] = -0.5;
-        MUST(cdprep_overlapping_triangles(cube, cube, &same, scratch, NULL, NULL, 0, &counted,
+        MUST(cdprep_overlapping_triangles(cube, cube, &same, scratch, NULL, NULL, NULL, 0, &counted,
                                           NULL) == CDPREP_OK);
         MUST(counted == count);
     }
@@ -315,7 +321,7 @@ static const char* ask_wrongly(const cdprep_model* cube, cdprep_workspace* scrat
          CDPREP_BAD_ARGUMENT);
     MUST(strstr(error.message, "turn") != NULL);
     placement = moved_by(0);
-    MUST(cdprep_visit_overlapping_triangles(cube, cube, &placement, scratch, NULL, NULL, NULL,
+    MUST(cdprep_visit_overlapping_triangles(cube, cube, &placement, scratch, NULL, NULL, NULL, NULL,
                                             &error) == CDPREP_BAD_ARGUMENT);
     MUST(cdprep_find_containment(cube, cube, &placement, scratch, NULL, &error) ==
          CDPREP_BAD_ARGUMENT);
@@ -416,10 +422,10 @@ static const char* ask_alone(const cdprep_pair_job* jobs, cdprep_workspace* scra
                                      &to->found[i], &to->distances[i], NULL) == CDPREP_OK);
         MUST(cdprep_is_within(job->a, job->b, job->placement, scratch, 0.25, NULL, &to->within[i],
                               NULL) == CDPREP_OK);
-        MUST(cdprep_overlapping_triangles(job->a, job->b, job->placement, scratch, &proper,
+        MUST(cdprep_overlapping_triangles(job->a, job->b, job->placement, scratch, &proper, NULL,
                                           overlap->pairs, ROOM, &overlap->count,
                                           NULL) == CDPREP_OK);
-        MUST(cdprep_mark_overlapping_triangles(job->a, job->b, job->placement, scratch, NULL,
+        MUST(cdprep_mark_overlapping_triangles(job->a, job->b, job->placement, scratch, NULL, NULL,
                                                marked->bits_a, WORDS, marked->bits_b, WORDS,
                                                &marked->count, NULL) == CDPREP_OK);
     }
@@ -538,7 +544,7 @@ static const char* ask_split(const cdprep_model* a, cdprep_workspace* scratch,
     size_t count = 0;
     size_t counted = 0;
     const cdprep_placement placement = moved_by(0);
-    MUST(cdprep_overlapping_triangles(a, a, &placement, scratch, NULL, expected, MOST, &count,
+    MUST(cdprep_overlapping_triangles(a, a, &placement, scratch, NULL, NULL, expected, MOST, &count,
                                       NULL) == CDPREP_OK);
     MUST(count > 50000 && count <= MOST);
     const size_t rooms[] = {0, 1, count - 1, count, MOST};
