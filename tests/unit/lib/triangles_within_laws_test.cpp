@@ -8,6 +8,7 @@
 
 #include "cdprep/distance.h"
 #include "cdprep/triangles_within.h"
+#include "exact_within.h"
 #include "support/brute_force.h"
 #include "support/exact_distance.h"
 #include "support/open_tiny.h"
@@ -140,6 +141,41 @@ TEST(TrianglesWithinLaws, AgreesWithRationalsOnACoarseGrid) {
         ties -= found;
     }
     EXPECT_GT(ties, 200U);
+    EXPECT_GT(within, asked * 3 / 10);
+    EXPECT_LT(within, asked * 7 / 10);
+}
+
+// The oracle: the exact question about two triangles, which rational numbers prove, of
+// all of them. Here there are levels to walk and batches to fill.
+TEST(TrianglesWithinLaws, AgreesWithAllPairsAskedOneByOne) {
+    constexpr std::uint32_t kSeed = 76;
+    std::mt19937 random(kSeed);
+    const TestMesh a = in_floats(icosphere(2)), b = in_floats(torus(1, 0.25, 20, 10));
+    std::size_t within = 0, asked = 0;
+    for (int round = 0; round < 12; ++round) {
+        const OpenModel model_a = open_tiny(a, {.bounds = bounds_of(round)});
+        const OpenModel model_b = open_tiny(b, {.bounds = bounds_of(round)});
+        Workspace workspace;
+        const Placement placement = random_placement(random, round % 2 == 0 ? 0.25 : 1);
+        const Pose* pose_a = placement.a_is_moved() ? &placement.pose_a() : nullptr;
+        const Pose* pose_b = placement.b_is_moved() ? &placement.pose_b() : nullptr;
+        for (const double tolerance : {0.01, 0.1, 1.0, 1.75, 2.25}) {
+            std::vector<TrianglePair> expected;
+            for (std::uint32_t i = 0; i < a.triangles.size(); ++i) {
+                const Corners at_a = corners_of(a, i, pose_a);
+                for (std::uint32_t j = 0; j < b.triangles.size(); ++j) {
+                    if (is_within_exactly(at_a, corners_of(b, j, pose_b), tolerance)) {
+                        expected.push_back({i, j});
+                    }
+                }
+            }
+            ASSERT_EQ(all_within(model_a.model, model_b.model, placement, tolerance, workspace),
+                      expected)
+                << "seed " << kSeed << ", round " << round << ", tolerance " << tolerance;
+            within += expected.size();
+            asked += a.triangles.size() * b.triangles.size();
+        }
+    }
     EXPECT_GT(within, asked * 3 / 10);
     EXPECT_LT(within, asked * 7 / 10);
 }
