@@ -126,4 +126,20 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
     return placed;
 }
 
+float float_reach(double distance) noexcept {
+    return distance < kMostReach ? float_above(distance) : std::numeric_limits<float>::infinity();
+}
+
+// Two balls of radius sqrt 3 times the scale hold all triangles, up to the slack.
+Outlook outlook(const PlacedBoxes& placed, double tolerance) noexcept {
+    constexpr double kRounding = 0x1p-40;
+    const double limit = std::ldexp(tolerance, placed.exponent);
+    const double between = std::hypot(placed.shift[0], placed.shift[1], placed.shift[2]);
+    const double reach =
+        1.7321 * (placed.scale_a + placed.scale_b) + 2 * double{placed.placement.slack};
+    if (limit < (between - reach) * (1 - kRounding)) return Outlook::none;
+    const bool is_known = between <= std::numeric_limits<double>::max();
+    return is_known && limit >= (between + reach) * (1 + kRounding) ? Outlook::all : Outlook::some;
+}
+
 }  // namespace cdprep

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "cdprep/model.h"
 #include "cdprep/placement.h"
@@ -33,5 +34,22 @@ struct PlacedBoxes {
 
 [[nodiscard]] PlacedBoxes place_boxes(const Model& a, const Model& b,
                                       const Placement& placement) noexcept;
+
+/// Beyond, in pair units, squares of lengths would leave the range of float.
+inline constexpr double kMostReach = 0x1p60;
+
+/// Rounds a distance in pair units up; to infinity, which rules out nothing, where float
+/// could not tell what is farther apart.
+[[nodiscard]] float float_reach(double distance) noexcept;
+
+/// What the places of two models tell of their triangles before anything is walked.
+enum class Outlook : std::uint8_t {
+    none,  ///< no two are within the tolerance
+    some,  ///< nobody knows
+    all,   ///< any two are
+};
+
+/// Of a tolerance in model units; neither model is empty.
+[[nodiscard]] Outlook outlook(const PlacedBoxes& placed, double tolerance) noexcept;
 
 }  // namespace cdprep

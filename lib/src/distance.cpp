@@ -68,10 +68,7 @@ public:
 private:
     /// In pair units, rounded up.
     [[nodiscard]] float in_pair_units(double limit) const noexcept {
-        const double scaled = std::ldexp(limit, placed_.exponent);
-        constexpr float kMost = std::numeric_limits<float>::max();
-        if (!(scaled < static_cast<double>(kMost))) return kMost;
-        return std::nextafter(static_cast<float>(scaled), kMost);
+        return float_reach(std::ldexp(limit, placed_.exponent));
     }
     /// Appends the children of a pair that are near enough; returns the new end.
     std::size_t push_children(const Tree& a, const Tree& b, const PendingPair& pair,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "exact_within.h"
 #include "smallest_pairs.h"
@@ -16,29 +15,9 @@
 namespace cdprep {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 /// A direction of a box test is unit up to 2^-20, and a sum with the tolerance rounds a
 /// few times.
 constexpr double kBoxRounding = 1 + 0x1p-18;
-/// Beyond, in pair units, squares would leave the range of float.
-constexpr double kMostTolerance = 0x1p60;
-
-/// What the places of two models tell before anything is walked.
-enum class Outlook : std::uint8_t { none, some, all };
-
-/// Two balls of radius sqrt 3 times the scale hold all triangles, up to the slack.
-/// `tolerance` in pair units.
-Outlook outlook(const PlacedBoxes& placed, double tolerance) noexcept {
-    constexpr double kRounding = 0x1p-40;
-    const double between = std::hypot(placed.shift[0], placed.shift[1], placed.shift[2]);
-    const double reach =
-        1.7321 * (placed.scale_a + placed.scale_b) + 2 * double{placed.placement.slack};
-    if (tolerance < (between - reach) * (1 - kRounding)) return Outlook::none;
-    const bool is_finite = between <= std::numeric_limits<double>::max();
-    return is_finite && tolerance >= (between + reach) * (1 + kRounding) ? Outlook::all
-                                                                         : Outlook::some;
-}
 
 /// A search for the triangles within a tolerance above 0.
 class WithinSearch {
@@ -97,14 +76,12 @@ bool WithinSearch::run(Found&& found) noexcept {
     const Tree a(a_);
     const Tree b(b_);
     if (a.triangles == 0 || b.triangles == 0) return true;
+    const Outlook place = outlook(placed_, tolerance_);
+    if (place == Outlook::none) return true;
+    if (place == Outlook::all) return give_all(found);
     const double scaled = std::ldexp(tolerance_, placed_.exponent);
-    const Outlook outlook_here = outlook(placed_, scaled);
-    if (outlook_here == Outlook::none) return true;
-    if (outlook_here == Outlook::all) return give_all(found);
-    reach_.limit = scaled < kMostTolerance
-                       ? std::nextafter(static_cast<float>(scaled * kBoxRounding), kInfinity)
-                       : kInfinity;
-    reach_.certain = static_cast<float>(std::min(scaled, kMostTolerance) / kBoxRounding);
+    reach_.limit = float_reach(scaled * kBoxRounding);
+    reach_.certain = static_cast<float>(std::min(scaled, kMostReach) / kBoxRounding);
     placed_.placement.slack += reach_.limit;
     const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b,
                             const kernels::TriangleGap& gap) {

@@ -413,5 +413,26 @@ TEST(DistanceLaws, SizeDoesNotMatter) {
     }
 }
 
+// By hand: points so far apart that float could not hold the square of how far, against
+// their size.
+TEST(DistanceLaws, NothingIsTooFarToMeasure) {
+    const OpenModel dot = open_tiny(TestMesh{{{0, 0, 0}}, {{{0, 0, 0}}}});
+    const OpenModel cube = open_tiny(unit_cube());
+    Workspace workspace;
+    for (const double far : {0x1p40, 0x1p62, 0x1p64, 0x1p66, 0x1p100, 0x1p130, 0x1p900}) {
+        const Placement placement =
+            Placement::b_moves(Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, far, 0, 0}).value());
+        for (const OpenModel* model : {&dot, &cube}) {
+            const auto found = distance(model->model, model->model, placement, workspace);
+            ASSERT_TRUE(found) << far;
+            EXPECT_NEAR(found->upper / far, 1, 1e-10) << far;
+            EXPECT_TRUE(is_within(model->model, model->model, placement, far, workspace)) << far;
+            EXPECT_FALSE(is_within(model->model, model->model, placement, far / 2, workspace));
+        }
+        EXPECT_FALSE(
+            is_within(dot.model, dot.model, placement, std::nextafter(far, 0.0), workspace));
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::test
