@@ -127,7 +127,9 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
 }
 
 float float_reach(double distance) noexcept {
-    return distance < kMostReach ? float_above(distance) : std::numeric_limits<float>::infinity();
+    // Not float_above(): a tolerance may be too small for a normal number.
+    return distance < kMostReach ? std::nextafter(static_cast<float>(distance), HUGE_VALF)
+                                 : HUGE_VALF;
 }
 
 // Two balls of radius sqrt 3 times the scale hold all triangles, up to the slack.
@@ -138,8 +140,8 @@ Outlook outlook(const PlacedBoxes& placed, double tolerance) noexcept {
     const double reach =
         1.7321 * (placed.scale_a + placed.scale_b) + 2 * double{placed.placement.slack};
     if (limit < (between - reach) * (1 - kRounding)) return Outlook::none;
-    const bool is_known = between <= std::numeric_limits<double>::max();
-    return is_known && limit >= (between + reach) * (1 + kRounding) ? Outlook::all : Outlook::some;
+    const bool is_all = std::isfinite(between) && limit >= (between + reach) * (1 + kRounding);
+    return is_all ? Outlook::all : Outlook::some;
 }
 
 }  // namespace cdprep
