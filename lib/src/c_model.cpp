@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "c_face.h"
+
+#include <utility>
+
+namespace cdprep {
+namespace {
+
+int opened(Result<Model> result, cdprep_model** model, cdprep_error* error) {
+    if (!result) return fail(error, result.error());
+    *model = new cdprep_model{std::move(result).value()};
+    return CDPREP_OK;
+}
+
+}  // namespace
+}  // namespace cdprep
+
+using cdprep::Model;
+
+int cdprep_open(const char* path, cdprep_model** model, cdprep_error* error) {
+    if (cdprep::any_null(path, model)) return cdprep::null_argument(error);
+    *model = nullptr;
+    return cdprep::guarded(error, [&] { return cdprep::opened(Model::open(path), model, error); });
+}
+
+int cdprep_open_memory(const void* bytes, size_t size, const char* name, cdprep_model** model,
+                       cdprep_error* error) {
+    if (cdprep::any_null(bytes, name, model)) {
+        return cdprep::null_argument(error);
+    }
+    *model = nullptr;
+    return cdprep::guarded(error, [&] {
+        const std::span<const std::byte> file(static_cast<const std::byte*>(bytes), size);
+        return cdprep::opened(Model::open(file, cdprep::SectionSet::all(), name), model, error);
+    });
+}
+
+int cdprep_open_trusted(const char* path, cdprep_model** model, cdprep_error* error) {
+    if (cdprep::any_null(path, model)) return cdprep::null_argument(error);
+    *model = nullptr;
+    return cdprep::guarded(error,
+                           [&] { return cdprep::opened(Model::open_trusted(path), model, error); });
+}
+
+void cdprep_close(cdprep_model* model) {
+    delete model;
+}
+
+uint32_t cdprep_triangle_count(const cdprep_model* model) {
+    return model == nullptr ? 0 : model->model.triangle_count();
+}
+
+uint32_t cdprep_vertex_count(const cdprep_model* model) {
+    return model == nullptr ? 0 : model->model.vertex_count();
+}
+
+int cdprep_is_closed(const cdprep_model* model) {
+    return model != nullptr && model->model.is_closed() ? 1 : 0;
+}
