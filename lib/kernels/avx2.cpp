@@ -77,6 +77,10 @@ struct F8 {
     static Index gather_index(const std::int32_t* base, Index at) noexcept {
         return {_mm256_i32gather_epi32(base, at.x, 4)};
     }
+    /// Of eight floats.
+    static F8 pick(const float* p, Index at) noexcept {
+        return _mm256_permutevar8x32_ps(load(p).x, at.x);
+    }
     static F8 gather(const float* base, Index at) noexcept {
         return _mm256_i32gather_ps(base, at.x, 4);
     }

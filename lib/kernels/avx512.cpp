@@ -161,6 +161,10 @@ struct F16 {
     static Index gather_index(const std::int32_t* base, Index at) noexcept {
         return {_mm512_i32gather_epi32(at.x, base, 4)};
     }
+    /// Of eight floats.
+    static F16 pick(const float* p, Index at) noexcept {
+        return _mm512_permutexvar_ps(at.x, _mm512_castps256_ps512(_mm256_loadu_ps(p)));
+    }
     static F16 gather(const float* base, Index at) noexcept {
         return _mm512_i32gather_ps(at.x, base, 4);
     }

@@ -89,6 +89,18 @@ LaneTriangle<W> gathered(const PlacedLeaves& leaves, typename W::Index at) noexc
     return triangle;
 }
 
+/// The same where all are of one leaf.
+template <class W>
+LaneTriangle<W> picked(const PlacedLeaf& leaf, typename W::Index at) noexcept {
+    LaneTriangle<W> triangle;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            triangle.corner[i][axis] = W::pick(leaf.row[kCorner + 3 * i + axis], at);
+        }
+    }
+    return triangle;
+}
+
 /// On which side of a plane three corners lie.
 template <class W>
 struct Sides {
@@ -219,6 +231,7 @@ struct LanePairs {
     LaneTriangle<W> b;
     W error;
 
+    /// Of any pairs of leaves.
     LanePairs(const LeafScratch& scratch, const std::uint16_t* candidate) noexcept {
         const typename W::Index at = W::load_index(candidate);
         const typename W::Index pair = shifted_right(at, 6);
@@ -231,6 +244,20 @@ struct LanePairs {
             for (auto& corner : a.corner) corner[axis] = corner[axis] + shift;
         }
     }
+
+    /// Of one pair of leaves, number `index`: permutations, where gathers would take as
+    /// long as all the rest. Lanes past the last candidate may hold anything.
+    LanePairs(const LeafScratch& scratch, const std::uint16_t* candidate, const LeafPair& pair,
+              std::size_t index) noexcept {
+        const typename W::Index at = W::load_index(candidate);
+        a = picked<W>(scratch.a.leaf[place_of(pair.number_a)], low_bits(at));
+        b = picked<W>(scratch.b.leaf[place_of(pair.number_b)], low_bits(shifted_right(at, 3)));
+        error = W(scratch.shift[3][index]);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const W shift(scratch.shift[axis][index]);
+            for (auto& corner : a.corner) corner[axis] = corner[axis] + shift;
+        }
+    }
 };
 
 /// How many of the lanes from `first` on hold candidates.
@@ -239,19 +266,20 @@ std::size_t lanes_used(std::size_t first, std::size_t end) noexcept {
     return end - first < W::kCount ? end - first : std::size_t{W::kCount};
 }
 
-/// Lanes past the last candidate repeat it.
+/// Lanes past the last candidate are to repeat it where they say what is gathered.
 template <class W>
 void fill_up(std::uint16_t* candidate, std::size_t count) noexcept {
     if (count == 0) return;
     for (std::size_t i = 0; i < W::kCount; ++i) candidate[count + i] = candidate[count - 1];
 }
 
-/// Judges the candidates, W::kCount at a time; returns the new number of those found.
-template <class W>
-std::size_t judge_all(std::size_t candidates, std::size_t found, LeafScratch& scratch) noexcept {
-    fill_up<W>(scratch.candidate, candidates);
+/// Judges the candidates, W::kCount at a time: `load(candidate)` makes LanePairs of them.
+/// Returns the new number of those found.
+template <class W, class Load>
+std::size_t judge_all(std::size_t candidates, std::size_t found, LeafScratch& scratch,
+                      Load load) noexcept {
     for (std::size_t first = 0; first < candidates; first += W::kCount) {
-        const LanePairs<W> triangles(scratch, scratch.candidate + first);
+        const LanePairs<W> triangles = load(scratch.candidate + first);
         const Verdict verdict = judge(triangles.a, triangles.b, triangles.error);
         const unsigned used = (1U << lanes_used<W>(first, candidates)) - 1;
         for (unsigned rest = (verdict.crossing | verdict.unknown) & used; rest != 0;
@@ -348,7 +376,16 @@ std::size_t find_contacts_of(const LeafPlacement& placement, const LeafPair* pai
         const std::size_t last = end_of_run(pairs, first, count);
         const std::size_t candidates =
             find_candidates<F, R>(placement, pairs, first, last, scratch);
-        found = judge_all<W>(candidates, found, scratch);
+        if (last - first == 1) {
+            found = judge_all<W>(candidates, found, scratch, [&](const std::uint16_t* candidate) {
+                return LanePairs<W>(scratch, candidate, pairs[first], first);
+            });
+        } else {
+            fill_up<W>(scratch.candidate, candidates);
+            found = judge_all<W>(candidates, found, scratch, [&](const std::uint16_t* candidate) {
+                return LanePairs<W>(scratch, candidate);
+            });
+        }
         first = last;
     }
     return found;

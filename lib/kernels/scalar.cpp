@@ -60,6 +60,10 @@ struct F8 {
         for (unsigned i = 0; i < kCount; ++i) result.x[i] = base[at.x[i]];
         return result;
     }
+    /// Of eight floats.
+    static F8 pick(const float* p, const Index& at) noexcept {
+        return gather(p, at);
+    }
     static F8 gather(const float* base, const Index& at) noexcept {
         F8 result;
         for (unsigned i = 0; i < kCount; ++i) result.x[i] = base[at.x[i]];
