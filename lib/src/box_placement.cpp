@@ -2,10 +2,8 @@
 #include "box_placement.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 // Box tests run in float in the frame of A's boxes, scaled down further when B is
 // the larger model, so that all boxes lie within [-1, 1] and nothing overflows
@@ -41,22 +39,9 @@ double largest(const Double3& p) noexcept {
     return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
 }
 
-/// 2^exponent; without a call for exponents that give a normal number.
-double power_of_two(int exponent) noexcept {
-    constexpr int kBias = 1023;
-    if (exponent <= -kBias || exponent > kBias) return std::ldexp(1.0, exponent);
-    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + kBias) << 52);
-}
-
-/// x * 2^exponent in two steps, of which none leaves the range when the result does
-/// not.
-double scaled(double x, int exponent) noexcept {
-    return x * power_of_two(exponent / 2) * power_of_two(exponent - exponent / 2);
-}
-
 /// Largest |coordinate| that a vertex of the model can have.
 double reach(const format::FileHeader& header) noexcept {
-    return largest(header.frame_origin) + power_of_two(-header.frame_exponent);
+    return largest(header.frame_origin) + two_to(-header.frame_exponent);
 }
 
 Double3 rotated(const std::array<double, 9>& r, const Double3& p) noexcept {
@@ -64,9 +49,9 @@ Double3 rotated(const std::array<double, 9>& r, const Double3& p) noexcept {
             r[6] * p.x + r[7] * p.y + r[8] * p.z};
 }
 
-/// Rounds up; finite for all that is less than the largest float.
+/// Not below x, which is a normal number of float.
 float float_above(double x) noexcept {
-    return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+    return static_cast<float>(x * (1 + 0x1p-22));
 }
 
 }  // namespace
@@ -87,8 +72,8 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
                               ? relative_pose(placement.pose_a(), placement.pose_b())
                               : placement.pose_b();
     const int exponent = std::min(head_a.frame_exponent, head_b.frame_exponent);
-    const double scale_a = power_of_two(exponent - head_a.frame_exponent);
-    const double scale_b = power_of_two(exponent - head_b.frame_exponent);
+    const double scale_a = two_to(exponent - head_a.frame_exponent);
+    const double scale_b = two_to(exponent - head_b.frame_exponent);
 
     const Double3 turned = rotated(a_from_b.rotation(), head_b.frame_origin);
     const Double3& t = a_from_b.translation();

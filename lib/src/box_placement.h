@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "cdprep/model.h"
@@ -9,6 +11,19 @@
 #include "kernels.h"
 
 namespace cdprep {
+
+/// 2^exponent; without a call for exponents that give a normal number.
+inline double two_to(int exponent) noexcept {
+    constexpr int kBias = 1023;
+    if (exponent <= -kBias || exponent > kBias) return std::ldexp(1.0, exponent);
+    return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + kBias) << 52);
+}
+
+/// x * 2^exponent in two steps, of which none leaves the range when the result does
+/// not.
+inline double scaled(double x, int exponent) noexcept {
+    return x * two_to(exponent / 2) * two_to(exponent - exponent / 2);
+}
 
 /// How the two hierarchies' boxes stand to each other, in float, with a slack
 /// that makes every box test conservative for the vertices as the query moves

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
+
 #include "cdprep/overlapping_triangles.h"
 #include "leaf_batch.h"
 #include "walk_pairs.h"
@@ -70,21 +72,23 @@ template <Search kSearch, class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
                       Workspace& workspace, const OverlapOptions& options, Found&& found) noexcept {
     Workspace::Storage& scratch = workspace.storage();
-    const ContactTest touch(a, b, placement, options, scratch.counts);
+    // Most that do not touch are apart before any leaf is looked at.
+    std::optional<ContactTest> touch;
+    std::optional<LeafBatch> batch;
     const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b, bool certain) {
-        return !touch(at_a, at_b, certain) || static_cast<bool>(found(at_a, at_b));
+        if (!touch) touch.emplace(a, b, placement, options, scratch.counts);
+        return !(*touch)(at_a, at_b, certain) || static_cast<bool>(found(at_a, at_b));
     };
-
     const PlacedBoxes placed = place_boxes(a, b, placement);
-    LeafBatch batch(a, b, placed, scratch);
     const bool whole = walk_pairs<kSearch>(Tree(a), Tree(b), placed, scratch,
                                            [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
-                                               batch.add(leaf_a, leaf_b);
-                                               if (kSearch == Search::all && !batch.full())
+                                               if (!batch) batch.emplace(a, b, placed, scratch);
+                                               batch->add(leaf_a, leaf_b);
+                                               if (kSearch == Search::all && !batch->full())
                                                    return true;
-                                               return batch.flush(decide);
+                                               return batch->flush(decide);
                                            });
-    return whole && batch.flush(decide);
+    return whole && (!batch || batch->flush(decide));
 }
 
 }  // namespace cdprep

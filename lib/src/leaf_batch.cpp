@@ -2,7 +2,6 @@
 #include "leaf_batch.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace cdprep {
 namespace {
@@ -16,7 +15,7 @@ kernels::LeafFrame leaf_frame(const Model& model, double scale) noexcept {
     frame.box_scale = static_cast<float>(scale);
     if (!model.has_exact_leaves()) return frame;
     const Double3& o = model.header().frame_origin;
-    frame.scale = std::ldexp(scale, model.header().frame_exponent);
+    frame.scale = scaled(scale, model.header().frame_exponent);
     frame.frame_origin[0] = o.x;
     frame.frame_origin[1] = o.y;
     frame.frame_origin[2] = o.z;

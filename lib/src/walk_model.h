@@ -48,7 +48,7 @@ bool walk_nodes(const Model& model, Workspace::Storage& scratch, Judge&& judge, 
             continue;
         }
         const TestedBoxes boxes = boxes_of(tree, place, true);
-        const BoxVerdict verdict = judge(*boxes.node);
+        const BoxVerdict verdict = judge(tree.nodes[boxes.node]);
         for (unsigned bits = verdict.near & chosen(boxes); bits != 0; bits &= bits - 1) {
             const auto box = static_cast<std::uint32_t>(std::countr_zero(bits));
             const TreePlace below{boxes.first_below.height, boxes.first_below.index + box};

@@ -30,7 +30,7 @@ void walk_ordered(const Model& model, Workspace::Storage& scratch, double limit,
         const auto first = scratch.bounded.begin() + static_cast<std::ptrdiff_t>(depth);
         auto last = first;
         for (std::uint32_t box = boxes.first; box < boxes.last; ++box) {
-            const double value = bound(*boxes.node, box);
+            const double value = bound(tree.nodes[boxes.node], box);
             if (value > limit) continue;
             *last++ = {value, boxes.first_below.height, boxes.first_below.index + box};
         }

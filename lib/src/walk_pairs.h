@@ -67,7 +67,7 @@ struct Tree {
 
 /// One side of a step: the node whose boxes are tested, and which of them.
 struct TestedBoxes {
-    const format::BvhNode* node;
+    std::uint32_t node;     ///< index
     std::uint32_t first;    ///< box
     std::uint32_t last;     ///< one past
     TreePlace first_below;  ///< what box 0 of the node stands for
@@ -79,14 +79,14 @@ inline TestedBoxes boxes_of(const Tree& tree, const TreePlace& place, bool desce
     const format::BvhShape& shape = tree.shape;
     if (descend) {
         const std::uint32_t level = place.height - 1;
-        return {&tree.nodes[shape.first[level] + place.index],
+        return {shape.first[level] + place.index,
                 0,
                 shape.used_boxes(level, place.index),
                 {level, place.index * format::kBvhWidth}};
     }
     const std::uint32_t box = place.index % format::kBvhWidth;
     const std::uint32_t parent = place.index / format::kBvhWidth;
-    return {&tree.nodes[shape.first[place.height] + parent],
+    return {shape.first[place.height] + parent,
             box,
             box + 1,
             {place.height, parent * format::kBvhWidth}};
@@ -185,12 +185,10 @@ inline const float* box_around(const Tree& tree, const TreePlace& place) noexcep
 }
 
 inline kernels::NodeBoxes node_boxes(const Tree& tree, const TestedBoxes& side) noexcept {
-    const float* oriented = tree.oriented == nullptr
-                                ? nullptr
-                                : tree.oriented[side.node - tree.nodes].axis[0][0].data();
-    const float* swept =
-        tree.swept == nullptr ? nullptr : tree.swept[side.node - tree.nodes].centre[0].data();
-    return {side.node->lower[0].data(), oriented, swept};
+    const float* oriented =
+        tree.oriented == nullptr ? nullptr : tree.oriented[side.node].axis[0][0].data();
+    const float* swept = tree.swept == nullptr ? nullptr : tree.swept[side.node].centre[0].data();
+    return {tree.nodes[side.node].lower[0].data(), oriented, swept};
 }
 
 /// Which bounds a question takes where both models have both.
@@ -225,9 +223,9 @@ inline void prefetch_step(const Tree& a, const Tree& b, const OpenStep& step) no
 /// Tests the children of a pair that are no two leaves. Sets `depths` with
 /// Search::first.
 template <Search kSearch>
-void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed, const PendingPair& pair,
-               const Descent& descent, OpenStep& step, kernels::BoxPairFloats& depths) noexcept {
-    const kernels::BoundTests tests = tests_for(a, b, Prefer::oriented);
+void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed,
+               const kernels::BoundTests& tests, const PendingPair& pair, const Descent& descent,
+               OpenStep& step, kernels::BoxPairFloats& depths) noexcept {
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     const kernels::BoxChoice choice = {chosen(side_a), chosen(side_b),
@@ -273,6 +271,7 @@ bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& 
                      const PlacedBoxes& placed, Workspace::Storage& scratch,
                      Reach&& reach) noexcept {
     if (is_down_at(start.packed(), floor)) return reach(start);
+    const kernels::BoundTests tests = tests_for(a, b, Prefer::oriented);
     kernels::BoxPairFloats depths;
     const auto pick = [&](kernels::BoxPairs pairs) {
         return kSearch == Search::first ? deepest_of(pairs, depths) : first_of(pairs);
@@ -287,7 +286,7 @@ bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& 
         });
         OpenStep& step = scratch.open_steps[depth];
         if (scratch.counts != nullptr) count_step(a, b, pair, descent, *scratch.counts);
-        open_step<kSearch>(a, b, placed, pair, descent, step, depths);
+        open_step<kSearch>(a, b, placed, tests, pair, descent, step, depths);
         if (is_down_at(step.base, floor)) {
             while (step.pairs != 0) {
                 const std::uint64_t at = step.take(pick(step.pairs)).pair;
