@@ -106,6 +106,34 @@ struct F8 {
     void store_rows(float* first, float* /*second*/) const noexcept {
         store(first);
     }
+    /// Finds the largest of many lanes: as integers, which order as floats that are not
+    /// negative do, with the number of the lane in place of the lowest six bits.
+    class Deepest {
+    public:
+        /// The lanes of a row whose bits are set, of the lowest eight: numbers 8 row + i.
+        template <class Rows>
+        void add(F8 depth, unsigned bits, const Rows& at) noexcept {
+            const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+            const __m256i set = _mm256_cmpeq_epi32(
+                _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), bit), bit);
+            const __m256i number =
+                _mm256_or_si256(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7),
+                                _mm256_set1_epi32(static_cast<int>(kLanes * at.first)));
+            const __m256i key = _mm256_or_si256(
+                _mm256_andnot_si256(_mm256_set1_epi32(63), _mm256_castps_si256(depth.x)), number);
+            most_ = _mm256_max_epi32(most_, _mm256_blendv_epi8(most_, key, set));
+        }
+        [[nodiscard]] unsigned bit() const noexcept {
+            __m128i four =
+                _mm_max_epi32(_mm256_castsi256_si128(most_), _mm256_extracti128_si256(most_, 1));
+            four = _mm_max_epi32(four, _mm_shuffle_epi32(four, 0x4e));
+            four = _mm_max_epi32(four, _mm_shuffle_epi32(four, 0xb1));
+            return static_cast<unsigned>(_mm_cvtsi128_si32(four)) & 63;
+        }
+
+    private:
+        __m256i most_ = _mm256_set1_epi32(INT32_MIN);
+    };
     static Mask none() noexcept {
         return {_mm256_setzero_ps()};
     }

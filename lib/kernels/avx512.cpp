@@ -115,24 +115,25 @@ struct F16 {
     static F16 load(const float* p) noexcept {
         return _mm512_broadcast_f32x8(_mm256_loadu_ps(p));
     }
+    /// One number for the lower lanes, one for the upper.
+    static __m512i of_rows(std::size_t first, std::size_t second) noexcept {
+        constexpr __mmask16 kUpper = 0xff00;
+        return _mm512_mask_set1_epi32(_mm512_set1_epi32(static_cast<std::int32_t>(first)), kUpper,
+                                      static_cast<std::int32_t>(second));
+    }
     /// One of eight for the lower lanes, one for the upper: a load and a permutation, where
     /// two broadcasts would be two loads and a blend.
     template <class Rows>
     static F16 spread(const float* p, const Rows& at) noexcept {
-        constexpr __mmask16 kUpper = 0xff00;
-        const __m512i lower = _mm512_set1_epi32(static_cast<std::int32_t>(at.first));
-        const __m512i index =
-            _mm512_mask_set1_epi32(lower, kUpper, static_cast<std::int32_t>(at.second));
-        return _mm512_permutexvar_ps(index, _mm512_castps256_ps512(_mm256_loadu_ps(p)));
+        return _mm512_permutexvar_ps(of_rows(at.first, at.second),
+                                     _mm512_castps256_ps512(_mm256_loadu_ps(p)));
     }
     /// For each bit that is set, one after the other: first + i for bit i, second + i
     /// for bit 8 + i. May write sixteen.
     static void store_lanes(unsigned bits, unsigned first, unsigned second,
                             std::uint16_t* to) noexcept {
-        constexpr __mmask16 kUpper = 0xff00;
         const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
-        const __m512i base = _mm512_mask_set1_epi32(_mm512_set1_epi32(static_cast<int>(first)),
-                                                    kUpper, static_cast<int>(second));
+        const __m512i base = of_rows(first, second);
         const __m512i kept =
             _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), _mm512_add_epi32(lane, base));
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm512_cvtepi32_epi16(kept));
@@ -152,6 +153,35 @@ struct F16 {
         _mm256_storeu_ps(second, _mm512_extractf32x8_ps(x, 1));
         _mm256_storeu_ps(first, _mm512_castps512_ps256(x));
     }
+    /// Finds the largest of many lanes: as integers, which order as floats that are not
+    /// negative do, with the number of the lane in place of the lowest six bits.
+    class Deepest {
+    public:
+        /// The lanes of two rows whose bits are set: numbers 8 row + i.
+        template <class Rows>
+        void add(F16 depth, unsigned bits, const Rows& at) noexcept {
+            const __m512i number =
+                _mm512_or_si512(_mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7),
+                                of_rows(kLanes * at.first, kLanes * at.second));
+            constexpr int kFirstWithoutThirdOrSecond = 0xdc;
+            const __m512i key =
+                _mm512_ternarylogic_epi32(_mm512_castps_si512(depth.x), number,
+                                          _mm512_set1_epi32(63), kFirstWithoutThirdOrSecond);
+            most_ = _mm512_mask_max_epi32(most_, static_cast<__mmask16>(bits), most_, key);
+        }
+        [[nodiscard]] unsigned bit() const noexcept {
+            const __m256i eight = _mm256_max_epi32(_mm512_castsi512_si256(most_),
+                                                   _mm512_extracti32x8_epi32(most_, 1));
+            __m128i four =
+                _mm_max_epi32(_mm256_castsi256_si128(eight), _mm256_extracti128_si256(eight, 1));
+            four = _mm_max_epi32(four, _mm_shuffle_epi32(four, 0x4e));
+            four = _mm_max_epi32(four, _mm_shuffle_epi32(four, 0xb1));
+            return static_cast<unsigned>(_mm_cvtsi128_si32(four)) & 63;
+        }
+
+    private:
+        __m512i most_ = _mm512_set1_epi32(INT32_MIN);
+    };
     static Mask none() noexcept {
         return {0};
     }

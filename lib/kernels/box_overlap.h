@@ -254,10 +254,12 @@ FaceGaps<R> oriented_gaps(const OrientedBoxes<R>& a, const OrientedRows& rows, R
 }
 
 /// Both nodes have oriented boxes: keeps of the pairs what they do not separate.
-/// Sets `depths` unless that is null.
-template <class F, class R>
-BoxPairs keep_oriented(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
-                       BoxPairs pairs, BoxSizes& sizes, BoxPairFloats* depths) noexcept {
+/// Sets `depths` where kDepths is true. In place wherever it is asked for: a walk for the
+/// first hit waits for each step.
+template <class F, class R, bool kDepths>
+[[gnu::always_inline]] inline BoxPairs keep_oriented(const BoxPlacement& p, const NodeBoxes& a,
+                                                     const NodeBoxes& b, BoxPairs pairs,
+                                                     BoxSizes& sizes, BoxDepths* depths) noexcept {
     OrientedBoxes<R> oriented_a;
     load_oriented(a.oriented, p.scale_a, oriented_a);
     OrientedBoxes<F> unturned_b;
@@ -267,22 +269,27 @@ BoxPairs keep_oriented(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxe
     sum_of(oriented_a.half).store_row(sizes.a);
     sum_of(unturned_b.half).store_row(sizes.b);
     BoxPairs kept = 0;
+    typename R::Deepest deepest;
     for (unsigned rows = boxes_of_b(pairs); rows != 0;) {
         const RowPair at = take_rows<R>(rows);
         const R gap = largest(oriented_gaps(oriented_a, oriented_b, at, p));
-        if (depths != nullptr) {
+        const unsigned found = bits_of_rows(pairs, at) & ~bits(greater(gap, R(0.0F)));
+        if constexpr (kDepths) {
             (-gap).store_rows(depths->value[at.first], depths->value[at.second]);
+            deepest.add(-gap, found, at);
         }
-        kept |= pairs_in_rows<R>(bits_of_rows(pairs, at) & ~bits(greater(gap, R(0.0F))), at);
+        kept |= pairs_in_rows<R>(found, at);
     }
+    if constexpr (kDepths) depths->deepest = deepest.bit();
     return kept;
 }
 
 /// The pairs of chosen boxes that the axes of either node do not separate. Sets
-/// `depths` unless that is null.
-template <class F, class R>
-BoxPairs keep_aligned(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
-                      const BoxChoice& choice, BoxSizes& sizes, BoxPairFloats* depths) noexcept {
+/// `depths` where kDepths is true. In place like keep_oriented().
+template <class F, class R, bool kDepths>
+[[gnu::always_inline]] inline BoxPairs keep_aligned(const BoxPlacement& p, const NodeBoxes& a,
+                                                    const NodeBoxes& b, const BoxChoice& choice,
+                                                    BoxSizes& sizes, BoxDepths* depths) noexcept {
     const Boxes<F> boxes_b = scaled_boxes<F>(b.boxes, p.scale_b);
     const Boxes<F> turned_b = turned_to_a(boxes_b, p);
     unsigned live = choice.of_b;
@@ -298,19 +305,22 @@ BoxPairs keep_aligned(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes
     store(shifted_in_b(boxes_b, p), along_b);
     const unsigned wanted = choice.of_a | unsigned{choice.of_a} << kLanes;
     BoxPairs pairs = 0;
+    typename R::Deepest deepest;
     while (live != 0) {
         const RowPair at = take_rows<R>(live);
-        unsigned out;
-        if (depths != nullptr) {
+        unsigned found;
+        if constexpr (kDepths) {
             const R depth =
                 min(least_overlap(boxes_a, along_a, at), least_overlap(turned_a, along_b, at));
+            found = wanted & ~bits(greater(R(0.0F), depth));
             depth.store_rows(depths->value[at.first], depths->value[at.second]);
-            out = bits(greater(R(0.0F), depth));
+            deepest.add(depth, found, at);
         } else {
-            out = bits(apart(boxes_a, along_a, at) | apart(turned_a, along_b, at));
+            found = wanted & ~bits(apart(boxes_a, along_a, at) | apart(turned_a, along_b, at));
         }
-        pairs |= pairs_in_rows<R>(wanted & ~out, at);
+        pairs |= pairs_in_rows<R>(found, at);
     }
+    if constexpr (kDepths) depths->deepest = deepest.bit();
     return pairs;
 }
 
@@ -324,23 +334,22 @@ BoxPairs overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const N
         // Turning the axis-aligned boxes would cost more than it saves.
         const auto row = static_cast<unsigned>(__builtin_ctz(choice.of_b));
         const BoxPairs pairs = BoxPairs{choice.of_a} << (kLanes * row);
-        return keep_oriented<F, R>(p, a, b, pairs, sizes, nullptr);
+        return keep_oriented<F, R, false>(p, a, b, pairs, sizes, nullptr);
     }
-    const BoxPairs pairs = keep_aligned<F, R>(p, a, b, choice, sizes, nullptr);
+    const BoxPairs pairs = keep_aligned<F, R, false>(p, a, b, choice, sizes, nullptr);
     if (!oriented || pairs == 0) return pairs;
-    return keep_oriented<F, R>(p, a, b, pairs, sizes, nullptr);
+    return keep_oriented<F, R, false>(p, a, b, pairs, sizes, nullptr);
 }
 
 /// The body of overlap_depths().
 template <class F, class R>
 BoxPairs overlap_depths_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
-                           const BoxChoice& choice, BoxSizes& sizes,
-                           BoxPairFloats& depths) noexcept {
+                           const BoxChoice& choice, BoxSizes& sizes, BoxDepths& depths) noexcept {
     if (a.oriented == nullptr || b.oriented == nullptr) {
-        return keep_aligned<F, R>(p, a, b, choice, sizes, &depths);
+        return keep_aligned<F, R, true>(p, a, b, choice, sizes, &depths);
     }
-    const BoxPairs pairs = keep_aligned<F, R>(p, a, b, choice, sizes, nullptr);
-    return pairs == 0 ? 0 : keep_oriented<F, R>(p, a, b, pairs, sizes, &depths);
+    const BoxPairs pairs = keep_aligned<F, R, false>(p, a, b, choice, sizes, nullptr);
+    return pairs == 0 ? 0 : keep_oriented<F, R, true>(p, a, b, pairs, sizes, &depths);
 }
 
 }  // namespace

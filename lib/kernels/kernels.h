@@ -87,6 +87,12 @@ struct BoxPairFloats {
     alignas(32) float value[kLanes][kLanes];  ///< [of B][of A], pair units
 };
 
+/// By how much each pair of boxes overlaps, and the bit of the one that does most; bits
+/// of depths that differ by less than 2^-17 of themselves may stand for each other.
+struct BoxDepths : BoxPairFloats {
+    unsigned deepest;  ///< of the pairs that were found, where there are any
+};
+
 /// A leaf is 78 floats: corners as in format::BvhLeaf, its origin, and the half
 /// extents of the box around it.
 inline constexpr std::size_t kLeafOrigin = 72;
@@ -196,7 +202,7 @@ struct BoundTests {
     /// The same, and depths as Table::overlap_depths has them: with swept spheres, of the
     /// axis-aligned boxes.
     BoxPairs (*depths)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
-                       const BoxChoice& choice, BoxSizes& sizes, BoxPairFloats& depths) noexcept;
+                       const BoxChoice& choice, BoxSizes& sizes, BoxDepths& depths) noexcept;
 
     /// As Table::near_boxes.
     BoxPairs (*near)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
@@ -218,7 +224,7 @@ struct Table {
     /// overlaps least, of the oriented boxes when both nodes have them.
     BoxPairs (*overlap_depths)(const BoxPlacement& placement, const NodeBoxes& a,
                                const NodeBoxes& b, const BoxChoice& choice, BoxSizes& sizes,
-                               BoxPairFloats& depths) noexcept;
+                               BoxDepths& depths) noexcept;
 
     /// Finds the pairs of chosen boxes that may be at most reach.limit apart, and a
     /// lower bound of their distance: the length of the gaps along three directions at

@@ -91,6 +91,28 @@ struct F8 {
     void store_rows(float* first, float* /*second*/) const noexcept {
         store(first);
     }
+    /// Finds the largest of many lanes.
+    class Deepest {
+    public:
+        /// The lanes of a row whose bits are set, of the lowest eight: numbers 8 row + i.
+        /// One that is no number counts as the largest.
+        template <class Rows>
+        void add(const F8& depth, unsigned bits, const Rows& at) noexcept {
+            for (bits &= 0xff; bits != 0; bits &= bits - 1) {
+                const auto i = static_cast<unsigned>(__builtin_ctz(bits));
+                if (depth.x[i] <= most_) continue;
+                most_ = depth.x[i];
+                bit_ = static_cast<unsigned>(kLanes * at.first) + i;
+            }
+        }
+        [[nodiscard]] unsigned bit() const noexcept {
+            return bit_;
+        }
+
+    private:
+        float most_ = -1;
+        unsigned bit_ = 0;
+    };
     static Mask none() noexcept {
         return {0};
     }

@@ -287,17 +287,32 @@ BoxPairs overlapping_swept_of(const BoxPlacement& p, const NodeBoxes& a, const N
         const BoxPairs pairs = BoxPairs{choice.of_a} << (kLanes * row);
         return keep_swept<kSides, F, R>(p, a, b, pairs, sizes);
     }
-    const BoxPairs pairs = keep_aligned<F, R>(p, a, b, choice, sizes, nullptr);
+    const BoxPairs pairs = keep_aligned<F, R, false>(p, a, b, choice, sizes, nullptr);
     return pairs == 0 ? 0 : keep_swept<kSides, F, R>(p, a, b, pairs, sizes);
+}
+
+/// The bit of the pair of `pairs` that overlaps most.
+template <class R>
+unsigned deepest_of(BoxPairs pairs, const BoxPairFloats& depths) noexcept {
+    typename R::Deepest deepest;
+    for (std::size_t row = 0; row < kLanes; row += R::kRows) {
+        const RowPair at = {row, row + R::kRows - 1};
+        const R depth = R::load_rows(depths.value[at.first], depths.value[at.second]);
+        deepest.add(depth, bits_of_rows(pairs, at), at);
+    }
+    return deepest.bit();
 }
 
 /// The body of BoundTests::depths. Those of the axis-aligned boxes bring a walk to its
 /// first hit sooner than how near two middles are.
 template <int kSides, class F, class R>
 BoxPairs swept_depths_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
-                         const BoxChoice& choice, BoxSizes& sizes, BoxPairFloats& depths) noexcept {
-    const BoxPairs pairs = keep_aligned<F, R>(p, a, b, choice, sizes, &depths);
-    return pairs == 0 ? 0 : keep_swept<kSides, F, R>(p, a, b, pairs, sizes);
+                         const BoxChoice& choice, BoxSizes& sizes, BoxDepths& depths) noexcept {
+    const BoxPairs pairs = keep_aligned<F, R, true>(p, a, b, choice, sizes, &depths);
+    if (pairs == 0) return 0;
+    const BoxPairs kept = keep_swept<kSides, F, R>(p, a, b, pairs, sizes);
+    depths.deepest = deepest_of<R>(kept, depths);
+    return kept;
 }
 
 template <int kSides, class F>

@@ -225,7 +225,7 @@ inline void prefetch_step(const Tree& a, const Tree& b, const OpenStep& step) no
 template <Search kSearch>
 void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed,
                const kernels::BoundTests& tests, const PendingPair& pair, const Descent& descent,
-               OpenStep& step, kernels::BoxPairFloats& depths) noexcept {
+               OpenStep& step, kernels::BoxDepths& depths) noexcept {
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     const kernels::BoxChoice choice = {chosen(side_a), chosen(side_b),
@@ -242,8 +242,7 @@ inline unsigned first_of(kernels::BoxPairs pairs) noexcept {
     return static_cast<unsigned>(std::countr_zero(pairs));
 }
 
-/// The bit of the pair that overlaps most. Asked one by one: a processor foresees
-/// the branches, and goes on to the children while the depths are worked out.
+/// The bit of the pair that overlaps most, of those that are left of a step.
 inline unsigned deepest_of(kernels::BoxPairs pairs, const kernels::BoxPairFloats& depths) noexcept {
     unsigned deepest = first_of(pairs);
     float most = (&depths.value[0][0])[deepest];
@@ -272,7 +271,10 @@ bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& 
                      Reach&& reach) noexcept {
     if (is_down_at(start.packed(), floor)) return reach(start);
     const kernels::BoundTests tests = tests_for(a, b, Prefer::oriented);
-    kernels::BoxPairFloats depths;
+    kernels::BoxDepths depths;
+    const auto best_of = [&](const OpenStep& step) {
+        return kSearch == Search::first ? depths.deepest : first_of(step.pairs);
+    };
     const auto pick = [&](kernels::BoxPairs pairs) {
         return kSearch == Search::first ? deepest_of(pairs, depths) : first_of(pairs);
     };
@@ -288,13 +290,13 @@ bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& 
         if (scratch.counts != nullptr) count_step(a, b, pair, descent, *scratch.counts);
         open_step<kSearch>(a, b, placed, tests, pair, descent, step, depths);
         if (is_down_at(step.base, floor)) {
-            while (step.pairs != 0) {
-                const std::uint64_t at = step.take(pick(step.pairs)).pair;
+            for (bool best = true; step.pairs != 0; best = false) {
+                const std::uint64_t at = step.take(best ? best_of(step) : pick(step.pairs)).pair;
                 if (!reach(PendingPair::unpacked(at))) return false;
             }
         } else if (step.pairs != 0) {
             if (kSearch == Search::all) prefetch_step(a, b, step);
-            next = step.take(pick(step.pairs));
+            next = step.take(best_of(step));
             if (step.pairs != 0) ++depth;
             continue;
         }

@@ -74,6 +74,21 @@ bool has(BoxPairs pairs, std::size_t i, std::size_t j) {
     return ((pairs >> (kLanes * j + i)) & 1) != 0;
 }
 
+/// The pair that is named overlaps most, as far as its depth can tell.
+void expect_deepest(const BoxDepths& depths, BoxPairs found) {
+    if (found == 0) return;
+    float most = 0;
+    for (std::size_t bit = 0; bit < kLanes * kLanes; ++bit) {
+        if ((found >> bit & 1) != 0) {
+            most = std::max(most, depths.value[bit / kLanes][bit % kLanes]);
+        }
+    }
+    ASSERT_LT(depths.deepest, kLanes * kLanes);
+    ASSERT_NE(found >> depths.deepest & 1, 0U);
+    ASSERT_GE(depths.value[depths.deepest / kLanes][depths.deepest % kLanes],
+              most * (1 - 0x1p-16F));
+}
+
 /// The least overlap of box i of A and box j of B along six face directions, in
 /// double.
 double face_overlap(const Pose& pose, const Node& a, std::size_t i, const Node& b, std::size_t j) {
@@ -136,9 +151,10 @@ TEST(Kernels, BoxesAreTestedAlongSixFaceDirections) {
                     ++all;
                 }
             }
-            BoxPairFloats depths{};
+            BoxDepths depths{};
             ASSERT_EQ(table.overlap_depths(placement, node_a, node_b, everything, sizes, depths),
                       pairs);
+            expect_deepest(depths, pairs);
             for (std::size_t j = 0; j < kLanes; ++j) {
                 for (std::size_t i = 0; i < kLanes; ++i) {
                     ASSERT_NEAR(depths.value[j][i], face_overlap(pose, a, i, b, j), 4e-5);
@@ -188,9 +204,10 @@ TEST(Kernels, OnlyChosenBoxesAreAnswered) {
             }
             expected &= whole;
             ASSERT_EQ(table.overlapping_boxes(placement, node_a, node_b, choice, sizes), expected);
-            BoxPairFloats depths{};
+            BoxDepths depths{};
             ASSERT_EQ(table.overlap_depths(placement, node_a, node_b, choice, sizes, depths),
                       expected);
+            expect_deepest(depths, expected);
         });
     }
 }
@@ -281,9 +298,14 @@ TEST(Kernels, OrientedBoxesWithACommonPointAreNeverSeparated) {
         for_each_table([&](const Table& table) {
             BoxSizes sizes{};
             const auto pairs_with = [&](const OrientedNode& other) {
-                return table.overlapping_boxes(placement, {everything.data(), a.data()},
-                                               {everything.data(), other.data()},
-                                               {0xff, 0xff, nullptr}, sizes);
+                const NodeBoxes in_a{everything.data(), a.data()};
+                const NodeBoxes in_b{everything.data(), other.data()};
+                const BoxChoice all{0xff, 0xff, nullptr};
+                BoxDepths depths{};
+                const BoxPairs found = table.overlapping_boxes(placement, in_a, in_b, all, sizes);
+                EXPECT_EQ(table.overlap_depths(placement, in_a, in_b, all, sizes, depths), found);
+                expect_deepest(depths, found);
+                return found;
             };
             ASSERT_EQ(pairs_with(b), ~BoxPairs{0}) << round;
             separated += static_cast<unsigned>(std::popcount(~pairs_with(elsewhere)));
@@ -651,11 +673,12 @@ TEST(Kernels, SweptSpheresAreSeparatedWhenTheyAreApart) {
                 const NodeBoxes in_b{around.data(), nullptr, b.data()};
                 const BoxChoice all{0xff, 0xff, nullptr};
                 BoxSizes sizes{};
-                BoxPairFloats depths{};
+                BoxDepths depths{};
                 const BoxPairs found =
                     table.swept[sides].overlapping(placement, in_a, in_b, all, sizes);
                 ASSERT_EQ(table.swept[sides].depths(placement, in_a, in_b, all, sizes, depths),
                           found);
+                expect_deepest(depths, found);
                 for (std::size_t j = 0; j < kLanes; ++j) {
                     for (std::size_t i = 0; i < kLanes; ++i) {
                         const bool kept = (found >> (kLanes * j + i) & 1) != 0;
