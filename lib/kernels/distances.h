@@ -191,36 +191,77 @@ W within_unit(W t) noexcept {
     return min(max(t, W(0.0F)), W(1.0F));
 }
 
+/// An edge, its squared length and what one is divided by that: asked for three times
+/// each, where a quotient takes as long as ten products.
+template <class W>
+struct LaneEdge {
+    W along[3];
+    W squared;
+    W inverse;
+};
+
+template <class W>
+W inverse_of(W squared) noexcept {
+    return W(1.0F) / max(squared, W(1e-30F));
+}
+
+template <class W>
+void edges_of(const LaneTriangle<W>& t, LaneEdge<W> edge[3]) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+        subtract(t.corner[(i + 1) % 3], t.corner[i], edge[i].along);
+        edge[i].squared = dot(edge[i].along, edge[i].along);
+        edge[i].inverse = inverse_of(edge[i].squared);
+    }
+}
+
 /// Ericson 2005, 5.1.9; `r` leads from q to p.
 template <class W>
-void offer_edges(const W* u, const W* v, const W* r, W uu, W vv, LaneNearest<W>& nearest) noexcept {
-    const W least(1e-30F);
+void offer_edges(const LaneEdge<W>& of_a, const LaneEdge<W>& of_b, const W* r,
+                 LaneNearest<W>& nearest) noexcept {
+    const W* u = of_a.along;
+    const W* v = of_b.along;
     const W uv = dot(u, v);
     const W ur = dot(u, r);
     const W vr = dot(v, r);
-    W s = within_unit(fms(uv, vr, ur * vv) / max(fms(uu, vv, uv * uv), least));
-    const W t = within_unit(fma(uv, s, vr) / max(vv, least));
-    s = within_unit(fms(uv, t, ur) / max(uu, least));
+    const W parallel = fms(of_a.squared, of_b.squared, uv * uv);
+    W s = within_unit(fms(uv, vr, ur * of_b.squared) / max(parallel, W(1e-30F)));
+    const W t = within_unit(fma(uv, s, vr) * of_b.inverse);
+    s = within_unit(fms(uv, t, ur) * of_a.inverse);
     W difference[3];  // q + t v - p - s u
     for (std::size_t i = 0; i < 3; ++i) difference[i] = fms(t, v[i], fma(s, u[i], r[i]));
     offer(nearest, difference, ~W::none());
 }
 
+/// A triangle's plane: a normal, its squared length and one divided by that.
+template <class W>
+struct LanePlane {
+    W normal[3];
+    W squared;
+    W inverse;
+
+    explicit LanePlane(const LaneEdge<W> edge[3]) noexcept {
+        cross(edge[0].along, edge[1].along, normal);
+        squared = dot(normal, normal);
+        inverse = inverse_of(squared);
+    }
+};
+
 /// The foot of a corner on the other triangle's plane, where it lies inside; `sign`
 /// is 1 when the corner is B's.
 template <class W>
-void offer_foot(const W* corner, const LaneTriangle<W>& t, const W edge[3][3], const W* n, W nn,
-                W sign, LaneNearest<W>& nearest) noexcept {
-    typename W::Mask inside = greater(nn, W(1e-30F));
+void offer_foot(const W* corner, const LaneTriangle<W>& t, const LaneEdge<W> edge[3],
+                const LanePlane<W>& plane, W sign, LaneNearest<W>& nearest) noexcept {
+    const W* n = plane.normal;
+    typename W::Mask inside = greater(plane.squared, W(1e-30F));
     W from[3];
     for (std::size_t i = 0; i < 3; ++i) {
         subtract(corner, t.corner[i], from);
         W side[3];
-        cross(edge[i], from, side);
+        cross(edge[i].along, from, side);
         inside = inside & ~greater(W(0.0F), dot(n, side));
     }
     subtract(corner, t.corner[0], from);
-    const W along = dot(n, from) / max(nn, W(1e-30F)) * sign;
+    const W along = dot(n, from) * plane.inverse * sign;
     W difference[3];
     for (std::size_t i = 0; i < 3; ++i) difference[i] = n[i] * along;
     offer(nearest, difference, inside);
@@ -230,34 +271,24 @@ void offer_foot(const W* corner, const LaneTriangle<W>& t, const W edge[3][3], c
 /// points as far as float finds them (Larsen, Gottschalk, Lin and Manocha 1999).
 template <bool kUpper, class W>
 LaneNearest<W> nearest_of(const LaneTriangle<W>& a, const LaneTriangle<W>& b) noexcept {
-    W edge_a[3][3];
-    W edge_b[3][3];
-    W length_a[3];
-    W length_b[3];
-    for (std::size_t i = 0; i < 3; ++i) {
-        subtract(a.corner[(i + 1) % 3], a.corner[i], edge_a[i]);
-        subtract(b.corner[(i + 1) % 3], b.corner[i], edge_b[i]);
-        length_a[i] = dot(edge_a[i], edge_a[i]);
-        length_b[i] = dot(edge_b[i], edge_b[i]);
-    }
+    LaneEdge<W> edge_a[3];
+    LaneEdge<W> edge_b[3];
+    edges_of(a, edge_a);
+    edges_of(b, edge_b);
     LaneNearest<W> nearest{{W(0.0F), W(0.0F), W(0.0F)}, W(3e38F), W(3e38F)};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
             W r[3];
             subtract(a.corner[i], b.corner[j], r);
-            offer_edges(edge_a[i], edge_b[j], r, length_a[i], length_b[j], nearest);
+            offer_edges(edge_a[i], edge_b[j], r, nearest);
         }
     }
     if constexpr (kUpper) nearest.between_edges = nearest.squared;
-    W n_a[3];
-    W n_b[3];
-    cross(edge_a[0], edge_a[1], n_a);
-    cross(edge_b[0], edge_b[1], n_b);
-    const W nn_a = dot(n_a, n_a);
-    const W nn_b = dot(n_b, n_b);
+    const LanePlane<W> plane_a(edge_a);
+    const LanePlane<W> plane_b(edge_b);
     for (std::size_t i = 0; i < 3; ++i) {
-        offer_foot(b.corner[i], a, edge_a, n_a, nn_a, W(1.0F), nearest);
-        offer_foot(a.corner[i], b, edge_b, n_b, nn_b, W(-1.0F), nearest);
+        offer_foot(b.corner[i], a, edge_a, plane_a, W(1.0F), nearest);
+        offer_foot(a.corner[i], b, edge_b, plane_b, W(-1.0F), nearest);
     }
     return nearest;
 }
@@ -307,14 +338,14 @@ LaneGap<W> support_gap(const LaneTriangle<W>& a, const LaneTriangle<W>& b,
     return bounds;
 }
 
-/// Bounds the gaps of the candidates, W::kCount at a time; returns the new number of
-/// those kept. Without kUpper nothing is certain, at less cost.
-template <bool kUpper, class W>
+/// Bounds the gaps of the candidates, W::kCount at a time: `load(candidate)` makes
+/// LanePairs of them. Returns the new number of those kept. Without kUpper nothing is
+/// certain, at less cost.
+template <bool kUpper, class W, class Load>
 std::size_t keep_near(std::size_t candidates, std::size_t kept, const Reach& reach,
-                      LeafScratch& scratch) noexcept {
-    fill_up<W>(scratch.candidate, candidates);
+                      LeafScratch& scratch, Load load) noexcept {
     for (std::size_t first = 0; first < candidates; first += W::kCount) {
-        const LanePairs<W> triangles(scratch, scratch.candidate + first);
+        const LanePairs<W> triangles = load(scratch.candidate + first);
         const LaneNearest<W> nearest = nearest_of<kUpper>(triangles.a, triangles.b);
         const LaneGap<W> gap =
             support_gap<kUpper>(triangles.a, triangles.b, nearest, triangles.error);
@@ -366,7 +397,9 @@ template <class F, class R, class W>
 std::size_t near_triangles_of(const LeafPlacement& placement, const LeafPair& pair,
                               const Reach& reach, LeafScratch& scratch) noexcept {
     const std::size_t candidates = near_candidates<F, R>(placement, pair, 0, reach, 0, scratch);
-    return keep_near<false, W>(candidates, 0, reach, scratch);
+    return keep_near<false, W>(candidates, 0, reach, scratch, [&](const std::uint16_t* candidate) {
+        return LanePairs<W>(scratch, candidate, pair, 0);
+    });
 }
 
 /// The body of triangles_within().
@@ -382,7 +415,10 @@ std::size_t triangles_within_of(const LeafPlacement& placement, const LeafPair* 
             candidates =
                 near_candidates<F, R>(placement, pairs[first], first, reach, candidates, scratch);
         }
-        kept = keep_near<true, W>(candidates, kept, reach, scratch);
+        fill_up<W>(scratch.candidate, candidates);
+        kept = keep_near<true, W>(
+            candidates, kept, reach, scratch,
+            [&](const std::uint16_t* candidate) { return LanePairs<W>(scratch, candidate); });
     }
     return kept;
 }
