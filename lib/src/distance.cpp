@@ -151,38 +151,75 @@ bool NearestSearch::look_at_leaves(const PendingPair& pair, Near&& near) noexcep
     return true;
 }
 
-/// The nearest box pair first. A heap entry is one number: the bound's bits, which
-/// order as the bound does because it is not negative, then where the pair stands.
+/// The nearest box pair first. An entry is one number: the bound's bits, which order as
+/// the bound does because it is not negative, then where the pair stands. Most pairs are
+/// never come back to: a heap holds the nearest alone, the others wait in no order.
 class Frontier {
 public:
     explicit Frontier(Workspace::Storage& scratch) noexcept
-        : entries_(scratch.frontier), pairs_(scratch.frontier_pairs) {}
+        : soon_(scratch.frontier), later_(scratch.frontier_later), pairs_(scratch.frontier_pairs) {}
 
     [[nodiscard]] bool empty() const noexcept {
-        return size_ == 0;
+        return soon_count_ + later_count_ == 0;
     }
     [[nodiscard]] bool has_room_for(std::size_t count) const noexcept {
         return used_ + count <= pairs_.size();
     }
     void push(const NearPair& pair) noexcept {
-        pairs_[used_] = pair.pair;
-        entries_[size_++] = std::uint64_t{std::bit_cast<std::uint32_t>(pair.bound)} << 32 | used_++;
-        std::push_heap(begin(), begin() + static_cast<std::ptrdiff_t>(size_), std::greater());
+        const std::uint64_t entry = entry_of(pair.bound, used_);
+        pairs_[used_++] = pair.pair;
+        if (entry > cut_) {
+            later_[later_count_++] = entry;
+            return;
+        }
+        soon_[soon_count_++] = entry;
+        std::push_heap(soon_.begin(), end_of_soon(), std::greater());
     }
-    NearPair pop() noexcept {
-        std::pop_heap(begin(), begin() + static_cast<std::ptrdiff_t>(size_), std::greater());
-        const std::uint64_t entry = entries_[--size_];
-        return {std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32)),
-                pairs_[static_cast<std::uint32_t>(entry)]};
+    /// The limit is how far the search will go; it shrinks.
+    NearPair pop(float limit) noexcept {
+        if (soon_count_ == 0) refill(limit);
+        std::pop_heap(soon_.begin(), end_of_soon(), std::greater());
+        const std::uint64_t entry = soon_[--soon_count_];
+        return {bound_of(entry), pairs_[static_cast<std::uint32_t>(entry)]};
     }
 
 private:
-    [[nodiscard]] std::uint64_t* begin() const noexcept {
-        return entries_.data();
+    static float bound_of(std::uint64_t entry) noexcept {
+        return std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32));
     }
-    std::span<std::uint64_t> entries_;
+    static std::uint64_t entry_of(float bound, std::uint32_t at) noexcept {
+        return std::uint64_t{std::bit_cast<std::uint32_t>(bound)} << 32 | at;
+    }
+    /// The last entry that a bound can have.
+    static std::uint64_t last_of(float bound) noexcept {
+        return entry_of(bound, 0xffffffff);
+    }
+    [[nodiscard]] std::span<std::uint64_t>::iterator end_of_soon() const noexcept {
+        return soon_.begin() + static_cast<std::ptrdiff_t>(soon_count_);
+    }
+    /// Makes a heap of what waits up to twice the least bound, or the limit.
+    void refill(float limit) noexcept {
+        const auto waiting = later_.first(later_count_);
+        const std::uint64_t least = *std::min_element(waiting.begin(), waiting.end());
+        const float widest = 2 * bound_of(least);
+        cut_ = std::max(last_of(std::min(widest, limit)), least);
+        later_count_ = 0;
+        for (const std::uint64_t entry : waiting) {
+            const bool is_soon = entry <= cut_;
+            soon_[soon_count_] = entry;
+            later_[later_count_] = entry;
+            soon_count_ += is_soon ? 1 : 0;
+            later_count_ += is_soon ? 0 : 1;
+        }
+        std::make_heap(soon_.begin(), end_of_soon(), std::greater());
+    }
+
+    std::span<std::uint64_t> soon_;
+    std::span<std::uint64_t> later_;
     std::span<std::uint64_t> pairs_;
-    std::size_t size_ = 0;
+    std::size_t soon_count_ = 0;
+    std::size_t later_count_ = 0;
+    std::uint64_t cut_ = last_of(0);
     std::uint32_t used_ = 0;
 };
 
@@ -217,7 +254,7 @@ void NearestSearch::run(double limit, Limit known, Near&& near) noexcept {
     Frontier frontier(scratch_);
     frontier.push({0, PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed()});
     while (!frontier.empty()) {
-        scratch_.near[0] = frontier.pop();
+        scratch_.near[0] = frontier.pop(reach_.limit);
         if (scratch_.near[0].bound > reach_.limit) return;  // and so is all else
         for (std::size_t depth = 1; depth > 0;) {
             const NearPair top = scratch_.near[--depth];

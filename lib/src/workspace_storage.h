@@ -69,6 +69,7 @@ struct Workspace::Storage {
     std::array<NearPair, kMaxPendingPairs> near;
     std::array<std::uint64_t, kMaxFrontier> frontier;
     std::array<std::uint64_t, kMaxFrontier> frontier_pairs;
+    std::array<std::uint64_t, kMaxFrontier> frontier_later;
     std::array<BoundedPlace, kMaxBoundedPlaces> bounded;
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     kernels::LeafScratch leaf_scratch;
