@@ -232,6 +232,12 @@ void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed,
                                        descent.a && descent.b ? box_around(a, pair.a) : nullptr};
     const kernels::NodeBoxes in_a = node_boxes(a, side_a);
     const kernels::NodeBoxes in_b = node_boxes(b, side_b);
+    // A step to the deepest pair was not foreseen, and a test comes to the oriented boxes
+    // late: meanwhile they are on their way. Those of all children would be too many.
+    if (kSearch == Search::first && a.oriented != nullptr && b.oriented != nullptr) {
+        prefetch(&a.oriented[side_a.node]);
+        prefetch(&b.oriented[side_b.node]);
+    }
     step.base = PendingPair{side_a.first_below, side_b.first_below}.packed();
     step.pairs = kSearch == Search::first
                      ? tests.depths(placed.placement, in_a, in_b, choice, step.sizes, depths)
