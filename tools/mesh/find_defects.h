@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "cdprep/parallel_for.h"
+#include "cdprep/format/verdict.h"
+#include "mesh/finding.h"
+#include "mesh/mesh.h"
+
+namespace cdprep::mesh {
+
+struct DefectOptions {
+    double weld_distance = 0;       ///< near_vertex; model units; 0 looks for none
+    double seam_width = 0;          ///< near_seam; model units; 0 looks for none
+    double sliver_ratio = 1e-10;    ///< sliver: area below this times the longest edge squared
+    std::size_t max_places = 1000;  ///< kept of each finding
+    bool crossings = true;          ///< rules 403 and 501 to 503
+    ParallelFor parallel_for = serial_for;
+};
+
+/// The keys of `counts` in reports. All but the first three are of the mesh after
+/// vertices with equal positions were joined.
+struct DefectCounts {
+    std::uint64_t non_finite_vertices = 0;
+    std::uint64_t out_of_range_triangles = 0;
+    std::uint64_t unreferenced_vertices = 0;
+    std::uint64_t duplicate_vertices = 0;
+    std::uint64_t degenerate_triangles = 0;  ///< that repeat a corner; the rest leaves them out
+    std::uint64_t zero_area_triangles = 0;   ///< exactly, without the degenerate
+    std::uint64_t sliver_triangles = 0;
+    std::uint64_t duplicate_triangles = 0;  ///< of either winding
+    std::uint64_t opposite_triangles = 0;   ///< those of opposite winding among them
+    std::uint64_t boundary_edges = 0;
+    std::uint64_t boundary_loops = 0;
+    std::uint64_t non_manifold_edges = 0;
+    std::uint64_t non_manifold_vertices = 0;
+    std::uint64_t inconsistent_edges = 0;
+    std::uint64_t non_orientable_components = 0;
+    std::uint64_t t_junctions = 0;
+    std::uint64_t near_seams = 0;
+    std::uint64_t components = 0;  ///< of triangles that share a vertex
+    std::uint64_t inverted_components = 0;
+    std::uint64_t nested_components = 0;
+    std::uint64_t overlapping_components = 0;
+    std::uint64_t crossing_pairs = 0;
+    std::uint64_t touching_pairs = 0;
+    std::uint64_t coplanar_overlap_pairs = 0;
+    std::uint64_t self_intersecting_pairs = 0;  ///< as CGAL's self_intersections counts
+};
+
+struct DefectReport {
+    std::vector<Finding> findings;  ///< by ascending id; none with a count of 0
+    DefectCounts counts;
+    std::vector<format::Verdict> verdicts;  ///< the whole mesh, then each component
+};
+
+/// Says what is wrong with a mesh and where, and what may be promised of it.
+///
+/// Everything is decided exactly on the coordinates as read, or RuleText::decided says
+/// how. Never fails: triangles with a corner that is out of range or not finite are
+/// reported and left out of all that follows. Source numbers throughout. The same for any
+/// parallel_for. O(n log n), and O(pairs) for triangles that meet.
+[[nodiscard]] DefectReport find_defects(const TriangleSoup& soup,
+                                        const DefectOptions& options = {});
+
+}  // namespace cdprep::mesh
