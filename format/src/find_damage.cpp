@@ -10,6 +10,7 @@
 #include "cdprep/format/content_hash.h"
 #include "cdprep/format/make_user_block.h"
 #include "cdprep/format/sections.h"
+#include "cdprep/format/verdict.h"
 
 // Every read is a copy of a few bytes at an offset that was proved to lie inside
 // the file, so the bytes may have any alignment. No sum or product of untrusted
@@ -297,6 +298,27 @@ Found find_bad_component(const Content& content) {
     return content.damage(DamageKind::bad_count, 0, triangles, content.header.triangle_count);
 }
 
+/// One of the whole mesh in front, whose triangles those of the components are.
+Found find_bad_verdict(const Content& content) {
+    const std::uint64_t limit = content.header.triangle_count;
+    if (content.entry.count == 0) return content.damage(DamageKind::bad_count, 0, 0, 1);
+    std::uint64_t triangles = 0;
+    for (std::uint64_t i = 0; i < content.entry.count; ++i) {
+        const auto verdict = content.element<Verdict>(i);
+        if (verdict.first_triangle >= std::max<std::uint64_t>(limit, 1)) {
+            return content.damage(DamageKind::bad_index, i, verdict.first_triangle, limit);
+        }
+        if (!std::isfinite(verdict.area) || !std::isfinite(verdict.volume)) {
+            return content.damage(DamageKind::bad_number, i, i, 0);
+        }
+        if (i > 0) triangles += verdict.triangle_count;
+    }
+    const std::uint64_t all = content.element<Verdict>(0).triangle_count;
+    if (all != limit) return content.damage(DamageKind::bad_count, 0, all, limit);
+    if (triangles <= limit) return std::nullopt;
+    return content.damage(DamageKind::bad_count, 1, triangles, limit);
+}
+
 bool all_finite(const MassProperties& mass) noexcept {
     return std::isfinite(mass.volume) && std::isfinite(mass.surface_area) &&
            is_finite(mass.centre) &&
@@ -426,7 +448,10 @@ Found find_bad_content(const Content& content) {
         case SectionId::group_names:
         case SectionId::material_names:
             return find_bad_names(content);
+        case SectionId::verdicts:
+            return find_bad_verdict(content);
         case SectionId::provenance:
+        case SectionId::findings:
             return nothing_more();
     }
     return nothing_more();

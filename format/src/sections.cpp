@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "cdprep/format/geometry.h"
+#include "cdprep/format/verdict.h"
 
 namespace cdprep::format {
 namespace {
@@ -15,7 +16,7 @@ struct Kind {
     const char* name;
 };
 
-constexpr std::array<Kind, 21> kKinds = {{
+constexpr std::array<Kind, 23> kKinds = {{
     {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
     {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
     {SectionId::triangles, sizeof(Triangle), "triangles"},
@@ -37,6 +38,8 @@ constexpr std::array<Kind, 21> kKinds = {{
     {SectionId::bvh_leaves, sizeof(BvhLeaf), "bvh_leaves"},
     {SectionId::oriented_nodes, sizeof(OrientedNode), "oriented_nodes"},
     {SectionId::swept_nodes, sizeof(SweptNode), "swept_nodes"},
+    {SectionId::verdicts, sizeof(Verdict), "verdicts"},
+    {SectionId::findings, 1, "findings"},
 }};
 
 const Kind* find_kind(SectionId id) noexcept {

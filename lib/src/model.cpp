@@ -40,6 +40,8 @@ struct Model::State {
     std::span<const char> group_names;
     std::span<const char> material_names;
     std::span<const char> provenance;
+    std::span<const format::Verdict> verdicts;
+    std::span<const char> findings;
 
     void find_sections(SectionSet wanted);
 
@@ -81,6 +83,8 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::material_runs, wanted, material_runs);
     view(SectionId::material_names, wanted, material_names);
     view(SectionId::provenance, wanted, provenance);
+    view(SectionId::verdicts, wanted, verdicts);
+    view(SectionId::findings, wanted, findings);
 }
 
 namespace {
@@ -202,6 +206,12 @@ const format::MassProperties* Model::mass_properties() const noexcept {
 }
 std::string_view Model::provenance() const noexcept {
     return {state_->provenance.data(), state_->provenance.size()};
+}
+std::string_view Model::findings() const noexcept {
+    return {state_->findings.data(), state_->findings.size()};
+}
+std::span<const format::Verdict> Model::verdicts() const noexcept {
+    return state_->verdicts;
 }
 const format::BvhShape& Model::shape() const noexcept {
     return state_->shape;

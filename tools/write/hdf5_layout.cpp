@@ -11,6 +11,7 @@
 
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/sections.h"
+#include "cdprep/format/verdict.h"
 #include "write/hdf5_in_memory.h"
 
 // HDF5 gives bytes that depend on nothing but the content when time stamps are
@@ -146,6 +147,21 @@ Handle component_type() {
                      {"signed_volume", offsetof(Component, signed_volume), H5T_IEEE_F64LE, {}}});
 }
 
+Handle verdict_type() {
+    using format::Verdict;
+    return compound(sizeof(Verdict),
+                    {{"facts", offsetof(Verdict, facts), H5T_STD_U32LE, {}},
+                     {"promises", offsetof(Verdict, promises), H5T_STD_U32LE, {}},
+                     {"triangle_count", offsetof(Verdict, triangle_count), H5T_STD_U32LE, {}},
+                     {"first_triangle", offsetof(Verdict, first_triangle), H5T_STD_U32LE, {}},
+                     {"boundary_loops", offsetof(Verdict, boundary_loops), H5T_STD_U32LE, {}},
+                     {"euler", offsetof(Verdict, euler), H5T_STD_I32LE, {}},
+                     {"genus", offsetof(Verdict, genus), H5T_STD_I32LE, {}},
+                     {"reserved", offsetof(Verdict, reserved), H5T_STD_U32LE, {}},
+                     {"area", offsetof(Verdict, area), H5T_IEEE_F64LE, {}},
+                     {"volume", offsetof(Verdict, volume), H5T_IEEE_F64LE, {}}});
+}
+
 Handle bounds_type() {
     using format::Bounds;
     return compound(sizeof(Bounds),
@@ -241,6 +257,10 @@ const std::vector<Look>& looks() {
          "oriented boxes of the hierarchy, eight a node, root first"},
         {SectionId::swept_nodes, swept_type, 0, "frame coordinates",
          "swept spheres of the hierarchy, eight a node, root first"},
+        {SectionId::verdicts, verdict_type, 0, "area, volume: square and cubic model units",
+         "what was found of the whole mesh, then of each component"},
+        {SectionId::findings, [] { return scalar(H5T_STD_U8LE); }, 0, "1",
+         "JSON, UTF-8: what was found wrong with the mesh, and what was mended"},
     };
     return all;
 }

@@ -10,6 +10,7 @@
 
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/section_set.h"
+#include "cdprep/format/verdict.h"
 #include "cdprep/result.h"
 
 namespace cdprep {
@@ -85,12 +86,17 @@ public:
     [[nodiscard]] std::span<const format::SweptNode> swept_nodes() const noexcept;
     [[nodiscard]] std::span<const std::uint64_t> degenerate_bits() const noexcept;
     [[nodiscard]] std::span<const format::Component> components() const noexcept;
+    /// What was found of the whole mesh when it was baked, then of each component, in the
+    /// order of their lowest source triangle, and so what answers mean on it.
+    [[nodiscard]] std::span<const format::Verdict> verdicts() const noexcept;
     [[nodiscard]] std::span<const format::Instance> instances() const noexcept;
     [[nodiscard]] std::span<const format::NamedRun> group_runs() const noexcept;
     [[nodiscard]] std::span<const format::NamedRun> material_runs() const noexcept;
     [[nodiscard]] const format::Bounds* bounds() const noexcept;                   ///< or null
     [[nodiscard]] const format::MassProperties* mass_properties() const noexcept;  ///< or null
     [[nodiscard]] std::string_view provenance() const noexcept;  ///< canonical JSON
+    /// JSON: what was found wrong with the mesh, and what was mended; or empty.
+    [[nodiscard]] std::string_view findings() const noexcept;
 
     /// Name number `index` of instance_names, group_names or material_names;
     /// empty when there is none. O(index).

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "cdprep/format/sections.h"
+#include "cdprep/format/verdict.h"
 #include "support/open_tiny.h"
 #include "support/reseal.h"
 
@@ -200,6 +201,32 @@ std::vector<test::TinySection> names_and_runs(std::uint32_t first, std::uint32_t
     sections.push_back({SectionId::group_runs, {bytes, bytes + sizeof run}});
     sections.push_back({SectionId::group_names, {std::byte{'g'}, std::byte(end)}});
     return sections;
+}
+
+std::vector<test::TinySection> verdicts_of(const std::vector<Verdict>& verdicts) {
+    const auto bytes = std::as_bytes(std::span(verdicts));
+    return {{SectionId::verdicts, {bytes.begin(), bytes.end()}}};
+}
+
+TEST(FindDamage, VerdictsAreOfAllTrianglesAndThenOfParts) {
+    FileHeader facts{};
+    facts.triangle_count = 12;
+    const auto of = [](std::uint32_t triangles, std::uint32_t first, double area) {
+        return Verdict{verdict_closed, promise_surface, triangles, first, 0, 2, 0, 0, area, 1};
+    };
+    const auto kind = [&](const std::vector<Verdict>& verdicts) {
+        return kind_of(check(test::assemble(facts, verdicts_of(verdicts))));
+    };
+    EXPECT_FALSE(check(test::assemble(facts, verdicts_of({of(12, 0, 6)}))));
+    EXPECT_FALSE(
+        check(test::assemble(facts, verdicts_of({of(12, 0, 6), of(8, 0, 4), of(4, 8, 2)}))));
+    // Triangles that repeat a corner belong to no component.
+    EXPECT_FALSE(check(test::assemble(facts, verdicts_of({of(12, 0, 6), of(8, 0, 4)}))));
+    EXPECT_EQ(kind({}), DamageKind::bad_count);
+    EXPECT_EQ(kind({of(11, 0, 6)}), DamageKind::bad_count);
+    EXPECT_EQ(kind({of(12, 0, 6), of(8, 0, 4), of(5, 8, 2)}), DamageKind::bad_count);
+    EXPECT_EQ(kind({of(12, 12, 6)}), DamageKind::bad_index);
+    EXPECT_EQ(kind({of(12, 0, std::numeric_limits<double>::infinity())}), DamageKind::bad_number);
 }
 
 TEST(FindDamage, RunsCoverAllTrianglesAndNamesEnd) {

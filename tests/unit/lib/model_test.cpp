@@ -39,6 +39,39 @@ TEST(Model, OpensFromAPathAsFromMemory) {
     }
 }
 
+// Written by hand: what is read must be what was stored.
+TEST(Model, ShowsWhatWasFoundWhenItWasBaked) {
+    const format::Verdict stored{format::verdict_closed | format::verdict_balanced,
+                                 format::promise_surface | format::promise_inside_exact,
+                                 12,
+                                 0,
+                                 0,
+                                 2,
+                                 0,
+                                 0,
+                                 6.0,
+                                 1.0};
+    const auto bytes = std::as_bytes(std::span(&stored, 1));
+    const std::string text = "{\"findings\":[]}";
+    const auto letters = std::as_bytes(std::span(text));
+    format::FileHeader facts{};
+    facts.triangle_count = 12;
+    const AlignedBytes file =
+        assemble(facts, {{SectionId::verdicts, {bytes.begin(), bytes.end()}},
+                         {SectionId::findings, {letters.begin(), letters.end()}}});
+    const auto opened = Model::open(file.span());
+    ASSERT_TRUE(opened) << opened.error().message;
+    ASSERT_EQ(opened.value().verdicts().size(), 1u);
+    EXPECT_EQ(opened.value().verdicts()[0].promises, stored.promises);
+    EXPECT_EQ(opened.value().verdicts()[0].volume, 1.0);
+    EXPECT_EQ(opened.value().findings(), text);
+    const AlignedBytes without = baked_cube();
+    const auto none = Model::open(without.span());
+    ASSERT_TRUE(none) << none.error().message;
+    EXPECT_TRUE(none.value().verdicts().empty());
+    EXPECT_TRUE(none.value().findings().empty());
+}
+
 TEST(Model, SaysWhatIsWrongWithAFile) {
     const ScratchFolder scratch;
     const AlignedBytes bytes = baked_cube();

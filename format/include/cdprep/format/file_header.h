@@ -53,6 +53,8 @@ enum class SectionId : std::uint32_t {
     bvh_leaves = 19,       ///< BvhLeaf per leaf
     oriented_nodes = 20,   ///< OrientedNode per BvhNode
     swept_nodes = 21,      ///< SweptNode per BvhNode
+    verdicts = 22,         ///< Verdict of the whole mesh, then one per component
+    findings = 23,         ///< uint8: JSON, UTF-8: what was found wrong, and what was mended
 };
 
 /// Where a section lies.
