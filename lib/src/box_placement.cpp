@@ -40,8 +40,11 @@ double largest(const Double3& p) noexcept {
 }
 
 /// Largest |coordinate| that a vertex of the model can have.
+double reach(const Double3& frame_origin, std::int32_t frame_exponent) noexcept {
+    return largest(frame_origin) + two_to(-frame_exponent);
+}
 double reach(const format::FileHeader& header) noexcept {
-    return largest(header.frame_origin) + two_to(-header.frame_exponent);
+    return reach(header.frame_origin, header.frame_exponent);
 }
 
 Double3 rotated(const std::array<double, 9>& r, const Double3& p) noexcept {
@@ -127,6 +130,23 @@ Outlook outlook(const PlacedBoxes& placed, double tolerance) noexcept {
     if (limit < (between - reach) * (1 - kRounding)) return Outlook::none;
     const bool is_all = std::isfinite(between) && limit >= (between + reach) * (1 + kRounding);
     return is_all ? Outlook::all : Outlook::some;
+}
+
+PlacedBoxes place_upon_itself(const Double3& frame_origin, std::int32_t frame_exponent) noexcept {
+    PlacedBoxes placed{};
+    kernels::BoxPlacement& p = placed.placement;
+    for (const std::size_t i : {0, 4, 8}) {
+        p.rotation[i] = p.abs_rotation[i] = 1;
+        placed.rotation[i] = 1;
+    }
+    p.scale_a = p.scale_b = 1;
+    placed.scale_a = placed.scale_b = 1;
+    placed.exponent = frame_exponent;
+    // No vertex moves; only the places of leaves are rounded.
+    const double slack = kDoubleSlack * 2 * reach(frame_origin, frame_exponent);
+    placed.double_slack = scaled(slack, frame_exponent);
+    p.slack = float_above(kFloatSlack * 2);
+    return placed;
 }
 
 }  // namespace cdprep

@@ -67,4 +67,8 @@ enum class Outlook : std::uint8_t {
 /// Of a tolerance in model units; neither model is empty.
 [[nodiscard]] Outlook outlook(const PlacedBoxes& placed, double tolerance) noexcept;
 
+/// How the boxes of a hierarchy with this frame stand to themselves.
+[[nodiscard]] PlacedBoxes place_upon_itself(const Double3& frame_origin,
+                                            std::int32_t frame_exponent) noexcept;
+
 }  // namespace cdprep

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "box_placement.h"
+#include "cdprep/build_bvh.h"
 #include "moved_model.h"
 #include "prefetch.h"
 #include "workspace_storage.h"
@@ -14,6 +15,10 @@ namespace cdprep {
 
 /// How the leaves of two models stand to each other.
 [[nodiscard]] kernels::LeafPlacement place_leaves(const Model& a, const Model& b,
+                                                  const PlacedBoxes& placed) noexcept;
+
+/// How the leaves of a tree stand to themselves.
+[[nodiscard]] kernels::LeafPlacement place_leaves(const build::Bvh& tree,
                                                   const PlacedBoxes& placed) noexcept;
 
 /// The one leaf that may hold less than eight triangles. Told without a look at the

@@ -9,26 +9,52 @@
 
 namespace cdprep::mesh {
 
-/// How two triangles of one mesh meet where they should not.
+/// How two triangles of one mesh meet where they should not: by the corners they share,
+/// whether they lie in one plane, and what else they have in common. All of them together
+/// are what CGAL's self_intersections() lists. A meeting belongs to rule 501, 502 or 503
+/// where it says so; the counts then are those of a checker that asks, edge by edge,
+/// whether an edge of one triangle runs through the inside of another.
 enum class Meeting : std::uint8_t {
-    crossing,          ///< one runs through the other
-    touching,          ///< without a common vertex, they touch
-    coplanar_overlap,  ///< without a common vertex, in one plane, they share area
-    fold,              ///< with a common vertex or edge, in one plane, they share area
-    duplicate,         ///< the same three corners
+    /// No common corner, and an edge of one runs through the inside of the other. 501
+    crossing,
+    /// No common corner; the insides cross, but where their common segment ends, edges or
+    /// corners of both meet. 502
+    edge_crossing,
+    /// No common corner, not in one plane: they touch, and their insides do not cross. 502
+    touching,
+    /// No common corner, in one plane: they touch and share no area. A corner on an edge
+    /// of a flat side, for one: see t_junction.
+    flat_touching,
+    /// No common corner, in one plane: they share area. 503
+    coplanar_overlap,
+    /// One common corner, not in one plane: they meet elsewhere too. 501
+    corner_crossing,
+    /// One common corner, in one plane: they share part of an edge and no area.
+    edge_overlap,
+    /// One or two common corners, in one plane: they share area. 503
+    fold,
+    /// The same three corners, in either winding.
+    duplicate,
 };
 
 struct TriangleMeeting {
     std::uint32_t a;  ///< triangle of the mesh; a < b
     std::uint32_t b;
     Meeting meeting;
+    friend bool operator==(const TriangleMeeting&, const TriangleMeeting&) = default;
 };
 
 /// Finds every pair of triangles of a mesh that have more in common than the vertices
-/// and edges they share, each pair once, sorted by (a, b). Triangles of zero area answer
-/// as CGAL's self_intersections leaves them: not at all.
+/// and edges they share, each pair once, sorted by (a, b). Triangles of zero area are in
+/// none, as in CGAL's self_intersections().
 ///
-/// Exact. The same for any parallel_for.
+/// Vertices are told apart by number: no two that triangles use may be equal, as weld()
+/// leaves them. Positions must be finite. CGAL's answer is defined for meshes with at most
+/// two triangles at an edge; here more may meet there, and every two of them are asked.
+///
+/// Exact. The same for any parallel_for. O(n log n), and O(k^2) for k triangles around one
+/// vertex that do not lie side by side. 100 bytes of scratch a triangle.
+/// tests/bench/self_intersections_bench measures.
 [[nodiscard]] std::vector<TriangleMeeting> find_self_intersections(
     const Mesh& mesh, ParallelFor parallel_for = serial_for);
 

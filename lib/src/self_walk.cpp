@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "self_walk.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "box_placement.h"
+#include "leaf_batch.h"
+#include "prefetch.h"
+
+namespace cdprep {
+namespace {
+
+using format::BvhLeaf;
+using format::BvhNode;
+using format::kBvhWidth;
+
+constexpr std::size_t kNumbersPerLeaf = std::size_t{3} * kBvhWidth;
+
+/// Enough for a team of threads to share evenly, few enough to need no thought.
+constexpr std::size_t kParts = 256;
+
+/// Bits 8 j + i with i <= j: each pair of a node's boxes once.
+constexpr kernels::BoxPairs once_each() noexcept {
+    kernels::BoxPairs pairs = 0;
+    for (unsigned j = 0; j < kBvhWidth; ++j) {
+        pairs |= kernels::BoxPairs{(2U << j) - 1} << (kBvhWidth * j);
+    }
+    return pairs;
+}
+
+std::vector<std::uint32_t> corner_numbers(const build::Bvh& bvh,
+                                          std::span<const format::Triangle> triangles,
+                                          ParallelFor parallel_for) {
+    std::vector<std::uint32_t> numbers(bvh.leaves.size() * kNumbersPerLeaf);
+    constexpr std::size_t kLeavesPerTask = 4096;
+    const auto fill = [&](std::size_t task) {
+        const std::size_t last = std::min(bvh.leaves.size(), (task + 1) * kLeavesPerTask);
+        for (std::size_t leaf = task * kLeavesPerTask; leaf < last; ++leaf) {
+            for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
+                const std::size_t at = std::min(leaf * kBvhWidth + lane, bvh.order.size() - 1);
+                const format::Triangle& triangle = triangles[bvh.order[at]];
+                for (std::size_t corner = 0; corner < 3; ++corner) {
+                    numbers[leaf * kNumbersPerLeaf + corner * kBvhWidth + lane] =
+                        triangle.vertex[corner];
+                }
+            }
+        }
+    };
+    parallel_for((bvh.leaves.size() + kLeavesPerTask - 1) / kLeavesPerTask, fill);
+    return numbers;
+}
+
+}  // namespace
+
+/// Collects pairs of leaves and tests their triangles many at a time.
+class SelfWalk::Batch {
+public:
+    Batch(const SelfWalk& walk, Workspace::Storage& scratch, std::vector<SelfPair>& found)
+        : walk_(walk), last_(walk.triangle_count()), scratch_(scratch), found_(found) {
+        scratch_.leaf_scratch.begin();
+    }
+
+    void add(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+        const BvhLeaf* leaves = walk_.bvh_.leaves.data();
+        prefetch(&leaves[leaf_b]);
+        scratch_.leaf_pairs[count_++] = {leaves[leaf_a].corner[0][0].data(),
+                                         leaves[leaf_b].corner[0][0].data(),
+                                         leaf_a,
+                                         leaf_b,
+                                         last_.used_lanes(leaf_a),
+                                         last_.used_lanes(leaf_b)};
+        if (count_ == kernels::kLeafBatch) flush();
+    }
+
+    void flush() {
+        const std::size_t contacts = kernels::active().find_contacts(
+            walk_.leaves_, scratch_.leaf_pairs.data(), count_, scratch_.leaf_scratch);
+        count_ = 0;
+        for (std::size_t i = 0; i < contacts; ++i) {
+            const kernels::TriangleContactLanes& contact = scratch_.leaf_scratch.found[i];
+            const kernels::LeafPair& pair = scratch_.leaf_pairs[contact.pair];
+            const std::uint32_t a = pair.number_a * kBvhWidth + contact.a;
+            const std::uint32_t b = pair.number_b * kBvhWidth + contact.b;
+            if (a < b && !share_a_vertex(a, b)) found_.push_back({a, b, contact.certain});
+        }
+    }
+
+private:
+    [[nodiscard]] bool share_a_vertex(std::uint32_t a, std::uint32_t b) const {
+        bool shared = false;
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) shared |= number(a, i) == number(b, j);
+        }
+        return shared;
+    }
+    [[nodiscard]] std::uint32_t number(std::uint32_t triangle, std::size_t corner) const {
+        return walk_.corner_numbers_[triangle / kBvhWidth * kNumbersPerLeaf + corner * kBvhWidth +
+                                     triangle % kBvhWidth];
+    }
+
+    const SelfWalk& walk_;
+    LastLeaf last_;
+    Workspace::Storage& scratch_;
+    std::vector<SelfPair>& found_;
+    std::size_t count_ = 0;
+};
+
+SelfWalk::SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
+                   ParallelFor parallel_for)
+    : bvh_(bvh),
+      shape_(format::bvh_shape(triangle_count())),
+      corner_numbers_(corner_numbers(bvh, triangles, parallel_for)) {
+    const PlacedBoxes placed = place_upon_itself(bvh.frame.origin, bvh.frame.exponent);
+    boxes_ = placed.placement;
+    leaves_ = place_leaves(bvh, placed);
+    if (triangle_count() > 0) split_into_parts();
+}
+
+template <class Step>
+void SelfWalk::for_children(const NodePair& pair, Step&& step) const {
+    const std::uint32_t level = pair.height - 1;
+    const auto chosen = [&](std::uint32_t node) {
+        return static_cast<std::uint8_t>((1U << shape_.used_boxes(level, node)) - 1);
+    };
+    const BvhNode* nodes = &bvh_.nodes[shape_.first[level]];
+    const kernels::BoxChoice choice = {chosen(pair.a), chosen(pair.b), nullptr};
+    kernels::BoxSizes sizes;
+    kernels::BoxPairs pairs = kernels::active().overlapping_boxes(
+        boxes_, {nodes[pair.a].lower[0].data(), nullptr}, {nodes[pair.b].lower[0].data(), nullptr},
+        choice, sizes);
+    if (pair.a == pair.b) pairs &= once_each();
+    for (; pairs != 0; pairs &= pairs - 1) {
+        const auto bit = static_cast<std::uint32_t>(std::countr_zero(pairs));
+        step(NodePair{level, pair.a * kBvhWidth + bit % kBvhWidth,
+                      pair.b * kBvhWidth + bit / kBvhWidth});
+    }
+}
+
+void SelfWalk::split_into_parts() {
+    parts_ = {{shape_.levels, 0, 0}};
+    std::vector<NodePair> below;
+    while (parts_.size() < kParts && parts_.front().height > 1) {
+        below.clear();
+        for (const NodePair& pair : parts_) {
+            for_children(pair, [&](const NodePair& child) { below.push_back(child); });
+        }
+        parts_.swap(below);
+    }
+}
+
+void SelfWalk::descend(const NodePair& pair, Batch& batch) const {
+    for_children(pair, [&](const NodePair& child) {
+        if (child.height == 0) {
+            batch.add(child.a, child.b);
+        } else {
+            descend(child, batch);
+        }
+    });
+}
+
+void SelfWalk::run(std::size_t part, Workspace::Storage& scratch,
+                   std::vector<SelfPair>& found) const {
+    Batch batch(*this, scratch, found);
+    descend(parts_[part], batch);
+    batch.flush();
+}
+
+}  // namespace cdprep

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cdprep/build_bvh.h"
+#include "workspace_storage.h"
+
+namespace cdprep {
+
+/// Two triangles of one tree, tree order, a < b.
+struct SelfPair {
+    std::uint32_t a;
+    std::uint32_t b;
+    bool certain;  ///< their insides cross; else the exact decision is to be made
+};
+
+/// Walks a tree against itself: every pair of triangles without a common vertex that
+/// cross or touch is among those found, each once, and few that do neither.
+class SelfWalk {
+public:
+    /// Both must outlive the walk. `triangles` are those the tree was built over.
+    SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
+             ParallelFor parallel_for);
+
+    /// How many parts the walk has; the same for any parallel_for.
+    [[nodiscard]] std::size_t part_count() const noexcept {
+        return parts_.size();
+    }
+
+    /// Appends what a part finds. Parts may run at once, each with a scratch of its own.
+    void run(std::size_t part, Workspace::Storage& scratch, std::vector<SelfPair>& found) const;
+
+private:
+    [[nodiscard]] std::uint32_t triangle_count() const noexcept {
+        return static_cast<std::uint32_t>(bvh_.order.size());
+    }
+
+    /// Two nodes of one height, a <= b. Those of height 0 are leaves.
+    struct NodePair {
+        std::uint32_t height;
+        std::uint32_t a;
+        std::uint32_t b;
+    };
+    class Batch;
+
+    /// Calls step(pair) for each pair of children whose boxes overlap.
+    template <class Step>
+    void for_children(const NodePair& pair, Step&& step) const;
+    void descend(const NodePair& pair, Batch& batch) const;
+    void split_into_parts();
+
+    const build::Bvh& bvh_;
+    format::BvhShape shape_;
+    kernels::BoxPlacement boxes_;
+    kernels::LeafPlacement leaves_;
+    std::vector<std::uint32_t> corner_numbers_;  ///< per leaf [corner][lane]
+    std::vector<NodePair> parts_;
+};
+
+}  // namespace cdprep
