@@ -57,6 +57,10 @@ inline Index8 low_bits(Index8 a) noexcept {
     return {_mm256_and_si256(a.x, _mm256_set1_epi32(7))};
 }
 
+inline Mask8 equal(Index8 a, Index8 b) noexcept {
+    return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(a.x, b.x))};
+}
+
 /// Eight floats.
 struct F8 {
     using Mask = Mask8;
@@ -80,6 +84,14 @@ struct F8 {
     /// Of eight floats.
     static F8 pick(const float* p, Index at) noexcept {
         return _mm256_permutevar8x32_ps(load(p).x, at.x);
+    }
+    /// Numbers beside numbers: their bits count.
+    static Index load_numbers(const std::uint32_t* p) noexcept {
+        return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
+    }
+    template <class Rows>
+    static Index spread_number(const std::uint32_t* p, const Rows& at) noexcept {
+        return {_mm256_set1_epi32(static_cast<std::int32_t>(p[at.first]))};
     }
     static F8 gather(const float* base, Index at) noexcept {
         return _mm256_i32gather_ps(base, at.x, 4);
@@ -199,6 +211,7 @@ const Table kAvx2 = {"avx2",
                      near_triangles_of<F8, F8, F8>,
                      triangles_within_of<F8, F8, F8>,
                      find_contacts_of<F8, F8, F8>,
+                     find_own_contacts_of<F8, F8, F8>,
                      {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>}};
 
 }  // namespace cdprep::kernels

@@ -100,6 +100,10 @@ inline Index16 low_bits(Index16 a) noexcept {
     return {_mm512_and_si512(a.x, _mm512_set1_epi32(7))};
 }
 
+inline LaneMask<__mmask16> equal(Index16 a, Index16 b) noexcept {
+    return {_mm512_cmpeq_epi32_mask(a.x, b.x)};
+}
+
 /// Sixteen floats.
 struct F16 {
     using Mask = LaneMask<__mmask16>;
@@ -195,6 +199,16 @@ struct F16 {
     static F16 pick(const float* p, Index at) noexcept {
         return _mm512_permutexvar_ps(at.x, _mm512_castps256_ps512(_mm256_loadu_ps(p)));
     }
+    /// Eight numbers, twice; numbers beside numbers: their bits count.
+    static Index load_numbers(const std::uint32_t* p) noexcept {
+        return {_mm512_broadcast_i32x8(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)))};
+    }
+    template <class Rows>
+    static Index spread_number(const std::uint32_t* p, const Rows& at) noexcept {
+        constexpr __mmask16 kUpper = 0xff00;
+        const __m512i lower = _mm512_set1_epi32(static_cast<std::int32_t>(p[at.first]));
+        return {_mm512_mask_set1_epi32(lower, kUpper, static_cast<std::int32_t>(p[at.second]))};
+    }
     static F16 gather(const float* base, Index at) noexcept {
         return _mm512_i32gather_ps(at.x, base, 4);
     }
@@ -253,6 +267,7 @@ const Table kAvx512 = {"avx512",
                        near_triangles_of<F8, F16, F16>,
                        triangles_within_of<F8, F16, F16>,
                        find_contacts_of<F8, F16, F16>,
+                       find_own_contacts_of<F8, F16, F16>,
                        {kSweptTests<0, F8, F16>, kSweptTests<1, F8, F16>, kSweptTests<2, F8, F16>}};
 
 }  // namespace cdprep::kernels

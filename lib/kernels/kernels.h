@@ -252,6 +252,13 @@ struct Table {
     std::size_t (*find_contacts)(const LeafPlacement& placement, const LeafPair* pairs,
                                  std::size_t count, LeafScratch& scratch) noexcept;
 
+    /// The same for leaves of one tree against each other, of triangles without a common
+    /// vertex; of a leaf against itself those with a < b. `corners` has the numbers of the
+    /// triangles' vertices, [leaf][corner][lane]; LeafPair has the numbers of leaves.
+    std::size_t (*find_own_contacts)(const LeafPlacement& placement, const LeafPair* pairs,
+                                     std::size_t count, const std::uint32_t* corners,
+                                     LeafScratch& scratch) noexcept;
+
     /// The tests of nodes that both have swept spheres, by format::SweptKind.
     BoundTests swept[3];
 };

@@ -339,11 +339,44 @@ inline std::size_t end_of_run(const LeafPair* pairs, std::size_t first,
     return first;
 }
 
+/// Leaves of two models: no pair of triangles is left out.
+struct NothingLeftOut {
+    template <class R>
+    static unsigned lanes(const LeafPair& /*pair*/, RowPair /*at*/) noexcept {
+        return 0;
+    }
+};
+
+/// Leaves of one tree: triangles with a common vertex are left out, and in a leaf against
+/// itself what comes up twice.
+struct NeighboursLeftOut {
+    const std::uint32_t* corners;  ///< numbers of vertices: [leaf][corner][lane]
+
+    /// Triangles of A left out beside one of B. Eight bits a row.
+    template <class R>
+    [[nodiscard]] unsigned lanes(const LeafPair& pair, RowPair at) const noexcept {
+        const std::uint32_t* a = corners + std::size_t{pair.number_a} * 3 * kLanes;
+        const std::uint32_t* b = corners + std::size_t{pair.number_b} * 3 * kLanes;
+        typename R::Mask shared = R::none();
+        for (std::size_t j = 0; j < 3; ++j) {
+            const typename R::Index number = R::spread_number(b + kLanes * j, at);
+            for (std::size_t i = 0; i < 3; ++i) {
+                shared = shared | equal(R::load_numbers(a + kLanes * i), number);
+            }
+        }
+        if (pair.number_a != pair.number_b) return bits(shared);
+        const unsigned not_first = (0xffU << at.first) & 0xff;
+        const unsigned not_second = (0xffU << at.second) & 0xff;
+        return bits(shared) | not_first | not_second << kLanes;
+    }
+};
+
 /// Finds the candidates of pairs [first, last); returns their number. In two rounds:
 /// whether leaves meet cannot be foreseen, so it is worked out ahead for all.
-template <class F, class R>
+template <class F, class R, class LeftOut>
 std::size_t find_candidates(const LeafPlacement& placement, const LeafPair* pairs,
-                            std::size_t first, std::size_t last, LeafScratch& scratch) noexcept {
+                            std::size_t first, std::size_t last, const LeftOut& left_out,
+                            LeafScratch& scratch) noexcept {
     MetLeaves met[kLeafBatch];
     for (std::size_t i = first; i < last; ++i) {
         met[i] = meet<F>(placement, pairs[i], i, 0, scratch);
@@ -359,23 +392,25 @@ std::size_t find_candidates(const LeafPlacement& placement, const LeafPair* pair
         load_shifted(placed_in_a<F>(placement, pairs[i], scratch), leaf, factors, a);
         while (rows != 0) {
             const RowPair at = take_rows<R>(rows);
-            candidates =
-                append_rows<R>(static_cast<unsigned>(i), at, row_candidates(a, b, factors, at),
-                               pairs[i].used_a, scratch.candidate, candidates);
+            const unsigned near = row_candidates(a, b, factors, at);
+            const unsigned wanted = near & ~left_out.template lanes<R>(pairs[i], at);
+            candidates = append_rows<R>(static_cast<unsigned>(i), at, wanted, pairs[i].used_a,
+                                        scratch.candidate, candidates);
         }
     }
     return candidates;
 }
 
-/// The body of find_contacts().
-template <class F, class R, class W>
-std::size_t find_contacts_of(const LeafPlacement& placement, const LeafPair* pairs,
-                             std::size_t count, LeafScratch& scratch) noexcept {
+/// Finds the contacts of a batch but those left out.
+template <class F, class R, class W, class LeftOut>
+std::size_t find_contacts_but(const LeafPlacement& placement, const LeafPair* pairs,
+                              std::size_t count, const LeftOut& left_out,
+                              LeafScratch& scratch) noexcept {
     std::size_t found = 0;
     for (std::size_t first = 0; first < count;) {
         const std::size_t last = end_of_run(pairs, first, count);
         const std::size_t candidates =
-            find_candidates<F, R>(placement, pairs, first, last, scratch);
+            find_candidates<F, R>(placement, pairs, first, last, left_out, scratch);
         if (last - first == 1) {
             found = judge_all<W>(candidates, found, scratch, [&](const std::uint16_t* candidate) {
                 return LanePairs<W>(scratch, candidate, pairs[first], first);
@@ -389,6 +424,21 @@ std::size_t find_contacts_of(const LeafPlacement& placement, const LeafPair* pai
         first = last;
     }
     return found;
+}
+
+/// The body of find_contacts().
+template <class F, class R, class W>
+std::size_t find_contacts_of(const LeafPlacement& placement, const LeafPair* pairs,
+                             std::size_t count, LeafScratch& scratch) noexcept {
+    return find_contacts_but<F, R, W>(placement, pairs, count, NothingLeftOut{}, scratch);
+}
+
+/// The body of find_own_contacts().
+template <class F, class R, class W>
+std::size_t find_own_contacts_of(const LeafPlacement& placement, const LeafPair* pairs,
+                                 std::size_t count, const std::uint32_t* corners,
+                                 LeafScratch& scratch) noexcept {
+    return find_contacts_but<F, R, W>(placement, pairs, count, NeighboursLeftOut{corners}, scratch);
 }
 
 }  // namespace

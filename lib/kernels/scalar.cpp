@@ -41,6 +41,19 @@ struct F8 {
     };
     float x[8];
 
+    /// Numbers beside numbers: their bits count.
+    static Index load_numbers(const std::uint32_t* p) noexcept {
+        Index result;
+        for (unsigned i = 0; i < kCount; ++i) result.x[i] = static_cast<std::int32_t>(p[i]);
+        return result;
+    }
+    template <class Rows>
+    static Index spread_number(const std::uint32_t* p, const Rows& at) noexcept {
+        Index result;
+        for (std::int32_t& lane : result.x) lane = static_cast<std::int32_t>(p[at.first]);
+        return result;
+    }
+
     F8() noexcept = default;
     explicit F8(float value) noexcept {
         for (float& lane : x) lane = value;
@@ -136,6 +149,14 @@ inline F8::Index low_bits(const F8::Index& a) noexcept {
     return result;
 }
 
+inline Mask8 equal(const F8::Index& a, const F8::Index& b) noexcept {
+    unsigned mask = 0;
+    for (unsigned i = 0; i < F8::kCount; ++i) {
+        mask |= static_cast<unsigned>(a.x[i] == b.x[i]) << i;
+    }
+    return {mask};
+}
+
 /// operation(lane) for each lane.
 template <class Operation>
 F8 each(Operation operation) noexcept {
@@ -203,6 +224,7 @@ const Table kScalar = {"scalar",
                        near_triangles_of<F8, F8, F8>,
                        triangles_within_of<F8, F8, F8>,
                        find_contacts_of<F8, F8, F8>,
+                       find_own_contacts_of<F8, F8, F8>,
                        {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>}};
 
 }  // namespace cdprep::kernels

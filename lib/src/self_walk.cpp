@@ -74,31 +74,19 @@ public:
     }
 
     void flush() {
-        const std::size_t contacts = kernels::active().find_contacts(
-            walk_.leaves_, scratch_.leaf_pairs.data(), count_, scratch_.leaf_scratch);
+        const std::size_t contacts = kernels::active().find_own_contacts(
+            walk_.leaves_, scratch_.leaf_pairs.data(), count_, walk_.corner_numbers_.data(),
+            scratch_.leaf_scratch);
         count_ = 0;
         for (std::size_t i = 0; i < contacts; ++i) {
             const kernels::TriangleContactLanes& contact = scratch_.leaf_scratch.found[i];
             const kernels::LeafPair& pair = scratch_.leaf_pairs[contact.pair];
-            const std::uint32_t a = pair.number_a * kBvhWidth + contact.a;
-            const std::uint32_t b = pair.number_b * kBvhWidth + contact.b;
-            if (a < b && !share_a_vertex(a, b)) found_.push_back({a, b, contact.certain});
+            found_.push_back({pair.number_a * kBvhWidth + contact.a,
+                              pair.number_b * kBvhWidth + contact.b, contact.certain});
         }
     }
 
 private:
-    [[nodiscard]] bool share_a_vertex(std::uint32_t a, std::uint32_t b) const {
-        bool shared = false;
-        for (std::size_t i = 0; i < 3; ++i) {
-            for (std::size_t j = 0; j < 3; ++j) shared |= number(a, i) == number(b, j);
-        }
-        return shared;
-    }
-    [[nodiscard]] std::uint32_t number(std::uint32_t triangle, std::size_t corner) const {
-        return walk_.corner_numbers_[triangle / kBvhWidth * kNumbersPerLeaf + corner * kBvhWidth +
-                                     triangle % kBvhWidth];
-    }
-
     const SelfWalk& walk_;
     LastLeaf last_;
     Workspace::Storage& scratch_;

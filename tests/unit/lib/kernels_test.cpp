@@ -7,8 +7,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <random>
+#include <vector>
 
 #include "support/random_pose.h"
 #include "triangle_contact.h"
@@ -468,6 +470,64 @@ TEST(Kernels, UnusedLanesAndOtherPairsStayOut) {
             EXPECT_EQ(touching, expected);
             EXPECT_GT(expected, 50u);
         });
+}
+
+// By definition: what find_contacts() finds, without what is left out.
+TEST(Kernels, OwnContactsAreContactsOfTrianglesWithoutACommonVertex) {
+    std::mt19937 random(12);
+    const auto scratch = std::make_unique<LeafScratch>();
+    const LeafPlacement placement = leaf_placement(Pose());
+    std::array<Leaf, kLeafBatch> leaves;
+    std::array<std::uint32_t, kLeafBatch * 24> corners;
+    std::size_t found = 0, neighbours = 0;
+    for (int round = 0; round < 200; ++round) {
+        for (Leaf& leaf : leaves) leaf = random_leaf(random, round % 2 == 0);
+        // Numbers that floats would not tell apart.
+        for (std::uint32_t& number : corners) number = 0x7fffff00 + random() % 60;
+        std::array<LeafPair, kLeafBatch> pairs{};
+        for (LeafPair& pair : pairs) {
+            const auto a = static_cast<std::uint32_t>(random() % kLeafBatch);
+            const auto b =
+                random() % 4 == 0 ? a : static_cast<std::uint32_t>(random() % kLeafBatch);
+            const auto used = static_cast<std::uint8_t>(random());
+            pair = {leaves[a].data(), leaves[b].data(), a, b, used, used};
+        }
+        const auto is_left_out = [&](const TriangleContactLanes& c) {
+            const LeafPair& pair = pairs[c.pair];
+            if (pair.number_a == pair.number_b && c.a >= c.b) return true;
+            for (std::size_t i = 0; i < 3; ++i) {
+                for (std::size_t j = 0; j < 3; ++j) {
+                    if (corners[pair.number_a * 24 + 8 * i + c.a] ==
+                        corners[pair.number_b * 24 + 8 * j + c.b]) {
+                        return true;
+                    }
+                }
+            }
+            return false;
+        };
+        for_each_table([&](const Table& table) {
+            scratch->begin();
+            const std::size_t all =
+                table.find_contacts(placement, pairs.data(), kLeafBatch, *scratch);
+            std::vector<TriangleContactLanes> expected;
+            std::copy_if(scratch->found, scratch->found + all, std::back_inserter(expected),
+                         [&](const auto& contact) { return !is_left_out(contact); });
+            neighbours += all - expected.size();
+            const std::size_t count = table.find_own_contacts(placement, pairs.data(), kLeafBatch,
+                                                              corners.data(), *scratch);
+            ASSERT_EQ(count, expected.size()) << round;
+            for (std::size_t i = 0; i < count; ++i) {
+                const TriangleContactLanes& contact = scratch->found[i];
+                ASSERT_EQ(contact.pair, expected[i].pair);
+                ASSERT_EQ(contact.a, expected[i].a);
+                ASSERT_EQ(contact.b, expected[i].b);
+                ASSERT_EQ(contact.certain, expected[i].certain);
+            }
+            found += count;
+        });
+    }
+    EXPECT_GT(found, neighbours / 3);
+    EXPECT_GT(neighbours, found / 3);
 }
 
 /// A limit and a direction of unit length, or none.

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "self_walk.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "support/meshes.h"
+#include "triangle_contact.h"
+
+namespace cdprep {
+namespace {
+
+Corners corners_of(const test::TestMesh& mesh, std::uint32_t triangle) {
+    const auto& v = mesh.triangles[triangle].vertex;
+    return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+}
+
+bool share_a_vertex(const test::TestMesh& mesh, std::uint32_t a, std::uint32_t b) {
+    const auto& v = mesh.triangles[a].vertex;
+    const auto& w = mesh.triangles[b].vertex;
+    return std::find_first_of(v.begin(), v.end(), w.begin(), w.end()) != v.end();
+}
+
+/// Corners at one place become one vertex.
+test::TestMesh welded(test::TestMesh mesh) {
+    std::map<std::array<double, 3>, std::uint32_t> first;
+    for (format::Triangle& triangle : mesh.triangles) {
+        for (std::uint32_t& vertex : triangle.vertex) {
+            const Double3& p = mesh.positions[vertex];
+            vertex = first.emplace(std::array{p.x, p.y, p.z}, vertex).first->second;
+        }
+    }
+    return mesh;
+}
+
+struct Pair {
+    std::uint32_t a, b;  ///< of the mesh, a < b
+    bool certain;
+    auto operator<=>(const Pair&) const = default;
+};
+
+std::vector<Pair> walk(const test::TestMesh& mesh, build::Quality quality) {
+    const build::Bvh bvh = build::build_bvh(
+        mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned, .quality = quality});
+    const SelfWalk walk(bvh, mesh.triangles, serial_for);
+    Workspace workspace;
+    std::vector<SelfPair> found;
+    for (std::size_t part = 0; part < walk.part_count(); ++part) {
+        walk.run(part, workspace.storage(), found);
+    }
+    std::vector<Pair> pairs;
+    for (const SelfPair& pair : found) {
+        EXPECT_LT(pair.a, pair.b);
+        const auto [a, b] = std::minmax({bvh.order[pair.a], bvh.order[pair.b]});
+        pairs.push_back({a, b, pair.certain});
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+struct Tally {
+    std::size_t touching = 0, neighbours = 0, all = 0;
+};
+
+/// The oracle: the exact test on every pair.
+void expect_all_contacts(const test::TestMesh& mesh, Tally& tally) {
+    for (const build::Quality quality : {build::Quality::fast, build::Quality::best}) {
+        const std::vector<Pair> pairs = walk(mesh, quality);
+        auto next = pairs.begin();
+        for (std::uint32_t a = 0; a < mesh.triangles.size(); ++a) {
+            for (std::uint32_t b = a + 1; b < mesh.triangles.size(); ++b) {
+                const bool found = next != pairs.end() && next->a == a && next->b == b;
+                const bool certain = found && next->certain;
+                if (found) ++next;
+                ++tally.all;
+                if (share_a_vertex(mesh, a, b)) {
+                    ASSERT_FALSE(found) << a << ' ' << b;
+                    ++tally.neighbours;
+                    continue;
+                }
+                const TriangleContact contact =
+                    classify_contact(corners_of(mesh, a), corners_of(mesh, b));
+                if (contact != TriangleContact::disjoint) {
+                    ASSERT_TRUE(found) << a << ' ' << b;
+                    ++tally.touching;
+                }
+                if (certain) {
+                    ASSERT_EQ(contact, TriangleContact::cross);
+                }
+            }
+        }
+        ASSERT_EQ(next, pairs.end()) << "a pair twice";
+    }
+}
+
+TEST(SelfWalk, FindsEveryContactOfTrianglesWithoutACommonVertexOnce) {
+    Tally tally;
+    for (const int count : {1, 7, 8, 9, 64, 65, 300}) {
+        for (std::uint32_t seed = 1; seed < 5; ++seed) {
+            for (const double scale : {1.0, 0x1p-40, 0x1p40}) {
+                expect_all_contacts(test::moved_by(welded(test::coarse_grid_soup(seed, count, 4)),
+                                                   scale, {0, 0, 0}),
+                                    tally);
+                expect_all_contacts(
+                    test::moved_by(test::random_soup(seed, count, 1.2), scale, {0, 0, 0}), tally);
+            }
+        }
+    }
+    EXPECT_GT(tally.touching, tally.all / 20);
+    EXPECT_GT(tally.neighbours, tally.all / 200);
+}
+
+// Far from the origin doubles are coarse beside the triangles, and leaves are not exact.
+TEST(SelfWalk, MissesNothingFarFromTheOrigin) {
+    Tally tally;
+    for (const double away : {1e3, 1e9, 1e14}) {
+        expect_all_contacts(test::moved_by(test::random_soup(3, 200, 1.2), 1, {away, -away, 7}),
+                            tally);
+        expect_all_contacts(
+            test::moved_by(welded(test::coarse_grid_soup(4, 200, 3)), 0.1, {away, away, -away}),
+            tally);
+    }
+    EXPECT_GT(tally.touching, tally.all / 20);
+}
+
+TEST(SelfWalk, FewPairsAreLeftOpenOnASmoothSurface) {
+    EXPECT_LT(walk(test::icosphere(4), build::Quality::fast).size(), 20u * 256 / 100);
+}
+
+TEST(SelfWalk, OfNothingFindsNothing) {
+    EXPECT_TRUE(walk({}, build::Quality::fast).empty());
+}
+
+}  // namespace
+}  // namespace cdprep
