@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "mesh/flat_star.h"
+#include "mesh/fan.h"
 #include "mesh/triangle_meeting.h"
 
 namespace cdprep::mesh {
@@ -106,9 +106,9 @@ std::vector<TriangleMeeting> find_neighbour_meetings(const Mesh& mesh, const Ver
         }
     };
     const auto look = [&](std::size_t task) {
-        StarScratch scratch;
+        Fan fan;
         for_vertices(task, [&](std::uint32_t vertex) {
-            is_flat[vertex] = lies_side_by_side(mesh, vertex, stars.around(vertex), scratch);
+            is_flat[vertex] = fan.lies_side_by_side(mesh, vertex, stars.around(vertex)) ? 1 : 0;
         });
     };
     parallel_for(tasks, look);

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <random>
 
 #include "mesh/weld.h"
 #include "unit/tools/soup_of.h"
@@ -170,6 +172,34 @@ TEST(SelfIntersections, AFlatStarThatTurnsTwiceIsFoldedOverItself) {
     EXPECT_EQ(found.size(), expected);
     EXPECT_GT(expected, 10u);
     for (const TriangleMeeting& meeting : found) EXPECT_EQ(meeting.meeting, Meeting::fold);
+}
+
+// Fans of every size, open and closed, flat and as a cone, in one order or another; of
+// those that close, one more triangle between two spokes lies over what is there.
+TEST(SelfIntersections, FansOfAnySizeLieSideBySide) {
+    std::mt19937 random(5);
+    for (const int count : {3, 4, 7, 8, 9, 16, 17, 64, 65, 2000}) {
+        for (const double height : {0.0, 0.7}) {
+            std::vector<std::array<Double3, 3>> triangles;
+            const double step = 2 * std::acos(-1.0) / count;
+            const auto spoke = [&](int i) {
+                return Double3{std::cos(step * (i % count)), std::sin(step * (i % count)), height};
+            };
+            for (int i = 0; i < count; ++i) {
+                triangles.push_back({Double3{0, 0, 0}, spoke(i), spoke(i + 1)});
+                std::rotate(triangles.back().begin(), triangles.back().begin() + random() % 3,
+                            triangles.back().end());
+            }
+            std::shuffle(triangles.begin(), triangles.end(), random);
+            EXPECT_TRUE(find_self_intersections(mesh_of(triangles)).empty()) << count;
+            const auto last = triangles.back();
+            triangles.pop_back();
+            EXPECT_TRUE(find_self_intersections(mesh_of(triangles)).empty()) << count;
+            triangles.push_back(last);
+            triangles.push_back({last[0], last[2], last[1]});
+            EXPECT_EQ(find_self_intersections(mesh_of(triangles)).size(), 1u) << count;
+        }
+    }
 }
 
 TEST(SelfIntersections, AnEmptyMeshHasNone) {
