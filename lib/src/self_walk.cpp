@@ -17,8 +17,8 @@ using format::kBvhWidth;
 
 constexpr std::size_t kNumbersPerLeaf = std::size_t{3} * kBvhWidth;
 
-/// Enough for a team of threads to share evenly, few enough to need no thought.
-constexpr std::size_t kParts = 256;
+/// Enough for a team of threads to share evenly, few enough for a scratch each.
+constexpr std::size_t kParts = 128;
 
 /// Bits 8 j + i with i <= j: each pair of a node's boxes once.
 constexpr kernels::BoxPairs once_each() noexcept {
@@ -102,7 +102,11 @@ SelfWalk::SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> tria
     const PlacedBoxes placed = place_upon_itself(bvh.frame.origin, bvh.frame.exponent);
     boxes_ = placed.placement;
     leaves_ = place_leaves(bvh, placed);
-    if (triangle_count() > 0) split_into_parts();
+    if (triangle_count() > 0) find_starts();
+}
+
+std::size_t SelfWalk::part_count() const noexcept {
+    return std::min(kParts, starts_.size());
 }
 
 template <class Step>
@@ -125,15 +129,15 @@ void SelfWalk::for_children(const NodePair& pair, Step&& step) const {
     }
 }
 
-void SelfWalk::split_into_parts() {
-    parts_ = {{shape_.levels, 0, 0}};
+void SelfWalk::find_starts() {
+    starts_ = {{shape_.levels, 0, 0}};
     std::vector<NodePair> below;
-    while (parts_.size() < kParts && parts_.front().height > 1) {
+    while (starts_.size() < kParts && starts_.front().height > 1) {
         below.clear();
-        for (const NodePair& pair : parts_) {
+        for (const NodePair& pair : starts_) {
             for_children(pair, [&](const NodePair& child) { below.push_back(child); });
         }
-        parts_.swap(below);
+        starts_.swap(below);
     }
 }
 
@@ -150,7 +154,9 @@ void SelfWalk::descend(const NodePair& pair, Batch& batch) const {
 void SelfWalk::run(std::size_t part, Workspace::Storage& scratch,
                    std::vector<SelfPair>& found) const {
     Batch batch(*this, scratch, found);
-    descend(parts_[part], batch);
+    const std::size_t first = starts_.size() * part / part_count();
+    const std::size_t last = starts_.size() * (part + 1) / part_count();
+    for (std::size_t i = first; i < last; ++i) descend(starts_[i], batch);
     batch.flush();
 }
 

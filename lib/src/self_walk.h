@@ -27,9 +27,7 @@ public:
              ParallelFor parallel_for);
 
     /// How many parts the walk has; the same for any parallel_for.
-    [[nodiscard]] std::size_t part_count() const noexcept {
-        return parts_.size();
-    }
+    [[nodiscard]] std::size_t part_count() const noexcept;
 
     /// Appends what a part finds. Parts may run at once, each with a scratch of its own.
     void run(std::size_t part, Workspace::Storage& scratch, std::vector<SelfPair>& found) const;
@@ -51,14 +49,14 @@ private:
     template <class Step>
     void for_children(const NodePair& pair, Step&& step) const;
     void descend(const NodePair& pair, Batch& batch) const;
-    void split_into_parts();
+    void find_starts();
 
     const build::Bvh& bvh_;
     format::BvhShape shape_;
     kernels::BoxPlacement boxes_;
     kernels::LeafPlacement leaves_;
     std::vector<std::uint32_t> corner_numbers_;  ///< per leaf [corner][lane]
-    std::vector<NodePair> parts_;
+    std::vector<NodePair> starts_;               ///< of all parts, one after the other
 };
 
 }  // namespace cdprep

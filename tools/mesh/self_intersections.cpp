@@ -39,7 +39,9 @@ void find_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& fla
         for (const SelfPair& pair : pairs) {
             const auto [a, b] = std::minmax({bvh.order[pair.a], bvh.order[pair.b]});
             if (is_marked(flat, a) || is_marked(flat, b)) continue;
-            const auto meeting = meeting_apart(corners_of(mesh, a), corners_of(mesh, b));
+            const Corners in_a = corners_of(mesh, a), in_b = corners_of(mesh, b);
+            const auto meeting =
+                pair.certain ? meeting_across(in_a, in_b) : meeting_apart(in_a, in_b);
             if (meeting) found[part].push_back({a, b, *meeting});
         }
     };

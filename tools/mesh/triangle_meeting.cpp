@@ -58,6 +58,11 @@ int sign_of(int value) {
 
 }  // namespace
 
+Meeting meeting_across(const Corners& a, const Corners& b) noexcept {
+    return an_edge_pierces(a, b) || an_edge_pierces(b, a) ? Meeting::crossing
+                                                          : Meeting::edge_crossing;
+}
+
 std::optional<Meeting> meeting_apart(const Corners& a, const Corners& b) noexcept {
     switch (classify_contact(a, b)) {
         case TriangleContact::disjoint:
@@ -65,8 +70,7 @@ std::optional<Meeting> meeting_apart(const Corners& a, const Corners& b) noexcep
         case TriangleContact::touch:
             return in_one_plane(a, b) ? Meeting::flat_touching : Meeting::touching;
         case TriangleContact::cross:
-            return an_edge_pierces(a, b) || an_edge_pierces(b, a) ? Meeting::crossing
-                                                                  : Meeting::edge_crossing;
+            return meeting_across(a, b);
         default:
             return Meeting::coplanar_overlap;
     }

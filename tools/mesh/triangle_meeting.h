@@ -11,6 +11,9 @@ namespace cdprep::mesh {
 /// How two triangles without a common vertex meet, or nothing. Both have area.
 [[nodiscard]] std::optional<Meeting> meeting_apart(const Corners& a, const Corners& b) noexcept;
 
+/// The same of two whose insides are known to cross.
+[[nodiscard]] Meeting meeting_across(const Corners& a, const Corners& b) noexcept;
+
 /// How two triangles whose first corners are one vertex, and no others, meet elsewhere, or
 /// nothing. Both have area.
 [[nodiscard]] std::optional<Meeting> meeting_at_corner(const Corners& a, const Corners& b) noexcept;
