@@ -29,26 +29,8 @@ constexpr kernels::BoxPairs once_each() noexcept {
     return pairs;
 }
 
-std::vector<std::uint32_t> corner_numbers(const build::Bvh& bvh,
-                                          std::span<const format::Triangle> triangles,
-                                          ParallelFor parallel_for) {
-    std::vector<std::uint32_t> numbers(bvh.leaves.size() * kNumbersPerLeaf);
-    constexpr std::size_t kLeavesPerTask = 4096;
-    const auto fill = [&](std::size_t task) {
-        const std::size_t last = std::min(bvh.leaves.size(), (task + 1) * kLeavesPerTask);
-        for (std::size_t leaf = task * kLeavesPerTask; leaf < last; ++leaf) {
-            for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
-                const std::size_t at = std::min(leaf * kBvhWidth + lane, bvh.order.size() - 1);
-                const format::Triangle& triangle = triangles[bvh.order[at]];
-                for (std::size_t corner = 0; corner < 3; ++corner) {
-                    numbers[leaf * kNumbersPerLeaf + corner * kBvhWidth + lane] =
-                        triangle.vertex[corner];
-                }
-            }
-        }
-    };
-    parallel_for((bvh.leaves.size() + kLeavesPerTask - 1) / kLeavesPerTask, fill);
-    return numbers;
+bool is_marked(std::span<const std::uint64_t> marked, std::uint32_t triangle) noexcept {
+    return !marked.empty() && ((marked[triangle / 64] >> (triangle % 64)) & 1) != 0;
 }
 
 }  // namespace
@@ -57,7 +39,7 @@ std::vector<std::uint32_t> corner_numbers(const build::Bvh& bvh,
 class SelfWalk::Batch {
 public:
     Batch(const SelfWalk& walk, Workspace::Storage& scratch, std::vector<SelfPair>& found)
-        : walk_(walk), last_(walk.triangle_count()), scratch_(scratch), found_(found) {
+        : walk_(walk), scratch_(scratch), found_(found) {
         scratch_.leaf_scratch.begin();
     }
 
@@ -68,8 +50,8 @@ public:
                                          leaves[leaf_b].corner[0][0].data(),
                                          leaf_a,
                                          leaf_b,
-                                         last_.used_lanes(leaf_a),
-                                         last_.used_lanes(leaf_b)};
+                                         walk_.used_[leaf_a],
+                                         walk_.used_[leaf_b]};
         if (count_ == kernels::kLeafBatch) flush();
     }
 
@@ -88,21 +70,44 @@ public:
 
 private:
     const SelfWalk& walk_;
-    LastLeaf last_;
     Workspace::Storage& scratch_;
     std::vector<SelfPair>& found_;
     std::size_t count_ = 0;
 };
 
 SelfWalk::SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
-                   ParallelFor parallel_for)
-    : bvh_(bvh),
-      shape_(format::bvh_shape(triangle_count())),
-      corner_numbers_(corner_numbers(bvh, triangles, parallel_for)) {
+                   std::span<const std::uint64_t> marked, ParallelFor parallel_for)
+    : bvh_(bvh), shape_(format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()))) {
     const PlacedBoxes placed = place_upon_itself(bvh.frame.origin, bvh.frame.exponent);
     boxes_ = placed.placement;
     leaves_ = place_leaves(bvh, placed);
-    if (triangle_count() > 0) find_starts();
+    if (bvh.order.empty()) return;
+    read_leaves(triangles, marked, parallel_for);
+    find_starts();
+}
+
+void SelfWalk::read_leaves(std::span<const format::Triangle> triangles,
+                           std::span<const std::uint64_t> marked,
+                           ParallelFor parallel_for) {
+    const std::size_t leaves = bvh_.leaves.size();
+    corner_numbers_.resize(leaves * kNumbersPerLeaf);
+    used_.resize(leaves);
+    constexpr std::size_t kLeavesPerTask = 4096;
+    const auto read = [&](std::size_t task) {
+        const std::size_t first = task * kLeavesPerTask * kBvhWidth;
+        const std::size_t last = std::min(bvh_.order.size(), first + kLeavesPerTask * kBvhWidth);
+        for (std::size_t at = first; at < last; ++at) {
+            const std::uint32_t triangle = bvh_.order[at];
+            const std::size_t leaf = at / kBvhWidth, lane = at % kBvhWidth;
+            for (std::size_t corner = 0; corner < 3; ++corner) {
+                corner_numbers_[leaf * kNumbersPerLeaf + corner * kBvhWidth + lane] =
+                    triangles[triangle].vertex[corner];
+            }
+            const unsigned bit = is_marked(marked, triangle) ? 0U : 1U << lane;
+            used_[leaf] = static_cast<std::uint8_t>(used_[leaf] | bit);
+        }
+    };
+    parallel_for((leaves + kLeavesPerTask - 1) / kLeavesPerTask, read);
 }
 
 std::size_t SelfWalk::part_count() const noexcept {

@@ -22,9 +22,10 @@ struct SelfPair {
 /// cross or touch is among those found, each once, and few that do neither.
 class SelfWalk {
 public:
-    /// Both must outlive the walk. `triangles` are those the tree was built over.
+    /// The tree must outlive the walk. `triangles` are those it was built over; those that
+    /// are marked, one bit each or no words at all, are in no pair.
     SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
-             ParallelFor parallel_for);
+             std::span<const std::uint64_t> marked, ParallelFor parallel_for);
 
     /// How many parts the walk has; the same for any parallel_for.
     [[nodiscard]] std::size_t part_count() const noexcept;
@@ -33,10 +34,6 @@ public:
     void run(std::size_t part, Workspace::Storage& scratch, std::vector<SelfPair>& found) const;
 
 private:
-    [[nodiscard]] std::uint32_t triangle_count() const noexcept {
-        return static_cast<std::uint32_t>(bvh_.order.size());
-    }
-
     /// Two nodes of one height, a <= b. Those of height 0 are leaves.
     struct NodePair {
         std::uint32_t height;
@@ -44,6 +41,9 @@ private:
         std::uint32_t b;
     };
     class Batch;
+
+    void read_leaves(std::span<const format::Triangle> triangles,
+                     std::span<const std::uint64_t> marked, ParallelFor parallel_for);
 
     /// Calls step(pair) for each pair of children whose boxes overlap.
     template <class Step>
@@ -56,6 +56,7 @@ private:
     kernels::BoxPlacement boxes_;
     kernels::LeafPlacement leaves_;
     std::vector<std::uint32_t> corner_numbers_;  ///< per leaf [corner][lane]
+    std::vector<std::uint8_t> used_;             ///< per leaf, bit set of triangles
     std::vector<NodePair> starts_;               ///< of all parts, one after the other
 };
 

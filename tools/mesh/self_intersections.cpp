@@ -12,11 +12,6 @@
 namespace cdprep::mesh {
 namespace {
 
-/// Whether the bit of a triangle is set; no words at all where none is.
-bool is_marked(const std::vector<std::uint64_t>& words, std::uint32_t triangle) {
-    return !words.empty() && ((words[triangle / 64] >> (triangle % 64)) & 1) != 0;
-}
-
 Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
     const auto& v = mesh.triangles[triangle].vertex;
     return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
@@ -30,7 +25,7 @@ void find_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& fla
                                             {.parallel_for = parallel_for,
                                              .bounds = build::BvhBounds::aligned,
                                              .quality = build::Quality::fast});
-    const SelfWalk walk(bvh, mesh.triangles, parallel_for);
+    const SelfWalk walk(bvh, mesh.triangles, flat, parallel_for);
     std::vector<std::vector<TriangleMeeting>> found(walk.part_count());
     const auto run = [&](std::size_t part) {
         Workspace workspace;
@@ -38,7 +33,6 @@ void find_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& fla
         walk.run(part, workspace.storage(), pairs);
         for (const SelfPair& pair : pairs) {
             const auto [a, b] = std::minmax({bvh.order[pair.a], bvh.order[pair.b]});
-            if (is_marked(flat, a) || is_marked(flat, b)) continue;
             const Corners in_a = corners_of(mesh, a), in_b = corners_of(mesh, b);
             const auto meeting =
                 pair.certain ? meeting_across(in_a, in_b) : meeting_apart(in_a, in_b);
