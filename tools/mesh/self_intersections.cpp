@@ -2,7 +2,9 @@
 #include "mesh/self_intersections.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "cdprep/format/limits.h"
 #include "mesh/degenerate.h"
 #include "mesh/neighbour_meetings.h"
 #include "mesh/triangle_meeting.h"
@@ -17,14 +19,30 @@ Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
     return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
 }
 
+/// Positions that a hierarchy can be built over, where the mesh's own are too large: its
+/// boxes need not be exact, and shrunk coordinates lose nothing that they would show.
+std::vector<Double3> shrunk_if_too_large(const Mesh& mesh) {
+    const auto too_large = [](const Double3& p) {
+        return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) >
+               0.5 * format::kMaxCoordinate;
+    };
+    if (std::none_of(mesh.positions.begin(), mesh.positions.end(), too_large)) return {};
+    constexpr double kShrink = 0x1p-30;
+    std::vector<Double3> shrunk = mesh.positions;
+    for (Double3& p : shrunk) p = {p.x * kShrink, p.y * kShrink, p.z * kShrink};
+    return shrunk;
+}
+
 /// Appends the meetings of triangles without a common vertex, in no order.
 void find_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& flat,
                          ParallelFor parallel_for,
                          std::vector<TriangleMeeting>& all) {
-    const build::Bvh bvh = build::build_bvh(mesh.positions, mesh.triangles,
-                                            {.parallel_for = parallel_for,
-                                             .bounds = build::BvhBounds::aligned,
-                                             .quality = build::Quality::fast});
+    const std::vector<Double3> shrunk = shrunk_if_too_large(mesh);
+    const build::Bvh bvh =
+        build::build_bvh(shrunk.empty() ? mesh.positions : shrunk, mesh.triangles,
+                         {.parallel_for = parallel_for,
+                          .bounds = build::BvhBounds::aligned,
+                          .quality = build::Quality::fast});
     const SelfWalk walk(bvh, mesh.triangles, flat, parallel_for);
     std::vector<std::vector<TriangleMeeting>> found(walk.part_count());
     const auto run = [&](std::size_t part) {

@@ -323,7 +323,8 @@ TEST(SelfIntersections, ScaleAndPlaceChangeNothing) {
              {test::coarse_grid_soup(seed, 200, 6), crumpled_sheet(seed, 12, 1.5, true)}) {
             const auto found = find_self_intersections(welded(mesh));
             EXPECT_FALSE(found.empty());
-            for (const double scale : {0x1p-40, 0x1p40, 0x1p-300, 0x1p300, 0x1p-900, 0x1p900}) {
+            for (const double scale :
+                 {0x1p-40, 0x1p40, 0x1p-300, 0x1p300, 0x1p-900, 0x1p900, 0x1p1019}) {
                 EXPECT_EQ(find_self_intersections(welded(test::moved_by(mesh, scale, {0, 0, 0}))),
                           found)
                     << scale;
