@@ -38,7 +38,8 @@ bool is_marked(std::span<const std::uint64_t> marked, std::uint32_t triangle) no
 /// Collects pairs of leaves and tests their triangles many at a time.
 class SelfWalk::Batch {
 public:
-    Batch(const SelfWalk& walk, Workspace::Storage& scratch, std::vector<SelfPair>& found)
+    Batch(const SelfWalk& walk, Workspace::Storage& scratch,
+          const std::function<void(const SelfPair&)>& found)
         : walk_(walk), scratch_(scratch), found_(found) {
         scratch_.leaf_scratch.begin();
     }
@@ -63,15 +64,15 @@ public:
         for (std::size_t i = 0; i < contacts; ++i) {
             const kernels::TriangleContactLanes& contact = scratch_.leaf_scratch.found[i];
             const kernels::LeafPair& pair = scratch_.leaf_pairs[contact.pair];
-            found_.push_back({pair.number_a * kBvhWidth + contact.a,
-                              pair.number_b * kBvhWidth + contact.b, contact.certain});
+            found_({pair.number_a * kBvhWidth + contact.a, pair.number_b * kBvhWidth + contact.b,
+                    contact.certain});
         }
     }
 
 private:
     const SelfWalk& walk_;
     Workspace::Storage& scratch_;
-    std::vector<SelfPair>& found_;
+    const std::function<void(const SelfPair&)>& found_;
     std::size_t count_ = 0;
 };
 
@@ -157,7 +158,7 @@ void SelfWalk::descend(const NodePair& pair, Batch& batch) const {
 }
 
 void SelfWalk::run(std::size_t part, Workspace::Storage& scratch,
-                   std::vector<SelfPair>& found) const {
+                   const std::function<void(const SelfPair&)>& found) const {
     Batch batch(*this, scratch, found);
     const std::size_t first = starts_.size() * part / part_count();
     const std::size_t last = starts_.size() * (part + 1) / part_count();

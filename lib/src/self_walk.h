@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,8 +31,10 @@ public:
     /// How many parts the walk has; the same for any parallel_for.
     [[nodiscard]] std::size_t part_count() const noexcept;
 
-    /// Appends what a part finds. Parts may run at once, each with a scratch of its own.
-    void run(std::size_t part, Workspace::Storage& scratch, std::vector<SelfPair>& found) const;
+    /// Calls `found` for each pair of a part. Parts may run at once, each with a scratch of
+    /// its own.
+    void run(std::size_t part, Workspace::Storage& scratch,
+             const std::function<void(const SelfPair&)>& found) const;
 
 private:
     /// Two nodes of one height, a <= b. Those of height 0 are leaves.

@@ -47,15 +47,13 @@ void find_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& fla
     std::vector<std::vector<TriangleMeeting>> found(walk.part_count());
     const auto run = [&](std::size_t part) {
         Workspace workspace;
-        std::vector<SelfPair> pairs;
-        walk.run(part, workspace.storage(), pairs);
-        for (const SelfPair& pair : pairs) {
+        walk.run(part, workspace.storage(), [&](const SelfPair& pair) {
             const auto [a, b] = std::minmax({bvh.order[pair.a], bvh.order[pair.b]});
             const Corners in_a = corners_of(mesh, a), in_b = corners_of(mesh, b);
             const auto meeting =
                 pair.certain ? meeting_across(in_a, in_b) : meeting_apart(in_a, in_b);
             if (meeting) found[part].push_back({a, b, *meeting});
-        }
+        });
     };
     parallel_for(walk.part_count(), run);
     for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());

@@ -53,7 +53,7 @@ struct TriangleMeeting {
 /// two triangles at an edge; here more may meet there, and every two of them are asked.
 ///
 /// Exact. The same for any parallel_for. O(n log n), and O(k^2) for k triangles around one
-/// vertex that do not lie side by side. 100 bytes of scratch a triangle.
+/// vertex that do not lie side by side. Some 60 bytes of scratch a triangle.
 /// tests/bench/self_intersections_bench measures.
 [[nodiscard]] std::vector<TriangleMeeting> find_self_intersections(
     const Mesh& mesh, ParallelFor parallel_for = serial_for);

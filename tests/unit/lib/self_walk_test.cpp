@@ -47,15 +47,13 @@ std::vector<Pair> walk(const test::TestMesh& mesh, build::Quality quality,
         mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned, .quality = quality});
     const SelfWalk walk(bvh, mesh.triangles, marked, serial_for);
     Workspace workspace;
-    std::vector<SelfPair> found;
-    for (std::size_t part = 0; part < walk.part_count(); ++part) {
-        walk.run(part, workspace.storage(), found);
-    }
     std::vector<Pair> pairs;
-    for (const SelfPair& pair : found) {
-        EXPECT_LT(pair.a, pair.b);
-        const auto [a, b] = std::minmax({bvh.order[pair.a], bvh.order[pair.b]});
-        pairs.push_back({a, b, pair.certain});
+    for (std::size_t part = 0; part < walk.part_count(); ++part) {
+        walk.run(part, workspace.storage(), [&](const SelfPair& pair) {
+            EXPECT_LT(pair.a, pair.b);
+            const auto [a, b] = std::minmax({bvh.order[pair.a], bvh.order[pair.b]});
+            pairs.push_back({a, b, pair.certain});
+        });
     }
     std::sort(pairs.begin(), pairs.end());
     return pairs;
