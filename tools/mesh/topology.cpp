@@ -6,32 +6,10 @@
 #include <limits>
 #include <numeric>
 
+#include "mesh/component_numbers.h"
+
 namespace cdprep::mesh {
 namespace {
-
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t vertex) {
-    while (parent[vertex] != vertex) vertex = parent[vertex] = parent[parent[vertex]];
-    return vertex;
-}
-
-/// Component number of each vertex, in the order of the lowest triangle.
-std::vector<std::uint32_t> number_components(const Mesh& mesh, std::size_t& count) {
-    std::vector<std::uint32_t> parent(mesh.positions.size());
-    std::iota(parent.begin(), parent.end(), 0U);
-    for (const Triangle& triangle : mesh.triangles) {
-        const std::uint32_t root = root_of(parent, triangle.vertex[0]);
-        for (const std::uint32_t vertex : triangle.vertex) parent[root_of(parent, vertex)] = root;
-    }
-    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> number(mesh.positions.size(), kNone);
-    count = 0;
-    for (const Triangle& triangle : mesh.triangles) {
-        const std::uint32_t root = root_of(parent, triangle.vertex[0]);
-        if (number[root] == kNone) number[root] = static_cast<std::uint32_t>(count++);
-        for (const std::uint32_t vertex : triangle.vertex) number[vertex] = number[root];
-    }
-    return number;
-}
 
 /// One use of an edge, kept with its lower vertex.
 struct EdgeUse {
@@ -98,10 +76,10 @@ double finite(double value) {
 }  // namespace
 
 Topology find_topology(const Mesh& mesh) {
-    std::size_t count = 0;
-    const std::vector<std::uint32_t> number = number_components(mesh, count);
+    const ComponentNumbers components = number_components(mesh);
+    const std::vector<std::uint32_t>& number = components.of_vertex;
     Topology topology;
-    topology.components.assign(count, {0, 0, format::component_closed, 0, 0});
+    topology.components.assign(components.count, {0, 0, format::component_closed, 0, 0});
     topology.closed = true;
 
     EdgeUses edges = collect_edges(mesh);

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cdprep/format/geometry.h"
+
+namespace cdprep::mesh {
+
+/// The distance of two points in double, as welding decides by it.
+[[nodiscard]] double distance_between(const format::Double3& a, const format::Double3& b);
+
+/// Returns for each point the lowest of its group: points at most `distance` apart are of
+/// one group, and chains join. `distance` > 0, coordinates finite. O(n) for points that are
+/// about that far apart.
+[[nodiscard]] std::vector<std::uint32_t> close_groups(const std::vector<format::Double3>& points,
+                                                      double distance);
+
+}  // namespace cdprep::mesh
