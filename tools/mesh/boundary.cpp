@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/boundary.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "mesh/close_groups.h"
+#include "mesh/disjoint_sets.h"
+#include "mesh/source_places.h"
+
+namespace cdprep::mesh {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+std::uint32_t number_at(const Boundary& boundary, std::uint32_t vertex) {
+    const auto at = std::lower_bound(boundary.vertex.begin(), boundary.vertex.end(), vertex);
+    return static_cast<std::uint32_t>(at - boundary.vertex.begin());
+}
+
+void list_ends(Boundary& boundary) {
+    for (const FlawedEdge& edge : boundary.edge) {
+        boundary.vertex.push_back(edge.from);
+        boundary.vertex.push_back(edge.to);
+    }
+    std::sort(boundary.vertex.begin(), boundary.vertex.end());
+    boundary.vertex.erase(std::unique(boundary.vertex.begin(), boundary.vertex.end()),
+                          boundary.vertex.end());
+    boundary.edge_at.assign(boundary.vertex.size(), kNone);
+}
+
+/// Walks along loops to name their vertices in order.
+class LoopWalk {
+public:
+    explicit LoopWalk(const Boundary& boundary) : boundary_(boundary) {
+        used_.resize(boundary.edge.size());
+        first_at_.assign(boundary.vertex.size() + 1, 0);
+        for_each_end([this](std::uint32_t end, std::uint32_t) { ++first_at_[end + 1]; });
+        std::partial_sum(first_at_.begin(), first_at_.end(), first_at_.begin());
+        edge_at_.resize(first_at_.back());
+        std::vector<std::uint32_t> next(first_at_.begin(), first_at_.end() - 1);
+        for_each_end([&](std::uint32_t end, std::uint32_t i) { edge_at_[next[end]++] = i; });
+        by_loop_.resize(boundary.edge.size());
+        std::iota(by_loop_.begin(), by_loop_.end(), 0U);
+        std::stable_sort(by_loop_.begin(), by_loop_.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return boundary.loop_of[a] < boundary.loop_of[b];
+        });
+    }
+
+    /// The edges of a loop, one behind the other as far as they go; loops in ascending
+    /// order. Calls visit(edge, vertex) with where each begins.
+    template <class Visit>
+    void walk(std::uint32_t loop, Visit visit) {
+        for (; next_ < by_loop_.size() && boundary_.loop_of[by_loop_[next_]] == loop; ++next_) {
+            std::uint32_t i = by_loop_[next_];
+            std::uint32_t vertex = boundary_.edge[i].from;
+            for (; i != kNone && !used_[i]; i = unused_at(vertex)) {
+                used_[i] = true;
+                visit(i, vertex);
+                const FlawedEdge& edge = boundary_.edge[i];
+                vertex = vertex == edge.from ? edge.to : edge.from;
+            }
+        }
+    }
+
+private:
+    template <class Visit>
+    void for_each_end(Visit visit) const {
+        for (std::uint32_t i = 0; i < boundary_.edge.size(); ++i) {
+            visit(number_at(boundary_, boundary_.edge[i].from), i);
+            visit(number_at(boundary_, boundary_.edge[i].to), i);
+        }
+    }
+
+    /// The lowest edge at the vertex that has not been walked, first one that leads on.
+    std::uint32_t unused_at(std::uint32_t vertex) const {
+        const std::uint32_t end = number_at(boundary_, vertex);
+        std::uint32_t found = kNone;
+        for (std::uint32_t k = first_at_[end]; k < first_at_[end + 1]; ++k) {
+            const std::uint32_t i = edge_at_[k];
+            if (used_[i]) continue;
+            if (boundary_.edge[i].from == vertex) return i;
+            if (found == kNone) found = i;
+        }
+        return found;
+    }
+
+    const Boundary& boundary_;
+    std::vector<bool> used_;
+    std::vector<std::uint32_t> first_at_;
+    std::vector<std::uint32_t> edge_at_;
+    std::vector<std::uint32_t> by_loop_;
+    std::size_t next_ = 0;
+};
+
+}  // namespace
+
+Boundary find_boundary(const Mesh& mesh, std::vector<FlawedEdge> edges) {
+    Boundary boundary;
+    boundary.edge = std::move(edges);
+    std::sort(boundary.edge.begin(), boundary.edge.end(), comes_before);
+    list_ends(boundary);
+    DisjointSets sets(boundary.vertex.size());
+    for (std::uint32_t i = 0; i < boundary.edge.size(); ++i) {
+        const std::uint32_t from = number_at(boundary, boundary.edge[i].from);
+        const std::uint32_t to = number_at(boundary, boundary.edge[i].to);
+        sets.unite(from, to);
+        for (const std::uint32_t end : {from, to}) {
+            boundary.edge_at[end] = std::min(boundary.edge_at[end], i);
+        }
+    }
+    std::vector<std::uint32_t> loop_of_root(boundary.vertex.size(), kNone);
+    for (std::uint32_t i = 0; i < boundary.edge.size(); ++i) {
+        const FlawedEdge& edge = boundary.edge[i];
+        std::uint32_t& loop = loop_of_root[sets.root_of(number_at(boundary, edge.from))];
+        if (loop == kNone) {
+            loop = static_cast<std::uint32_t>(boundary.loop.size());
+            boundary.loop.push_back({i, 0, {}});
+        }
+        boundary.loop_of.push_back(loop);
+        ++boundary.loop[loop].edges;
+        boundary.loop[loop].box.add(mesh.positions[edge.from]);
+        boundary.loop[loop].box.add(mesh.positions[edge.to]);
+    }
+    return boundary;
+}
+
+void list_boundary(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
+                   FindingList& findings) {
+    const std::vector<Double3>& position = sound.mesh.positions;
+    for (const FlawedEdge& edge : boundary.edge) {
+        findings.add(Rule::boundary_edge, [&] {
+            return place_of_edge(soup, sound, edge,
+                                 distance_between(position[edge.from], position[edge.to]));
+        });
+    }
+    if (boundary.loop.empty()) return;
+    LoopWalk walk(boundary);
+    for (std::uint32_t i = 0; i < boundary.loop.size(); ++i) {
+        findings.add(Rule::boundary_loop, [&] {
+            Place place;
+            place.position = position[boundary.edge[boundary.loop[i].first_edge].from];
+            place.measure = boundary.loop[i].box.diagonal();
+            walk.walk(i, [&](std::uint32_t edge, std::uint32_t vertex) {
+                if (place.vertices.size() == kMaxPlaceNumbers) return;
+                const std::uint32_t triangle = boundary.edge[edge].triangle;
+                place.vertices.push_back(source_corner(soup, sound, triangle, vertex));
+                place.triangles.push_back(sound.source_triangle[triangle]);
+            });
+            std::sort(place.triangles.begin(), place.triangles.end());
+            place.triangles.erase(std::unique(place.triangles.begin(), place.triangles.end()),
+                                  place.triangles.end());
+            return place;
+        });
+    }
+}
+
+}  // namespace cdprep::mesh

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mesh/edge_flaws.h"
+#include "mesh/finding_list.h"
+#include "mesh/point_tree.h"
+#include "mesh/sound_mesh.h"
+
+namespace cdprep::mesh {
+
+/// A connected set of boundary edges.
+struct BoundaryLoop {
+    std::uint32_t first_edge;  ///< the lowest of Boundary::edge
+    std::uint32_t edges;
+    Box box;
+};
+
+/// The edges that one triangle uses, and what they form.
+struct Boundary {
+    std::vector<FlawedEdge> edge;        ///< by ascending triangle
+    std::vector<std::uint32_t> loop_of;  ///< of each edge
+    std::vector<std::uint32_t> vertex;   ///< of the mesh, ascending: all ends
+    std::vector<std::uint32_t> edge_at;  ///< of each of those, the lowest edge that ends there
+    std::vector<BoundaryLoop> loop;      ///< by lowest edge
+};
+
+[[nodiscard]] Boundary find_boundary(const Mesh& mesh, std::vector<FlawedEdge> edges);
+
+/// CDP0301 and 0302.
+void list_boundary(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
+                   FindingList& findings);
+
+/// CDP0307: O(n log n) for edges that pass few vertices.
+void find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
+                      FindingList& findings, DefectCounts& counts);
+
+/// CDP0308, for a width above 0. O(pairs within the width).
+void find_near_seams(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
+                     double width, FindingList& findings, DefectCounts& counts);
+
+}  // namespace cdprep::mesh

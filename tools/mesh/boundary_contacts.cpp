@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the boundary comes near itself: T-junctions and seams with a gap.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "mesh/boundary.h"
+#include "mesh/close_groups.h"
+#include "mesh/source_places.h"
+#include "triangle_contact.h"
+
+namespace cdprep::mesh {
+namespace {
+
+Double3 minus(const Double3& a, const Double3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+/// A segment that tells which boxes come within a margin of it. Never says no where the
+/// answer is yes: the separating axes are those of the box and their products with the
+/// segment, and what rounding may have done is added to the margin.
+class SegmentReach {
+public:
+    SegmentReach(const Double3& p, const Double3& q, double margin)
+        : middle_(middle_of(p, q)), half_(minus(q, middle_of(p, q))), margin_(margin) {
+        size_ = {std::fabs(half_.x), std::fabs(half_.y), std::fabs(half_.z)};
+    }
+
+    bool operator()(const Box& box) const {
+        const Double3 centre = middle_of(box.lower, box.upper);
+        const Double3 h = {grown(box.upper.x - centre.x, centre.x),
+                           grown(box.upper.y - centre.y, centre.y),
+                           grown(box.upper.z - centre.z, centre.z)};
+        const Double3 d = minus(middle_, centre);
+        if (std::fabs(d.x) > h.x + size_.x || std::fabs(d.y) > h.y + size_.y ||
+            std::fabs(d.z) > h.z + size_.z) {
+            return false;
+        }
+        return !apart(d.y, d.z, half_.y, half_.z, h.y, h.z) &&
+               !apart(d.z, d.x, half_.z, half_.x, h.z, h.x) &&
+               !apart(d.x, d.y, half_.x, half_.y, h.x, h.y);
+    }
+
+private:
+    static constexpr double kRounding = 0x1p-48;  // 32 ulp: a few dozen operations at most
+
+    /// Half a box's width with the margin, and with what coordinates may be off.
+    [[nodiscard]] double grown(double half, double centre) const {
+        const double coordinate = std::fabs(centre) + std::fabs(half) + largest_middle();
+        return half + margin_ + kRounding * (coordinate + margin_) +
+               std::numeric_limits<double>::min();
+    }
+    [[nodiscard]] double largest_middle() const {
+        return std::max({std::fabs(middle_.x) + size_.x, std::fabs(middle_.y) + size_.y,
+                         std::fabs(middle_.z) + size_.z});
+    }
+    static bool apart(double d1, double d2, double s1, double s2, double h1, double h2) {
+        const double a = d1 * s2, b = d2 * s1;
+        const double reach = h1 * std::fabs(s2) + h2 * std::fabs(s1);
+        return std::fabs(a - b) > reach + kRounding * (std::fabs(a) + std::fabs(b) + reach) +
+                                      std::numeric_limits<double>::min();
+    }
+
+    Double3 middle_;
+    Double3 half_;
+    Double3 size_{};
+    double margin_;
+};
+
+/// Exactly on the segment, ends among it.
+bool lies_on(const Double3& p, const Double3& a, const Double3& b) {
+    Box box;
+    box.add(a);
+    box.add(b);
+    return box.contains(p) && is_degenerate({a, p, b});
+}
+
+struct OnSegment {
+    double share;  ///< from 0 to 1, of the nearest point
+    double distance;
+};
+
+OnSegment nearest_on(const Double3& p, const Double3& a, const Double3& b) {
+    const Double3 u = minus(b, a);
+    const Double3 v = minus(p, a);
+    const double length = std::hypot(u.x, u.y, u.z);
+    // Unit steps: squares of lengths may leave the range of double.
+    const Double3 unit = {u.x / length, u.y / length, u.z / length};
+    const double along = v.x * unit.x + v.y * unit.y + v.z * unit.z;
+    const double share = std::clamp(along / length, 0.0, 1.0);
+    const Double3 at = {a.x + share * u.x, a.y + share * u.y, a.z + share * u.z};
+    return {share, distance_between(p, share < 1 ? at : b)};
+}
+
+PointTree tree_of(const Mesh& mesh, const Boundary& boundary) {
+    std::vector<Double3> points;
+    for (const std::uint32_t vertex : boundary.vertex) points.push_back(mesh.positions[vertex]);
+    return PointTree(std::move(points));
+}
+
+/// An end of the boundary and an edge it does not belong to.
+struct Contact {
+    std::uint32_t end;  ///< of Boundary::vertex
+    std::uint32_t edge;
+    OnSegment nearest;
+};
+
+Place place_of(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
+               const Contact& contact, double measure) {
+    const std::uint32_t vertex = boundary.vertex[contact.end];
+    const std::uint32_t own_triangle = boundary.edge[boundary.edge_at[contact.end]].triangle;
+    const FlawedEdge& edge = boundary.edge[contact.edge];
+    Place place = place_of_edge(soup, sound, edge, measure);
+    place.vertices.insert(place.vertices.begin(), source_corner(soup, sound, own_triangle, vertex));
+    if (own_triangle != edge.triangle) {
+        place.triangles.push_back(sound.source_triangle[own_triangle]);
+        std::sort(place.triangles.begin(), place.triangles.end());
+    }
+    place.position = sound.mesh.positions[vertex];
+    return place;
+}
+
+}  // namespace
+
+void find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
+                      FindingList& findings, DefectCounts& counts) {
+    if (boundary.edge.empty()) return;
+    const PointTree tree = tree_of(sound.mesh, boundary);
+    std::vector<std::uint32_t> ends;
+    for (std::uint32_t i = 0; i < boundary.edge.size(); ++i) {
+        const FlawedEdge& edge = boundary.edge[i];
+        const Double3& from = sound.mesh.positions[edge.from];
+        const Double3& to = sound.mesh.positions[edge.to];
+        ends.clear();
+        tree.visit(SegmentReach(from, to, 0), [&](std::uint32_t end) {
+            const std::uint32_t vertex = boundary.vertex[end];
+            if (vertex == edge.from || vertex == edge.to) return;
+            if (lies_on(tree.point(end), from, to)) ends.push_back(end);
+        });
+        std::sort(ends.begin(), ends.end());
+        for (const std::uint32_t end : ends) {
+            ++counts.t_junctions;
+            findings.add(Rule::t_junction, [&] {
+                const Contact contact{end, i, nearest_on(tree.point(end), from, to)};
+                return place_of(soup, sound, boundary, contact, contact.nearest.share);
+            });
+        }
+    }
+}
+
+void find_near_seams(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
+                     double width, FindingList& findings, DefectCounts& counts) {
+    if (boundary.edge.empty() || !(width > 0)) return;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const PointTree tree = tree_of(sound.mesh, boundary);
+    std::vector<Contact> best(boundary.vertex.size(), {0, 0, {0, kInfinity}});
+    for (std::uint32_t i = 0; i < boundary.edge.size(); ++i) {
+        const Double3& from = sound.mesh.positions[boundary.edge[i].from];
+        const Double3& to = sound.mesh.positions[boundary.edge[i].to];
+        tree.visit(SegmentReach(from, to, width), [&](std::uint32_t end) {
+            if (boundary.loop_of[boundary.edge_at[end]] == boundary.loop_of[i]) return;
+            const OnSegment nearest = nearest_on(tree.point(end), from, to);
+            // Edges come in ascending order: of equally near ones the first stays.
+            if (!(nearest.distance <= width) || !(nearest.distance < best[end].nearest.distance)) {
+                return;
+            }
+            if (!lies_on(tree.point(end), from, to)) best[end] = {end, i, nearest};
+        });
+    }
+    for (const Contact& contact : best) {
+        if (contact.nearest.distance == kInfinity) continue;
+        ++counts.near_seams;
+        findings.add(Rule::near_seam, [&] {
+            return place_of(soup, sound, boundary, contact, contact.nearest.distance);
+        });
+    }
+}
+
+}  // namespace cdprep::mesh

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/nesting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "mesh/point_tree.h"
+#include "winding.h"
+
+namespace cdprep::mesh {
+namespace {
+
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// From where the ray through q runs along x, upwards.
+Double3 behind(const Double3& q) {
+    const double step = std::max(std::fabs(q.x), std::numeric_limits<double>::min());
+    const double x = q.x - step;
+    return {std::isfinite(x) ? x : q.x / 2, q.y, q.z};
+}
+
+/// What the triangles of one component add up to around a point.
+struct Around {
+    int winding = 0;
+    bool on_surface = false;
+
+    void add(const Double3& q, const Corners& t) {
+        const WindingTerm term = winding_term(behind(q), q, t);
+        winding += term.crossings;
+        on_surface |= term.on_surface;
+    }
+};
+
+class NestingFinder {
+public:
+    NestingFinder(const Mesh& mesh, const ComponentNumbers& components,
+                  const std::vector<bool>& balanced)
+        : mesh_(mesh), components_(components), balanced_(balanced) {
+        box_.resize(components.count);
+        lowest_.assign(components.count, kNone);
+        for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+            const std::uint32_t component = components.of_vertex[i];
+            box_[component].add(mesh.positions[i]);
+            lowest_[component] = std::min(lowest_[component], i);
+        }
+    }
+
+    std::vector<Nested> find() {
+        cast_rays();
+        std::vector<Nested> nested;
+        for (auto& [pair, around] : around_) {
+            const auto [inner, outer] = pair;
+            if (around.on_surface) around = ask_other_vertices(inner, outer);
+            if (around.winding == 0 || around.on_surface) continue;
+            nested.push_back({inner, outer, around.winding});
+        }
+        return nested;
+    }
+
+private:
+    [[nodiscard]] Corners corners_of(std::uint32_t triangle) const {
+        const auto& v = mesh_.triangles[triangle].vertex;
+        return {mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]]};
+    }
+    [[nodiscard]] std::uint32_t component_of(std::uint32_t triangle) const {
+        return components_.of_vertex[mesh_.triangles[triangle].vertex[0]];
+    }
+
+    /// Each triangle is asked about the points in whose rays it may stand.
+    void cast_rays() {
+        std::vector<Double3> shadows;
+        std::vector<std::uint32_t> asking;
+        for (std::uint32_t i = 0; i < components_.count; ++i) {
+            if (!balanced_[i]) continue;
+            asking.push_back(i);
+            shadows.push_back({0, mesh_.positions[lowest_[i]].y, mesh_.positions[lowest_[i]].z});
+        }
+        const PointTree tree(std::move(shadows));
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+            const std::uint32_t outer = component_of(i);
+            if (!balanced_[outer]) continue;
+            const Corners t = corners_of(i);
+            Box box;
+            for (const Double3& p : t) box.add(p);
+            const auto enter = [&box](const Box& other) {
+                return box.lower.y <= other.upper.y && other.lower.y <= box.upper.y &&
+                       box.lower.z <= other.upper.z && other.lower.z <= box.upper.z;
+            };
+            tree.visit(enter, [&](std::uint32_t number) {
+                const std::uint32_t inner = asking[number];
+                if (inner == outer) return;
+                const Double3& q = mesh_.positions[lowest_[inner]];
+                if (!enter({q, q}) || q.x > box.upper.x || !box_[outer].contains(q)) return;
+                around_[{inner, outer}].add(q, t);
+            });
+        }
+    }
+
+    /// The lowest vertex off the other's surface; on it when there is none.
+    Around ask_other_vertices(std::uint32_t inner, std::uint32_t outer) {
+        sort_by_component();
+        Around around;
+        around.on_surface = true;
+        for (std::uint32_t i = lowest_[inner] + 1; i < mesh_.positions.size(); ++i) {
+            if (components_.of_vertex[i] != inner) continue;
+            around = {};
+            for (std::uint32_t k = first_[outer]; k < first_[outer + 1]; ++k) {
+                around.add(mesh_.positions[i], corners_of(triangle_[k]));
+            }
+            if (!around.on_surface) break;
+        }
+        return around;
+    }
+
+    void sort_by_component() {
+        if (!first_.empty()) return;
+        first_.assign(components_.count + 1, 0);
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) ++first_[component_of(i) + 1];
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        triangle_.resize(mesh_.triangles.size());
+        std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+            triangle_[next[component_of(i)]++] = i;
+        }
+    }
+
+    const Mesh& mesh_;
+    const ComponentNumbers& components_;
+    const std::vector<bool>& balanced_;
+    std::vector<Box> box_;               ///< of each component
+    std::vector<std::uint32_t> lowest_;  ///< vertex of each component
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Around> around_;  ///< by inner and outer
+    std::vector<std::uint32_t> first_;
+    std::vector<std::uint32_t> triangle_;  ///< by component, when needed
+};
+
+}  // namespace
+
+std::vector<Nested> find_nested(const Mesh& mesh, const ComponentNumbers& components,
+                                const std::vector<bool>& balanced) {
+    if (std::count(balanced.begin(), balanced.end(), true) < 2) return {};
+    return NestingFinder(mesh, components, balanced).find();
+}
+
+}  // namespace cdprep::mesh
