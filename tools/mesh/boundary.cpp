@@ -14,11 +14,6 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-std::uint32_t number_at(const Boundary& boundary, std::uint32_t vertex) {
-    const auto at = std::lower_bound(boundary.vertex.begin(), boundary.vertex.end(), vertex);
-    return static_cast<std::uint32_t>(at - boundary.vertex.begin());
-}
-
 void list_ends(Boundary& boundary) {
     for (const FlawedEdge& edge : boundary.edge) {
         boundary.vertex.push_back(edge.from);
@@ -27,7 +22,22 @@ void list_ends(Boundary& boundary) {
     std::sort(boundary.vertex.begin(), boundary.vertex.end());
     boundary.vertex.erase(std::unique(boundary.vertex.begin(), boundary.vertex.end()),
                           boundary.vertex.end());
-    boundary.edge_at.assign(boundary.vertex.size(), kNone);
+}
+
+void list_edges_at_ends(Boundary& boundary) {
+    const auto for_each_end = [&boundary](const auto& visit) {
+        for (std::uint32_t i = 0; i < boundary.edge.size(); ++i) {
+            visit(boundary.end_at(boundary.edge[i].from), i);
+            visit(boundary.end_at(boundary.edge[i].to), i);
+        }
+    };
+    std::vector<std::uint32_t>& first = boundary.first_at;
+    first.assign(boundary.vertex.size() + 1, 0);
+    for_each_end([&first](std::uint32_t end, std::uint32_t) { ++first[end + 1]; });
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    boundary.edges_at.resize(first.back());
+    std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+    for_each_end([&](std::uint32_t end, std::uint32_t i) { boundary.edges_at[next[end]++] = i; });
 }
 
 /// Walks along loops to name their vertices in order.
@@ -35,12 +45,6 @@ class LoopWalk {
 public:
     explicit LoopWalk(const Boundary& boundary) : boundary_(boundary) {
         used_.resize(boundary.edge.size());
-        first_at_.assign(boundary.vertex.size() + 1, 0);
-        for_each_end([this](std::uint32_t end, std::uint32_t) { ++first_at_[end + 1]; });
-        std::partial_sum(first_at_.begin(), first_at_.end(), first_at_.begin());
-        edge_at_.resize(first_at_.back());
-        std::vector<std::uint32_t> next(first_at_.begin(), first_at_.end() - 1);
-        for_each_end([&](std::uint32_t end, std::uint32_t i) { edge_at_[next[end]++] = i; });
         by_loop_.resize(boundary.edge.size());
         std::iota(by_loop_.begin(), by_loop_.end(), 0U);
         std::stable_sort(by_loop_.begin(), by_loop_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -65,20 +69,10 @@ public:
     }
 
 private:
-    template <class Visit>
-    void for_each_end(Visit visit) const {
-        for (std::uint32_t i = 0; i < boundary_.edge.size(); ++i) {
-            visit(number_at(boundary_, boundary_.edge[i].from), i);
-            visit(number_at(boundary_, boundary_.edge[i].to), i);
-        }
-    }
-
     /// The lowest edge at the vertex that has not been walked, first one that leads on.
     std::uint32_t unused_at(std::uint32_t vertex) const {
-        const std::uint32_t end = number_at(boundary_, vertex);
         std::uint32_t found = kNone;
-        for (std::uint32_t k = first_at_[end]; k < first_at_[end + 1]; ++k) {
-            const std::uint32_t i = edge_at_[k];
+        for (const std::uint32_t i : boundary_.edges_of(boundary_.end_at(vertex))) {
             if (used_[i]) continue;
             if (boundary_.edge[i].from == vertex) return i;
             if (found == kNone) found = i;
@@ -88,8 +82,6 @@ private:
 
     const Boundary& boundary_;
     std::vector<bool> used_;
-    std::vector<std::uint32_t> first_at_;
-    std::vector<std::uint32_t> edge_at_;
     std::vector<std::uint32_t> by_loop_;
     std::size_t next_ = 0;
 };
@@ -101,19 +93,15 @@ Boundary find_boundary(const Mesh& mesh, std::vector<FlawedEdge> edges) {
     boundary.edge = std::move(edges);
     std::sort(boundary.edge.begin(), boundary.edge.end(), comes_before);
     list_ends(boundary);
+    list_edges_at_ends(boundary);
     DisjointSets sets(boundary.vertex.size());
-    for (std::uint32_t i = 0; i < boundary.edge.size(); ++i) {
-        const std::uint32_t from = number_at(boundary, boundary.edge[i].from);
-        const std::uint32_t to = number_at(boundary, boundary.edge[i].to);
-        sets.unite(from, to);
-        for (const std::uint32_t end : {from, to}) {
-            boundary.edge_at[end] = std::min(boundary.edge_at[end], i);
-        }
+    for (const FlawedEdge& edge : boundary.edge) {
+        sets.unite(boundary.end_at(edge.from), boundary.end_at(edge.to));
     }
     std::vector<std::uint32_t> loop_of_root(boundary.vertex.size(), kNone);
     for (std::uint32_t i = 0; i < boundary.edge.size(); ++i) {
         const FlawedEdge& edge = boundary.edge[i];
-        std::uint32_t& loop = loop_of_root[sets.root_of(number_at(boundary, edge.from))];
+        std::uint32_t& loop = loop_of_root[sets.root_of(boundary.end_at(edge.from))];
         if (loop == kNone) {
             loop = static_cast<std::uint32_t>(boundary.loop.size());
             boundary.loop.push_back({i, 0, {}});

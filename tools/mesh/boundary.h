@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "mesh/edge_flaws.h"
@@ -20,11 +22,21 @@ struct BoundaryLoop {
 
 /// The edges that one triangle uses, and what they form.
 struct Boundary {
-    std::vector<FlawedEdge> edge;        ///< by ascending triangle
-    std::vector<std::uint32_t> loop_of;  ///< of each edge
-    std::vector<std::uint32_t> vertex;   ///< of the mesh, ascending: all ends
-    std::vector<std::uint32_t> edge_at;  ///< of each of those, the lowest edge that ends there
-    std::vector<BoundaryLoop> loop;      ///< by lowest edge
+    std::vector<FlawedEdge> edge;         ///< by ascending triangle
+    std::vector<std::uint32_t> loop_of;   ///< of each edge
+    std::vector<std::uint32_t> vertex;    ///< of the mesh, ascending: all ends
+    std::vector<std::uint32_t> first_at;  ///< one more than those
+    std::vector<std::uint32_t> edges_at;  ///< that end there, ascending: from first_at
+    std::vector<BoundaryLoop> loop;       ///< by lowest edge
+
+    /// Where a vertex of the mesh stands in `vertex`.
+    [[nodiscard]] std::uint32_t end_at(std::uint32_t mesh_vertex) const {
+        const auto at = std::lower_bound(vertex.begin(), vertex.end(), mesh_vertex);
+        return static_cast<std::uint32_t>(at - vertex.begin());
+    }
+    [[nodiscard]] std::span<const std::uint32_t> edges_of(std::uint32_t end) const {
+        return std::span(edges_at).subspan(first_at[end], first_at[end + 1] - first_at[end]);
+    }
 };
 
 [[nodiscard]] Boundary find_boundary(const Mesh& mesh, std::vector<FlawedEdge> edges);

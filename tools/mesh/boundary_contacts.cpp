@@ -2,8 +2,13 @@
 // Where the boundary comes near itself: T-junctions and seams with a gap.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <queue>
+#include <set>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "mesh/boundary.h"
 #include "mesh/close_groups.h"
@@ -106,10 +111,69 @@ struct Contact {
     OnSegment nearest;
 };
 
+/// All that are within a width of each other, but for those on an edge.
+std::vector<Contact> contacts_within(const Mesh& mesh, const Boundary& boundary, double width) {
+    const PointTree tree = tree_of(mesh, boundary);
+    std::vector<Contact> contacts;
+    for (std::uint32_t i = 0; i < boundary.edge.size(); ++i) {
+        const FlawedEdge& edge = boundary.edge[i];
+        const Double3& from = mesh.positions[edge.from];
+        const Double3& to = mesh.positions[edge.to];
+        tree.visit(SegmentReach(from, to, width), [&](std::uint32_t end) {
+            const std::uint32_t vertex = boundary.vertex[end];
+            if (vertex == edge.from || vertex == edge.to) return;
+            const OnSegment nearest = nearest_on(tree.point(end), from, to);
+            if (!(nearest.distance <= width) || lies_on(tree.point(end), from, to)) return;
+            contacts.push_back({end, i, nearest});
+        });
+    }
+    return contacts;
+}
+
+/// How far apart along the boundary, in seam widths, two sides of a gap are: neighbours
+/// around a corner are near each other without one.
+constexpr double kFarAlong = 4;
+
+/// The ends that are at most a length away along the boundary.
+class NearAlong {
+public:
+    NearAlong(const Mesh& mesh, const Boundary& boundary, std::uint32_t end, double length)
+        : boundary_(boundary) {
+        using Reached = std::pair<double, std::uint32_t>;
+        std::priority_queue<Reached, std::vector<Reached>, std::greater<>> open;
+        open.push({0, end});
+        while (!open.empty()) {
+            const auto [distance, at] = open.top();
+            open.pop();
+            if (!ends_.insert(at).second) continue;
+            for (const std::uint32_t i : boundary.edges_of(at)) {
+                const FlawedEdge& edge = boundary.edge[i];
+                const double next =
+                    distance + distance_between(mesh.positions[edge.from], mesh.positions[edge.to]);
+                if (!(next <= length)) continue;
+                for (const std::uint32_t vertex : {edge.from, edge.to}) {
+                    open.push({next, boundary.end_at(vertex)});
+                }
+            }
+        }
+    }
+
+    /// Whether an end of the edge is among them.
+    [[nodiscard]] bool reaches(std::uint32_t edge) const {
+        return ends_.contains(boundary_.end_at(boundary_.edge[edge].from)) ||
+               ends_.contains(boundary_.end_at(boundary_.edge[edge].to));
+    }
+
+private:
+    const Boundary& boundary_;
+    std::set<std::uint32_t> ends_;
+};
+
 Place place_of(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
                const Contact& contact, double measure) {
     const std::uint32_t vertex = boundary.vertex[contact.end];
-    const std::uint32_t own_triangle = boundary.edge[boundary.edge_at[contact.end]].triangle;
+    const std::uint32_t own_triangle =
+        boundary.edge[boundary.edges_of(contact.end).front()].triangle;
     const FlawedEdge& edge = boundary.edge[contact.edge];
     Place place = place_of_edge(soup, sound, edge, measure);
     place.vertices.insert(place.vertices.begin(), source_corner(soup, sound, own_triangle, vertex));
@@ -152,28 +216,25 @@ void find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Bo
 void find_near_seams(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
                      double width, FindingList& findings, DefectCounts& counts) {
     if (boundary.edge.empty() || !(width > 0)) return;
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    const PointTree tree = tree_of(sound.mesh, boundary);
-    std::vector<Contact> best(boundary.vertex.size(), {0, 0, {0, kInfinity}});
-    for (std::uint32_t i = 0; i < boundary.edge.size(); ++i) {
-        const Double3& from = sound.mesh.positions[boundary.edge[i].from];
-        const Double3& to = sound.mesh.positions[boundary.edge[i].to];
-        tree.visit(SegmentReach(from, to, width), [&](std::uint32_t end) {
-            if (boundary.loop_of[boundary.edge_at[end]] == boundary.loop_of[i]) return;
-            const OnSegment nearest = nearest_on(tree.point(end), from, to);
-            // Edges come in ascending order: of equally near ones the first stays.
-            if (!(nearest.distance <= width) || !(nearest.distance < best[end].nearest.distance)) {
-                return;
-            }
-            if (!lies_on(tree.point(end), from, to)) best[end] = {end, i, nearest};
-        });
-    }
-    for (const Contact& contact : best) {
-        if (contact.nearest.distance == kInfinity) continue;
-        ++counts.near_seams;
-        findings.add(Rule::near_seam, [&] {
-            return place_of(soup, sound, boundary, contact, contact.nearest.distance);
-        });
+    std::vector<Contact> contacts = contacts_within(sound.mesh, boundary, width);
+    std::sort(contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) {
+        return std::tie(a.end, a.nearest.distance, a.edge) <
+               std::tie(b.end, b.nearest.distance, b.edge);
+    });
+    for (auto first = contacts.begin(); first != contacts.end();) {
+        const std::uint32_t end = first->end;
+        const auto last =
+            std::find_if(first, contacts.end(), [end](const Contact& c) { return c.end != end; });
+        const NearAlong near_along(sound.mesh, boundary, end, kFarAlong * width);
+        const auto seam = std::find_if(
+            first, last, [&](const Contact& contact) { return !near_along.reaches(contact.edge); });
+        if (seam != last) {
+            ++counts.near_seams;
+            findings.add(Rule::near_seam, [&] {
+                return place_of(soup, sound, boundary, *seam, seam->nearest.distance);
+            });
+        }
+        first = last;
     }
 }
 

@@ -57,8 +57,9 @@ public:
         const std::uint32_t a = component_of(meeting.a);
         const std::uint32_t b = component_of(meeting.b);
         if (a == b) result_.self_crossing[a] = true;
-        const bool overlap =
-            meeting.meeting == Meeting::crossing || meeting.meeting == Meeting::coplanar_overlap;
+        const bool overlap = meeting.meeting == Meeting::crossing ||
+                             meeting.meeting == Meeting::edge_crossing ||
+                             meeting.meeting == Meeting::coplanar_overlap;
         if (a == b || !overlap) return;
         const auto [lower, upper] = std::minmax(a, b);
         ++pairs_
@@ -93,17 +94,20 @@ private:
     void list(const TriangleMeeting& meeting) {
         switch (meeting.meeting) {
             case Meeting::crossing:
+            case Meeting::corner_crossing:
                 ++counts_.crossing_pairs;
                 return add_place(Rule::crossing_triangles, meeting, 0);
             case Meeting::touching:
+            case Meeting::edge_crossing:
                 ++counts_.touching_pairs;
                 return add_place(Rule::touching_triangles, meeting, 0);
             case Meeting::coplanar_overlap:
-                ++counts_.coplanar_overlap_pairs;
-                return add_place(Rule::coplanar_overlap, meeting, 0);
             case Meeting::fold:
+                ++counts_.coplanar_overlap_pairs;
                 return add_place(Rule::coplanar_overlap, meeting,
                                  shared_vertices(sound_.mesh, meeting));
+            case Meeting::flat_touching:
+            case Meeting::edge_overlap:
             case Meeting::duplicate:  // CDP0204 and 0205 tell of them
                 return;
         }

@@ -133,14 +133,16 @@ constexpr std::array kRules = {
              "Cut it, or split the edges where it was glued wrongly. Orienting stops there.",
              kExact, ""},
     RuleText{Rule::t_junction, "t-junction", Severity::warning, "Vertex lies within an edge",
-             "A boundary edge (CDP0301) and an end of another that lies on it, between its ends.",
+             "A boundary edge (CDP0301) and an end of another that lies on it, between its ends. "
+             "One that rounding has moved off the edge is a near seam (CDP0308).",
              "The neighbours beyond do not share their edge: a crack of no width that makes the "
              "mesh open.",
              "Resolve T-junctions.", kExact, "where on the edge, from 0 at its first end to 1"},
     RuleText{Rule::near_seam, "near-seam", Severity::warning, "Seam has a gap",
-             "An end of a boundary edge that is at most the seam width from a boundary edge of "
-             "another loop (CDP0302), and not on it. The nearest such edge is named. Looked for "
-             "only when a seam width is given.",
+             "An end of a boundary edge that is at most the seam width from another boundary edge, "
+             "and not on it: one of another loop (CDP0302), or one of the same loop that is more "
+             "than four widths away along it. The nearest such edge is named. Looked for only when "
+             "a seam width is given.",
              "Small things fall through the gap, and the mesh is open.",
              "Stitch seams with that width, or weld with a distance.",
              "by distances in double, rounded", "the width of the gap, in model units"},
@@ -178,22 +180,22 @@ constexpr std::array kRules = {
              "None by itself; parts of an assembly are often meant to be models of their own.",
              "Nothing needs mending. Tiny ones can be dropped when told to.", kExact,
              "how many triangles it has"},
-    RuleText{Rule::crossing_triangles, "crossing-triangles", Severity::warning, "Triangles cross",
-             "Two triangles without a common vertex of which one runs through the other, or with "
-             "exactly one that meet elsewhere too, not in one plane.",
-             "The surface is not that of a solid: winding numbers other than 0 and 1, and a "
-             "volume that counts parts twice.",
-             "Remove self-intersections.", kExact, ""},
+    RuleText{
+        Rule::crossing_triangles, "crossing-triangles", Severity::warning, "Triangles cross",
+        "Two triangles without a common vertex, an edge of one of which runs through the inside of "
+        "the other; or with exactly one common vertex, not in one plane, that meet elsewhere too.",
+        "The surface is not that of a solid: winding numbers other than 0 and 1, and a volume that "
+        "counts parts twice.",
+        "Remove self-intersections.", kExact, ""},
     RuleText{Rule::touching_triangles, "touching-triangles", Severity::note, "Triangles touch",
-             "Two triangles without a common vertex that have a common point and neither cross "
-             "nor share area.",
+             "Two triangles without a common vertex, not in one plane, that have a common point "
+             "where no edge of one runs through the inside of the other.",
              "Often the far side of a T-junction; else parts in contact.",
              "Resolve T-junctions; parts in contact need nothing.", kExact, ""},
     RuleText{Rule::coplanar_overlap, "coplanar-overlap", Severity::warning,
              "Triangles overlap in a plane",
-             "Two triangles in one plane, not the same three corners, that share area: without "
-             "a common vertex (counted as coplanar_overlap_pairs), or folded onto each other at "
-             "a common vertex or edge.",
+             "Two triangles in one plane, not with the same three corners, that share area. They "
+             "may share a vertex, or an edge onto which one is folded.",
              "Which of them is on the outside is not defined; contacts are reported twice.",
              "Remove self-intersections, or delete one of them.", kExact,
              "how many vertices they share"},

@@ -136,7 +136,7 @@ private:
 
     void list_unused() {
         for (std::uint32_t i = 0; i < use_.size(); ++i) {
-            if (use_[i] != 0) continue;
+            if ((use_[i] & used) != 0) continue;
             ++counts_.unreferenced_vertices;
             findings_.add(Rule::unreferenced_vertex, [&] {
                 return Place{{}, {i}, drawable(soup_.positions[i]), 0};
