@@ -120,8 +120,10 @@ std::vector<Contact> contacts_within(const Mesh& mesh, const Boundary& boundary,
         const Double3& from = mesh.positions[edge.from];
         const Double3& to = mesh.positions[edge.to];
         tree.visit(SegmentReach(from, to, width), [&](std::uint32_t end) {
+            // Surface lies between a corner and the edges of its triangle, no gap.
+            const auto& corners = mesh.triangles[edge.triangle].vertex;
             const std::uint32_t vertex = boundary.vertex[end];
-            if (vertex == edge.from || vertex == edge.to) return;
+            if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) return;
             const OnSegment nearest = nearest_on(tree.point(end), from, to);
             if (!(nearest.distance <= width) || lies_on(tree.point(end), from, to)) return;
             contacts.push_back({end, i, nearest});

@@ -140,12 +140,14 @@ constexpr std::array kRules = {
              "Resolve T-junctions.", kExact, "where on the edge, from 0 at its first end to 1"},
     RuleText{Rule::near_seam, "near-seam", Severity::warning, "Seam has a gap",
              "An end of a boundary edge that is at most the seam width from another boundary edge, "
-             "and not on it: one of another loop (CDP0302), or one of the same loop that is more "
-             "than four widths away along it. The nearest such edge is named. Looked for only when "
-             "a seam width is given.",
+             "not on it and no corner of its triangle: an edge of another loop (CDP0302), or of "
+             "the same loop and more than four widths away along it. The nearest such edge is "
+             "named. Looked for only when a seam width is given.",
              "Small things fall through the gap, and the mesh is open.",
              "Stitch seams with that width, or weld with a distance.",
-             "by distances in double, rounded", "the width of the gap, in model units"},
+             "by distances in double, rounded; strips of surface narrower than the width are "
+             "reported like gaps",
+             "the width of the gap, in model units"},
     RuleText{Rule::inverted_component, "inverted-component", Severity::warning,
              "Component is inside out",
              "A component of which every edge is run through as often in one direction as in the "
