@@ -2,7 +2,6 @@
 #include "mesh/find_defects.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +21,8 @@
 
 namespace cdprep::mesh {
 namespace {
+
+constexpr double kLargestFloat = std::numeric_limits<float>::max();
 
 /// Asks one rule, or a few that see the same, after the other, and keeps what later ones
 /// need.
@@ -52,34 +53,34 @@ private:
 
     /// CDP0103.
     void list_large_extents() {
-        constexpr std::array<double Double3::*, 3> kAxes = {&Double3::x, &Double3::y, &Double3::z};
-        constexpr double kLargest = std::numeric_limits<float>::max();
         const std::vector<Double3>& points = sound_.mesh.positions;
         for (std::uint32_t i = 0; i < points.size(); ++i) {
             const Double3& p = points[i];
             const double size = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-            if (!(size > kLargest)) continue;
+            if (!(size > kLargestFloat)) continue;
             findings_.add(Rule::extent_beyond_float, [&] {
                 return Place{{}, {sound_.mesh.source_vertex[i]}, p, size};
             });
         }
-        for (const auto axis : kAxes) {
-            const auto [least, most] = std::minmax_element(
-                points.begin(), points.end(),
-                [axis](const Double3& a, const Double3& b) { return a.*axis < b.*axis; });
-            if (least == points.end() || std::fabs((*least).*axis) > kLargest ||
-                std::fabs((*most).*axis) > kLargest) {
-                continue;
-            }
-            const double extent = (*most).*axis - (*least).*axis;
-            if (!(extent > kLargest)) continue;
-            findings_.add(Rule::extent_beyond_float, [&] {
-                const auto number = [&](auto at) {
-                    return sound_.mesh.source_vertex[static_cast<std::size_t>(at - points.begin())];
-                };
-                return Place{{}, {number(least), number(most)}, *least, extent};
-            });
-        }
+        for (const auto axis : {&Double3::x, &Double3::y, &Double3::z}) list_large_extent(axis);
+    }
+
+    void list_large_extent(double Double3::*axis) {
+        const std::vector<Double3>& points = sound_.mesh.positions;
+        if (points.empty()) return;
+        const auto ends = std::minmax_element(
+            points.begin(), points.end(),
+            [axis](const Double3& a, const Double3& b) { return a.*axis < b.*axis; });
+        const double least = (*ends.first).*axis;
+        const double most = (*ends.second).*axis;
+        const bool is_told = std::max(std::fabs(least), std::fabs(most)) > kLargestFloat;
+        if (is_told || !(most - least > kLargestFloat)) return;
+        const auto number = [&](auto at) {
+            return sound_.mesh.source_vertex[static_cast<std::size_t>(at - points.begin())];
+        };
+        findings_.add(Rule::extent_beyond_float, [&] {
+            return Place{{}, {number(ends.first), number(ends.second)}, *ends.first, most - least};
+        });
     }
 
     /// CDP0106: those that welding would join.

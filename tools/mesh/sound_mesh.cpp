@@ -125,7 +125,8 @@ private:
             ++counts_.degenerate_triangles;
             sound_.repeated.push_back({number, 0, false});
             findings_.add(Rule::repeated_corner, [&] {
-                return Place{{number}, {t.vertex.begin(), t.vertex.end()}, soup_.positions[a], 0};
+                return Place{
+                    {number}, {t.vertex.begin(), t.vertex.end()}, soup_.positions[t.vertex[0]], 0};
             });
             return;
         }
