@@ -6,19 +6,10 @@
 #include <tuple>
 #include <utility>
 
-#include "mesh/point_tree.h"
-#include "mesh/source_places.h"
+#include "mesh/common_point.h"
 
 namespace cdprep::mesh {
 namespace {
-
-Box box_of(const Mesh& mesh, std::uint32_t triangle) {
-    Box box;
-    for (const std::uint32_t vertex : mesh.triangles[triangle].vertex) {
-        box.add(mesh.positions[vertex]);
-    }
-    return box;
-}
 
 int shared_vertices(const Mesh& mesh, const TriangleMeeting& meeting) {
     const auto& a = mesh.triangles[meeting.a].vertex;
@@ -28,17 +19,15 @@ int shared_vertices(const Mesh& mesh, const TriangleMeeting& meeting) {
     }));
 }
 
-/// The middle of what the boxes of both have in common.
 Place place_of(const SoundMesh& sound, const TriangleMeeting& meeting, double measure) {
-    const Box a = box_of(sound.mesh, meeting.a);
-    const Box b = box_of(sound.mesh, meeting.b);
-    const Double3 lower = {std::max(a.lower.x, b.lower.x), std::max(a.lower.y, b.lower.y),
-                           std::max(a.lower.z, b.lower.z)};
-    const Double3 upper = {std::min(a.upper.x, b.upper.x), std::min(a.upper.y, b.upper.y),
-                           std::min(a.upper.z, b.upper.z)};
+    const auto corners = [&sound](std::uint32_t triangle) {
+        const auto& v = sound.mesh.triangles[triangle].vertex;
+        const std::vector<Double3>& p = sound.mesh.positions;
+        return Corners{p[v[0]], p[v[1]], p[v[2]]};
+    };
     return {{sound.source_triangle[meeting.a], sound.source_triangle[meeting.b]},
             {},
-            middle_of(lower, upper),
+            common_point(corners(meeting.a), corners(meeting.b)),
             measure};
 }
 

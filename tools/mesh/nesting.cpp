@@ -70,33 +70,30 @@ private:
         return components_.of_vertex[mesh_.triangles[triangle].vertex[0]];
     }
 
-    /// Each triangle is asked about the points in whose rays it may stand.
+    /// Each triangle is asked about the points in whose rays it may stand, and that its
+    /// component's box holds.
     void cast_rays() {
-        std::vector<Double3> shadows;
+        std::vector<Double3> points;
         std::vector<std::uint32_t> asking;
         for (std::uint32_t i = 0; i < components_.count; ++i) {
             if (!balanced_[i]) continue;
             asking.push_back(i);
-            shadows.push_back({0, mesh_.positions[lowest_[i]].y, mesh_.positions[lowest_[i]].z});
+            points.push_back(mesh_.positions[lowest_[i]]);
         }
-        const PointTree tree(std::move(shadows));
+        const PointTree tree(std::move(points));
         for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
             const std::uint32_t outer = component_of(i);
             if (!balanced_[outer]) continue;
             const Corners t = corners_of(i);
-            Box box;
-            for (const Double3& p : t) box.add(p);
-            const auto enter = [&box](const Box& other) {
-                return box.lower.y <= other.upper.y && other.lower.y <= box.upper.y &&
-                       box.lower.z <= other.upper.z && other.lower.z <= box.upper.z;
-            };
-            tree.visit(enter, [&](std::uint32_t number) {
-                const std::uint32_t inner = asking[number];
-                if (inner == outer) return;
-                const Double3& q = mesh_.positions[lowest_[inner]];
-                if (!enter({q, q}) || q.x > box.upper.x || !box_[outer].contains(q)) return;
-                around_[{inner, outer}].add(q, t);
-            });
+            Box region;
+            for (const Double3& p : t) region.add(p);
+            region.lower.x = box_[outer].lower.x;
+            tree.visit([&region](const Box& box) { return region.meets(box); },
+                       [&](std::uint32_t number) {
+                           const std::uint32_t inner = asking[number];
+                           if (inner == outer || !region.contains(tree.point(number))) return;
+                           around_[{inner, outer}].add(tree.point(number), t);
+                       });
         }
     }
 

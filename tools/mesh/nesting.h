@@ -20,8 +20,8 @@ struct Nested {
 /// lowest vertex of the other that is not on its surface. Sorted by inner, then outer.
 /// Those that cross are looked at no closer. Exact.
 ///
-/// One ray from each component along x. O(n log c) for c components, and O(triangles whose
-/// shadow along x holds another component's vertex).
+/// One ray from each component along x. O(n log c) for c components, and O(pairs of a
+/// component within another's box and a triangle of that which its ray may meet).
 [[nodiscard]] std::vector<Nested> find_nested(const Mesh& mesh, const ComponentNumbers& components,
                                               const std::vector<bool>& balanced);
 

@@ -31,6 +31,10 @@ struct Box {
         return lower.x <= p.x && p.x <= upper.x && lower.y <= p.y && p.y <= upper.y &&
                lower.z <= p.z && p.z <= upper.z;
     }
+    [[nodiscard]] bool meets(const Box& other) const {
+        return lower.x <= other.upper.x && other.lower.x <= upper.x && lower.y <= other.upper.y &&
+               other.lower.y <= upper.y && lower.z <= other.upper.z && other.lower.z <= upper.z;
+    }
     [[nodiscard]] double diagonal() const {
         return std::hypot(upper.x - lower.x, upper.y - lower.y, upper.z - lower.z);
     }

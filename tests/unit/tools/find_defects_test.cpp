@@ -417,6 +417,44 @@ TEST(FindDefects, NearVerticesAreThoseThatWeldingWouldJoin) {
     }
 }
 
+// By hand: an upright triangle through a flat one, along x = 1 from y = 0 to 2 or less.
+TEST(FindDefects, PlacesOfMeetingsLieWhereTrianglesMeet) {
+    const test::TestMesh flat = {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}}};
+    const auto place_with = [&flat](const test::TestMesh& other, Rule rule) {
+        const Finding finding = finding_of(report_of(test::joined(flat, other)), rule);
+        EXPECT_EQ(finding.count, 1U);
+        EXPECT_EQ(finding.places.at(0).triangles, (Numbers{0, 1}));
+        return finding.places.at(0).position;
+    };
+    const test::TestMesh through = {{{1, 1, -1}, {1, 1, 1}, {1, 9, 0}}, {{{0, 1, 2}}}};
+    EXPECT_EQ(place_with(through, Rule::crossing_triangles), (Double3{1, 2, 0}));
+    const test::TestMesh on_it = {{{1, 1, 0}, {1, 1, 1}, {2, 1, 1}}, {{{0, 1, 2}}}};
+    EXPECT_EQ(place_with(on_it, Rule::touching_triangles), (Double3{1, 1, 0}));
+    const test::TestMesh within = {{{1, 1, 0}, {1.75, 1, 0}, {1, 1.75, 0}}, {{{0, 1, 2}}}};
+    const Double3 middle = place_with(within, Rule::coplanar_overlap);
+    EXPECT_DOUBLE_EQ(middle.x, 1.25);
+    EXPECT_DOUBLE_EQ(middle.y, 1.25);
+    EXPECT_EQ(middle.z, 0);
+}
+
+// A hundred thousand in a row along the rays that nesting casts, each in its own box.
+TEST(FindDefects, ComponentsInARowAreNotAskedOfEachOther) {
+    test::TestMesh row;
+    constexpr std::uint32_t kCount = 100'000;
+    for (std::uint32_t i = 0; i < kCount; ++i) {
+        const double x = 2.0 * i;
+        row.positions.insert(row.positions.end(), {{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}, {x, 0, 1}});
+        for (const Triangle& t :
+             {Triangle{{0, 2, 1}}, Triangle{{0, 1, 3}}, Triangle{{0, 3, 2}}, Triangle{{1, 2, 3}}}) {
+            row.triangles.push_back(
+                {{4 * i + t.vertex[0], 4 * i + t.vertex[1], 4 * i + t.vertex[2]}});
+        }
+    }
+    const DefectReport report = report_of(row, {.crossings = false});
+    EXPECT_EQ(report.counts.components, kCount);
+    EXPECT_EQ(report.findings.size(), 1U);
+}
+
 // ------------------------------------------------------------ threads, and a million places
 
 void expect_same(const DefectReport& a, const DefectReport& b) {
