@@ -14,14 +14,16 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-void list_ends(Boundary& boundary) {
-    for (const FlawedEdge& edge : boundary.edge) {
-        boundary.vertex.push_back(edge.from);
-        boundary.vertex.push_back(edge.to);
+/// Numbers the ends of edges in the order of the mesh.
+void list_ends(const Mesh& mesh, Boundary& boundary) {
+    std::vector<std::uint32_t>& end = boundary.end_of_vertex;
+    end.assign(mesh.positions.size(), kNone);
+    for (const FlawedEdge& edge : boundary.edge) end[edge.from] = end[edge.to] = 0;
+    for (std::uint32_t vertex = 0; vertex < end.size(); ++vertex) {
+        if (end[vertex] == kNone) continue;
+        end[vertex] = static_cast<std::uint32_t>(boundary.vertex.size());
+        boundary.vertex.push_back(vertex);
     }
-    std::sort(boundary.vertex.begin(), boundary.vertex.end());
-    boundary.vertex.erase(std::unique(boundary.vertex.begin(), boundary.vertex.end()),
-                          boundary.vertex.end());
 }
 
 void list_edges_at_ends(Boundary& boundary) {
@@ -91,8 +93,9 @@ private:
 Boundary find_boundary(const Mesh& mesh, std::vector<FlawedEdge> edges) {
     Boundary boundary;
     boundary.edge = std::move(edges);
+    if (boundary.edge.empty()) return boundary;
     std::sort(boundary.edge.begin(), boundary.edge.end(), comes_before);
-    list_ends(boundary);
+    list_ends(mesh, boundary);
     list_edges_at_ends(boundary);
     DisjointSets sets(boundary.vertex.size());
     for (const FlawedEdge& edge : boundary.edge) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,17 +21,17 @@ struct BoundaryLoop {
 
 /// The edges that one triangle uses, and what they form.
 struct Boundary {
-    std::vector<FlawedEdge> edge;         ///< by ascending triangle
-    std::vector<std::uint32_t> loop_of;   ///< of each edge
-    std::vector<std::uint32_t> vertex;    ///< of the mesh, ascending: all ends
-    std::vector<std::uint32_t> first_at;  ///< one more than those
-    std::vector<std::uint32_t> edges_at;  ///< that end there, ascending: from first_at
-    std::vector<BoundaryLoop> loop;       ///< by lowest edge
+    std::vector<FlawedEdge> edge;              ///< by ascending triangle
+    std::vector<std::uint32_t> loop_of;        ///< of each edge
+    std::vector<std::uint32_t> vertex;         ///< of the mesh, ascending: all ends
+    std::vector<std::uint32_t> end_of_vertex;  ///< of the mesh: where it stands there, if it does
+    std::vector<std::uint32_t> first_at;       ///< one more than those
+    std::vector<std::uint32_t> edges_at;       ///< that end there, ascending: from first_at
+    std::vector<BoundaryLoop> loop;            ///< by lowest edge
 
-    /// Where a vertex of the mesh stands in `vertex`.
+    /// Where a vertex of the boundary stands in `vertex`.
     [[nodiscard]] std::uint32_t end_at(std::uint32_t mesh_vertex) const {
-        const auto at = std::lower_bound(vertex.begin(), vertex.end(), mesh_vertex);
-        return static_cast<std::uint32_t>(at - vertex.begin());
+        return end_of_vertex[mesh_vertex];
     }
     [[nodiscard]] std::span<const std::uint32_t> edges_of(std::uint32_t end) const {
         return std::span(edges_at).subspan(first_at[end], first_at[end + 1] - first_at[end]);
