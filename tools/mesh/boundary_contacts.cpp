@@ -13,14 +13,11 @@
 #include "mesh/boundary.h"
 #include "mesh/close_groups.h"
 #include "mesh/source_places.h"
+#include "mesh/vectors.h"
 #include "triangle_contact.h"
 
 namespace cdprep::mesh {
 namespace {
-
-Double3 minus(const Double3& a, const Double3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
 
 /// A segment that tells which boxes come within a margin of it. Never says no where the
 /// answer is yes: the separating axes are those of the box and their products with the
@@ -92,7 +89,7 @@ OnSegment nearest_on(const Double3& p, const Double3& a, const Double3& b) {
     const double length = std::hypot(u.x, u.y, u.z);
     // Unit steps: squares of lengths may leave the range of double.
     const Double3 unit = {u.x / length, u.y / length, u.z / length};
-    const double along = v.x * unit.x + v.y * unit.y + v.z * unit.z;
+    const double along = dot(v, unit);
     const double share = std::clamp(along / length, 0.0, 1.0);
     const Double3 at = {a.x + share * u.x, a.y + share * u.y, a.z + share * u.z};
     return {share, distance_between(p, share < 1 ? at : b)};

@@ -5,20 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "mesh/vectors.h"
+
 namespace cdprep::mesh {
 namespace {
-
-Double3 minus(const Double3& a, const Double3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-double dot(const Double3& a, const Double3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Double3 cross(const Double3& a, const Double3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 Double3 between(const Double3& a, const Double3& b, double share) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};

@@ -16,11 +16,14 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// From where the ray through q runs along x, upwards.
-Double3 behind(const Double3& q) {
-    const double step = std::max(std::fabs(q.x), std::numeric_limits<double>::min());
-    const double x = q.x - step;
-    return {std::isfinite(x) ? x : q.x / 2, q.y, q.z};
+/// From where a ray runs through q along x, upwards: as far before the box as it is wide,
+/// which keeps the numbers ordinary. From the lowest double it runs downwards, where nothing
+/// is left to meet.
+Double3 behind(const Double3& q, const Box& box) {
+    const double before = box.lower.x - (box.upper.x - box.lower.x);
+    if (before < q.x && std::isfinite(before)) return {before, q.y, q.z};
+    const double next = std::nextafter(q.x, -Box::kInfinity);
+    return {std::isfinite(next) ? next : std::nextafter(q.x, 0.0), q.y, q.z};
 }
 
 /// What the triangles of one component add up to around a point.
@@ -28,8 +31,9 @@ struct Around {
     int winding = 0;
     bool on_surface = false;
 
-    void add(const Double3& q, const Corners& t) {
-        const WindingTerm term = winding_term(behind(q), q, t);
+    /// The point, from where its ray comes, and a triangle.
+    void add(const Double3& q, const Double3& o, const Corners& t) {
+        const WindingTerm term = winding_term(o, q, t);
         winding += term.crossings;
         on_surface |= term.on_surface;
     }
@@ -92,7 +96,8 @@ private:
                        [&](std::uint32_t number) {
                            const std::uint32_t inner = asking[number];
                            if (inner == outer || !region.contains(tree.point(number))) return;
-                           around_[{inner, outer}].add(tree.point(number), t);
+                           const Double3& q = tree.point(number);
+                           around_[{inner, outer}].add(q, behind(q, box_[outer]), t);
                        });
         }
     }
@@ -106,7 +111,8 @@ private:
             if (components_.of_vertex[i] != inner) continue;
             around = {};
             for (std::uint32_t k = first_[outer]; k < first_[outer + 1]; ++k) {
-                around.add(mesh_.positions[i], corners_of(triangle_[k]));
+                const Double3& q = mesh_.positions[i];
+                around.add(q, behind(q, box_[outer]), corners_of(triangle_[k]));
             }
             if (!around.on_surface) break;
         }

@@ -7,21 +7,14 @@
 #include <numeric>
 
 #include "mesh/exact_volume.h"
+#include "mesh/vectors.h"
 #include "triangle_contact.h"
 
 namespace cdprep::mesh {
 namespace {
 
-Double3 minus(const Double3& a, const Double3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 Double3 times(const Double3& a, double factor) {
     return {a.x * factor, a.y * factor, a.z * factor};
-}
-
-double squared(const Double3& a) {
-    return a.x * a.x + a.y * a.y + a.z * a.z;
 }
 
 double largest_of(const Double3& a) {
@@ -65,9 +58,11 @@ Shape shape_of_edges(const Double3& u, const Double3& v) {
     const Minor x = minor(u.y, u.z, v.y, v.z);
     const Minor y = minor(u.z, u.x, v.z, v.x);
     const Minor z = minor(u.x, u.y, v.x, v.y);
+    const Double3 third = minus(v, u);
+    const Double3 normal = {x.value, y.value, z.value};
     Shape shape;
-    shape.double_area = std::sqrt(squared({x.value, y.value, z.value}));
-    shape.longest_squared = std::max({squared(u), squared(v), squared(minus(v, u))});
+    shape.double_area = std::sqrt(dot(normal, normal));
+    shape.longest_squared = std::max({dot(u, u), dot(v, v), dot(third, third)});
     shape.has_area = x.certain || y.certain || z.certain;
     return shape;
 }

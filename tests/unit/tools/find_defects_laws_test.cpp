@@ -12,7 +12,6 @@
 #include <tuple>
 
 #include "mesh/close_groups.h"
-#include "mesh/exact_volume.h"
 #include "mesh/find_defects.h"
 #include "support/exact_rational.h"
 #include "support/exact_winding.h"
@@ -350,38 +349,6 @@ TEST(FindDefectsLaws, NestedComponentsAreThoseWithAWindingNumber) {
     }
     EXPECT_GT(nested, 60 * 30 * 2 / 10);
     EXPECT_LT(nested, 60 * 30 * 8 / 10);
-}
-
-// Exact numbers are the oracle; coordinates of every size, and sums that nearly cancel.
-TEST(ExactVolume, HasTheSignAndSizeOfTheExactSum) {
-    std::mt19937 random(20261121);
-    std::uniform_real_distribution<double> mantissa(-1, 1);
-    std::array<int, 3> signs{};
-    for (int round = 0; round < 300; ++round) {
-        std::uniform_int_distribution<int> exponent(round % 3 == 0 ? -1074 : -40,
-                                                    round % 3 == 0 ? 300 : 40);
-        ExactVolume volume;
-        ExactNumber sum;
-        for (int i = 0; i < 4; ++i) {
-            Corner3 t;
-            for (Point& p : t) {
-                for (double& x : p) x = std::ldexp(mantissa(random), exponent(random));
-            }
-            // And turned round, but for one bit of one corner, or none.
-            Corner3 back = {t[0], t[2], t[1]};
-            if (i == 0 && round % 4 != 0) back[1][0] = std::nextafter(back[1][0], 1e300);
-            for (const Corner3& c : {t, back}) {
-                volume.add({c[0][0], c[0][1], c[0][2]}, {c[1][0], c[1][1], c[1][2]},
-                           {c[2][0], c[2][1], c[2][2]});
-                sum = sum + determinant(c[0], c[1], c[2]);
-            }
-        }
-        EXPECT_EQ(volume.sign(), sum.sign()) << "round " << round;
-        const auto expected = static_cast<double>(sum.approximation() / 6);
-        EXPECT_DOUBLE_EQ(volume.volume(), expected) << "round " << round;
-        ++signs[static_cast<std::size_t>(sum.sign() + 1)];
-    }
-    for (const int count : signs) EXPECT_GT(count, 50);
 }
 
 }  // namespace
