@@ -43,9 +43,9 @@ struct DefectCounts {
     std::uint64_t near_seams = 0;
     std::uint64_t components = 0;  ///< of triangles that share a vertex
     std::uint64_t inverted_components = 0;
-    std::uint64_t nested_components = 0;
-    std::uint64_t overlapping_components = 0;
-    std::uint64_t crossing_pairs = 0;
+    std::uint64_t nested_components = 0;       ///< pairs, inner and outer
+    std::uint64_t overlapping_components = 0;  ///< pairs
+    std::uint64_t crossing_pairs = 0;          ///< these three as self_intersections.h says
     std::uint64_t touching_pairs = 0;
     std::uint64_t coplanar_overlap_pairs = 0;
     std::uint64_t self_intersecting_pairs = 0;  ///< as CGAL's self_intersections counts

@@ -60,10 +60,13 @@ public:
 
     /// Triangles come in ascending order. Sets the number that the file has.
     bool is(std::uint32_t triangle, double& index) {
-        if (next_ < listed_.size() && listed_[next_]->triangle == triangle) {
-            index = static_cast<double>(listed_[next_++]->found);
-            return true;
+        bool is_listed = false;
+        // A triangle is listed once, or once for each of its corners.
+        for (; next_ < listed_.size() && listed_[next_]->triangle <= triangle; ++next_) {
+            is_listed = true;
+            index = static_cast<double>(listed_[next_]->found);
         }
+        if (is_listed) return true;
         bool all_zero = true;
         for (const std::uint32_t vertex : soup_.triangles[triangle].vertex) {
             index = vertex;

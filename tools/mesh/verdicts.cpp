@@ -107,12 +107,16 @@ private:
         verdict.first_triangle = tally.first_triangle;
         verdict.boundary_loops = static_cast<std::uint32_t>(tally.loops);
         verdict.euler = static_cast<std::int32_t>(tally.vertices - tally.edges() + tally.triangles);
-        constexpr std::uint32_t kHasGenus =
-            verdict_closed | verdict_two_manifold | verdict_orientable;
-        verdict.genus = (verdict.facts & kHasGenus) == kHasGenus ? (2 - verdict.euler) / 2 : -1;
+        verdict.genus = has_genus(verdict) ? (2 - verdict.euler) / 2 : -1;
         verdict.area = measure.area;
         verdict.volume = tally.balanced ? measure.volume : 0;
         return verdict;
+    }
+
+    static bool has_genus(const Verdict& verdict) {
+        constexpr std::uint32_t kNeeded =
+            format::verdict_closed | format::verdict_two_manifold | format::verdict_orientable;
+        return (verdict.facts & kNeeded) == kNeeded;
     }
 
     static std::uint32_t promises_of(std::uint32_t facts) {
@@ -141,7 +145,7 @@ private:
         sum.first_triangle = tally_.empty() ? 0 : tally_.front().first_triangle;
         sum.self_crossing = g_.meetings != nullptr && g_.meetings->any;
         Verdict verdict = verdict_of(sum, g_.measures.whole);
-        if (verdict.genus != -1 || tally_.empty()) verdict.genus = tally_.empty() ? -1 : genus;
+        if (has_genus(verdict)) verdict.genus = genus;
         if (!windings_are_simple(verdicts)) verdict.promises &= ~format::promise_simple_solid;
         return verdict;
     }

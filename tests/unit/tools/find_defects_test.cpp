@@ -68,6 +68,11 @@ TEST(FindDefects, GenusCountsHandles) {
     EXPECT_EQ(report.verdicts.front().genus, 2);
     EXPECT_EQ(report.verdicts.front().euler, 2);  // 0 + 0 + 2
     EXPECT_EQ(report.verdicts[3].genus, 0);
+    // Two balls have none, though 2 - their characteristic is negative.
+    const test::TestMesh ball = test::icosphere(1);
+    const DefectReport balls = report_of(test::joined(ball, test::moved_by(ball, 1, {9, 0, 0})));
+    EXPECT_EQ(balls.verdicts.front().euler, 4);
+    EXPECT_EQ(balls.verdicts.front().genus, 0);
 }
 
 TEST(FindDefects, NothingIsFoundInNothing) {
