@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
 #include <tuple>
@@ -104,6 +105,26 @@ public:
     }
 
     DefectCounts counts;
+
+    [[nodiscard]] std::int32_t euler() const {
+        std::set<Point> points;
+        for (const Corner3& t : triangles_) points.insert(t.begin(), t.end());
+        return static_cast<std::int32_t>(points.size() + triangles_.size()) -
+               static_cast<std::int32_t>(uses_.size());
+    }
+
+    /// Of the whole; whether it can be oriented is not asked.
+    [[nodiscard]] std::uint32_t facts() const {
+        const bool balanced = std::all_of(uses_.begin(), uses_.end(), [](const auto& edge) {
+            return std::accumulate(edge.second.begin(), edge.second.end(), 0) == 0;
+        });
+        const bool manifold = counts.non_manifold_edges == 0 && counts.non_manifold_vertices == 0;
+        std::uint32_t bits = balanced ? format::verdict_balanced : 0U;
+        if (counts.boundary_edges == 0) bits |= format::verdict_closed;
+        if (manifold) bits |= format::verdict_two_manifold;
+        if (counts.inconsistent_edges == 0) bits |= format::verdict_oriented;
+        return bits;
+    }
 
 private:
     static std::set<Point> corner_set(const Corner3& t) {
@@ -209,8 +230,26 @@ private:
 };
 
 void expect_as_slow(const test::TestMesh& mesh, const char* name, std::uint32_t seed) {
-    const DefectCounts ours = find_defects(test::soup_of(mesh), {.crossings = false}).counts;
-    const DefectCounts slow = SlowCounts(mesh).counts;
+    const DefectReport report = find_defects(test::soup_of(mesh), {.crossings = false});
+    const DefectCounts& ours = report.counts;
+    const SlowCounts slowly(mesh);
+    const DefectCounts& slow = slowly.counts;
+    const std::uint32_t not_asked = format::verdict_orientable | format::verdict_inverted;
+    EXPECT_EQ(report.verdicts[0].facts & ~not_asked, slowly.facts()) << name << seed;
+    EXPECT_EQ(report.verdicts[0].euler, slowly.euler()) << name << seed;
+    std::int32_t euler = 0;
+    std::uint32_t all_of_them = ~0U;
+    for (std::size_t i = 1; i < report.verdicts.size(); ++i) {
+        euler += report.verdicts[i].euler;
+        all_of_them &= report.verdicts[i].facts;
+    }
+    EXPECT_EQ(euler, slowly.euler()) << name << seed;
+    if (report.verdicts.size() > 1) {
+        // Each is true of the whole when it is of every component; but for the volume's sign.
+        EXPECT_EQ(report.verdicts[0].facts | format::verdict_inverted,
+                  all_of_them | format::verdict_inverted)
+            << name << seed;
+    }
     const auto tied = [](const DefectCounts& c) {
         return std::array{c.degenerate_triangles, c.zero_area_triangles,
                           c.duplicate_triangles,  c.opposite_triangles,
