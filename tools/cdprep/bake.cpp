@@ -9,6 +9,7 @@
 #include <set>
 
 #include "command.h"
+#include "import_limits.h"
 #include "interrupt.h"
 #include "pipeline.h"
 #include "progress.h"
@@ -20,8 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMostThreads = 4096;
-constexpr int kMostSeconds = 1'000'000;
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 50;
 
 struct Arguments {
     std::vector<fs::path> inputs;
@@ -33,9 +32,7 @@ struct Arguments {
     std::string bounds = "auto";
     std::size_t threads = 0;
     bool timings = false;
-    std::uint64_t import_memory = import::ImportOptions{}.memory_bytes;
-    std::uint64_t import_file_size = import::ImportOptions{}.file_bytes;
-    std::uint64_t import_seconds = static_cast<std::uint64_t>(import::ImportOptions{}.time.count());
+    ImportLimits import;
     BakeOptions options;
 };
 
@@ -171,9 +168,7 @@ Exit run(Arguments& arguments) {
     }
     arguments.options.effects = effects.value();
     arguments.options.bounds = bounds_named(arguments.bounds, effects.value());
-    arguments.options.import.memory_bytes = arguments.import_memory;
-    arguments.options.import.file_bytes = arguments.import_file_size;
-    arguments.options.import.time = std::chrono::seconds(arguments.import_seconds);
+    arguments.options.import = arguments.import.options();
     return bake_all(arguments, outputs.value(), style.value());
 }
 
@@ -214,19 +209,7 @@ void add_bake(CLI::App& app, Exit& exit) {
         ->capture_default_str();
     command->add_option("--progress", arguments->progress, "auto, bar, plain or none")
         ->capture_default_str();
-    command
-        ->add_option("--import-memory", arguments->import_memory,
-                     "Most memory an import may use, such as 2GB")
-        ->transform(CLI::AsSizeValue(false))
-        ->check(CLI::Range(std::uint64_t{1}, kMostBytes));
-    command
-        ->add_option("--import-file-size", arguments->import_file_size,
-                     "Largest file to import, such as 4GB")
-        ->transform(CLI::AsSizeValue(false))
-        ->check(CLI::Range(std::uint64_t{1}, kMostBytes));
-    command
-        ->add_option("--import-time", arguments->import_seconds, "Most seconds an import may take")
-        ->check(CLI::Range(1, kMostSeconds));
+    add_import_limits(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 
