@@ -2,7 +2,6 @@
 #include "import/sniff_format.h"
 
 #include <algorithm>
-#include <string>
 
 #include "import/read_obj.h"
 #include "import/read_off.h"
@@ -11,13 +10,6 @@
 namespace cdprep::import {
 namespace {
 
-std::string lower_extension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    return extension;
-}
-
 bool is_scene(std::string_view bytes) {
     const std::size_t first = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
     return bytes.starts_with("glTF") || bytes.starts_with("Kaydara FBX Binary") ||
@@ -25,6 +17,13 @@ bool is_scene(std::string_view bytes) {
 }
 
 }  // namespace
+
+std::string lower_extension(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return extension;
+}
 
 MeshFormat sniff_format(std::string_view bytes, const std::filesystem::path& path) {
     constexpr std::size_t kPlyMagic = 4;

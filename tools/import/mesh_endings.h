@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+namespace cdprep::import {
+
+/// Whether a name ends as mesh files do, in any case of letters: what a search through
+/// folders takes up. Endings that other kinds of files share, such as .stp and .raw, are
+/// left out; import_file() reads such files all the same.
+[[nodiscard]] bool has_mesh_ending(const std::filesystem::path& path);
+
+}  // namespace cdprep::import
