@@ -4,6 +4,8 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
 #ifdef __SANITIZE_THREAD__
@@ -88,6 +90,38 @@ void Threads::run_all(std::initializer_list<std::function<void()>> jobs) const {
         });
     }
     group.wait();
+    edges.joined();
+}
+
+void Threads::run_in_order(std::size_t count,
+                           const std::function<std::function<void()>(std::size_t)>& work) const {
+    using Deliver = std::function<void()>;
+    const std::size_t at_once = oneapi::tbb::global_control::active_value(
+        oneapi::tbb::global_control::max_allowed_parallelism);
+    ForkJoin edges;
+    std::size_t next = 0;
+    const auto number = [&](oneapi::tbb::flow_control& control) {
+        if (next == count) control.stop();
+        return next++;
+    };
+    // Isolated: a thread that waits within one piece of work begins no other.
+    const auto run = [&](std::size_t i) {
+        edges.begin_task();
+        Deliver deliver = oneapi::tbb::this_task_arena::isolate([&] { return work(i); });
+        edges.end_task();
+        return deliver;
+    };
+    const auto take = [&](const Deliver& deliver) {
+        edges.begin_task();
+        deliver();
+        edges.end_task();
+    };
+    using oneapi::tbb::filter_mode;
+    using oneapi::tbb::make_filter;
+    oneapi::tbb::parallel_pipeline(
+        at_once, make_filter<void, std::size_t>(filter_mode::serial_in_order, number) &
+                     make_filter<std::size_t, Deliver>(filter_mode::parallel, run) &
+                     make_filter<Deliver, void>(filter_mode::serial_in_order, take));
     edges.joined();
 }
 

@@ -23,6 +23,13 @@ public:
     /// Runs the jobs side by side and returns when all are done.
     void run_all(std::initializer_list<std::function<void()>> jobs) const;
 
+    /// Runs work(0) ... work(count - 1) side by side, at most one a thread at a time, and
+    /// what each returns in order, one after the other on any thread. While one waits
+    /// for its turn, no new one takes its place: results held are bounded. Stages that
+    /// work runs may use parallel_for(): all together keep to the number of threads.
+    void run_in_order(std::size_t count,
+                      const std::function<std::function<void()>(std::size_t)>& work) const;
+
 private:
     struct Pool;
     std::unique_ptr<Pool> pool_;
