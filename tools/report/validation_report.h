@@ -11,18 +11,30 @@
 
 namespace cdprep::report {
 
-/// What validating one file gave.
+/// What a run's settings and baseline make of one finding.
+struct Judgement {
+    mesh::Severity severity = mesh::Severity::warning;
+    std::uint64_t fresh = 0;                  ///< those that the baseline lacks; without one: all
+    std::vector<std::uint64_t> fingerprints;  ///< one a place
+};
+
+/// What validating one file gave. With a baseline, `defects.findings` has only what is
+/// new; `defects.counts` and `defects.verdicts` always tell of the whole mesh.
 struct ValidationReport {
     std::string input;
     std::uint64_t triangles = 0;
     std::uint64_t vertices = 0;
     mesh::DefectReport defects;
+    std::vector<Judgement> judgements;              ///< one a finding
+    std::uint64_t known = 0;                        ///< findings that the baseline has too
+    std::vector<std::string> remarks;               ///< sentences on how they were compared
     std::vector<std::string> node_of_triangle_run;  ///< node paths, one an instance
     std::vector<std::uint32_t> first_triangle;      ///< of each instance, ascending
     double seconds = 0;
     std::vector<StageTime> stages;
     int exit = 0;                      ///< exit code for this file
     std::optional<std::string> error;  ///< the sentence, when it could not be read
+    bool known_error = false;          ///< the baseline says so too
 };
 
 }  // namespace cdprep::report

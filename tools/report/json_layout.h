@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+#include "mesh/find_defects.h"
+
+namespace cdprep::report {
+
+/// JSON for people and for diff: what fits on a line stands on one, the rest is broken
+/// and indented, starting `depth` steps in. Bytes that are no UTF-8 are replaced.
+[[nodiscard]] std::string laid_out(const nlohmann::ordered_json& json, int depth);
+
+/// On one line.
+[[nodiscard]] std::string compact(const nlohmann::ordered_json& json);
+
+/// The text with bytes that are no UTF-8 replaced, as they are in JSON.
+[[nodiscard]] std::string valid_utf8(std::string_view text);
+
+/// The flat object `counts`: every member of DefectCounts by its name.
+[[nodiscard]] nlohmann::ordered_json counts_json(const mesh::DefectCounts& counts);
+
+/// Three numbers, null where one is not finite.
+[[nodiscard]] nlohmann::ordered_json position_json(const mesh::Double3& position);
+
+}  // namespace cdprep::report

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "report/validation_run.h"
+
+namespace cdprep::report {
+
+/// What `report` and `version` say in a JSON report; validation.schema.json has the rest.
+/// The version rises when an older reader would misread a newer report.
+inline constexpr const char* kValidationReportName = "cdprep-validate";
+inline constexpr int kValidationReportVersion = 1;
+
+/// A JSON report is the head, the meshes with commas between them, and the tail.
+[[nodiscard]] std::string validation_json_head(const ValidationRun& run);
+[[nodiscard]] std::string validation_json_mesh(const ValidationReport& report,
+                                               const ValidationRun& run);
+[[nodiscard]] std::string validation_json_tail(const ValidationTotals& totals);
+
+/// The same mesh on a line of its own.
+[[nodiscard]] std::string validation_ndjson(const ValidationReport& report,
+                                            const ValidationRun& run);
+
+}  // namespace cdprep::report
