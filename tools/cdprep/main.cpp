@@ -15,6 +15,8 @@ Exit run(int argc, char** argv) {
     app.require_subcommand(1);
     Exit exit = Exit::success;
     add_bake(app, exit);
+    add_validate(app, exit);
+    add_explain(app, exit);
     add_info(app, exit);
     add_query(app, exit);
     add_reindex(app, exit);

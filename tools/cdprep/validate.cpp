@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "command.h"
+#include "import_limits.h"
+#include "input_list.h"
+#include "interrupt.h"
+#include "progress.h"
+#include "report/validation_writer.h"
+#include "report_output.h"
+#include "validation.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using report::ValidationFormat;
+
+constexpr int kMostThreads = 4096;
+constexpr std::size_t kTextPlaces = 3;       ///< a person reads the first
+constexpr std::size_t kServicePlaces = 100;  ///< services that show SARIF or JUnit cut long lists
+constexpr std::uint64_t kMostPlaces = 100'000'000;
+
+const std::map<std::string, ValidationFormat> kFormats = {{"text", ValidationFormat::text},
+                                                          {"json", ValidationFormat::json},
+                                                          {"ndjson", ValidationFormat::ndjson},
+                                                          {"sarif", ValidationFormat::sarif},
+                                                          {"junit", ValidationFormat::junit}};
+
+struct Arguments {
+    std::vector<std::string> inputs;
+    std::string files_from;
+    fs::path output;
+    fs::path baseline;
+    std::string format = "text";
+    std::string progress = "auto";
+    std::vector<std::string> rules;
+    std::vector<std::string> fail_on;
+    std::optional<std::size_t> max_issues;
+    std::size_t threads = 0;
+    bool no_crossings = false;
+    ImportLimits import;
+    ValidationOptions options;
+};
+
+fs::path spelled_out(const fs::path& path) {
+    return fs::absolute(path).lexically_normal();
+}
+
+Result<std::vector<Input>> inputs_for(const Arguments& arguments) {
+    if (arguments.inputs.empty() && arguments.files_from.empty()) {
+        return Error{ErrorCode::bad_argument,
+                     "no input. Name files, folders or patterns, or a list with --files-from."};
+    }
+    std::vector<Input> inputs = list_inputs(arguments.inputs);
+    if (arguments.files_from.empty()) return inputs;
+    const Result<std::vector<std::string>> listed = read_file_list(arguments.files_from);
+    if (!listed) return listed.error();
+    add_inputs(inputs, listed.value());
+    return inputs;
+}
+
+/// Fails when the report would replace what it is made from.
+Result<Done> check_output(const Arguments& arguments, const std::vector<Input>& inputs) {
+    if (arguments.output.empty()) return Done{};
+    const fs::path output = spelled_out(arguments.output);
+    bool replaces = !arguments.baseline.empty() && spelled_out(arguments.baseline) == output;
+    for (const Input& input : inputs) replaces = replaces || spelled_out(input.path) == output;
+    if (!replaces) return Done{};
+    return Error{ErrorCode::bad_argument,
+                 arguments.output.string() +
+                     " is an input or the baseline and would be replaced. Choose another output."};
+}
+
+Result<report::Baseline> read_baseline(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file.is_open() || file.bad() || fs::is_directory(path)) {
+        return Error{ErrorCode::unreadable, path.string() + ": the baseline cannot be read."};
+    }
+    return report::Baseline::parse(text, path.string());
+}
+
+/// One run: files side by side, their reports in the order of the files.
+class Run {
+public:
+    Run(const ValidationOptions& options, ValidationFormat format, ReportOutput output,
+        Progress& progress)
+        : options_(options),
+          writer_(format, options.run),
+          output_(std::move(output)),
+          progress_(progress) {}
+
+    Exit all(const std::vector<Input>& inputs, const Threads& threads) {
+        deliver(writer_.head());
+        threads.run_in_order(inputs.size(), [&](std::size_t i) -> std::function<void()> {
+            if (is_over()) return [] {};
+            auto report = std::make_shared<report::ValidationReport>(
+                validate(inputs[i], options_, threads, [&](const char* stage) {
+                    show(inputs[i].path.filename().string() + ": " + stage);
+                }));
+            return [this, report] { take(*report); };
+        });
+        return finish();
+    }
+
+private:
+    [[nodiscard]] bool is_over() const {
+        return is_interrupted() || is_stuck_;
+    }
+
+    void show(const std::string& what) {
+        const std::lock_guard lock(progress_mutex_);
+        progress_.show(done_, what);
+    }
+
+    void take(const report::ValidationReport& report) {
+        if (is_over()) return;
+        const std::lock_guard lock(progress_mutex_);
+        progress_.clear();
+        ++done_;
+        if (report.error && !report.known_error) {
+            std::cerr << "cdprep validate: " << *report.error << '\n';
+        }
+        deliver(writer_.add(report));
+    }
+
+    void deliver(const std::string& text) {
+        if (is_stuck_) return;
+        if (const Result<Done> done = output_.append(text); !done) stop(done.error());
+    }
+
+    void stop(const Error& error) {
+        stuck_ = fail("validate", error);
+        is_stuck_ = true;
+    }
+
+    Exit finish() {
+        const bool interrupted = is_interrupted();
+        if (interrupted) writer_.set_interrupted(static_cast<int>(Exit::interrupted));
+        deliver(writer_.tail());
+        const auto exit = static_cast<Exit>(writer_.totals().exit);
+        if (!is_stuck_ && !(interrupted && output_.is_file())) {
+            if (const Result<Done> done = output_.finish(); !done) stop(done.error());
+        }
+        return std::max(exit, stuck_);
+    }
+
+    const ValidationOptions& options_;
+    report::ValidationWriter writer_;
+    ReportOutput output_;
+    Progress& progress_;
+    std::mutex progress_mutex_;
+    std::size_t done_ = 0;
+    std::atomic<bool> is_stuck_ = false;  ///< the output takes no more
+    Exit stuck_ = Exit::success;
+};
+
+std::size_t default_places(ValidationFormat format) {
+    switch (format) {
+        case ValidationFormat::text:
+            return kTextPlaces;
+        case ValidationFormat::sarif:
+        case ValidationFormat::junit:
+            return kServicePlaces;
+        default:
+            return mesh::DefectOptions{}.max_places;
+    }
+}
+
+/// What the arguments say, checked, without what has to be read.
+Result<Done> settle(Arguments& arguments) {
+    const auto rules = report::RuleSettings::parse(arguments.rules, arguments.fail_on);
+    if (!rules) return rules.error();
+    mesh::DefectOptions& defects = arguments.options.defects;
+    if (!std::isfinite(defects.weld_distance) || !std::isfinite(defects.seam_width)) {
+        return Error{ErrorCode::bad_argument, "--weld or --seam is not finite; both must be."};
+    }
+    defects.crossings = !arguments.no_crossings;
+    report::ValidationRun& run = arguments.options.run;
+    run.tool_version = CDPREP_VERSION;
+    run.rules = rules.value();
+    run.baseline = arguments.baseline.string();
+    run.folder = fs::current_path();
+    run.max_places = arguments.max_issues.value_or(default_places(kFormats.at(arguments.format)));
+    run.weld_distance = defects.weld_distance;
+    run.seam_width = defects.seam_width;
+    run.crossings = defects.crossings;
+    arguments.options.import = arguments.import.options();
+    return Done{};
+}
+
+Exit run(Arguments& arguments) {
+    const Result<Done> settled = settle(arguments);
+    if (!settled) return fail("validate", settled.error());
+    const Result<ProgressStyle> style = parse_progress(arguments.progress);
+    if (!style) return fail("validate", style.error());
+    const Result<std::vector<Input>> inputs = inputs_for(arguments);
+    if (!inputs) return fail("validate", inputs.error());
+    const Result<Done> checked = check_output(arguments, inputs.value());
+    if (!checked) return fail("validate", checked.error());
+    std::optional<report::Baseline> baseline;
+    if (!arguments.baseline.empty()) {
+        Result<report::Baseline> known = read_baseline(arguments.baseline);
+        if (!known) return fail("validate", known.error());
+        baseline = std::move(known).value();
+        arguments.options.baseline = &*baseline;
+    }
+    Result<ReportOutput> output = ReportOutput::open(arguments.output);
+    if (!output) return fail("validate", output.error());
+    const Threads threads(arguments.threads);
+    Progress progress(style.value(), inputs.value().size());
+    return Run(arguments.options, kFormats.at(arguments.format), std::move(output).value(),
+               progress)
+        .all(inputs.value(), threads);
+}
+
+void add_judging_options(CLI::App& command, Arguments& arguments) {
+    command
+        .add_option("--fail-on", arguments.fail_on,
+                    "error, warning, note or a rule: what makes the exit code 1. May be given "
+                    "again. Default: error")
+        ->allow_extra_args(false);
+    command
+        .add_option("--rule", arguments.rules,
+                    "RULE=off, note, warn or error, for its id or name. May be given again; "
+                    "'cdprep explain' lists all")
+        ->allow_extra_args(false);
+    command.add_option("--baseline", arguments.baseline,
+                       "An older report of --format json: only what it lacks is listed and "
+                       "makes the run fail");
+    command
+        .add_option("--max-issues", arguments.max_issues,
+                    "Most places to list of each rule in a file; counts stay true. Default: 3 in "
+                    "text, 100 in sarif and junit, else 1000")
+        ->check(CLI::Range(std::uint64_t{0}, kMostPlaces));
+    command
+        .add_option("--weld", arguments.options.defects.weld_distance,
+                    "Look for vertices this close, in model units; 0: not")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command
+        .add_option("--seam", arguments.options.defects.seam_width,
+                    "Look for seams with gaps this wide, in model units; 0: not")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.add_flag("--no-crossings", arguments.no_crossings,
+                     "Leave out CDP0403 and CDP0501 to CDP0503; the verdict then says so");
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("validate", "Say what is wrong with meshes, and where");
+    command->add_option("input", arguments->inputs,
+                        "Mesh files, folders of them, or patterns such as 'assets/**/*.obj'");
+    command->add_option("--files-from", arguments->files_from,
+                        "A file that lists inputs, one a line; -: standard input");
+    command->add_option("--format", arguments->format, "text, json, ndjson, sarif or junit")
+        ->check(CLI::IsMember({"text", "json", "ndjson", "sarif", "junit"}))
+        ->capture_default_str();
+    command->add_option("-o,--output", arguments->output, "Default: standard output");
+    add_judging_options(*command, *arguments);
+    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
+        ->check(CLI::Range(0, kMostThreads));
+    command->add_flag("--timings", arguments->options.run.timings, "Report how long stages took");
+    command->add_option("--progress", arguments->progress, "auto, bar, plain or none")
+        ->capture_default_str();
+    add_import_limits(*command, arguments->import);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "validation.h"
+
+#include <chrono>
+#include <exception>
+#include <new>
+#include <utility>
+
+#include "command.h"
+#include "interrupt.h"
+#include "report/file_uri.h"
+#include "report/judge.h"
+
+namespace cdprep::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using report::ValidationReport;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+/// Runs one stage and notes its time.
+template <class Work>
+auto timed(ValidationReport& report, const char* stage,
+           const std::function<void(const char*)>& begins, Work work) {
+    begins(stage);
+    const Clock::time_point begin = Clock::now();
+    auto result = work();
+    report.stages.push_back({stage, seconds_since(begin)});
+    return result;
+}
+
+ValidationReport named(const std::string& input) {
+    ValidationReport report;
+    report.input = input;
+    return report;
+}
+
+void fail(ValidationReport& report, const Error& error, const report::KnownMesh* known) {
+    const bool is_about_file =
+        error.code == ErrorCode::unreadable || error.code == ErrorCode::over_budget;
+    report.error = error.message;
+    report.known_error = is_about_file && known != nullptr && known->is_unreadable;
+    report.exit = report.known_error ? 0 : static_cast<int>(exit_for(error.code));
+}
+
+/// Import names triangles, reports name nodes.
+void add_nodes(ValidationReport& report, mesh::TriangleSoup& soup) {
+    for (const format::Instance& instance : soup.instances) {
+        report.first_triangle.push_back(instance.first_triangle);
+        report.node_of_triangle_run.push_back(
+            instance.name < soup.instance_names.size() ? soup.instance_names[instance.name] : "");
+    }
+}
+
+void examine(ValidationReport& report, const Input& input, const ValidationOptions& options,
+             const report::KnownMesh* known, const Threads& threads,
+             const std::function<void(const char*)>& begins) {
+    if (input.error) return fail(report, *input.error, known);
+    import::ImportOptions limits = options.import;
+    limits.parallel_for = threads.parallel_for();
+    auto imported =
+        timed(report, "import", begins, [&] { return import::import_file(input.path, limits); });
+    if (!imported) return fail(report, imported.error(), known);
+    if (is_interrupted()) return;
+    mesh::TriangleSoup soup = std::move(imported).value();
+    report.triangles = soup.triangles.size();
+    report.vertices = soup.positions.size();
+    add_nodes(report, soup);
+    mesh::DefectOptions defects = options.defects;
+    defects.max_places = options.run.max_places + (known != nullptr ? known->largest_count() : 0);
+    defects.parallel_for = threads.parallel_for();
+    report.defects =
+        timed(report, "find", begins, [&] { return mesh::find_defects(soup, defects); });
+    const bool fails = timed(report, "judge", begins, [&] {
+        return report::judge(report, soup, {options.run.rules, known, options.run.max_places});
+    });
+    report.exit = static_cast<int>(fails ? Exit::findings : Exit::success);
+}
+
+}  // namespace
+
+ValidationReport validate(const Input& input, const ValidationOptions& options,
+                          const Threads& threads, const std::function<void(const char*)>& begins) {
+    const Clock::time_point begin = Clock::now();
+    const report::KnownMesh* known =
+        options.baseline == nullptr
+            ? nullptr
+            : options.baseline->find(report::file_uri(input.path, options.run.folder));
+    const std::string name = input.path.string();
+    ValidationReport report = named(name);
+    try {
+        examine(report, input, options, known, threads, begins);
+    } catch (const std::bad_alloc&) {
+        report = named(name);
+        fail(report, {ErrorCode::over_budget, name + ": needs more memory than the machine gives."},
+             known);
+    } catch (const std::exception& error) {
+        report = named(name);
+        fail(report,
+             {ErrorCode::internal,
+              name + ": internal error: " + error.what() + ". Please report it."},
+             known);
+    }
+    report.seconds = seconds_since(begin);
+    return report;
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+
+#include "import/import_file.h"
+#include "input_list.h"
+#include "mesh/find_defects.h"
+#include "parallel.h"
+#include "report/baseline.h"
+#include "report/validation_run.h"
+
+namespace cdprep::cli {
+
+struct ValidationOptions {
+    mesh::DefectOptions defects;  ///< without max_places and parallel_for, which follow
+    import::ImportOptions import;
+    report::ValidationRun run;
+    const report::Baseline* baseline = nullptr;  ///< null: all is new
+};
+
+/// Validates one file: import, find defects, judge them. Calls back with the name of each
+/// stage as it begins. Never fails: what went wrong stands in the report, with the exit
+/// code for this file.
+[[nodiscard]] report::ValidationReport validate(const Input& input,
+                                                const ValidationOptions& options,
+                                                const Threads& threads,
+                                                const std::function<void(const char*)>& begins);
+
+}  // namespace cdprep::cli
