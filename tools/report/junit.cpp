@@ -2,11 +2,12 @@
 #include "report/junit.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <optional>
 #include <string_view>
 
 #include "report/json_layout.h"
-#include "report/place_text.h"
 #include "report/severity_name.h"
 #include "report/validation_text.h"
 
@@ -99,6 +100,17 @@ std::string test_case(const ValidationReport& report, const std::string& name,
     return outcome.empty() ? begin + "/>\n" : begin + ">" + outcome + "</testcase>\n";
 }
 
+/// XML's decimals have no exponent.
+std::string decimal(double seconds) {
+    constexpr std::size_t kLongest = 64;
+    constexpr int kPlaces = 6;
+    std::array<char, kLongest> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), seconds,
+                                   std::chars_format::fixed, kPlaces)
+                         .ptr;
+    return {digits.data(), end};
+}
+
 struct Suite {
     std::string cases;
     std::size_t tests = 0;
@@ -147,7 +159,7 @@ std::string junit_suite(const ValidationReport& report, const ValidationRun& run
                        attribute("failures", std::to_string(suite.failures)) +
                        attribute("errors", std::to_string(suite.errors)) +
                        attribute("skipped", std::to_string(suite.skipped));
-    if (run.timings) text += attribute("time", number_text(report.seconds));
+    if (run.timings) text += attribute("time", decimal(report.seconds));
     text += ">\n" + suite.cases;
     std::string remarks;
     for (const std::string& remark : report.remarks) remarks += remark + "\n";
