@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "report/validation_writer.h"
+
+#include <gtest/gtest.h>
+
+#include "report/baseline.h"
+
+namespace cdprep::report {
+namespace {
+
+using mesh::Rule;
+
+ValidationRun run_of(const std::vector<std::string>& fail_on = {"warning"}) {
+    ValidationRun run;
+    run.tool_version = "1.2.3";
+    run.rules = RuleSettings::parse({}, fail_on).value();
+    run.folder = "/work";
+    run.max_places = 2;
+    return run;
+}
+
+/// One hole and three edges around it, of which two are kept; in two nodes.
+ValidationReport with_a_hole() {
+    ValidationReport report;
+    report.input = "in <put> & \"co\".obj";
+    report.triangles = 12;
+    report.vertices = 8;
+    report.exit = 1;
+    report.node_of_triangle_run = {"root/arm", "root/hand"};
+    report.first_triangle = {0, 10};
+    report.defects.counts.boundary_edges = 3;
+    report.defects.counts.boundary_loops = 1;
+    report.defects.findings = {
+        {Rule::boundary_edge, 3, {{{4}, {0, 1}, {0, 0.5, 0}, 1}, {{11}, {1, 2}, {0.5, 1, 0}, 1}}},
+        {Rule::boundary_loop, 1, {{{4, 5, 11}, {0, 1, 2}, {0, 0, 0}, 1.5}}}};
+    report.judgements = {{mesh::Severity::warning, 3, {1, 2}}, {mesh::Severity::note, 1, {3}}};
+    format::Verdict verdict{};
+    verdict.genus = -1;
+    verdict.facts = format::verdict_two_manifold | format::verdict_crossings_examined;
+    verdict.promises = format::promise_surface;
+    report.defects.verdicts = {verdict, verdict};
+    return report;
+}
+
+ValidationReport unreadable() {
+    ValidationReport report;
+    report.input = "none.obj";
+    report.exit = 3;
+    report.error = "none.obj: cannot be opened.";
+    return report;
+}
+
+std::string written(ValidationFormat format, const ValidationRun& run,
+                    const std::vector<ValidationReport>& reports) {
+    ValidationWriter writer(format, run);
+    std::string text = writer.head();
+    for (const ValidationReport& report : reports) text += writer.add(report);
+    return text + writer.tail();
+}
+
+bool holds(const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+}
+
+TEST(ValidationText, NamesPlacesAndWhatIsLeftOut) {
+    const std::string text =
+        written(ValidationFormat::text, run_of(), {with_a_hole(), unreadable()});
+    EXPECT_TRUE(holds(text, "FAILED, 0 errors, 3 warnings, 1 note; 12 triangles, 8 vertices\n"));
+    EXPECT_TRUE(holds(text,
+                      "warning CDP0301 Edge has one triangle: 3 (boundary-edge)\n"
+                      "    triangle 4, vertices 0, 1 of root/arm at (0, 0.5, 0); its length"));
+    EXPECT_TRUE(holds(text, "triangle 11, vertices 1, 2 of root/hand at"));
+    EXPECT_TRUE(holds(text, "    and 1 more\n"));
+    EXPECT_TRUE(holds(text, "verdict: open, 2-manifold, not orientable, not self-crossing"));
+    EXPECT_TRUE(holds(text, "inside is unknown"));
+    EXPECT_TRUE(holds(text, "2 files: 1 failed, 1 unreadable; 0 errors, 3 warnings, 1 note\n"));
+}
+
+TEST(ValidationJson, IsABaselineOfItself) {
+    const std::string text =
+        written(ValidationFormat::json, run_of(), {with_a_hole(), unreadable()});
+    const Result<Baseline> baseline = Baseline::parse(text, "old.json");
+    ASSERT_TRUE(baseline) << baseline.error().message;
+    const KnownMesh* mesh = baseline.value().find("in%20%3Cput%3E%20%26%20%22co%22.obj");
+    ASSERT_NE(mesh, nullptr);
+    EXPECT_EQ(mesh->findings.at(Rule::boundary_edge).count, 3U);
+    EXPECT_FALSE(mesh->findings.at(Rule::boundary_edge).is_complete());
+    EXPECT_TRUE(mesh->findings.at(Rule::boundary_loop).is_complete());
+    EXPECT_EQ(mesh->largest_count(), 3U);
+    ASSERT_NE(baseline.value().find("none.obj"), nullptr);
+    EXPECT_TRUE(baseline.value().find("none.obj")->is_unreadable);
+    EXPECT_EQ(baseline.value().find("other.obj"), nullptr);
+}
+
+TEST(ValidationJson, MadeAgainstABaselineIsNone) {
+    ValidationRun run = run_of();
+    run.baseline = "older.json";
+    const std::string text = written(ValidationFormat::json, run, {with_a_hole()});
+    const Result<Baseline> baseline = Baseline::parse(text, "old.json");
+    ASSERT_FALSE(baseline);
+    EXPECT_EQ(baseline.error().code, ErrorCode::unreadable);
+    EXPECT_TRUE(holds(baseline.error().message, "old.json"));
+}
+
+// A hole of 150 vertices names the first 100, and how many there are.
+TEST(ValidationJson, BoundsTheNumbersOfAPlace) {
+    ValidationReport report = with_a_hole();
+    report.defects.findings[1].places[0].vertices.assign(150, 7);
+    const std::string text = written(ValidationFormat::ndjson, run_of(), {report});
+    EXPECT_TRUE(holds(text, "\"vertex_count\":150"));
+    EXPECT_FALSE(holds(text, "\"triangle_count\""));
+    EXPECT_TRUE(holds(text, "\"nodes\":[\"root/arm\",\"root/hand\"]"));
+}
+
+TEST(Baseline, RefusesWhatIsNoReport) {
+    for (const char* text :
+         {"", "{", "7", "[]", "null", "{}", R"({"report": 1})", R"({"report": "cdprep-validate"})",
+          R"({"report": "cdprep-validate", "version": "1"})",
+          R"({"report": "cdprep-validate", "version": 1, "baseline": null, "meshes": 5})",
+          R"({"report": "cdprep-validate", "version": 1, "baseline": null, "meshes": [{}]})"}) {
+        const Result<Baseline> baseline = Baseline::parse(text, "old.json");
+        ASSERT_FALSE(baseline) << text;
+        EXPECT_TRUE(holds(baseline.error().message, "old.json: ")) << text;
+    }
+}
+
+TEST(Sarif, TellsOfPlacesThatAreNotListed) {
+    const std::string text =
+        written(ValidationFormat::sarif, run_of(), {unreadable(), with_a_hole()});
+    EXPECT_TRUE(holds(text, "\"occurrenceCount\":1"));
+    EXPECT_TRUE(holds(text, "1 more of them are not listed"));
+    EXPECT_TRUE(holds(text, "\"fullyQualifiedName\":\"root/hand/triangle 11\""));
+    EXPECT_TRUE(holds(text, "\"executionSuccessful\":false,\"exitCode\":3"));
+    EXPECT_TRUE(holds(text, "none.obj: cannot be opened."));
+}
+
+TEST(Junit, FailsWhatFailsTheRunAndSkipsWhatIsOff) {
+    ValidationRun run = run_of();
+    run.rules = RuleSettings::parse({"sliver=off"}, {"CDP0301"}).value();
+    const std::string text = written(ValidationFormat::junit, run, {with_a_hole(), unreadable()});
+    EXPECT_TRUE(holds(text, "name=\"in &lt;put&gt; &amp; &quot;co&quot;.obj\""));
+    EXPECT_TRUE(holds(text, "failures=\"1\" errors=\"0\" skipped=\"1\""));
+    EXPECT_TRUE(holds(text, "<failure message=\"Edge has one triangle: 3\" type=\"warning\">"));
+    EXPECT_TRUE(holds(text, "<system-out>note: Surface has a hole: 1\n"));
+    EXPECT_TRUE(holds(text, "<error message=\"none.obj: cannot be opened.\""));
+}
+
+TEST(Junit, HoldsNoCharacterThatXmlCannot) {
+    ValidationReport report = unreadable();
+    report.input = "\x01\xff\xef\xbf\xbf\n.obj";
+    const std::string text = written(ValidationFormat::junit, run_of(), {report});
+    EXPECT_TRUE(holds(text, "name=\"\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd .obj\""));
+}
+
+TEST(ValidationWriter, SaysThatItWasStopped) {
+    ValidationWriter writer(ValidationFormat::json, run_of());
+    writer.set_interrupted(130);
+    const std::string text = writer.head() + writer.tail();
+    EXPECT_TRUE(holds(text, "\"interrupted\":true"));
+    EXPECT_TRUE(holds(text, "\"exit\":130}"));
+}
+
+}  // namespace
+}  // namespace cdprep::report
