@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace cdprep::report {
+
+/// The bytes as base64 (RFC 4648, padded, one line).
+[[nodiscard]] std::string base64(std::span<const std::byte> bytes);
+
+}  // namespace cdprep::report
