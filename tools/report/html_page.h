@@ -21,7 +21,7 @@ struct PageMesh {
 };
 
 struct PageOptions {
-    std::string version;  ///< of the program, shown on the page
+    std::string version{};  ///< of the program, shown on the page
     /// Drawn as they are, on the page as a whole. Meshes share it evenly, and what small
     /// ones leave over goes to larger ones. Of a mesh with more than its share, what lies
     /// around findings is drawn as it is and the rest coarsely; the page says so.

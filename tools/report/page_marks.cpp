@@ -152,9 +152,9 @@ MarkStyle mark_style(mesh::Rule rule) noexcept {
         case Rule::sliver:
             return {kTriangle, true, false, "olive"};
         case Rule::duplicate_triangle:
-            return {kTriangle, true, false, "brown"};
+            return {kTriangle, true, false, "teal"};
         case Rule::opposite_triangle:
-            return {kTriangle, true, false, "pink"};
+            return {kTriangle, true, false, "brown"};
         case Rule::boundary_edge:
             return {kPath, false, false, "orange"};
         case Rule::boundary_loop:
@@ -172,11 +172,11 @@ MarkStyle mark_style(mesh::Rule rule) noexcept {
         case Rule::near_seam:
             return {kPath, true, false, "olive"};
         case Rule::inverted_component:
-            return {kTriangle, true, false, "purple"};
+            return {kTriangle, true, false, "brown"};
         case Rule::nested_component:
             return {kTriangle, true, false, "slate"};
         case Rule::overlapping_components:
-            return {kTriangle, true, false, "indigo"};
+            return {kTriangle, true, false, "purple"};
         case Rule::several_components:
             return {kTriangle, true, false, "teal"};
         case Rule::crossing_triangles:

@@ -15,7 +15,7 @@ namespace cdprep::report {
 
 /// Where a page draws a mesh: so that floats serve for every extent, the box of the
 /// drawn triangles is moved to the origin and scaled by a power of two, which loses
-/// nothing, until its longest half side lies in (0.5, 1].
+/// nothing, until its longest half side lies in [0.5, 1).
 struct PageFrame {
     mesh::Double3 centre{};           ///< of the box, model units
     int exponent = 0;                 ///< a page unit is 2^exponent model units
@@ -54,8 +54,9 @@ struct DrawnTriangles {
                                                           std::span<const mesh::Finding> findings,
                                                           std::size_t limit);
 
-/// A coarse stand-in for the whole mesh: vertices in one cell of a grid of `cells` along
-/// the longest side become one. Some cells^2 triangles for a plain surface.
+/// A coarse stand-in for the whole mesh: vertices in one cell of a grid become one, with
+/// `cells` (half as many at least) along the longest side. Some cells^2 triangles for a
+/// plain surface.
 [[nodiscard]] DrawnTriangles coarse_triangles(std::span<const mesh::Double3> positions,
                                               std::span<const mesh::Triangle> triangles,
                                               const PageFrame& frame, std::uint32_t cells);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The picture: a surface, the marks upon it, and the camera that flies to them.
 // Lengths here are page units: the box of the mesh is centred on the origin and its
-// longest half side lies in (0.5, 1].
+// longest half side lies in [0.5, 1).
 'use strict';
 
 const FIELD_OF_VIEW = 40;       // degrees, of the height of the picture
 const FLIGHT_MS = 450;
 const PICK_PX = 14;             // how near a click must be to a place
+const FLAT = 2e-3;              // double area by squared edge below which no fill is seen
+const LOOKED_AT = 400000;       // triangles up to which a clear sight is looked for
+const MANY = 150;               // marks of a finding that are drawn smaller from afar
 const EDGES_BY_DEFAULT = 60000; // triangles above which edges are drawn only when asked for
 
 // A segment as a band of constant width on the screen: WebGL draws lines one pixel wide
@@ -16,7 +19,7 @@ const EDGES_BY_DEFAULT = 60000; // triangles above which edges are drawn only wh
 const BAND_VERTEX = `
   attribute vec3 other; attribute vec2 corner;
   uniform vec2 size; uniform float width; uniform float least; uniform float thin;
-  uniform float bias;
+  uniform float bias; uniform float scale;
   void main() {
     vec4 a = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     vec4 b = projectionMatrix * modelViewMatrix * vec4(other, 1.0);
@@ -26,12 +29,10 @@ const BAND_VERTEX = `
     if (b.w < front) b = mix(a, b, (a.w - front) / (a.w - b.w));
     vec2 run = b.xy / b.w * size * 0.5 - a.xy / a.w * size * 0.5;
     float length_px = length(run);
-    vec2 along = length_px > 1e-3 ? run / length_px : vec2(1.0, 0.0);
-    if (corner.x > 0.5) along = -along;
+    vec2 along = length_px > 1e-3 ? run / length_px : vec2(corner.x > 0.5 ? -1.0 : 1.0, 0.0);
     float side = corner.x > 0.5 ? -corner.y : corner.y;
-    float half_width = 0.5 * (thin > 0.0 ? min(width, length_px * thin) : width);
-    float reach = half_width + max(0.0, (least - length_px) * 0.5);
-    if (corner.x > 0.5 && length_px <= 1e-3) reach = -reach;
+    float half_width = 0.5 * (thin > 0.0 ? min(width, length_px * thin) : width) * scale;
+    float reach = half_width + max(0.0, (least * scale - length_px) * 0.5);
     gl_Position = a;
     gl_Position.xy += (vec2(-along.y, along.x) * side * half_width - along * reach)
         / size * 2.0 * a.w;
@@ -39,17 +40,17 @@ const BAND_VERTEX = `
   }`;
 
 const PIN_VERTEX = `
-  uniform float width; uniform float bias;
+  uniform float width; uniform float bias; uniform float scale;
   void main() {
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
     gl_Position.z -= bias * gl_Position.w;
-    gl_PointSize = width;
+    gl_PointSize = width * scale;
   }`;
 const PIN_FRAGMENT = `
-  uniform vec3 colour; uniform float opacity;
+  uniform vec3 colour; uniform float opacity; uniform float dim;
   void main() {
     if (length(gl_PointCoord - 0.5) > 0.5) discard;
-    gl_FragColor = vec4(colour, opacity);
+    gl_FragColor = vec4(colour, opacity * dim);
   }`;
 
 const FILL_VERTEX = `
@@ -59,8 +60,8 @@ const FILL_VERTEX = `
     gl_Position.z -= bias * gl_Position.w;
   }`;
 const PLAIN_FRAGMENT = `
-  uniform vec3 colour; uniform float opacity;
-  void main() { gl_FragColor = vec4(colour, opacity); }`;
+  uniform vec3 colour; uniform float opacity; uniform float dim;
+  void main() { gl_FragColor = vec4(colour, opacity * dim); }`;
 
 // How far marks are drawn before their depth, as a part of it about 25 times this: a band
 // is wider than the segment it stands for, and would sink into the surface beside it.
@@ -112,18 +113,48 @@ function point_geometry(positions) {
   return geometry;
 }
 
-// The outlines of triangles (nine floats each) as segments.
+// The outlines of triangles (nine floats each) as segments: of those with area, and of
+// those that are seen only by them.
 function outlines(triangles) {
-  const segments = new Float32Array(triangles.length * 2);
-  for (let t = 0; t < triangles.length / 9; ++t) {
+  const full = [];
+  const flat = [];
+  for (let at = 0; at < triangles.length; at += 9) {
+    const corner = [0, 3, 6].map((k) => new THREE.Vector3().fromArray(triangles, at + k));
+    const sides = [0, 1, 2].map((k) => corner[(k + 1) % 3].clone().sub(corner[k]));
+    const longest = Math.max(...sides.map((side) => side.lengthSq()));
+    const has_area = sides[0].clone().cross(sides[1]).length() > longest * FLAT;
     for (let k = 0; k < 3; ++k) {
-      for (let axis = 0; axis < 3; ++axis) {
-        segments[t * 18 + k * 6 + axis] = triangles[t * 9 + k * 3 + axis];
-        segments[t * 18 + k * 6 + 3 + axis] = triangles[t * 9 + (k + 1) % 3 * 3 + axis];
-      }
+      if (!has_area && sides[k].lengthSq() === 0) continue;
+      (has_area ? full : flat).push(...corner[k].toArray(), ...corner[(k + 1) % 3].toArray());
     }
   }
-  return segments;
+  return {full: new Float32Array(full), flat: new Float32Array(flat)};
+}
+
+// Whether a triangle of the surface lies between two points, not at once before the second.
+function is_hidden(drawn, eye, target) {
+  const {positions, indices} = drawn;
+  const ray = target.clone().sub(eye);
+  const [dx, dy, dz] = ray.toArray();
+  const [ox, oy, oz] = eye.toArray();
+  for (let i = 0; i < indices.length; i += 3) {
+    const a = indices[i] * 3, b = indices[i + 1] * 3, c = indices[i + 2] * 3;
+    const ax = positions[a], ay = positions[a + 1], az = positions[a + 2];
+    const ux = positions[b] - ax, uy = positions[b + 1] - ay, uz = positions[b + 2] - az;
+    const vx = positions[c] - ax, vy = positions[c + 1] - ay, vz = positions[c + 2] - az;
+    const px = dy * vz - dz * vy, py = dz * vx - dx * vz, pz = dx * vy - dy * vx;
+    const scale = ux * px + uy * py + uz * pz;
+    if (scale === 0) continue;
+    const tx = ox - ax, ty = oy - ay, tz = oz - az;
+    const u = (tx * px + ty * py + tz * pz) / scale;
+    if (!(u >= 0 && u <= 1)) continue;
+    const qx = ty * uz - tz * uy, qy = tz * ux - tx * uz, qz = tx * uy - ty * ux;
+    const v = (dx * qx + dy * qy + dz * qz) / scale;
+    if (!(v >= 0 && u + v <= 1)) continue;
+    const t = (vx * qx + vy * qy + vz * qz) / scale;
+    if (t > 0.02 && t < 0.97) return true;
+  }
+  return false;
 }
 
 function has_webgl() {
@@ -187,6 +218,8 @@ class View {
     this.showing = {edges: true, glass: false};
     this.z_up = false;
     this.asked = false;
+    this.crowded = {value: 1};            // by how much many marks are smaller, from here
+    this.dim = {value: 1};                // of all marks but the chosen one
     this.size = new THREE.Vector2(1, 1);  // of the picture in its own pixels
     this.clear();
     this.listen();
@@ -243,6 +276,7 @@ class View {
     this.scene.add(this.surface);
     this.marks = new Map();
     this.chosen = null;
+    this.drawn = null;
     this.half = new THREE.Vector3(1, 1, 1);
     this.flight = null;
     this.light();
@@ -257,6 +291,7 @@ class View {
   // drawn: {positions, indices, ghost_positions, ghost_indices, half, whole}
   set_mesh(drawn) {
     this.clear();
+    this.drawn = drawn;
     this.half.fromArray(drawn.half);
     this.radius = Math.max(this.half.length(), 1e-3);
     this.showing.edges = drawn.indices.length / 3 <= EDGES_BY_DEFAULT;
@@ -299,7 +334,7 @@ class View {
     this.surface.add(outline);
   }
 
-  // style: colour, opacity, width, bias, order; and least, thin, behind.
+  // style: colour, opacity, width, bias, order, scale; and least, thin, behind.
   object(Kind, geometry, shaders, style) {
     const ratio = this.renderer.getPixelRatio();
     const object = new Kind(geometry, new THREE.ShaderMaterial({
@@ -309,6 +344,7 @@ class View {
         colour: {value: style.colour}, opacity: {value: style.opacity},
         width: {value: style.width * ratio}, least: {value: (style.least || 0) * ratio},
         thin: {value: style.thin || 0}, bias: {value: style.bias}, size: {value: this.size},
+        scale: style.scale, dim: style.dim,
       },
     }));
     object.frustumCulled = false;
@@ -320,7 +356,7 @@ class View {
   // any ground, and itself.
   layers(group, Kind, geometry, shaders, style) {
     group.add(this.object(Kind, geometry, shaders,
-                          {...style, behind: true, opacity: 0.3, order: 10 + style.order}));
+                          {...style, behind: true, opacity: style.faint, order: 10 + style.order}));
     if (style.casing) {
       group.add(this.object(Kind, geometry, shaders, {
         ...style, colour: css_colour('--casing'), opacity: 0.85, order: 20 + style.order,
@@ -333,24 +369,29 @@ class View {
   mark_group(parts, colour, chosen) {
     const group = new THREE.Group();
     const lift = chosen ? 20 : 0;
+    // Many marks are drawn small from afar, or they would hide the mesh and one another.
+    const count = parts.triangles.length / 9 + parts.segments.length / 6 + parts.points.length / 3;
+    const many = !chosen && count > MANY;
+    const common = {colour, scale: many ? this.crowded : {value: 1}, faint: many ? 0.1 : 0.3,
+                    dim: chosen ? {value: 1} : this.dim};
     if (parts.triangles.length) {
       this.layers(group, THREE.Mesh, point_geometry(parts.triangles), [FILL_VERTEX, PLAIN_FRAGMENT],
-                  {colour, width: 0, bias: BIAS.fill, order: lift});
-      group.add(this.object(THREE.Mesh, band_geometry(outlines(parts.triangles)),
-                            [BAND_VERTEX, PLAIN_FRAGMENT],
-                            {colour: css_colour('--casing'), opacity: 0.8, width: 2, thin: 0.06,
-                             bias: BIAS.outline, order: 21 + lift}));
+                  {...common, width: 0, bias: BIAS.fill, order: lift});
+      const lines = outlines(parts.triangles);
+      group.add(this.object(THREE.Mesh, band_geometry(lines.full), [BAND_VERTEX, PLAIN_FRAGMENT],
+                            {...common, colour: css_colour('--casing'), opacity: 0.8, width: 2,
+                             thin: 0.06, bias: BIAS.outline, order: 21 + lift}));
+      this.layers(group, THREE.Mesh, band_geometry(lines.flat), [BAND_VERTEX, PLAIN_FRAGMENT],
+                  {...common, casing: 2, width: 3, bias: BIAS.band, order: 1 + lift});
     }
     if (parts.segments.length) {
       this.layers(group, THREE.Mesh, band_geometry(parts.segments), [BAND_VERTEX, PLAIN_FRAGMENT],
-                  {colour, casing: 2, width: (parts.wide ? 7 : 4) + (chosen ? 2 : 0), least: 6,
+                  {...common, casing: 2, width: (parts.wide ? 7 : 4) + (chosen ? 2 : 0), least: 6,
                    bias: BIAS.band, order: (parts.wide ? 2 : 3) + lift});
     }
     if (parts.points.length) {
-      const many = parts.points.length > 600;
       this.layers(group, THREE.Points, point_geometry(parts.points), [PIN_VERTEX, PIN_FRAGMENT],
-                  {colour, casing: 3, width: chosen ? 11 : many ? 5 : 8, bias: BIAS.pin,
-                   order: 4 + lift});
+                  {...common, casing: 3, width: chosen ? 11 : 8, bias: BIAS.pin, order: 4 + lift});
     }
     return group;
   }
@@ -478,18 +519,32 @@ class View {
     this.move(eye, new THREE.Vector3(), animated);
   }
 
-  fly(target, normal, radius) {
+  // The directions a place may be looked at from, the best first: from outside, but turned
+  // no more than needed and never flat upon an edge, then from elsewhere.
+  directions(target, normal) {
     const present = this.camera.position.clone().sub(this.controls.target).normalize();
-    let towards = normal.clone();
-    if (towards.lengthSq() < 0.25) {
-      towards = target.lengthSq() > 1e-6 ? target.clone().normalize() : present.clone();
+    const outwards = normal.lengthSq() > 0.25 ? normal.clone()
+        : target.lengthSq() > 1e-6 ? target.clone().normalize() : present.clone();
+    const found = [];
+    for (const share of [0.6, 0.15, 2.5]) found.push(outwards.clone().addScaledVector(present, share));
+    for (let k = 0; k < 8; ++k) {
+      const turn = k * Math.PI / 4;
+      const side = new THREE.Vector3(Math.cos(turn), 0.4, Math.sin(turn));
+      if (this.z_up) side.set(side.x, -side.z, side.y);
+      found.push(outwards.clone().add(side), side.clone());
     }
-    // From outside, but turned no more than needed, and never flat upon an edge.
-    towards.addScaledVector(present, 0.6).normalize();
-    if (!isFinite(towards.x) || towards.lengthSq() < 0.5) towards = present;
+    found.push(outwards.clone().negate().addScaledVector(present, 0.3));
+    return found.filter((way) => way.length() > 0.2).map((way) => way.normalize());
+  }
+
+  fly(target, normal, radius) {
     const near = this.radius * 0.045;
     const distance = this.distance_for(Math.min(Math.max(radius * 1.7, near), this.radius));
-    this.move(target.clone().addScaledVector(towards, distance), target, true);
+    const eyes = this.directions(target, normal)
+        .map((way) => target.clone().addScaledVector(way, distance));
+    const looks = this.drawn && this.drawn.indices.length / 3 <= LOOKED_AT;
+    const clear = looks && eyes.find((eye) => !is_hidden(this.drawn, eye, target));
+    this.move(clear || eyes[0] || this.camera.position.clone(), target, true);
   }
 
   fly_to(key, place) {
@@ -532,8 +587,10 @@ class View {
 
   draw() {
     this.step();
+    this.dim.value = this.chosen && this.chosen.key ? 0.22 : 1;
     const distance = Math.max(this.camera.position.distanceTo(this.controls.target), 1e-7);
     const reach = this.radius + this.camera.position.length();
+    this.crowded.value = Math.min(1, Math.max(0.4, 1.2 * this.radius / distance));
     this.camera.near = distance * 0.02;
     this.camera.far = Math.max(reach * 1.1, distance * 4);
     this.camera.updateProjectionMatrix();
