@@ -29,7 +29,7 @@ constexpr std::size_t kPartsAPlace = 20;      // segments or triangles drawn, on
 constexpr std::size_t kComponents = 5000;     // on the page; each mesh has at least 5
 constexpr std::size_t kMostComponents = 200;  // of a mesh
 constexpr std::size_t kLongestName = 300;     // bytes of a file's or node's name
-constexpr double kGhostTriangles = 100'000;   // about; stand-ins, on the page
+constexpr double kGhostTriangles = 400'000;   // about; stand-ins, on the page
 
 /// What each mesh and finding may take, so that the page stays bounded.
 struct Limits {
@@ -55,13 +55,17 @@ std::vector<std::size_t> share_triangles(std::span<const PageMesh> meshes, std::
 }
 
 Limits limits_of(std::span<const PageMesh> meshes, const PageOptions& options) {
+    std::vector<std::size_t> shares = share_triangles(meshes, options.max_triangles);
     std::size_t findings = 1;
-    for (const PageMesh& mesh : meshes) findings += mesh.report->defects.findings.size();
-    const std::size_t count = std::max<std::size_t>(1, meshes.size());
-    const double cells = std::sqrt(kGhostTriangles / (6.0 * static_cast<double>(count)));
-    return {share_triangles(meshes, options.max_triangles),
-            std::clamp(options.max_places / findings, kLeastPlaces, kMostPlaces),
-            std::clamp<std::size_t>(kComponents / count, 5, kMostComponents),
+    std::size_t ghosts = 1;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        findings += meshes[i].report->defects.findings.size();
+        if (shares[i] < meshes[i].triangles.size()) ++ghosts;
+    }
+    const double cells = std::sqrt(kGhostTriangles / (6.0 * static_cast<double>(ghosts)));
+    return {std::move(shares), std::clamp(options.max_places / findings, kLeastPlaces, kMostPlaces),
+            std::clamp<std::size_t>(kComponents / std::max<std::size_t>(1, meshes.size()), 5,
+                                    kMostComponents),
             static_cast<std::uint32_t>(std::max(4.0, cells))};
 }
 
@@ -266,7 +270,8 @@ Drawing draw(const PageMesh& mesh, const std::optional<PageFrame>& frame, std::s
     const bool whole = mesh.triangles.size() <= limit;
     const DrawnTriangles drawn = draw_triangles(mesh.positions, mesh.triangles, *frame, chosen);
     DrawnTriangles ghost;
-    if (!whole) ghost = coarse_triangles(mesh.positions, mesh.triangles, *frame, ghost_cells);
+    if (!whole)
+        ghost = coarse_triangles(mesh.positions, mesh.triangles, *frame, chosen, ghost_cells);
     constexpr const char* kType = "text/plain";
     return {{{"triangles", chosen.size()}, {"whole", whole}, {"half", frame->half_box}},
             element(id + "-positions", kType, packed(drawn.positions)) +

@@ -243,11 +243,16 @@ std::vector<std::uint32_t> choose_triangles(std::span<const mesh::Double3> posit
 
 DrawnTriangles coarse_triangles(std::span<const mesh::Double3> positions,
                                 std::span<const mesh::Triangle> triangles, const PageFrame& frame,
-                                std::uint32_t cells) {
+                                std::span<const std::uint32_t> left_out, std::uint32_t cells) {
     const Grid grid(static_cast<int>(cells));
     Vertices vertices;
     std::vector<std::array<std::uint32_t, 3>> kept;
-    for (const mesh::Triangle& triangle : triangles) {
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        if (!left_out.empty() && left_out.front() == i) {
+            left_out = left_out.subspan(1);
+            continue;
+        }
+        const mesh::Triangle& triangle = triangles[i];
         if (!is_drawable(positions, triangle)) continue;
         std::array<std::uint64_t, 3> cell{};
         std::array<Float3, 3> point{};

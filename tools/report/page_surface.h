@@ -54,11 +54,13 @@ struct DrawnTriangles {
                                                           std::span<const mesh::Finding> findings,
                                                           std::size_t limit);
 
-/// A coarse stand-in for the whole mesh: vertices in one cell of a grid become one, with
-/// `cells` (half as many at least) along the longest side. Some cells^2 triangles for a
-/// plain surface.
+/// A coarse stand-in for all triangles but those left out (ascending): vertices in one cell of a
+/// grid become one, with `cells` (half as many at least) along the longest side. Some cells^2
+/// triangles for a plain surface.
 [[nodiscard]] DrawnTriangles coarse_triangles(std::span<const mesh::Double3> positions,
                                               std::span<const mesh::Triangle> triangles,
-                                              const PageFrame& frame, std::uint32_t cells);
+                                              const PageFrame& frame,
+                                              std::span<const std::uint32_t> left_out,
+                                              std::uint32_t cells);
 
 }  // namespace cdprep::report

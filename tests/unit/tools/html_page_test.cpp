@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <string>
 #include <string_view>
@@ -225,13 +226,16 @@ TEST(CoarseTriangles, AreFewAndSpanTheWhole) {
     const test::TestMesh ball = test::icosphere(5);  // 20,480 triangles
     const auto frame = find_page_frame(ball.positions, ball.triangles);
     ASSERT_TRUE(frame);
-    const DrawnTriangles coarse = coarse_triangles(ball.positions, ball.triangles, *frame, 16);
+    const DrawnTriangles coarse = coarse_triangles(ball.positions, ball.triangles, *frame, {}, 16);
     EXPECT_GT(coarse.indices.size() / 3, 300U);
     EXPECT_LT(coarse.indices.size() / 3, 16U * 16U * 12U);
     const auto [least, most] = std::ranges::minmax(coarse.positions);
     EXPECT_LT(least, -0.42F);  // the ball reaches from -0.5 to 0.5
     EXPECT_GT(most, 0.42F);
     EXPECT_LT(std::ranges::max(coarse.indices), coarse.positions.size() / 3);
+    std::vector<std::uint32_t> all(ball.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    EXPECT_TRUE(coarse_triangles(ball.positions, ball.triangles, *frame, all, 16).indices.empty());
 }
 
 // One edge of the cube, its loop and a triangle: numbers known by hand.

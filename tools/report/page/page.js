@@ -29,6 +29,7 @@ function number(value) {
   if (value === null || value === undefined) return 'not finite';
   if (value === 0 || Number.isInteger(value) && Math.abs(value) < 1e15) return whole(value);
   const size = Math.abs(value);
+  if (size >= 1000 && size < 1e9) return value.toLocaleString('en-US', {maximumSignificantDigits: 7});
   return size >= 1e-4 && size < 1e9 ? String(Number(value.toPrecision(7)))
                                     : value.toExponential(6).replace(/\.?0+e/, 'e');
 }
@@ -95,8 +96,7 @@ function draw_mesh(index) {
   if (!drawable) {
     state.view.clear();
     state.view.half.set(1, 1, 1);
-    state.view.radius = 1;
-    state.view.restyle();
+      state.view.restyle();
     return;
   }
   const part = (name, Kind) => unpack($('mesh-' + index + '-' + name).textContent, Kind);
@@ -332,6 +332,7 @@ function all_of(numbers, total) {
 
 // ---- Verdict
 
+const UNDEFINED = 'not defined';
 const FACT = {closed: 1, two_manifold: 2, oriented: 4, orientable: 8, balanced: 16, inverted: 32,
               examined: 64, crossing: 128};
 const PROMISES = [
@@ -362,9 +363,9 @@ function chips(verdict) {
 function verdict_values(verdict) {
   return {Triangles: whole(verdict.triangles), 'Boundary loops': whole(verdict.loops),
           'Euler characteristic': whole(verdict.euler),
-          Genus: verdict.genus < 0 ? 'not defined' : whole(verdict.genus),
+          Genus: verdict.genus < 0 ? UNDEFINED : whole(verdict.genus),
           Area: number(verdict.area),
-          Volume: verdict.facts & FACT.balanced ? number(verdict.volume) : 'not defined'};
+          Volume: verdict.facts & FACT.balanced ? number(verdict.volume) : UNDEFINED};
 }
 
 function write_summary() {
@@ -408,7 +409,8 @@ function component_table(mesh) {
     make('td', {}, make('button', {type: 'button', class: 'go', 'aria-label': 'Go to component ' + (index + 1),
       onclick: () => go_to_component(verdict)}, String(index + 1))),
     make('td', {}, whole(verdict.first)),
-    ...Object.values(verdict_values(verdict)).map((value) => make('td', {}, value)),
+    ...Object.values(verdict_values(verdict)).map((value) => value === UNDEFINED
+        ? make('td', {title: value}, '\u2013') : make('td', {}, value)),
     make('td', {}, facts_of(verdict).map(([good, yes, no]) => good ? yes : no).join(', '))));
   return [heading, note, make('div', {class: 'wide'}, make('table', {class: 'components'},
           make('thead', {}, head), make('tbody', {}, ...body)))].filter((part) => part);
@@ -532,7 +534,6 @@ function start_view() {
   } catch (_) {
     return document.body.classList.add('no-webgl');
   }
-  state.view.radius = 1;
   state.view.on_draw = place_label;
   $('fit').onclick = () => { state.view.choose(null, 0); state.view.fit(true); };
   $('edges').onclick = () => press('edges', state.view.toggle('edges'));

@@ -210,11 +210,7 @@ class View {
     this.canvas.setAttribute('role', 'img');
     holder.prepend(this.canvas);
     this.camera = new THREE.PerspectiveCamera(FIELD_OF_VIEW, 1, 0.01, 100);
-    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
-    this.controls.enableKeys = false;
-    this.controls.screenSpacePanning = true;
-    this.controls.addEventListener('change', () => this.ask());
-    this.controls.addEventListener('start', () => { this.flight = null; });
+    this.steer();
     this.showing = {edges: true, glass: false};
     this.z_up = false;
     this.asked = false;
@@ -222,7 +218,21 @@ class View {
     this.dim = {value: 1};                // of all marks but the chosen one
     this.size = new THREE.Vector2(1, 1);  // of the picture in its own pixels
     this.clear();
+    this.fitted = true;  // until the reader turns elsewhere, all stays in sight
+    this.radius = 1;
+    this.resize();
     this.listen();
+  }
+
+  steer() {
+    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
+    this.controls.enableKeys = false;
+    this.controls.screenSpacePanning = true;
+    this.controls.addEventListener('change', () => this.ask());
+    this.controls.addEventListener('start', () => {
+      this.flight = null;
+      this.fitted = false;
+    });
   }
 
   listen() {
@@ -261,6 +271,7 @@ class View {
     }
     event.preventDefault();
     this.flight = null;
+    this.fitted = false;
     this.camera.position.copy(this.controls.target).add(offset);
     this.controls.update();
     this.ask();
@@ -363,7 +374,7 @@ class View {
         width: style.width + style.casing, least: style.least && style.least + style.casing}));
     }
     group.add(this.object(Kind, geometry, shaders,
-                          {...style, opacity: 1, order: 20.5 + style.order}));
+                          {...style, opacity: style.opacity || 1, order: 20.5 + style.order}));
   }
 
   mark_group(parts, colour, chosen) {
@@ -376,7 +387,7 @@ class View {
                     dim: chosen ? {value: 1} : this.dim};
     if (parts.triangles.length) {
       this.layers(group, THREE.Mesh, point_geometry(parts.triangles), [FILL_VERTEX, PLAIN_FRAGMENT],
-                  {...common, width: 0, bias: BIAS.fill, order: lift});
+                  {...common, width: 0, bias: BIAS.fill, order: lift, opacity: many ? 0.7 : 1});
       const lines = outlines(parts.triangles);
       group.add(this.object(THREE.Mesh, band_geometry(lines.full), [BAND_VERTEX, PLAIN_FRAGMENT],
                             {...common, colour: css_colour('--casing'), opacity: 0.8, width: 2,
@@ -490,12 +501,8 @@ class View {
     // OrbitControls reads `up` once, when it is made.
     const target = this.controls.target.clone();
     this.controls.dispose();
-    this.controls = new THREE.OrbitControls(this.camera, this.canvas);
-    this.controls.enableKeys = false;
-    this.controls.screenSpacePanning = true;
+    this.steer();
     this.controls.target.copy(target);
-    this.controls.addEventListener('change', () => this.ask());
-    this.controls.addEventListener('start', () => { this.flight = null; });
   }
 
   resize() {
@@ -503,6 +510,7 @@ class View {
     const height = Math.max(1, this.holder.clientHeight);
     this.renderer.setSize(width, height);
     this.camera.aspect = width / height;
+    if (this.fitted) this.fit(false);
     this.draw();
   }
 
@@ -517,6 +525,7 @@ class View {
     const from = this.z_up ? new THREE.Vector3(0.8, -1.1, 0.65) : new THREE.Vector3(0.8, 0.65, 1.1);
     const eye = from.normalize().multiplyScalar(this.distance_for(this.radius));
     this.move(eye, new THREE.Vector3(), animated);
+    this.fitted = true;
   }
 
   // The directions a place may be looked at from, the best first: from outside, but turned
@@ -554,6 +563,7 @@ class View {
   }
 
   move(eye, target, animated) {
+    this.fitted = false;
     this.holder.setAttribute('aria-busy', 'true');
     if (!animated || matchMedia('(prefers-reduced-motion: reduce)').matches) {
       this.flight = null;
@@ -633,8 +643,19 @@ class View {
     return best;
   }
 
+  // For paper: wide, and on white.
   picture() {
+    const ground = this.scene.background;
+    const {aspect} = this.camera;
+    this.scene.background = new THREE.Color(0xffffff);
+    this.renderer.setSize(1500, 900, false);
+    this.camera.aspect = 1500 / 900;
+    if (this.fitted) this.fit(false);
     this.draw();
-    return this.canvas.toDataURL('image/png');
+    const png = this.canvas.toDataURL('image/png');
+    this.scene.background = ground;
+    this.camera.aspect = aspect;
+    this.resize();
+    return png;
   }
 }
