@@ -265,12 +265,11 @@ DrawnTriangles coarse_triangles(std::span<const mesh::Double3> positions,
         std::array<std::uint32_t, 3> corners{};
         for (std::size_t k = 0; k < 3; ++k) corners[k] = vertices.number(cell[k], point[k]);
         // The lowest first, so that equal triangles of equal winding are equal.
-        std::ranges::rotate(corners, std::ranges::min_element(corners));
+        std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         kept.push_back(corners);
     }
     std::ranges::sort(kept);
-    const auto repeated = std::ranges::unique(kept);
-    kept.erase(repeated.begin(), repeated.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
     DrawnTriangles drawn{vertices.take(), {}};
     for (const auto& corners : kept) {
         drawn.indices.insert(drawn.indices.end(), corners.begin(), corners.end());

@@ -8,7 +8,6 @@ const FIELD_OF_VIEW = 40;       // degrees, of the height of the picture
 const FLIGHT_MS = 450;
 const PICK_PX = 14;             // how near a click must be to a place
 const FLAT = 2e-3;              // double area by squared edge below which no fill is seen
-const LOOKED_AT = 400000;       // triangles up to which a clear sight is looked for
 const MANY = 150;               // marks of a finding that are drawn smaller from afar
 const EDGES_BY_DEFAULT = 60000; // triangles above which edges are drawn only when asked for
 
@@ -131,17 +130,36 @@ function outlines(triangles) {
   return {full: new Float32Array(full), flat: new Float32Array(flat)};
 }
 
-// Whether a triangle of the surface lies between two points, not at once before the second.
-function is_hidden(drawn, eye, target) {
+// Nine floats for each triangle that may come this near to a point along every axis.
+function triangles_around(drawn, target, reach) {
   const {positions, indices} = drawn;
-  const ray = target.clone().sub(eye);
-  const [dx, dy, dz] = ray.toArray();
-  const [ox, oy, oz] = eye.toArray();
+  const near = [];
+  const at = target.toArray();
   for (let i = 0; i < indices.length; i += 3) {
     const a = indices[i] * 3, b = indices[i + 1] * 3, c = indices[i + 2] * 3;
-    const ax = positions[a], ay = positions[a + 1], az = positions[a + 2];
-    const ux = positions[b] - ax, uy = positions[b + 1] - ay, uz = positions[b + 2] - az;
-    const vx = positions[c] - ax, vy = positions[c + 1] - ay, vz = positions[c + 2] - az;
+    let axis = 0;
+    for (; axis < 3; ++axis) {
+      const u = positions[a + axis] - at[axis];
+      const v = positions[b + axis] - at[axis];
+      const w = positions[c + axis] - at[axis];
+      if ((u > reach && v > reach && w > reach) || (u < -reach && v < -reach && w < -reach)) break;
+    }
+    if (axis < 3) continue;
+    for (const corner of [a, b, c]) {
+      near.push(positions[corner], positions[corner + 1], positions[corner + 2]);
+    }
+  }
+  return near;
+}
+
+// Whether one of these triangles lies between two points, not at once before the second.
+function is_hidden(triangles, eye, target) {
+  const [dx, dy, dz] = target.clone().sub(eye).toArray();
+  const [ox, oy, oz] = eye.toArray();
+  for (let i = 0; i < triangles.length; i += 9) {
+    const ax = triangles[i], ay = triangles[i + 1], az = triangles[i + 2];
+    const ux = triangles[i + 3] - ax, uy = triangles[i + 4] - ay, uz = triangles[i + 5] - az;
+    const vx = triangles[i + 6] - ax, vy = triangles[i + 7] - ay, vz = triangles[i + 8] - az;
     const px = dy * vz - dz * vy, py = dz * vx - dx * vz, pz = dx * vy - dy * vx;
     const scale = ux * px + uy * py + uz * pz;
     if (scale === 0) continue;
@@ -155,6 +173,18 @@ function is_hidden(drawn, eye, target) {
     if (t > 0.02 && t < 0.97) return true;
   }
   return false;
+}
+
+// The direction that the triangles with a first corner this near look in together, or zero.
+// What crosses or folds is wound any way; its surroundings know the outside better.
+function normal_around(triangles, target, reach) {
+  const sum = new THREE.Vector3();
+  for (let i = 0; i < triangles.length; i += 9) {
+    const corner = [0, 3, 6].map((k) => new THREE.Vector3().fromArray(triangles, i + k));
+    if (Math.max(...corner[0].clone().sub(target).toArray().map(Math.abs)) > reach) continue;
+    sum.add(corner[1].sub(corner[0]).cross(corner[2].sub(corner[0])));
+  }
+  return sum.length() > 0 ? sum.normalize() : sum;
 }
 
 function has_webgl() {
@@ -547,12 +577,15 @@ class View {
   }
 
   fly(target, normal, radius) {
-    const near = this.radius * 0.045;
-    const distance = this.distance_for(Math.min(Math.max(radius * 1.7, near), this.radius));
-    const eyes = this.directions(target, normal)
+    // A small place with some of its surroundings, a point with more of them.
+    const around = radius > 0 ? Math.max(radius * 25, this.radius * 0.01) : this.radius * 0.03;
+    const shown = Math.max(radius * 1.7, Math.min(around, this.radius * 0.08));
+    const distance = this.distance_for(Math.min(shown, this.radius));
+    const near = this.drawn ? triangles_around(this.drawn, target, distance) : [];
+    const outside = normal_around(near, target, shown);
+    const eyes = this.directions(target, outside.lengthSq() > 0 ? outside : normal)
         .map((way) => target.clone().addScaledVector(way, distance));
-    const looks = this.drawn && this.drawn.indices.length / 3 <= LOOKED_AT;
-    const clear = looks && eyes.find((eye) => !is_hidden(this.drawn, eye, target));
+    const clear = eyes.find((eye) => !is_hidden(near, eye, target));
     this.move(clear || eyes[0] || this.camera.position.clone(), target, true);
   }
 
