@@ -193,6 +193,7 @@ Result<Done> settle(Arguments& arguments) {
     run.baseline = arguments.baseline.string();
     run.folder = fs::current_path();
     run.max_places = arguments.max_issues.value_or(default_places(kFormats.at(arguments.format)));
+    arguments.options.kept_places = run.max_places;
     run.weld_distance = defects.weld_distance;
     run.seam_width = defects.seam_width;
     run.crossings = defects.crossings;

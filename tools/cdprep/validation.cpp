@@ -70,12 +70,12 @@ void examine(ValidationReport& report, const Input& input, const ValidationOptio
     report.vertices = soup.positions.size();
     add_nodes(report, soup);
     mesh::DefectOptions defects = options.defects;
-    defects.max_places = options.run.max_places + (known != nullptr ? known->largest_count() : 0);
+    defects.max_places = options.kept_places + (known != nullptr ? known->largest_count() : 0);
     defects.parallel_for = threads.parallel_for();
     report.defects =
         timed(report, "find", begins, [&] { return mesh::find_defects(soup, defects); });
     const bool fails = timed(report, "judge", begins, [&] {
-        return report::judge(report, soup, {options.run.rules, known, options.run.max_places});
+        return report::judge(report, soup, {options.run.rules, known, options.kept_places});
     });
     report.exit = static_cast<int>(fails ? Exit::findings : Exit::success);
 }

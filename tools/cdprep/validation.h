@@ -18,6 +18,7 @@ struct ValidationOptions {
     mesh::DefectOptions defects;  ///< without max_places and parallel_for, which follow
     import::ImportOptions import;
     report::ValidationRun run;
+    std::size_t kept_places = 0;                 ///< of each finding, for what is written later
     const report::Baseline* baseline = nullptr;  ///< null: all is new
 };
 

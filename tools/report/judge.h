@@ -13,7 +13,7 @@ namespace cdprep::report {
 struct JudgeOptions {
     const RuleSettings& rules;
     const KnownMesh* known;  ///< null: nothing is known, all is new
-    std::size_t max_places;  ///< kept of each finding
+    std::size_t max_places;  ///< kept of each finding; writers may list fewer
 };
 
 /// Gives each finding its severity and fingerprints, leaves out those whose rule is off

@@ -74,7 +74,7 @@ std::string finding_element(const ValidationReport& report, const ValidationRun&
     const std::string message = std::string(mesh::text_of(finding.rule).title) + ": " +
                                 std::to_string(judgement.fresh) +
                                 (run.baseline.empty() ? "" : " new");
-    const std::string places = places_text(report, i, "");
+    const std::string places = places_text(report, i, run.max_places, "");
     if (!run.rules.fails(finding.rule)) {
         return element(
             "system-out", "",

@@ -178,7 +178,8 @@ std::string Sarif::add(const ValidationReport& report) {
         is_first_ = false;
     };
     for (std::size_t i = 0; i < report.defects.findings.size(); ++i) {
-        const std::size_t kept = report.defects.findings[i].places.size();
+        const std::size_t kept =
+            std::min(report.defects.findings[i].places.size(), run_.max_places);
         for (std::size_t k = 0; k < kept; ++k) append(place_json(report, i, k, artifact));
         const std::uint64_t all = report.judgements[i].fresh;
         if (all > kept) append(rest_json(report, i, all - kept, artifact));

@@ -54,16 +54,17 @@ Json place_json(const ValidationReport& report, mesh::Rule rule, const mesh::Pla
     return json;
 }
 
-Json finding_json(const ValidationReport& report, std::size_t i, bool compared) {
+Json finding_json(const ValidationReport& report, std::size_t i, const ValidationRun& run) {
     const mesh::Finding& finding = report.defects.findings[i];
     const Judgement& judgement = report.judgements[i];
     Json json = {{"rule", mesh::id_of(finding.rule)},
                  {"name", mesh::text_of(finding.rule).name},
                  {"severity", severity_name(judgement.severity)},
                  {"count", finding.count}};
-    if (compared) json["new"] = judgement.fresh;
+    if (!run.baseline.empty()) json["new"] = judgement.fresh;
     json["places"] = Json::array();
-    for (std::size_t k = 0; k < finding.places.size(); ++k) {
+    const std::size_t shown = std::min(finding.places.size(), run.max_places);
+    for (std::size_t k = 0; k < shown; ++k) {
         json["places"].push_back(
             place_json(report, finding.rule, finding.places[k], judgement.fingerprints[k]));
     }
@@ -109,7 +110,7 @@ Json mesh_json(const ValidationReport& report, const ValidationRun& run) {
     json["counts"] = counts_json(report.defects.counts);
     json["findings"] = Json::array();
     for (std::size_t i = 0; i < report.defects.findings.size(); ++i) {
-        json["findings"].push_back(finding_json(report, i, !run.baseline.empty()));
+        json["findings"].push_back(finding_json(report, i, run));
     }
     if (!run.baseline.empty()) json["known"] = report.known;
     if (!report.remarks.empty()) json["remarks"] = report.remarks;

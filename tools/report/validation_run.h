@@ -17,7 +17,7 @@ struct ValidationRun {
     RuleSettings rules;
     std::string baseline;          ///< its name; empty without one
     std::filesystem::path folder;  ///< absolute; references are relative to it
-    std::size_t max_places = 0;    ///< kept of each finding
+    std::size_t max_places = 0;    ///< listed of each finding, and of the components
     double weld_distance = 0;      ///< model units
     double seam_width = 0;         ///< model units
     bool crossings = true;

@@ -70,16 +70,16 @@ std::string head_line(const ValidationReport& report) {
 
 }  // namespace
 
-std::string places_text(const ValidationReport& report, std::size_t finding,
+std::string places_text(const ValidationReport& report, std::size_t finding, std::size_t most,
                         const std::string& indent) {
     const mesh::Finding& found = report.defects.findings[finding];
     std::string text;
-    for (const mesh::Place& place : found.places) {
-        text += indent + place_text(report, found.rule, place, kMostNumbers) + "\n";
+    const std::size_t shown = std::min(found.places.size(), most);
+    for (std::size_t i = 0; i < shown; ++i) {
+        text += indent + place_text(report, found.rule, found.places[i], kMostNumbers) + "\n";
     }
     const std::uint64_t all = report.judgements[finding].fresh;
-    if (all <= found.places.size()) return text;
-    return text + indent + "and " + std::to_string(all - found.places.size()) + " more\n";
+    return all <= shown ? text : text + indent + "and " + std::to_string(all - shown) + " more\n";
 }
 
 std::string validation_text(const ValidationReport& report, const ValidationRun& run) {
@@ -91,7 +91,7 @@ std::string validation_text(const ValidationReport& report, const ValidationRun&
     for (std::size_t i = 0; i < report.defects.findings.size(); ++i) {
         text +=
             finding_line(report.defects.findings[i], report.judgements[i], !run.baseline.empty());
-        text += places_text(report, i, "    ");
+        text += places_text(report, i, run.max_places, "    ");
     }
     for (const std::string& remark : report.remarks) text += "  " + remark + "\n";
     text += verdict_lines(report, run);

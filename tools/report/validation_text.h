@@ -10,9 +10,9 @@ namespace cdprep::report {
 /// What was found in one file, for people.
 [[nodiscard]] std::string validation_text(const ValidationReport& report, const ValidationRun& run);
 
-/// The places of one finding, a line each, and how many more there are.
+/// At most this many places of one finding, a line each, and how many more there are.
 [[nodiscard]] std::string places_text(const ValidationReport& report, std::size_t finding,
-                                      const std::string& indent);
+                                      std::size_t most, const std::string& indent);
 
 /// One line on all files.
 [[nodiscard]] std::string totals_text(const ValidationTotals& totals);
