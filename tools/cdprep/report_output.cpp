@@ -28,7 +28,7 @@ Result<ReportOutput> ReportOutput::open(const std::filesystem::path& path) {
 Result<Done> ReportOutput::append(std::string_view text) {
     if (!file_) return checked(std::cout << text);
     const auto bytes = std::as_bytes(std::span(text));
-    const Result<Done> written = file_->write_at(size_, bytes);
+    Result<Done> written = file_->write_at(size_, bytes);
     size_ += text.size();
     return written;
 }

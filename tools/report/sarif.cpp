@@ -66,13 +66,12 @@ void add_elements(Json& locations, const char* kind, const std::string& node,
                   const std::vector<std::uint32_t>& numbers) {
     const std::size_t shown = std::min(numbers.size(), kMostNumbers);
     const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(shown);
+    const std::string above = node.empty() ? "" : node + "/";
     for (auto at = numbers.begin(); at != end; ++at) {
         // A triangle may repeat a corner; SARIF wants each location once.
         if (std::find(numbers.begin(), at, *at) != at) continue;
         const std::string name = std::string(kind) + " " + std::to_string(*at);
-        locations.push_back({{"name", name},
-                             {"fullyQualifiedName", node.empty() ? name : node + "/" + name},
-                             {"kind", kind}});
+        locations.push_back({{"name", name}, {"fullyQualifiedName", above + name}, {"kind", kind}});
     }
 }
 
