@@ -398,6 +398,16 @@ def test_ends(validate):
             check_junit(done.stdout.decode(), validate.folder)
 
 
+def test_html(validate):
+    """The page's own tests look at it; here, that it has what was validated, and when."""
+    text = validate("good", "bad").stdout
+    done = validate("good", "bad", "--html", "page.html")
+    page = (validate.folder / "page.html").read_text()
+    must(done.returncode == 3 and done.stdout == text, "--html changes the report")
+    must(page.lower().startswith("<!doctype html>") and "bad/open.obj" in page and
+         "CDP0302" in page and "broken.off" in page, "the page lacks a mesh or a finding")
+
+
 def test_explain(program):
     rules = json.loads(run(program, "explain", "--format", "json").stdout)["rules"]
     listed = run(program, "explain").stdout.splitlines()
@@ -425,6 +435,7 @@ def main():
         test_rules(validate)
         test_baseline(validate)
         test_bounds(validate, other)
+        test_html(validate)
         test_ends(validate)
         test_explain(program)
     print("reports are what their schemas say")

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "command.h"
@@ -18,6 +20,7 @@
 #include "report/validation_writer.h"
 #include "report_output.h"
 #include "validation.h"
+#include "validation_page.h"
 
 namespace cdprep::cli {
 namespace {
@@ -40,6 +43,7 @@ struct Arguments {
     std::vector<std::string> inputs;
     std::string files_from;
     fs::path output;
+    fs::path html;
     fs::path baseline;
     std::string format = "text";
     std::string progress = "auto";
@@ -69,16 +73,19 @@ Result<std::vector<Input>> inputs_for(const Arguments& arguments) {
     return inputs;
 }
 
-/// Fails when the report would replace what it is made from.
+/// Fails when a report would replace what it is made from, or the other one.
 Result<Done> check_output(const Arguments& arguments, const std::vector<Input>& inputs) {
-    if (arguments.output.empty()) return Done{};
-    const fs::path output = spelled_out(arguments.output);
-    bool replaces = !arguments.baseline.empty() && spelled_out(arguments.baseline) == output;
-    for (const Input& input : inputs) replaces = replaces || spelled_out(input.path) == output;
-    if (!replaces) return Done{};
-    return Error{ErrorCode::bad_argument,
-                 arguments.output.string() +
-                     " is an input or the baseline and would be replaced. Choose another output."};
+    std::set<fs::path> taken;
+    for (const Input& input : inputs) taken.insert(spelled_out(input.path));
+    if (!arguments.baseline.empty()) taken.insert(spelled_out(arguments.baseline));
+    for (const fs::path& output : {arguments.output, arguments.html}) {
+        if (output.empty() || taken.insert(spelled_out(output)).second) continue;
+        return Error{ErrorCode::bad_argument,
+                     output.string() +
+                         " is an input, the baseline or another output and would be replaced. "
+                         "Choose another name."};
+    }
+    return Done{};
 }
 
 Result<report::Baseline> read_baseline(const fs::path& path) {
@@ -95,21 +102,23 @@ Result<report::Baseline> read_baseline(const fs::path& path) {
 class Run {
 public:
     Run(const ValidationOptions& options, ValidationFormat format, ReportOutput output,
-        Progress& progress)
+        std::optional<ValidationPage> page, Progress& progress)
         : options_(options),
           writer_(format, options.run),
           output_(std::move(output)),
+          page_(std::move(page)),
           progress_(progress) {}
 
     Exit all(const std::vector<Input>& inputs, const Threads& threads) {
         deliver(writer_.head());
         threads.run_in_order(inputs.size(), [&](std::size_t i) -> std::function<void()> {
             if (is_over()) return [] {};
-            auto report = std::make_shared<report::ValidationReport>(
+            auto validation = std::make_shared<Validation>(
                 validate(inputs[i], options_, threads, [&](const char* stage) {
                     show(inputs[i].path.filename().string() + ": " + stage);
                 }));
-            return [this, report] { take(*report); };
+            if (!page_) validation->soup = {};  // before it waits for its turn
+            return [this, validation] { take(*validation); };
         });
         return finish();
     }
@@ -124,8 +133,9 @@ private:
         progress_.show(done_, what);
     }
 
-    void take(const report::ValidationReport& report) {
+    void take(Validation& validation) {
         if (is_over()) return;
+        const report::ValidationReport& report = validation.report;
         const std::lock_guard lock(progress_mutex_);
         progress_.clear();
         ++done_;
@@ -133,6 +143,7 @@ private:
             std::cerr << "cdprep validate: " << *report.error << '\n';
         }
         deliver(writer_.add(report));
+        if (page_) page_->add(std::move(validation));
     }
 
     void deliver(const std::string& text) {
@@ -153,12 +164,16 @@ private:
         if (!is_stuck_ && !(interrupted && output_.is_file())) {
             if (const Result<Done> done = output_.finish(); !done) stop(done.error());
         }
+        if (!is_stuck_ && !interrupted && page_) {
+            if (const Result<Done> done = page_->finish(); !done) stop(done.error());
+        }
         return std::max(exit, stuck_);
     }
 
     const ValidationOptions& options_;
     report::ValidationWriter writer_;
     ReportOutput output_;
+    std::optional<ValidationPage> page_;
     Progress& progress_;
     std::mutex progress_mutex_;
     std::size_t done_ = 0;
@@ -193,7 +208,11 @@ Result<Done> settle(Arguments& arguments) {
     run.baseline = arguments.baseline.string();
     run.folder = fs::current_path();
     run.max_places = arguments.max_issues.value_or(default_places(kFormats.at(arguments.format)));
-    arguments.options.kept_places = run.max_places;
+    // A page marks places in the mesh, however few the report lists.
+    arguments.options.kept_places =
+        arguments.html.empty() || arguments.max_issues
+            ? run.max_places
+            : std::max(run.max_places, mesh::DefectOptions{}.max_places);
     run.weld_distance = defects.weld_distance;
     run.seam_width = defects.seam_width;
     run.crossings = defects.crossings;
@@ -219,10 +238,16 @@ Exit run(Arguments& arguments) {
     }
     Result<ReportOutput> output = ReportOutput::open(arguments.output);
     if (!output) return fail("validate", output.error());
+    std::optional<ValidationPage> page;
+    if (!arguments.html.empty()) {
+        Result<ValidationPage> opened = ValidationPage::open(arguments.html);
+        if (!opened) return fail("validate", opened.error());
+        page.emplace(std::move(opened).value());
+    }
     const Threads threads(arguments.threads);
     Progress progress(style.value(), inputs.value().size());
     return Run(arguments.options, kFormats.at(arguments.format), std::move(output).value(),
-               progress)
+               std::move(page), progress)
         .all(inputs.value(), threads);
 }
 
@@ -272,6 +297,9 @@ void add_validate(CLI::App& app, Exit& exit) {
         ->check(CLI::IsMember({"text", "json", "ndjson", "sarif", "junit"}))
         ->capture_default_str();
     command->add_option("-o,--output", arguments->output, "Default: standard output");
+    command->add_option("--html", arguments->html,
+                        "Also write one HTML page that draws the meshes and marks what was "
+                        "found; holds all meshes in memory");
     add_judging_options(*command, *arguments);
     command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
         ->check(CLI::Range(0, kMostThreads));

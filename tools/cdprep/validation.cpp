@@ -32,10 +32,10 @@ auto timed(ValidationReport& report, const char* stage,
     return result;
 }
 
-ValidationReport named(const std::string& input) {
-    ValidationReport report;
-    report.input = input;
-    return report;
+Validation named(const std::string& input) {
+    Validation result;
+    result.report.input = input;
+    return result;
 }
 
 void fail(ValidationReport& report, const Error& error, const report::KnownMesh* known) {
@@ -47,7 +47,7 @@ void fail(ValidationReport& report, const Error& error, const report::KnownMesh*
 }
 
 /// Import names triangles, reports name nodes.
-void add_nodes(ValidationReport& report, mesh::TriangleSoup& soup) {
+void add_nodes(ValidationReport& report, const mesh::TriangleSoup& soup) {
     for (const format::Instance& instance : soup.instances) {
         report.first_triangle.push_back(instance.first_triangle);
         report.node_of_triangle_run.push_back(
@@ -55,9 +55,10 @@ void add_nodes(ValidationReport& report, mesh::TriangleSoup& soup) {
     }
 }
 
-void examine(ValidationReport& report, const Input& input, const ValidationOptions& options,
+void examine(Validation& result, const Input& input, const ValidationOptions& options,
              const report::KnownMesh* known, const Threads& threads,
              const std::function<void(const char*)>& begins) {
+    ValidationReport& report = result.report;
     if (input.error) return fail(report, *input.error, known);
     import::ImportOptions limits = options.import;
     limits.parallel_for = threads.parallel_for();
@@ -65,7 +66,8 @@ void examine(ValidationReport& report, const Input& input, const ValidationOptio
         timed(report, "import", begins, [&] { return import::import_file(input.path, limits); });
     if (!imported) return fail(report, imported.error(), known);
     if (is_interrupted()) return;
-    mesh::TriangleSoup soup = std::move(imported).value();
+    result.soup = std::move(imported).value();
+    const mesh::TriangleSoup& soup = result.soup;
     report.triangles = soup.triangles.size();
     report.vertices = soup.positions.size();
     add_nodes(report, soup);
@@ -82,30 +84,30 @@ void examine(ValidationReport& report, const Input& input, const ValidationOptio
 
 }  // namespace
 
-ValidationReport validate(const Input& input, const ValidationOptions& options,
-                          const Threads& threads, const std::function<void(const char*)>& begins) {
+Validation validate(const Input& input, const ValidationOptions& options, const Threads& threads,
+                    const std::function<void(const char*)>& begins) {
     const Clock::time_point begin = Clock::now();
     const report::KnownMesh* known =
         options.baseline == nullptr
             ? nullptr
             : options.baseline->find(report::file_uri(input.path, options.run.folder));
     const std::string name = input.path.string();
-    ValidationReport report = named(name);
+    Validation result = named(name);
     try {
-        examine(report, input, options, known, threads, begins);
+        examine(result, input, options, known, threads, begins);
     } catch (const std::bad_alloc&) {
-        report = named(name);
-        fail(report, {ErrorCode::over_budget, name + ": needs more memory than the machine gives."},
-             known);
+        result = named(name);
+        fail(result.report,
+             {ErrorCode::over_budget, name + ": needs more memory than the machine gives."}, known);
     } catch (const std::exception& error) {
-        report = named(name);
-        fail(report,
+        result = named(name);
+        fail(result.report,
              {ErrorCode::internal,
               name + ": internal error: " + error.what() + ". Please report it."},
              known);
     }
-    report.seconds = seconds_since(begin);
-    return report;
+    result.report.seconds = seconds_since(begin);
+    return result;
 }
 
 }  // namespace cdprep::cli

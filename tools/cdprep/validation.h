@@ -22,12 +22,16 @@ struct ValidationOptions {
     const report::Baseline* baseline = nullptr;  ///< null: all is new
 };
 
+struct Validation {
+    report::ValidationReport report;
+    mesh::TriangleSoup soup;  ///< what was validated; empty for a file that could not be read
+};
+
 /// Validates one file: import, find defects, judge them. Calls back with the name of each
 /// stage as it begins. Never fails: what went wrong stands in the report, with the exit
 /// code for this file.
-[[nodiscard]] report::ValidationReport validate(const Input& input,
-                                                const ValidationOptions& options,
-                                                const Threads& threads,
-                                                const std::function<void(const char*)>& begins);
+[[nodiscard]] Validation validate(const Input& input, const ValidationOptions& options,
+                                  const Threads& threads,
+                                  const std::function<void(const char*)>& begins);
 
 }  // namespace cdprep::cli
