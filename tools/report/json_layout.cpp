@@ -44,14 +44,27 @@ constexpr std::array<CountName, 25> kCounts = {{
 }};
 static_assert(sizeof(mesh::DefectCounts) == kCounts.size() * sizeof(std::uint64_t));
 
-/// `open`, the items one a line, `close`.
-std::string broken(char open, const std::vector<std::string>& items, char close, int depth) {
-    const std::string indent(static_cast<std::size_t>(depth), ' ');
-    std::string text(1, open);
-    for (std::size_t i = 0; i < items.size(); ++i) {
-        text += (i == 0 ? "\n " : ",\n ") + indent + items[i];
+/// The items in brackets: on one line when they fit, else one a line.
+std::string bracketed(const char* brackets, const std::vector<std::string>& items, int depth) {
+    std::size_t size = 1 + items.size();
+    bool is_broken = false;
+    for (const std::string& item : items) {
+        size += item.size();
+        is_broken = is_broken || item.find('\n') != std::string::npos;
     }
-    return text + "\n" + indent + close;
+    const bool fits = size <= kLineLength && !is_broken;
+    std::string indent;
+    if (!fits) {
+        indent += '\n';
+        indent.append(static_cast<std::size_t>(depth), ' ');
+    }
+    std::string text(1, brackets[0]);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (i > 0) text += ',';
+        if (!fits) text += indent + ' ';
+        text += items[i];
+    }
+    return text + indent + brackets[1];
 }
 
 }  // namespace
@@ -65,17 +78,16 @@ std::string valid_utf8(std::string_view text) {
 }
 
 std::string laid_out(const Json& json, int depth) {
-    std::string line = compact(json);
-    if (!json.is_structured() || line.size() <= kLineLength) return line;
+    if (!json.is_structured()) return compact(json);
     std::vector<std::string> items;
     if (json.is_array()) {
         for (const Json& item : json) items.push_back(laid_out(item, depth + 1));
-        return broken('[', items, ']', depth);
+        return bracketed("[]", items, depth);
     }
     for (const auto& [key, value] : json.items()) {
         items.push_back(compact(key) + ":" + laid_out(value, depth + 1));
     }
-    return broken('{', items, '}', depth);
+    return bracketed("{}", items, depth);
 }
 
 Json counts_json(const mesh::DefectCounts& counts) {
