@@ -279,13 +279,21 @@ def test_baseline(validate):
     far = [tuple(9 + c for c in corner) for corner in CORNERS]  # a second, inverted component
     corners += far
     triangles += [tuple(v + len(corners) - 8 for v in (a, c, b)) for a, b, c in CUBE]
+    corners += [(5.5, 5.5, 1), (5, 5, 0), (7, 7, 7)]  # the tip of a fin, an equal and a lone one
+    middle = 5 * 13 + 5
+    triangles += [(middle, middle + 1, len(corners) - 3), (middle + 14, middle + 1, middle)]
+    corners += [(2.2, 9.3, -1), (2.8, 9.3, 1), (2.5, 9.7, 1), (11, 1, 3), (11, 2, 3)]
+    last = len(corners) - 1
+    triangles += [(last - 4, last - 3, last - 2), (last - 1, last, 2 * 13 + 10)]
+    triangles[30] = triangles[30][::-1]
     write_obj(folder / "mesh.obj", corners, triangles)
     (folder / "broken.off").write_text("OFF\n8 6 0\n1 2 3\n")
     strict = ["--fail-on", "note"]
     old = validate("base", "--format", "json", "-o", "old.json")
     must(old.returncode == 3, f"a broken file: {old}")
     found = counts_of(validate.json("base/mesh.obj")["meshes"][0])
-    must({"CDP0301", "CDP0302", "CDP0401", "CDP0404"} <= set(found), f"the zoo has {found}")
+    must({"CDP0104", "CDP0105", "CDP0301", "CDP0302", "CDP0303", "CDP0304", "CDP0305", "CDP0401",
+          "CDP0404", "CDP0501"} <= set(found), f"the zoo has {found}")
 
     for seed in range(3):
         write_obj(folder / "mesh.obj", *shuffled(corners, triangles, seed))

@@ -102,20 +102,24 @@ std::uint64_t Fingerprints::of(mesh::Rule rule, const mesh::Place& place) {
     if (is_of_components && least_vertex_.empty()) find_components();
     std::vector<std::array<Point, 3>> triangles;
     std::vector<Point> vertices;
-    for (const std::uint32_t triangle : place.triangles) {
-        if (is_of_components) {
+    if (is_of_components) {
+        for (const std::uint32_t triangle : place.triangles) {
             vertices.push_back(point_of(soup_, least_vertex_[triangle]));
-        } else {
-            triangles.push_back(corners_of(soup_, triangle));
         }
-    }
-    if (!is_of_components) {
+    } else if (!place.vertices.empty()) {
         for (const std::uint32_t vertex : place.vertices) {
             vertices.push_back(point_of(soup_, vertex));
+        }
+    } else {
+        for (const std::uint32_t triangle : place.triangles) {
+            triangles.push_back(corners_of(soup_, triangle));
         }
     }
     std::sort(triangles.begin(), triangles.end());
     std::sort(vertices.begin(), vertices.end());
+    // A walk along a hole that touches itself passes some vertex twice, and which one
+    // depends on where it begins.
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     std::vector<std::uint64_t> words = {static_cast<std::uint64_t>(rule), triangles.size()};
     for (const auto& corners : triangles) {
         for (const Point& corner : corners) append(words, corner);

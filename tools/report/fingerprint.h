@@ -15,11 +15,13 @@ namespace cdprep::report {
 /// when vertices and triangles are numbered anew.
 ///
 /// A fingerprint is a hash of the rule and of the exact coordinates of the place's
-/// triangles and vertices, in any order. For rules about components (CDP0306 and the
-/// CDP04xx) a triangle stands for its component's vertex with the least coordinates: the
-/// number of the triangle that names a component says nothing. Equal defects in equal
-/// positions, such as two copies of a sliver, share a fingerprint. Of a hole with more
-/// vertices than a place holds, the numbering decides which are hashed.
+/// vertices, in any order, or of its triangles where it names no vertex: which of the
+/// triangles at an edge or a vertex are named is often the lowest, a matter of numbering.
+/// For rules about components (CDP0306 and the CDP04xx) a triangle stands for its
+/// component's vertex with the least coordinates, for the same reason. Equal defects in
+/// equal positions, such as two copies of a sliver, share a fingerprint. Where the rule
+/// itself follows the numbering, the fingerprint does: which of several equal triangles
+/// is the lowest, and which vertices of a hole with more than a place holds.
 class Fingerprints {
 public:
     /// `soup` outlives the object.

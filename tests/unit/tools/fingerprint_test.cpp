@@ -101,7 +101,7 @@ TEST(Fingerprints, DifferByRuleByPositionAndByWhatIsNamed) {
         fingerprint(soup, Rule::sliver, {{0, 1}, {}, {}, 0}),
         fingerprint(soup, Rule::sliver, {{}, {0, 1, 2}, {}, 0}),
         fingerprint(soup, Rule::sliver, {{}, {0}, {}, 0}),
-        fingerprint(soup, Rule::sliver, {{0}, {0}, {}, 0}),
+        fingerprint(soup, Rule::sliver, {{}, {0, 1}, {}, 0}),
         fingerprint(moved, Rule::sliver, {{0}, {}, {}, 0}),
     };
     EXPECT_EQ(all.size(), 8U);
@@ -120,6 +120,13 @@ TEST(Fingerprints, TakeWhatNoMeshMayHold) {
     }
     EXPECT_NE(fingerprint(soup, Rule::index_out_of_range, {{}, {900}, {}, 0}),
               fingerprint(soup, Rule::index_out_of_range, {{}, {901}, {}, 0}));
+}
+
+// By hand: an edge with four triangles is one place, whichever of them is named.
+TEST(Fingerprints, OfAPlaceWithVerticesAreThoseOfTheVertices) {
+    const mesh::TriangleSoup soup = test::soup_of(test::unit_cube());
+    EXPECT_EQ(fingerprint(soup, Rule::non_manifold_edge, {{1}, {2, 3}, {}, 4}),
+              fingerprint(soup, Rule::non_manifold_edge, {{7}, {3, 2}, {}, 4}));
 }
 
 TEST(FingerprintText, ReadsBack) {
