@@ -250,7 +250,8 @@ def test_rules(validate):
         (["bad/open.obj", "--rule", "boundary-edge=error"], 1),
         (["bad/open.obj", "--rule", "CDP0301=note", "--rule", "CDP0302=note", "--fail-on",
           "warning"], 0),
-        (["bad/open.obj", "--rule", "CDP0301=off", "--rule", "cdp0302=off", "--fail-on", "note"], 0),
+        (["bad/open.obj", "--rule", "CDP0301=off", "--rule", "cdp0302=off", "--fail-on",
+          "note"], 0),
         (["bad/range.obj", "--rule", "CDP0102=warn"], 0),
         (["good", "--fail-on", "note"], 0),
     ]
@@ -316,7 +317,7 @@ def test_baseline(validate):
             must({result["baselineState"] for result in only["results"]} == {"new"}, "not new")
         if form == "text":
             must("3 new of " in done.stdout, done.stdout)
-    must(validate("base/mesh.obj", "--baseline", "old.json").returncode == 0, "warnings do not fail")
+    must(validate("base/mesh.obj", "--baseline", "old.json").returncode == 0, "warnings fail")
 
     # An old report that was cut short: numbers are compared, and it says so.
     write_obj(folder / "mesh.obj", corners, triangles)
@@ -335,7 +336,8 @@ def test_baseline(validate):
                               ("text.json", "{", "byte"), ("other.json", "{}", "no report"),
                               ("list.json", "[]", "no report"),
                               ("old2.json", '{"report": "cdprep-validate", "version": 99}', "99"),
-                              ("cut.json", '{"report": "cdprep-validate", "version": 1}', "schema")):
+                              ("cut.json", '{"report": "cdprep-validate", "version": 1}',
+                               "schema")):
         if text is not None:
             (validate.folder / name).write_text(text)
         done = validate("base", "--baseline", name)
