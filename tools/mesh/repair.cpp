@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/repair.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "mesh/moved_distance.h"
+#include "mesh/repair_steps.h"
+
+namespace cdprep::mesh {
+namespace {
+
+constexpr int kMostRounds = 6;
+
+RepairSteps steps_of(std::initializer_list<RepairStep> steps) {
+    RepairSteps set;
+    for (const RepairStep step : steps) set.set(static_cast<std::size_t>(step));
+    return set;
+}
+
+RepairMesh as_repair_mesh(const TriangleSoup& soup) {
+    RepairMesh mesh;
+    mesh.positions = soup.positions;
+    mesh.triangles = soup.triangles;
+    mesh.single_precision = soup.single_precision;
+    for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+        mesh.vertex_origin.push_back({i, std::nullopt});
+    }
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        mesh.triangle_origin.push_back({i, std::nullopt});
+    }
+    return mesh;
+}
+
+std::vector<std::uint32_t> out_of_range(const TriangleSoup& soup) {
+    std::vector<std::uint32_t> triangles;
+    for (const BadNumber& bad : soup.bad_numbers) {
+        if (bad.kind == BadNumber::Kind::index_out_of_range) triangles.push_back(bad.triangle);
+    }
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+}
+
+StoredVerdict verdict_of(const RepairMesh& mesh) {
+    return find_stored_verdict(mesh.positions, mesh.triangles);
+}
+
+/// Takes steps, and undoes those that make the verdict worse.
+class Repair {
+public:
+    Repair(const TriangleSoup& soup, const RepairOptions& options)
+        : options_(options), bad_(out_of_range(soup)), mesh_(as_repair_mesh(soup)) {
+        // What is wrong is said of the mesh as find_defects() sees it.
+        RepairMesh joined = weld_vertices(drop_bad_numbers(mesh_, bad_).mesh, 0).mesh;
+        before_ = verdict_ = verdict_of(joined);
+    }
+
+    /// Takes each step once.
+    void run_round() {
+        reports_.clear();
+        take(RepairStep::drop_bad_numbers,
+             [&](RepairMesh mesh) { return drop_bad_numbers(std::move(mesh), bad_); });
+        if (joining_equal_positions_gains()) {
+            take(RepairStep::weld,
+                 [&](RepairMesh mesh) { return weld_vertices(std::move(mesh), 0); });
+        } else {
+            take(RepairStep::weld, drop_unused);
+        }
+        if (options_.weld_distance > 0) {
+            take(RepairStep::weld, [&](RepairMesh mesh) {
+                return weld_vertices(std::move(mesh), options_.weld_distance);
+            });
+        }
+        take(RepairStep::drop_repeated_corners, drop_repeated_corners);
+        take(RepairStep::drop_duplicates, drop_duplicates);
+        take(RepairStep::orient, orient);
+        take(RepairStep::drop_duplicates, drop_duplicates);
+        take(RepairStep::split_non_manifold, split_non_manifold);
+        take(RepairStep::drop_zero_area, drop_zero_area);
+        take(RepairStep::orient_outward, orient_outward);
+        take(RepairStep::drop_components, [&](RepairMesh mesh) {
+            return drop_components(std::move(mesh), options_.least_triangles);
+        });
+    }
+
+    [[nodiscard]] const RepairMesh& mesh() const {
+        return mesh_;
+    }
+    [[nodiscard]] const StoredVerdict& before() const {
+        return before_;
+    }
+    [[nodiscard]] const StoredVerdict& after() const {
+        return verdict_;
+    }
+    [[nodiscard]] const std::vector<StepReport>& reports() const {
+        return reports_;
+    }
+
+private:
+    /// False where the mesh is 2-manifold and oriented as it is stored, and joined positions
+    /// would give no boundary edge a partner: then copies of a vertex were parted on purpose.
+    [[nodiscard]] bool joining_equal_positions_gains() const {
+        const StoredVerdict stored = verdict_of(mesh_);
+        constexpr std::uint32_t kBoth = format::verdict_two_manifold | format::verdict_oriented;
+        if ((stored.verdict.facts & kBoth) != kBoth) return true;
+        const RepairMesh joined = weld_vertices(mesh_, 0).mesh;
+        return count_unpaired_uses(joined.positions, joined.triangles) < stored.boundary_edges;
+    }
+
+    template <class Step>
+    void take(RepairStep name, Step step) {
+        if (!options_.steps.test(static_cast<std::size_t>(name))) return;
+        Stepped stepped = step(mesh_);
+        if (stepped.report.changed()) {
+            const StoredVerdict verdict = verdict_of(stepped.mesh);
+            // Joining equal positions says what the mesh is: before_ was found so.
+            const bool may = name <= RepairStep::weld && stepped.report.moved == 0;
+            if (!may && is_worse(verdict, verdict_)) {
+                stepped.report.undone = "the verdict would be worse";
+            } else {
+                mesh_ = std::move(stepped.mesh);
+                verdict_ = verdict;
+            }
+        }
+        if (stepped.report.changed() || !stepped.report.refused.empty()) {
+            reports_.push_back(std::move(stepped.report));
+        }
+    }
+
+    const RepairOptions& options_;
+    std::vector<std::uint32_t> bad_;
+    RepairMesh mesh_;
+    StoredVerdict before_;
+    StoredVerdict verdict_;
+    std::vector<StepReport> reports_;
+};
+
+RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
+    RepairCounts counts;
+    counts.source_triangles = soup.triangles.size();
+    counts.source_vertices = soup.positions.size();
+    std::vector<std::uint32_t> pieces(soup.triangles.size(), 0);
+    std::vector<bool> whole(soup.triangles.size(), false), reversed(soup.triangles.size(), false);
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::uint32_t source = mesh.triangle_origin[t].source;
+        if (source == kNone) {
+            ++counts.made;
+            continue;
+        }
+        ++pieces[source];
+        if (mesh.triangle_origin[t].step) continue;
+        whole[source] = true;
+        // Corners go by position: numbers change with every join and parting.
+        const auto& was = soup.triangles[source].vertex;
+        const auto& is = mesh.triangles[t].vertex;
+        reversed[source] = !(soup.positions[was[1]] == mesh.positions[is[1]] &&
+                             soup.positions[was[2]] == mesh.positions[is[2]]);
+    }
+    for (std::size_t source = 0; source < pieces.size(); ++source) {
+        if (pieces[source] == 0) {
+            ++counts.dropped;
+        } else if (!whole[source]) {
+            ++counts.cut;
+        } else if (reversed[source]) {
+            ++counts.reversed;
+        } else {
+            ++counts.kept;
+        }
+    }
+    std::vector<bool> used(soup.positions.size(), false), stands(soup.positions.size(), false);
+    for (const Triangle& triangle : soup.triangles) {
+        for (const std::uint32_t vertex : triangle.vertex) used[vertex] = true;
+    }
+    for (const Origin& origin : mesh.vertex_origin) {
+        if (origin.source == kNone) {
+            ++counts.made_vertices;
+        } else if (stands[origin.source]) {
+            ++counts.parted_vertices;
+        } else {
+            stands[origin.source] = true;
+        }
+    }
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        if (stands[i]) continue;
+        ++(used[i] ? counts.merged_vertices : counts.unused_vertices);
+    }
+    return counts;
+}
+
+}  // namespace
+
+std::optional<RepairSteps> find_repair_preset(std::string_view name) noexcept {
+    RepairSteps steps =
+        steps_of({RepairStep::drop_bad_numbers, RepairStep::weld, RepairStep::drop_repeated_corners,
+                  RepairStep::drop_duplicates, RepairStep::drop_zero_area, RepairStep::orient,
+                  RepairStep::split_non_manifold, RepairStep::orient_outward});
+    if (name == "safe") return steps;
+    steps |= steps_of(
+        {RepairStep::stitch_seams, RepairStep::resolve_t_junctions, RepairStep::fill_holes});
+    if (name == "closed") return steps;
+    steps |= steps_of({RepairStep::resolve_self_intersections});
+    if (name == "solid") return steps;
+    return std::nullopt;
+}
+
+Repaired repair(const TriangleSoup& soup, const RepairOptions& options) {
+    Repair work(soup, options);
+    RepairReport report;
+    report.before = work.before();
+    for (int round = 0; round < kMostRounds && !report.settled; ++round) {
+        const auto positions = work.mesh().positions;
+        const auto triangles = work.mesh().triangles;
+        work.run_round();
+        report.settled = positions == work.mesh().positions && triangles == work.mesh().triangles;
+        for (const StepReport& step : work.reports()) {
+            // A round that changed nothing in the end still says what it refused.
+            if (report.settled && round > 0) continue;
+            report.steps.push_back(step);
+        }
+    }
+    report.after = work.after();
+    report.counts = count(soup, work.mesh());
+    const MovedDistances moved = find_moved_distances(soup, work.mesh());
+    report.input_to_output = moved.input_to_output;
+    report.output_to_input = moved.output_to_input;
+    return {work.mesh(), std::move(report)};
+}
+
+}  // namespace cdprep::mesh

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "cdprep/build_bvh.h"
+#include "mesh/repair_step.h"
+
+/// The steps of repair(), each a function from a mesh to a mesh and what it changed. All
+/// but the first ask for finite positions, and corners that are in range.
+namespace cdprep::mesh {
+
+/// Leaves out triangles with a corner that is not finite, and those that the import found
+/// out of range: `out_of_range` of them, by ascending number.
+[[nodiscard]] Stepped drop_bad_numbers(RepairMesh mesh,
+                                       std::span<const std::uint32_t> out_of_range);
+
+/// weld(), with vertices that no triangle uses left out.
+[[nodiscard]] Stepped weld_vertices(RepairMesh mesh, double distance);
+
+/// Leaves out vertices that no triangle uses.
+[[nodiscard]] Stepped drop_unused(RepairMesh mesh);
+
+[[nodiscard]] Stepped drop_repeated_corners(RepairMesh mesh);
+
+/// Of triangles with the same corners and the same winding the lowest stays. Those of
+/// opposite winding are left to split_non_manifold().
+[[nodiscard]] Stepped drop_duplicates(RepairMesh mesh);
+
+/// Replaces a triangle of exactly collinear corners and its neighbour across the longest
+/// edge by two triangles that cover what the neighbour covered; one whose longest edge
+/// has no neighbour is left out. Nothing moves. Refuses where that edge has several
+/// neighbours, or the new edge is there already.
+[[nodiscard]] Stepped drop_zero_area(RepairMesh mesh);
+
+/// Winds triangles as their neighbours across edges of two triangles, reversing the fewer
+/// of each patch. Where a patch cannot be oriented, split_non_manifold() cuts it.
+[[nodiscard]] Stepped orient(RepairMesh mesh);
+
+/// Parts edges of more than two triangles into pairs and boundaries, and vertices into one
+/// a fan. Pairs are what bounds the same wedge of solid, by exact angles. Two triangles
+/// with the same corners that remain get a vertex in the middle of the later one; edges
+/// that two pairs still share get one in the middle of one pair's. Those middles are
+/// rounded: the only positions that may be off the surface, by a rounding.
+[[nodiscard]] Stepped split_non_manifold(RepairMesh mesh);
+
+/// Reverses closed components of negative volume, but for cavities: those whose box and
+/// first vertex lie within an odd number of other closed components.
+[[nodiscard]] Stepped orient_outward(RepairMesh mesh);
+
+/// Leaves out components of fewer than `least` triangles.
+[[nodiscard]] Stepped drop_components(RepairMesh mesh, std::uint64_t least);
+
+}  // namespace cdprep::mesh

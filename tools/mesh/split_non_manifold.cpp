@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+
+#include "mesh/repair_steps.h"
+#include "predicates.h"
+
+namespace cdprep::mesh {
+namespace {
+
+constexpr std::size_t kMostPasses = 64;  ///< over edges that pairs share: two do, in practice
+
+/// Which way a, b, c turn in the first coordinate plane that does not see them in a line,
+/// and which plane that is; 3 when none.
+struct PlaneTurn {
+    int plane;
+    int turn;
+};
+int turn_in(int plane, const Double3& a, const Double3& b, const Double3& c) {
+    const auto flat = [plane](const Double3& p) {
+        return plane == 0 ? Double2{p.y, p.z} : plane == 1 ? Double2{p.z, p.x} : Double2{p.x, p.y};
+    };
+    return orient2d(flat(a), flat(b), flat(c));
+}
+PlaneTurn turn_of(const Double3& a, const Double3& b, const Double3& c) {
+    for (int plane = 0; plane < 3; ++plane) {
+        if (const int turn = turn_in(plane, a, b, c); turn != 0) return {plane, turn};
+    }
+    return {3, 0};
+}
+
+/// Sorts the uses of one edge by their angle around it.
+class AroundEdge {
+public:
+    AroundEdge(const RepairMesh& mesh, std::span<const HalfEdge> uses) : mesh_(mesh) {
+        const std::uint32_t start = start_of(mesh.triangles, uses[0]);
+        const std::uint32_t end = end_of(mesh.triangles, uses[0]);
+        lower_ = std::min(start, end);
+        upper_ = std::max(start, end);
+        for (const HalfEdge h : uses) {
+            if (reference_ != kNone) break;
+            const PlaneTurn turn = turn_of(at(lower_), at(upper_), apex(h));
+            if (turn.plane == 3) continue;
+            reference_ = apex_of(mesh.triangles, h);
+            turn_ = turn;
+        }
+    }
+
+    /// By ascending angle from the first; of one angle, those that close a wedge of solid
+    /// before those that open one: two sides of a sheet are no wedge.
+    [[nodiscard]] std::vector<HalfEdge> sorted(std::span<const HalfEdge> uses) const {
+        std::vector<HalfEdge> order(uses.begin(), uses.end());
+        std::sort(order.begin(), order.end(), [&](HalfEdge a, HalfEdge b) {
+            const int sector_a = sector(a), sector_b = sector(b);
+            if (sector_a != sector_b) return sector_a < sector_b;
+            if (sector_a % 2 == 1) {
+                const int side = orient3d(at(lower_), at(upper_), apex(a), apex(b));
+                if (side != 0) return side < 0;
+            }
+            if (opens(a) != opens(b)) return opens(b);
+            return a < b;
+        });
+        return order;
+    }
+
+    /// Seen with rising angle, the solid begins at a half-edge from the upper vertex.
+    [[nodiscard]] bool opens(HalfEdge h) const {
+        return start_of(mesh_.triangles, h) == upper_;
+    }
+
+private:
+    [[nodiscard]] const Double3& at(std::uint32_t vertex) const {
+        return mesh_.positions[vertex];
+    }
+    [[nodiscard]] const Double3& apex(HalfEdge h) const {
+        return at(apex_of(mesh_.triangles, h));
+    }
+
+    /// 0: the angle of the reference, or no angle at all; 1: less than half a turn from
+    /// it; 2: half a turn; 3: more.
+    [[nodiscard]] int sector(HalfEdge h) const {
+        if (reference_ == kNone) return 0;
+        const int side = orient3d(at(lower_), at(upper_), at(reference_), apex(h));
+        if (side != 0) return side < 0 ? 1 : 3;
+        const int turn = turn_in(turn_.plane, at(lower_), at(upper_), apex(h));
+        return turn == -turn_.turn ? 2 : 0;
+    }
+
+    const RepairMesh& mesh_;
+    std::uint32_t lower_;
+    std::uint32_t upper_;
+    std::uint32_t reference_ = kNone;
+    PlaneTurn turn_{3, 0};
+};
+
+/// Joins uses as brackets do, around the edge: each that opens with the next that closes
+/// and is not taken by one between them.
+void pair_around(const RepairMesh& mesh, std::span<const HalfEdge> uses,
+                 std::vector<HalfEdge>& twins) {
+    const AroundEdge around(mesh, uses);
+    std::vector<HalfEdge> open;
+    const std::vector<HalfEdge> order = around.sorted(uses);
+    for (int turn = 0; turn < 2; ++turn) {
+        for (const HalfEdge h : order) {
+            if (twins[h] != kNone) continue;
+            if (around.opens(h)) {
+                if (turn == 0) open.push_back(h);
+            } else if (!open.empty()) {
+                twins[h] = open.back();
+                twins[open.back()] = h;
+                open.pop_back();
+            }
+        }
+    }
+}
+
+std::vector<HalfEdge> pair_all(const RepairMesh& mesh) {
+    const EdgeUses edges = find_edge_uses(mesh.triangles, mesh.positions.size());
+    std::vector<HalfEdge> twins = find_twins(mesh.triangles, edges);
+    for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
+        if (edges.of(edge).size() > 2) pair_around(mesh, edges.of(edge), twins);
+    }
+    return twins;
+}
+
+Double3 middle_of(const Double3& a, const Double3& b) {
+    return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
+}
+
+/// Cuts the triangle of h at a vertex on h. The half that keeps the triangle's number has
+/// the start of h, and h keeps its number too.
+void cut_at(RepairMesh& mesh, std::vector<HalfEdge>& twins, HalfEdge h, std::uint32_t middle) {
+    const HalfEdge next = next_in_triangle(h);
+    const auto added = static_cast<HalfEdge>(mesh.triangles.size());
+    Triangle half = mesh.triangles[h / 3];
+    half.vertex[h % 3] = middle;
+    mesh.triangles[h / 3].vertex[next % 3] = middle;
+    mesh.triangle_origin[h / 3].step = RepairStep::split_non_manifold;
+    mesh.triangles.push_back(half);
+    mesh.triangle_origin.push_back(Origin(mesh.triangle_origin[h / 3]));
+    // The new half has the far part of h, all of `next`, and the cut.
+    const HalfEdge far = 3 * added + h % 3, far_next = 3 * added + next % 3;
+    const HalfEdge far_cut = previous_in_triangle(far);
+    twins.resize(twins.size() + 3, kNone);
+    twins[far_next] = twins[next];
+    if (twins[next] != kNone) twins[twins[next]] = far_next;
+    twins[next] = far_cut;
+    twins[far_cut] = next;
+}
+
+/// Cuts h, and what it is joined to, in its middle. False when the middle is an end.
+bool cut_in_middle(RepairMesh& mesh, std::vector<HalfEdge>& twins, HalfEdge h, StepReport& report) {
+    const Double3 a = mesh.positions[start_of(mesh.triangles, h)];
+    const Double3 b = mesh.positions[end_of(mesh.triangles, h)];
+    const std::uint32_t middle = add_vertex(mesh, middle_of(a, b), report.step);
+    if (mesh.positions[middle] == a || mesh.positions[middle] == b) {
+        mesh.positions.pop_back();
+        mesh.vertex_origin.pop_back();
+        return false;
+    }
+    ++report.added_vertices;
+    const HalfEdge other = twins[h];
+    report.cut.push_back(mesh.triangle_origin[h / 3].source);
+    cut_at(mesh, twins, h, middle);
+    if (other == kNone) return true;
+    report.cut.push_back(mesh.triangle_origin[other / 3].source);
+    const auto far_h = static_cast<HalfEdge>(3 * (mesh.triangles.size() - 1) + h % 3);
+    cut_at(mesh, twins, other, middle);
+    const auto far_other = static_cast<HalfEdge>(3 * (mesh.triangles.size() - 1) + other % 3);
+    twins[h] = far_other;
+    twins[far_other] = h;
+    twins[other] = far_h;
+    twins[far_h] = other;
+    return true;
+}
+
+/// One half-edge for each pair or boundary among the uses, but the first of them.
+std::vector<HalfEdge> all_but_first_pair(std::span<const HalfEdge> uses,
+                                         const std::vector<HalfEdge>& twins) {
+    std::vector<HalfEdge> rest;
+    for (const HalfEdge h : uses) {
+        if (twins[h] == kNone || h < twins[h]) rest.push_back(h);
+    }
+    if (!rest.empty()) rest.erase(rest.begin());
+    return rest;
+}
+
+/// Where pairs still share both vertices of an edge, all but one get a vertex in between.
+bool cut_shared_edges(RepairMesh& mesh, std::vector<HalfEdge>& twins, StepReport& report) {
+    const EdgeUses edges = find_edge_uses(mesh.triangles, mesh.positions.size());
+    const std::size_t old_count = mesh.triangles.size();
+    std::vector<bool> touched(old_count, false);
+    bool cut = false;
+    for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
+        const auto uses = edges.of(edge);
+        if (uses.size() == 1 || (uses.size() == 2 && twins[uses[0]] == uses[1])) continue;
+        for (const HalfEdge h : all_but_first_pair(uses, twins)) {
+            const HalfEdge other = twins[h];
+            // A cut triangle has other half-edges now: it waits for the next pass.
+            if (touched[h / 3] ||
+                (other != kNone && (other / 3 >= old_count || touched[other / 3]))) {
+                cut = true;
+                continue;
+            }
+            if (!cut_in_middle(mesh, twins, h, report)) continue;
+            touched[h / 3] = true;
+            if (other != kNone) touched[other / 3] = true;
+            cut = true;
+        }
+    }
+    return cut;
+}
+
+/// The later of two triangles with the same corners is cut from its middle.
+void cut_twin_triangles(RepairMesh& mesh, StepReport& report) {
+    struct Key {
+        std::array<std::uint32_t, 3> corners;
+        std::uint32_t triangle;
+        auto operator<=>(const Key&) const = default;
+    };
+    std::vector<Key> keys;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& v = mesh.triangles[t].vertex;
+        keys.push_back({{v[0], v[1], v[2]}, t});
+        std::sort(keys.back().corners.begin(), keys.back().corners.end());
+    }
+    std::sort(keys.begin(), keys.end());
+    for (std::size_t i = 1; i < keys.size(); ++i) {
+        if (keys[i].corners != keys[i - 1].corners) continue;
+        const std::uint32_t t = keys[i].triangle;
+        const auto v = mesh.triangles[t].vertex;
+        const Double3 &a = mesh.positions[v[0]], &b = mesh.positions[v[1]],
+                      &c = mesh.positions[v[2]];
+        const Double3 centre{a.x / 3 + b.x / 3 + c.x / 3, a.y / 3 + b.y / 3 + c.y / 3,
+                             a.z / 3 + b.z / 3 + c.z / 3};
+        const std::uint32_t middle = add_vertex(mesh, centre, report.step);
+        ++report.added_vertices;
+        report.cut.push_back(mesh.triangle_origin[t].source);
+        mesh.triangle_origin[t].step = report.step;
+        mesh.triangles[t] = {{v[0], v[1], middle}};
+        mesh.triangles.push_back({{v[1], v[2], middle}});
+        mesh.triangles.push_back({{v[2], v[0], middle}});
+        mesh.triangle_origin.resize(mesh.triangles.size(), Origin(mesh.triangle_origin[t]));
+    }
+}
+
+}  // namespace
+
+Stepped split_non_manifold(RepairMesh mesh) {
+    StepReport report(RepairStep::split_non_manifold);
+    std::vector<HalfEdge> twins = pair_all(mesh);
+    part_fans(mesh, twins, report.parted, report.step);
+    for (std::size_t pass = 0; pass < kMostPasses; ++pass) {
+        if (!cut_shared_edges(mesh, twins, report)) break;
+    }
+    cut_twin_triangles(mesh, report);
+    return {std::move(mesh), std::move(report)};
+}
+
+}  // namespace cdprep::mesh
