@@ -30,6 +30,7 @@ void add_explain(CLI::App& app, Exit& exit);
 void add_info(CLI::App& app, Exit& exit);
 void add_query(CLI::App& app, Exit& exit);
 void add_reindex(CLI::App& app, Exit& exit);
+void add_repair(CLI::App& app, Exit& exit);
 void add_validate(CLI::App& app, Exit& exit);
 
 }  // namespace cdprep::cli

@@ -20,6 +20,7 @@ Exit run(int argc, char** argv) {
     add_info(app, exit);
     add_query(app, exit);
     add_reindex(app, exit);
+    add_repair(app, exit);
     watch_for_interrupts();
     try {
         app.parse(argc, argv);

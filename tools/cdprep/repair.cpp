@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesh/repair.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+#include "command.h"
+#include "import/import_file.h"
+#include "parallel.h"
+#include "report/repair_report.h"
+#include "write/mesh_file.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kMostThreads = 4096;
+constexpr std::size_t kRefusalsShown = 5;  ///< of each step, in text
+
+struct Arguments {
+    fs::path input;
+    fs::path output;
+    std::string preset = "safe";
+    std::string steps;
+    std::string format = "text";
+    std::size_t threads = 0;
+    mesh::RepairOptions options;
+};
+
+/// "weld,orient": those steps and no others.
+Result<mesh::RepairSteps> parse_steps(const std::string& list) {
+    mesh::RepairSteps steps;
+    std::istringstream names(list);
+    for (std::string name; std::getline(names, name, ',');) {
+        const auto step = mesh::find_repair_step(name);
+        if (!step) {
+            std::string known;
+            for (std::size_t i = 0; i < mesh::kRepairStepCount; ++i) {
+                known += (i == 0 ? "" : ", ");
+                known += mesh::name_of(static_cast<mesh::RepairStep>(i));
+            }
+            return Error{ErrorCode::bad_argument,
+                         "--steps: there is no step '" + name + "'; there are " + known + "."};
+        }
+        steps.set(static_cast<std::size_t>(*step));
+    }
+    return steps;
+}
+
+/// What the arguments ask for, or why they make no sense.
+Result<mesh::RepairOptions> options_of(const Arguments& arguments) {
+    mesh::RepairOptions options = arguments.options;
+    for (const double length : {options.weld_distance, options.seam_width}) {
+        if (!std::isfinite(length)) {
+            return Error{ErrorCode::bad_argument, "--weld and --seam-width must be finite."};
+        }
+    }
+    if (arguments.steps.empty()) {
+        options.steps = *mesh::find_repair_preset(arguments.preset);
+    } else {
+        const Result<mesh::RepairSteps> steps = parse_steps(arguments.steps);
+        if (!steps) return steps.error();
+        options.steps = steps.value();
+    }
+    if (options.least_triangles > 0) {
+        options.steps.set(static_cast<std::size_t>(mesh::RepairStep::drop_components));
+    }
+    return options;
+}
+
+Result<report::RepairFileReport> repair_file(const Arguments& arguments,
+                                             mesh::RepairOptions options) {
+    const auto format = write::mesh_format_of(arguments.output);
+    if (!format) {
+        return Error{ErrorCode::bad_argument,
+                     arguments.output.string() +
+                         ": the extension names no format that can be written; it must be .obj, "
+                         ".ply, .stl or .off."};
+    }
+    const Clock::time_point begin = Clock::now();
+    const Threads threads(arguments.threads);
+    options.parallel_for = threads.parallel_for();
+    import::ImportOptions limits;
+    limits.parallel_for = threads.parallel_for();
+    const Result<mesh::TriangleSoup> soup = import::import_file(arguments.input, limits);
+    if (!soup) return soup.error();
+    const mesh::Repaired repaired = mesh::repair(soup.value(), options);
+    const Result<Done> written = write::write_mesh_file(
+        arguments.output, *format,
+        {repaired.mesh.positions, repaired.mesh.triangles, repaired.mesh.single_precision});
+    if (!written) return written.error();
+
+    report::RepairFileReport report;
+    report.input = arguments.input.string();
+    report.output = arguments.output.string();
+    report.repair = repaired.report;
+    report.triangles = repaired.mesh.triangles.size();
+    report.vertices = repaired.mesh.positions.size();
+    report.triangle_origin = repaired.mesh.triangle_origin;
+    report.vertex_origin = repaired.mesh.vertex_origin;
+    report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    return report;
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<mesh::RepairOptions> options = options_of(arguments);
+    if (!options) return fail("repair", options.error());
+    const Result<report::RepairFileReport> repaired = repair_file(arguments, options.value());
+    if (!repaired) {
+        if (arguments.format == "json") {
+            report::RepairFileReport report;
+            report.input = arguments.input.string();
+            report.output = arguments.output.string();
+            report.exit = static_cast<int>(exit_for(repaired.error().code));
+            report.error = repaired.error().message;
+            std::cout << report::repair_json(report);
+        }
+        return fail("repair", repaired.error());
+    }
+    std::cout << (arguments.format == "json"
+                      ? report::repair_json(repaired.value())
+                      : report::repair_text(repaired.value(), kRefusalsShown));
+    return Exit::success;
+}
+
+}  // namespace
+
+void add_repair(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command =
+        app.add_subcommand("repair", "Mend what is asked, and account for every change");
+    command->add_option("input", arguments->input, "OBJ, STL, PLY, OFF, glTF, ... file")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "An .obj, .ply, .stl or .off file")
+        ->required();
+    CLI::Option* preset =
+        command
+            ->add_option("--preset", arguments->preset,
+                         "safe: 2-manifold and oriented, nothing moves. closed: and without "
+                         "holes. solid: and without crossings")
+            ->check(CLI::IsMember({"safe", "closed", "solid"}))
+            ->capture_default_str();
+    command->add_option("--steps", arguments->steps, "Steps by name, with commas, not a preset")
+        ->excludes(preset);
+    command
+        ->add_option("--weld", arguments->options.weld_distance,
+                     "Merge vertices this close, in model units")
+        ->check(CLI::NonNegativeNumber);
+    command
+        ->add_option("--seam-width", arguments->options.seam_width,
+                     "Join boundaries this close, in model units")
+        ->check(CLI::NonNegativeNumber);
+    command
+        ->add_option("--hole-size", arguments->options.hole_size,
+                     "Close holes whose box has at most this diagonal, in model units")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--drop-components", arguments->options.least_triangles,
+                        "Leave out components of fewer triangles");
+    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
+        ->check(CLI::Range(0, kMostThreads));
+    command->add_option("--format", arguments->format, "text or json")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->capture_default_str();
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli
