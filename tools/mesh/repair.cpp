@@ -66,17 +66,32 @@ public:
         } else {
             take(RepairStep::weld, drop_unused);
         }
+        verdict_ = verdict_of(mesh_);
         if (options_.weld_distance > 0) {
             take(RepairStep::weld, [&](RepairMesh mesh) {
                 return weld_vertices(std::move(mesh), options_.weld_distance);
             });
         }
+        if (options_.seam_width > 0) {
+            take(RepairStep::stitch_seams, [&](RepairMesh mesh) {
+                return stitch_seams(std::move(mesh), options_.seam_width);
+            });
+        }
         take(RepairStep::drop_repeated_corners, drop_repeated_corners);
+        take(RepairStep::resolve_t_junctions, [&](RepairMesh mesh) {
+            return resolve_t_junctions(std::move(mesh), options_.seam_width);
+        });
         take(RepairStep::drop_duplicates, drop_duplicates);
         take(RepairStep::orient, orient);
         take(RepairStep::drop_duplicates, drop_duplicates);
         take(RepairStep::split_non_manifold, split_non_manifold);
         take(RepairStep::drop_zero_area, drop_zero_area);
+        if (is_manifold()) {
+            take(RepairStep::fill_holes, [&](RepairMesh mesh) {
+                return fill_holes(std::move(mesh), options_.hole_size, options_.parallel_for);
+            });
+            take(RepairStep::drop_zero_area, drop_zero_area);
+        }
         take(RepairStep::orient_outward, orient_outward);
         take(RepairStep::drop_components, [&](RepairMesh mesh) {
             return drop_components(std::move(mesh), options_.least_triangles);
@@ -105,6 +120,11 @@ private:
         if ((stored.verdict.facts & kBoth) != kBoth) return true;
         const RepairMesh joined = weld_vertices(mesh_, 0).mesh;
         return count_unpaired_uses(joined.positions, joined.triangles) < stored.boundary_edges;
+    }
+
+    [[nodiscard]] bool is_manifold() const {
+        constexpr std::uint32_t kBoth = format::verdict_two_manifold | format::verdict_oriented;
+        return (verdict_.verdict.facts & kBoth) == kBoth;
     }
 
     template <class Step>

@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::array<std::string_view, kRepairStepCount> kNames = {"drop-bad-numbers",
                                                                    "weld",
-                                                                   "drop-repeated-corners",
                                                                    "stitch-seams",
+                                                                   "drop-repeated-corners",
                                                                    "resolve-t-junctions",
                                                                    "drop-duplicates",
                                                                    "orient",

@@ -17,8 +17,8 @@ namespace cdprep::mesh {
 enum class RepairStep : std::uint8_t {
     drop_bad_numbers,       ///< triangles with a corner that is not finite or out of range
     weld,                   ///< join vertices with equal positions, or within a distance
-    drop_repeated_corners,  ///< triangles that repeat a corner
     stitch_seams,           ///< join boundaries that run beside each other within a width
+    drop_repeated_corners,  ///< triangles that repeat a corner
     resolve_t_junctions,    ///< cut boundary edges where a vertex of a boundary lies on them
     drop_duplicates,        ///< triangles that repeat another, with the same winding
     orient,                 ///< wind neighbours the same way

@@ -42,6 +42,21 @@ namespace cdprep::mesh {
 /// rounded: the only positions that may be off the surface, by a rounding.
 [[nodiscard]] Stepped split_non_manifold(RepairMesh mesh);
 
+/// Joins vertices of boundaries, edges of one triangle, that are at most `width` apart, to
+/// the lowest of them.
+[[nodiscard]] Stepped stitch_seams(RepairMesh mesh, double width);
+
+/// Cuts triangles at vertices of boundaries that lie on their boundary edges: exactly, or
+/// within `width`, which moves the edge there.
+[[nodiscard]] Stepped resolve_t_junctions(RepairMesh mesh, double width);
+
+/// Closes loops of boundary edges whose box has a diagonal of at most `most`: with the
+/// triangles that CGAL's triangulate_hole_polyline() proposes, or, where those would share
+/// an edge with others, around a new vertex in the middle. In a mesh without triangles
+/// that meet, patches that would are refused. The mesh must be 2-manifold and oriented.
+[[nodiscard]] Stepped fill_holes(RepairMesh mesh, double most,
+                                 ParallelFor parallel_for);
+
 /// Reverses closed components of negative volume, but for cavities: those whose box and
 /// first vertex lie within an odd number of other closed components.
 [[nodiscard]] Stepped orient_outward(RepairMesh mesh);
