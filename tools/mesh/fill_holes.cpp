@@ -221,13 +221,15 @@ private:
 
 }  // namespace
 
-Stepped fill_holes(RepairMesh mesh, double most, ParallelFor parallel_for) {
+Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits,
+                   ParallelFor parallel_for) {
     StepReport report(RepairStep::fill_holes);
-    const bool crosses = !find_meetings(mesh, parallel_for).empty();
+    const bool may_cross =
+        limits.crossing == Crossing::resolved_later || !find_meetings(mesh, parallel_for).empty();
     HoleFilling filling(mesh, report);
-    filling.run(most);
+    filling.run(limits.diagonal);
     // Where triangles meet already, a patch that meets one makes nothing worse.
-    if (!crosses && report.added_triangles > 0) {
+    if (!may_cross && report.added_triangles > 0) {
         filling.take_back(find_meetings(mesh, parallel_for));
     }
     return {std::move(mesh), std::move(report)};

@@ -88,11 +88,20 @@ public:
         take(RepairStep::drop_zero_area, drop_zero_area);
         if (is_manifold()) {
             take(RepairStep::fill_holes, [&](RepairMesh mesh) {
-                return fill_holes(std::move(mesh), options_.hole_size, options_.parallel_for);
+                return fill_holes(std::move(mesh),
+                                  {options_.hole_size, asked(RepairStep::resolve_self_intersections)
+                                                           ? Crossing::resolved_later
+                                                           : Crossing::refused},
+                                  options_.parallel_for);
             });
             take(RepairStep::drop_zero_area, drop_zero_area);
         }
         take(RepairStep::orient_outward, orient_outward);
+        if (is_manifold()) {
+            take(RepairStep::resolve_self_intersections, [&](RepairMesh mesh) {
+                return resolve_self_intersections(std::move(mesh), options_.parallel_for);
+            });
+        }
         take(RepairStep::drop_components, [&](RepairMesh mesh) {
             return drop_components(std::move(mesh), options_.least_triangles);
         });
@@ -127,9 +136,13 @@ private:
         return (verdict_.verdict.facts & kBoth) == kBoth;
     }
 
+    [[nodiscard]] bool asked(RepairStep step) const {
+        return options_.steps.test(static_cast<std::size_t>(step));
+    }
+
     template <class Step>
     void take(RepairStep name, Step step) {
-        if (!options_.steps.test(static_cast<std::size_t>(name))) return;
+        if (!asked(name)) return;
         Stepped stepped = step(mesh_);
         if (stepped.report.changed()) {
             const StoredVerdict verdict = verdict_of(stepped.mesh);

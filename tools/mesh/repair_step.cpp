@@ -17,8 +17,8 @@ constexpr std::array<std::string_view, kRepairStepCount> kNames = {"drop-bad-num
                                                                    "split-non-manifold",
                                                                    "drop-zero-area",
                                                                    "fill-holes",
-                                                                   "resolve-self-intersections",
                                                                    "orient-outward",
+                                                                   "resolve-self-intersections",
                                                                    "drop-components"};
 
 }  // namespace

@@ -25,8 +25,8 @@ enum class RepairStep : std::uint8_t {
     split_non_manifold,     ///< part edges of more than two triangles, vertices of several fans
     drop_zero_area,         ///< triangles whose corners are exactly collinear
     fill_holes,             ///< close boundary loops with new triangles
+    orient_outward,         ///< wind closed components so that their volume is positive
     resolve_self_intersections,  ///< keep what bounds the solid, cut where triangles cross
-    orient_outward,              ///< wind closed components so that their volume is positive
     drop_components,             ///< components of few triangles
 };
 inline constexpr std::size_t kRepairStepCount = 13;

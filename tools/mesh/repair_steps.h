@@ -50,16 +50,35 @@ namespace cdprep::mesh {
 /// within `width`, which moves the edge there.
 [[nodiscard]] Stepped resolve_t_junctions(RepairMesh mesh, double width);
 
-/// Closes loops of boundary edges whose box has a diagonal of at most `most`: with the
-/// triangles that CGAL's triangulate_hole_polyline() proposes, or, where those would share
-/// an edge with others, around a new vertex in the middle. In a mesh without triangles
-/// that meet, patches that would are refused. The mesh must be 2-manifold and oriented.
-[[nodiscard]] Stepped fill_holes(RepairMesh mesh, double most,
+/// What becomes of a patch that meets a triangle of a mesh where none met before.
+enum class Crossing : std::uint8_t {
+    refused,
+    resolved_later  ///< by resolve_self_intersections(), after this step
+};
+struct HoleLimits {
+    double diagonal;  ///< of a loop's box, at most; model units
+    Crossing crossing;
+};
+
+/// Closes loops of boundary edges: with the triangles that CGAL's
+/// triangulate_hole_polyline() proposes, or, where those would share an edge with others,
+/// around a new vertex in the middle. The mesh must be 2-manifold and oriented.
+[[nodiscard]] Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits,
                                  ParallelFor parallel_for);
 
 /// Reverses closed components of negative volume, but for cavities: those whose box and
 /// first vertex lie within an odd number of other closed components.
 [[nodiscard]] Stepped orient_outward(RepairMesh mesh);
+
+/// Leaves what bounds the solid: triangles are cut where they cross, touch or overlap, and
+/// those kept that part a place of winding number 0 from one of another. So overlapping
+/// components become their union, and what lies inside goes.
+///
+/// Changes nothing where no two triangles meet. Refuses, and names the pair: a mesh that is
+/// not balanced; one whose cuts, rounded, go on crossing; and one with sheets that bound
+/// nothing, which would be lost.
+[[nodiscard]] Stepped resolve_self_intersections(RepairMesh mesh,
+                                                 ParallelFor parallel_for);
 
 /// Leaves out components of fewer than `least` triangles.
 [[nodiscard]] Stepped drop_components(RepairMesh mesh, std::uint64_t least);

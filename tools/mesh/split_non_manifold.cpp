@@ -2,102 +2,19 @@
 #include <algorithm>
 #include <array>
 
+#include "mesh/around_edge.h"
 #include "mesh/repair_steps.h"
-#include "predicates.h"
 
 namespace cdprep::mesh {
 namespace {
 
 constexpr std::size_t kMostPasses = 64;  ///< over edges that pairs share: two do, in practice
 
-/// Which way a, b, c turn in the first coordinate plane that does not see them in a line,
-/// and which plane that is; 3 when none.
-struct PlaneTurn {
-    int plane;
-    int turn;
-};
-int turn_in(int plane, const Double3& a, const Double3& b, const Double3& c) {
-    const auto flat = [plane](const Double3& p) {
-        return plane == 0 ? Double2{p.y, p.z} : plane == 1 ? Double2{p.z, p.x} : Double2{p.x, p.y};
-    };
-    return orient2d(flat(a), flat(b), flat(c));
-}
-PlaneTurn turn_of(const Double3& a, const Double3& b, const Double3& c) {
-    for (int plane = 0; plane < 3; ++plane) {
-        if (const int turn = turn_in(plane, a, b, c); turn != 0) return {plane, turn};
-    }
-    return {3, 0};
-}
-
-/// Sorts the uses of one edge by their angle around it.
-class AroundEdge {
-public:
-    AroundEdge(const RepairMesh& mesh, std::span<const HalfEdge> uses) : mesh_(mesh) {
-        const std::uint32_t start = start_of(mesh.triangles, uses[0]);
-        const std::uint32_t end = end_of(mesh.triangles, uses[0]);
-        lower_ = std::min(start, end);
-        upper_ = std::max(start, end);
-        for (const HalfEdge h : uses) {
-            if (reference_ != kNone) break;
-            const PlaneTurn turn = turn_of(at(lower_), at(upper_), apex(h));
-            if (turn.plane == 3) continue;
-            reference_ = apex_of(mesh.triangles, h);
-            turn_ = turn;
-        }
-    }
-
-    /// By ascending angle from the first; of one angle, those that close a wedge of solid
-    /// before those that open one: two sides of a sheet are no wedge.
-    [[nodiscard]] std::vector<HalfEdge> sorted(std::span<const HalfEdge> uses) const {
-        std::vector<HalfEdge> order(uses.begin(), uses.end());
-        std::sort(order.begin(), order.end(), [&](HalfEdge a, HalfEdge b) {
-            const int sector_a = sector(a), sector_b = sector(b);
-            if (sector_a != sector_b) return sector_a < sector_b;
-            if (sector_a % 2 == 1) {
-                const int side = orient3d(at(lower_), at(upper_), apex(a), apex(b));
-                if (side != 0) return side < 0;
-            }
-            if (opens(a) != opens(b)) return opens(b);
-            return a < b;
-        });
-        return order;
-    }
-
-    /// Seen with rising angle, the solid begins at a half-edge from the upper vertex.
-    [[nodiscard]] bool opens(HalfEdge h) const {
-        return start_of(mesh_.triangles, h) == upper_;
-    }
-
-private:
-    [[nodiscard]] const Double3& at(std::uint32_t vertex) const {
-        return mesh_.positions[vertex];
-    }
-    [[nodiscard]] const Double3& apex(HalfEdge h) const {
-        return at(apex_of(mesh_.triangles, h));
-    }
-
-    /// 0: the angle of the reference, or no angle at all; 1: less than half a turn from
-    /// it; 2: half a turn; 3: more.
-    [[nodiscard]] int sector(HalfEdge h) const {
-        if (reference_ == kNone) return 0;
-        const int side = orient3d(at(lower_), at(upper_), at(reference_), apex(h));
-        if (side != 0) return side < 0 ? 1 : 3;
-        const int turn = turn_in(turn_.plane, at(lower_), at(upper_), apex(h));
-        return turn == -turn_.turn ? 2 : 0;
-    }
-
-    const RepairMesh& mesh_;
-    std::uint32_t lower_;
-    std::uint32_t upper_;
-    std::uint32_t reference_ = kNone;
-    PlaneTurn turn_{3, 0};
-};
-
 /// Joins uses as brackets do, around the edge: each that opens with the next that closes
 /// and is not taken by one between them.
 void pair_around(const RepairMesh& mesh, std::span<const HalfEdge> uses,
                  std::vector<HalfEdge>& twins) {
-    const AroundEdge around(mesh, uses);
+    const AroundEdge around(mesh.positions, mesh.triangles, uses);
     std::vector<HalfEdge> open;
     const std::vector<HalfEdge> order = around.sorted(uses);
     for (int turn = 0; turn < 2; ++turn) {

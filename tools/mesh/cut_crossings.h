@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+
+#include "mesh/mesh_meetings.h"
+
+namespace cdprep::mesh {
+
+struct CutMesh {
+    RepairMesh mesh;
+    /// A pair that still meets, when rounding kept making new ones.
+    std::optional<TriangleMeeting> left;
+    std::string failed;  ///< what CGAL threw; empty: nothing
+};
+
+/// Cuts triangles along each other until any two have nothing in common but corners and
+/// edges, or are the same.
+///
+/// Cuts are made in exact arithmetic, then their ends are rounded to doubles; what meets
+/// after that is cut again, a few times. Triangles without area are left out: their edges
+/// are cut by the others. Equal positions become one vertex.
+[[nodiscard]] CutMesh cut_crossings(RepairMesh mesh, ParallelFor parallel_for);
+
+}  // namespace cdprep::mesh
