@@ -193,6 +193,8 @@ void add_bake(CLI::App& app, Exit& exit) {
                      "Merge vertices this close, in model units")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
+    command->add_flag("--strict", arguments->options.strict,
+                      "Bake nothing of which 'cdprep validate' finds a warning or more: exit 1");
     command
         ->add_option("--bounds", arguments->bounds,
                      "Besides aligned boxes, what bounds triangles in pair questions: aabb "

@@ -39,13 +39,13 @@ std::span<const std::byte> bytes_of(const Range& elements) {
 BakedArrays::BakedArrays(const mesh::TriangleSoup& soup, mesh::Mesh ordered, build::Bvh bvh,
                          std::vector<std::uint64_t> degenerate,
                          std::vector<format::Component> components, const format::Bounds& bounds,
-                         const std::optional<format::MassProperties>& mass, std::string provenance)
+                         const std::optional<format::MassProperties>& mass, BakedNotes notes)
     : mesh_(std::move(ordered)),
       bvh_(std::move(bvh)),
       degenerate_(std::move(degenerate)),
       components_(std::move(components)),
       bounds_{bounds},
-      provenance_(std::move(provenance)),
+      notes_(std::move(notes)),
       floats_(as_floats(mesh_)),
       face_(soup.face),
       instances_(soup.instances),
@@ -89,10 +89,12 @@ std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) con
     add(SectionId::group_names, bytes_of(group_names_), false);
     add(SectionId::material_runs, bytes_of(materials_.runs), false);
     add(SectionId::material_names, bytes_of(material_names_), false);
-    add(SectionId::provenance, bytes_of(provenance_), false);
+    add(SectionId::provenance, bytes_of(notes_.provenance), false);
     add(SectionId::bvh_leaves, bytes_of(bvh_.leaves), true);
     add(SectionId::oriented_nodes, bytes_of(bvh_.oriented_nodes), false);
     add(SectionId::swept_nodes, bytes_of(bvh_.swept_nodes), false);
+    add(SectionId::verdicts, bytes_of(notes_.verdicts), false);
+    add(SectionId::findings, bytes_of(notes_.findings), false);
     return sections;
 }
 

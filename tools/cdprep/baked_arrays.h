@@ -8,10 +8,18 @@
 
 #include "cdprep/build_bvh.h"
 #include "cdprep/format/section_set.h"
+#include "cdprep/format/verdict.h"
 #include "mesh/mesh.h"
 #include "write/write_file.h"
 
 namespace cdprep::cli {
+
+/// Texts that a bake keeps, and what was found of its mesh.
+struct BakedNotes {
+    std::vector<format::Verdict> verdicts;
+    std::string findings;    ///< JSON
+    std::string provenance;  ///< JSON
+};
 
 /// Everything a bake may hold, as arrays that sections can point into.
 class BakedArrays {
@@ -21,7 +29,7 @@ public:
     BakedArrays(const mesh::TriangleSoup& soup, mesh::Mesh ordered, build::Bvh bvh,
                 std::vector<std::uint64_t> degenerate, std::vector<format::Component> components,
                 const format::Bounds& bounds, const std::optional<format::MassProperties>& mass,
-                std::string provenance);
+                BakedNotes notes);
 
     /// Views of those sections in `wanted` that have something to say. Valid
     /// while this object lives and stays where it is.
@@ -42,7 +50,7 @@ private:
     std::vector<format::Component> components_;
     std::vector<format::Bounds> bounds_;
     std::vector<format::MassProperties> mass_;
-    std::string provenance_;
+    BakedNotes notes_;
     std::vector<format::Float3> floats_;
     std::vector<std::uint32_t> face_;
     std::vector<format::Instance> instances_;

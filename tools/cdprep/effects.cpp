@@ -25,7 +25,8 @@ constexpr SectionSet kSource = {
     SectionId::instances,       SectionId::instance_names, SectionId::group_runs,
     SectionId::group_names,     SectionId::material_runs,  SectionId::material_names};
 /// In every bake, whatever it serves.
-constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance};
+constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance, SectionId::verdicts,
+                                SectionId::findings};
 
 struct Effect {
     const char* name;

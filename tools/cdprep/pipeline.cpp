@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "baked_arrays.h"
+#include "baked_findings.h"
 #include "cdprep/build_bvh.h"
 #include "cdprep/format/checksum.h"
 #include "convex/find_bounds.h"
@@ -118,18 +119,21 @@ struct Findings {
     format::Bounds bounds{};
     std::optional<format::MassProperties> mass;
     std::uint64_t source_hash = 0;
+    report::ValidationReport defects;
 };
 
 /// Runs the stages that need nothing of each other side by side. Their times go
 /// to `stages` in a fixed order, whoever ends first.
-Findings examine(const mesh::Mesh& mesh, const std::filesystem::path& input,
-                 const BakeOptions& options, const Threads& threads, Stages& stages) {
+Findings examine(const mesh::TriangleSoup& soup, const mesh::Mesh& mesh,
+                 const std::filesystem::path& input, const BakeOptions& options,
+                 const Threads& threads, Stages& stages) {
     Findings found;
     const bool wants_mass = options.effects.sections.contains(format::SectionId::mass_properties);
     double& tree_s = stages.add("  tree");
     double& topology_s = stages.add("  topology");
     double& bounds_s = stages.add("  bounds");
     double& hash_s = stages.add("  source hash");
+    double& defects_s = stages.add("  defects");
     const auto timed = [](double& seconds, auto work) {
         return [&seconds, work] {
             const Clock::time_point begin = Clock::now();
@@ -153,6 +157,10 @@ Findings examine(const mesh::Mesh& mesh, const std::filesystem::path& input,
               }),
         timed(bounds_s, [&] { found.bounds = convex::find_bounds(mesh); }),
         timed(hash_s, [&] { found.source_hash = hash_of_file(input); }),
+        timed(defects_s,
+              [&] {
+                  found.defects = find_for_bake(input.string(), soup, mesh, threads.parallel_for());
+              }),
     });
     return found;
 }
@@ -213,9 +221,14 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
         stages.run("weld", [&] { return mesh::weld(soup, {options.weld_distance}); });
     if (is_interrupted()) return interrupted(input);
 
-    Findings found =
-        stages.run("build", [&] { return examine(welded.mesh, input, options, threads, stages); });
+    Findings found = stages.run(
+        "build", [&] { return examine(soup, welded.mesh, input, options, threads, stages); });
     if (is_interrupted()) return interrupted(input);
+    if (options.strict && found.defects.exit != 0) {
+        report.exit = found.defects.exit;
+        report.error = strict_refusal(found.defects);
+        return report;
+    }
 
     const BakedArrays arrays = stages.run("arrange", [&] {
         mesh::TreeOrdered ordered = mesh::in_tree_order(welded.mesh, found.bvh.order);
@@ -231,7 +244,8 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
                            std::move(found.topology.components),
                            found.bounds,
                            found.mass,
-                           provenance_of(options, found.source_hash)};
+                           {found.defects.defects.verdicts, kept_findings(found.defects),
+                            provenance_of(options, found.source_hash)}};
     });
     const format::FileHeader facts = facts_of(soup, arrays.mesh(), found, normalization, options);
     const Result<Done> written = stages.run("write", [&] {

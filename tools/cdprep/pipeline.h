@@ -17,6 +17,7 @@ struct BakeOptions {
     Effects effects;
     bool normalize = false;
     double weld_distance = 0;  ///< model units
+    bool strict = false;       ///< refuse a mesh of which something is found
     build::BvhBounds bounds = build::BvhOptions{}.bounds;
     import::ImportOptions import;
 };

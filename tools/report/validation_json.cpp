@@ -155,6 +155,14 @@ std::string validation_json_tail(const ValidationTotals& totals) {
     return "],\n " + member("summary", summary) + ",\n " + member("exit", totals.exit) + "}\n";
 }
 
+std::string baked_findings_json(const ValidationReport& report, std::size_t max_places) {
+    ValidationRun run;
+    run.max_places = max_places;
+    Json json = mesh_json(report, run);
+    for (const char* name : {"input", "uri", "exit"}) json.erase(name);
+    return compact(json);
+}
+
 std::string validation_ndjson(const ValidationReport& report, const ValidationRun& run) {
     return compact(mesh_json(report, run)) + "\n";
 }

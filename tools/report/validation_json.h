@@ -18,6 +18,10 @@ inline constexpr int kValidationReportVersion = 1;
                                                const ValidationRun& run);
 [[nodiscard]] std::string validation_json_tail(const ValidationTotals& totals);
 
+/// What a baked file keeps of it: the same mesh without the names of files.
+[[nodiscard]] std::string baked_findings_json(const ValidationReport& report,
+                                              std::size_t max_places);
+
 /// The same mesh on a line of its own.
 [[nodiscard]] std::string validation_ndjson(const ValidationReport& report,
                                             const ValidationRun& run);

@@ -37,4 +37,7 @@ struct ValidationReport {
     bool known_error = false;          ///< the baseline says so too
 };
 
+/// A report that knows a mesh and its nodes, and nothing yet of what is wrong with it.
+[[nodiscard]] ValidationReport report_on(const std::string& input, const mesh::TriangleSoup& soup);
+
 }  // namespace cdprep::report

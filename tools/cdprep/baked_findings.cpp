@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "baked_findings.h"
+
+#include <algorithm>
+
+#include "command.h"
+#include "mesh/find_defects.h"
+#include "report/judge.h"
+#include "report/place_text.h"
+#include "report/rule_settings.h"
+#include "report/validation_json.h"
+
+namespace cdprep::cli {
+namespace {
+
+/// Kept of each finding in a baked file: who wants all asks validate.
+constexpr std::size_t kPlaces = 100;
+constexpr std::size_t kNumbersInSentence = 4;
+
+/// The soup with its vertices where welding has put them.
+mesh::TriangleSoup as_welded(const mesh::TriangleSoup& soup, const mesh::Mesh& welded) {
+    mesh::TriangleSoup joined = soup;
+    for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            joined.positions[soup.triangles[i].vertex[corner]] =
+                welded.positions[welded.triangles[i].vertex[corner]];
+        }
+    }
+    return joined;
+}
+
+bool is_refused(const report::Judgement& judgement) {
+    return judgement.severity >= mesh::Severity::warning;
+}
+
+}  // namespace
+
+report::ValidationReport find_for_bake(const std::string& input, const mesh::TriangleSoup& soup,
+                                       const mesh::Mesh& welded, ParallelFor parallel_for) {
+    const mesh::TriangleSoup joined = as_welded(soup, welded);
+    report::ValidationReport found = report::report_on(input, joined);
+    found.defects =
+        mesh::find_defects(joined, {.max_places = kPlaces, .parallel_for = parallel_for});
+    const report::RuleSettings rules;
+    static_cast<void>(report::judge(found, joined, {rules, nullptr, kPlaces}));
+    const bool refused = std::any_of(found.judgements.begin(), found.judgements.end(), is_refused);
+    found.exit = static_cast<int>(refused ? Exit::findings : Exit::success);
+    return found;
+}
+
+std::string strict_refusal(const report::ValidationReport& found) {
+    const auto first = static_cast<std::size_t>(
+        std::find_if(found.judgements.begin(), found.judgements.end(), is_refused) -
+        found.judgements.begin());
+    const auto rules = std::count_if(found.judgements.begin(), found.judgements.end(), is_refused);
+    const mesh::Finding& finding = found.defects.findings[first];
+    std::string sentence = found.input + ": " + mesh::id_of(finding.rule) + ", " +
+                           mesh::text_of(finding.rule).title + ": " + std::to_string(finding.count);
+    if (!finding.places.empty()) {
+        sentence += ", first " +
+                    report::place_text(found, finding.rule, finding.places[0], kNumbersInSentence);
+    }
+    if (rules > 1) {
+        sentence += "; " + std::to_string(rules - 1) + " more " +
+                    (rules == 2 ? "rule finds" : "rules find") + " something";
+    }
+    return sentence + ". --strict allows none: repair the mesh, or bake without it.";
+}
+
+std::string kept_findings(const report::ValidationReport& found) {
+    return report::baked_findings_json(found, kPlaces);
+}
+
+}  // namespace cdprep::cli
