@@ -408,6 +408,7 @@ Found find_bad_content(const Content& content) {
         case SectionId::source_vertex:
             return content.count_must_be(content.header.vertex_count);
         case SectionId::source_face:
+        case SectionId::repaired_from:
             return content.count_must_be(triangles);
         case SectionId::bvh_nodes:
             return counted(bvh_shape(content.header.triangle_count).node_count,

@@ -16,7 +16,7 @@ struct Kind {
     const char* name;
 };
 
-constexpr std::array<Kind, 23> kKinds = {{
+constexpr std::array<Kind, 24> kKinds = {{
     {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
     {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
     {SectionId::triangles, sizeof(Triangle), "triangles"},
@@ -40,6 +40,7 @@ constexpr std::array<Kind, 23> kKinds = {{
     {SectionId::swept_nodes, sizeof(SweptNode), "swept_nodes"},
     {SectionId::verdicts, sizeof(Verdict), "verdicts"},
     {SectionId::findings, 1, "findings"},
+    {SectionId::repaired_from, 4, "repaired_from"},
 }};
 
 const Kind* find_kind(SectionId id) noexcept {

@@ -42,6 +42,7 @@ struct Model::State {
     std::span<const char> provenance;
     std::span<const format::Verdict> verdicts;
     std::span<const char> findings;
+    std::span<const std::uint32_t> repaired_from;
 
     void find_sections(SectionSet wanted);
 
@@ -85,6 +86,7 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::provenance, wanted, provenance);
     view(SectionId::verdicts, wanted, verdicts);
     view(SectionId::findings, wanted, findings);
+    view(SectionId::repaired_from, wanted, repaired_from);
 }
 
 namespace {
@@ -209,6 +211,9 @@ std::string_view Model::provenance() const noexcept {
 }
 std::string_view Model::findings() const noexcept {
     return {state_->findings.data(), state_->findings.size()};
+}
+std::span<const std::uint32_t> Model::repaired_from() const noexcept {
+    return state_->repaired_from;
 }
 std::span<const format::Verdict> Model::verdicts() const noexcept {
     return state_->verdicts;

@@ -193,6 +193,11 @@ void add_bake(CLI::App& app, Exit& exit) {
                      "Merge vertices this close, in model units")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
+    command
+        ->add_option("--repair", arguments->options.repair,
+                     "Mend first, as 'cdprep repair --preset' does: safe, closed or solid. "
+                     "Numbers are then those of the mended mesh; the file has the old ones too")
+        ->check(CLI::IsMember({"safe", "closed", "solid"}));
     command->add_flag("--strict", arguments->options.strict,
                       "Bake nothing of which 'cdprep validate' finds a warning or more: exit 1");
     command

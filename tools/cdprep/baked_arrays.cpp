@@ -95,6 +95,7 @@ std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) con
     add(SectionId::swept_nodes, bytes_of(bvh_.swept_nodes), false);
     add(SectionId::verdicts, bytes_of(notes_.verdicts), false);
     add(SectionId::findings, bytes_of(notes_.findings), false);
+    add(SectionId::repaired_from, bytes_of(notes_.repaired_from), false);
     return sections;
 }
 

@@ -17,8 +17,9 @@ namespace cdprep::cli {
 /// Texts that a bake keeps, and what was found of its mesh.
 struct BakedNotes {
     std::vector<format::Verdict> verdicts;
-    std::string findings;    ///< JSON
-    std::string provenance;  ///< JSON
+    std::string findings;                      ///< JSON
+    std::string provenance;                    ///< JSON
+    std::vector<std::uint32_t> repaired_from;  ///< empty: nothing was repaired
 };
 
 /// Everything a bake may hold, as arrays that sections can point into.

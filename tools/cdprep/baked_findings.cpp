@@ -7,6 +7,7 @@
 #include "mesh/find_defects.h"
 #include "report/judge.h"
 #include "report/place_text.h"
+#include "report/repair_report.h"
 #include "report/rule_settings.h"
 #include "report/validation_json.h"
 
@@ -43,16 +44,20 @@ report::ValidationReport find_for_bake(const std::string& input, const mesh::Tri
         mesh::find_defects(joined, {.max_places = kPlaces, .parallel_for = parallel_for});
     const report::RuleSettings rules;
     static_cast<void>(report::judge(found, joined, {rules, nullptr, kPlaces}));
-    const bool refused = std::any_of(found.judgements.begin(), found.judgements.end(), is_refused);
-    found.exit = static_cast<int>(refused ? Exit::findings : Exit::success);
+    found.exit = static_cast<int>(count_warnings(found) > 0 ? Exit::findings : Exit::success);
     return found;
+}
+
+std::uint64_t count_warnings(const report::ValidationReport& found) {
+    return static_cast<std::uint64_t>(
+        std::count_if(found.judgements.begin(), found.judgements.end(), is_refused));
 }
 
 std::string strict_refusal(const report::ValidationReport& found) {
     const auto first = static_cast<std::size_t>(
         std::find_if(found.judgements.begin(), found.judgements.end(), is_refused) -
         found.judgements.begin());
-    const auto rules = std::count_if(found.judgements.begin(), found.judgements.end(), is_refused);
+    const std::uint64_t rules = count_warnings(found);
     const mesh::Finding& finding = found.defects.findings[first];
     std::string sentence = found.input + ": " + mesh::id_of(finding.rule) + ", " +
                            mesh::text_of(finding.rule).title + ": " + std::to_string(finding.count);
@@ -67,8 +72,10 @@ std::string strict_refusal(const report::ValidationReport& found) {
     return sentence + ". --strict allows none: repair the mesh, or bake without it.";
 }
 
-std::string kept_findings(const report::ValidationReport& found) {
-    return report::baked_findings_json(found, kPlaces);
+std::string kept_findings(const report::ValidationReport& found,
+                          const std::optional<mesh::RepairReport>& repair) {
+    return report::baked_findings_json(
+        found, repair ? report::repair_summary_json(*repair) : std::string(), kPlaces);
 }
 
 }  // namespace cdprep::cli

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "cdprep/parallel_for.h"
 #include "mesh/mesh.h"
+#include "mesh/repair.h"
 #include "report/validation_report.h"
 
 namespace cdprep::cli {
@@ -17,11 +20,16 @@ namespace cdprep::cli {
                                                      const mesh::Mesh& welded,
                                                      ParallelFor parallel_for);
 
+/// How many rules found a warning or more.
+[[nodiscard]] std::uint64_t count_warnings(const report::ValidationReport& found);
+
 /// The sentence with which --strict refuses: the first finding that is a warning or more,
 /// and how many there are.
 [[nodiscard]] std::string strict_refusal(const report::ValidationReport& found);
 
-/// What the file keeps of it: JSON, without names of files.
-[[nodiscard]] std::string kept_findings(const report::ValidationReport& found);
+/// What the file keeps of it and of the repair before, if any: JSON, without names of
+/// files.
+[[nodiscard]] std::string kept_findings(const report::ValidationReport& found,
+                                        const std::optional<mesh::RepairReport>& repair);
 
 }  // namespace cdprep::cli

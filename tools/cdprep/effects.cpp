@@ -20,10 +20,11 @@ constexpr SectionSet kGeometry = {SectionId::positions_f32, SectionId::positions
 constexpr SectionSet kPair = {SectionId::bvh_leaves, SectionId::oriented_nodes,
                               SectionId::swept_nodes};
 /// Where in the imported file an answer lies.
-constexpr SectionSet kSource = {
-    SectionId::source_triangle, SectionId::source_vertex,  SectionId::source_face,
-    SectionId::instances,       SectionId::instance_names, SectionId::group_runs,
-    SectionId::group_names,     SectionId::material_runs,  SectionId::material_names};
+constexpr SectionSet kSource = {SectionId::source_triangle, SectionId::source_vertex,
+                                SectionId::source_face,     SectionId::repaired_from,
+                                SectionId::instances,       SectionId::instance_names,
+                                SectionId::group_runs,      SectionId::group_names,
+                                SectionId::material_runs,   SectionId::material_names};
 /// In every bake, whatever it serves.
 constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance, SectionId::verdicts,
                                 SectionId::findings};

@@ -20,11 +20,14 @@
 #include "interrupt.h"
 #include "mesh/degenerate.h"
 #include "mesh/normalize.h"
+#include "mesh/repair.h"
+#include "mesh/repaired_soup.h"
 #include "mesh/topology.h"
 #include "mesh/tree_order.h"
 #include "mesh/weld.h"
 #include "report/bounds_name.h"
 #include "report/provenance.h"
+#include "report/verdict_words.h"
 #include "write/write_file.h"
 
 namespace cdprep::cli {
@@ -185,10 +188,30 @@ format::FileHeader facts_of(const mesh::TriangleSoup& soup, const mesh::Mesh& me
     return facts;
 }
 
+/// What mending gave, and what the file then keeps of it.
+struct Mended {
+    std::vector<std::uint32_t> triangle_from;
+    std::vector<std::uint32_t> vertex_from;
+    std::optional<mesh::RepairReport> report;  ///< nothing: nobody asked
+};
+
+/// Mends the soup by a preset, unless that is empty. Source numbers are then those of
+/// what is left.
+Mended mend(mesh::TriangleSoup& soup, const std::string& preset, const Threads& threads) {
+    const auto steps = mesh::find_repair_preset(preset);
+    if (!steps) return {};
+    mesh::Repaired repaired =
+        mesh::repair(soup, {.steps = *steps, .parallel_for = threads.parallel_for()});
+    mesh::RepairedSoup as_imported = mesh::as_soup(soup, std::move(repaired.mesh));
+    soup = std::move(as_imported.soup);
+    return {std::move(as_imported.triangle_from), std::move(as_imported.vertex_from),
+            std::move(repaired.report)};
+}
+
 std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash) {
     return report::provenance_json({CDPREP_VERSION, options.effects.names, options.normalize,
-                                    options.weld_distance, report::bounds_name(options.bounds),
-                                    source_hash});
+                                    options.weld_distance, options.repair,
+                                    report::bounds_name(options.bounds), source_hash});
 }
 
 }  // namespace
@@ -211,6 +234,8 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     if (is_interrupted()) return interrupted(input);
     if (!imported) return imported.error();
     mesh::TriangleSoup soup = std::move(imported).value();
+    const Mended mended = stages.run("repair", [&] { return mend(soup, options.repair, threads); });
+    if (is_interrupted()) return interrupted(input);
     if (soup.bad_number_count > 0) return refused(input, soup);
     if (const auto error = find_too_large(input, soup)) return *error;
 
@@ -231,21 +256,27 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     }
 
     const BakedArrays arrays = stages.run("arrange", [&] {
+        if (mended.report) {
+            for (std::uint32_t& vertex : welded.mesh.source_vertex) {
+                vertex = mended.vertex_from[vertex];
+            }
+        }
         mesh::TreeOrdered ordered = mesh::in_tree_order(welded.mesh, found.bvh.order);
         for (format::Component& component : found.topology.components) {
             component.vertex = ordered.new_vertex[component.vertex];
         }
         std::vector<std::uint64_t> degenerate =
             mesh::find_degenerate(ordered.mesh, threads.parallel_for());
-        return BakedArrays{soup,
-                           std::move(ordered.mesh),
-                           std::move(found.bvh),
-                           std::move(degenerate),
-                           std::move(found.topology.components),
-                           found.bounds,
-                           found.mass,
-                           {found.defects.defects.verdicts, kept_findings(found.defects),
-                            provenance_of(options, found.source_hash)}};
+        return BakedArrays{
+            soup,
+            std::move(ordered.mesh),
+            std::move(found.bvh),
+            std::move(degenerate),
+            std::move(found.topology.components),
+            found.bounds,
+            found.mass,
+            {found.defects.defects.verdicts, kept_findings(found.defects, mended.report),
+             provenance_of(options, found.source_hash), mended.triangle_from}};
     });
     const format::FileHeader facts = facts_of(soup, arrays.mesh(), found, normalization, options);
     const Result<Done> written = stages.run("write", [&] {
@@ -259,6 +290,9 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     report.merged_vertices = welded.report.merged_vertices;
     report.degenerate_triangles = arrays.degenerate_count();
     report.closed = (facts.flags & format::model_closed) != 0;
+    report.repaired = options.repair;
+    report.promises = report::promise_words(found.defects.defects.verdicts[0]);
+    report.warnings = count_warnings(found.defects);
     report.single_precision = soup.single_precision;
     report.bytes = std::filesystem::file_size(output);
     report.stages = stages.times();

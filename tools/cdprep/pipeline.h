@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "cdprep/build_bvh.h"
 #include "cdprep/result.h"
@@ -17,6 +18,7 @@ struct BakeOptions {
     Effects effects;
     bool normalize = false;
     double weld_distance = 0;  ///< model units
+    std::string repair;        ///< a preset of mesh::find_repair_preset(), or empty
     bool strict = false;       ///< refuse a mesh of which something is found
     build::BvhBounds bounds = build::BvhOptions{}.bounds;
     import::ImportOptions import;

@@ -221,8 +221,7 @@ private:
 
 }  // namespace
 
-Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits,
-                   ParallelFor parallel_for) {
+Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits, ParallelFor parallel_for) {
     StepReport report(RepairStep::fill_holes);
     const bool may_cross =
         limits.crossing == Crossing::resolved_later || !find_meetings(mesh, parallel_for).empty();

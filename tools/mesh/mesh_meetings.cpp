@@ -5,8 +5,7 @@
 
 namespace cdprep::mesh {
 
-std::vector<TriangleMeeting> find_meetings(const RepairMesh& mesh,
-                                           ParallelFor parallel_for) {
+std::vector<TriangleMeeting> find_meetings(const RepairMesh& mesh, ParallelFor parallel_for) {
     TriangleSoup soup;
     soup.positions = mesh.positions;
     soup.triangles = mesh.triangles;

@@ -10,7 +10,8 @@ namespace cdprep::mesh {
 
 /// Finds the pairs of triangles with common vertices that meet elsewhere too, in no order.
 /// Those of the stars have area.
-[[nodiscard]] std::vector<TriangleMeeting> find_neighbour_meetings(
-    const Mesh& mesh, const VertexStars& stars, ParallelFor parallel_for);
+[[nodiscard]] std::vector<TriangleMeeting> find_neighbour_meetings(const Mesh& mesh,
+                                                                   const VertexStars& stars,
+                                                                   ParallelFor parallel_for);
 
 }  // namespace cdprep::mesh

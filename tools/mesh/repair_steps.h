@@ -77,8 +77,7 @@ struct HoleLimits {
 /// Changes nothing where no two triangles meet. Refuses, and names the pair: a mesh that is
 /// not balanced; one whose cuts, rounded, go on crossing; and one with sheets that bound
 /// nothing, which would be lost.
-[[nodiscard]] Stepped resolve_self_intersections(RepairMesh mesh,
-                                                 ParallelFor parallel_for);
+[[nodiscard]] Stepped resolve_self_intersections(RepairMesh mesh, ParallelFor parallel_for);
 
 /// Leaves out components of fewer than `least` triangles.
 [[nodiscard]] Stepped drop_components(RepairMesh mesh, std::uint64_t least);

@@ -35,8 +35,7 @@ std::vector<Double3> shrunk_if_too_large(const Mesh& mesh) {
 
 /// Appends the meetings of triangles without a common vertex, in no order.
 void find_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& flat,
-                         ParallelFor parallel_for,
-                         std::vector<TriangleMeeting>& all) {
+                         ParallelFor parallel_for, std::vector<TriangleMeeting>& all) {
     const std::vector<Double3> shrunk = shrunk_if_too_large(mesh);
     const build::Bvh bvh =
         build::build_bvh(shrunk.empty() ? mesh.positions : shrunk, mesh.triangles,
@@ -61,8 +60,7 @@ void find_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& fla
 
 }  // namespace
 
-std::vector<TriangleMeeting> find_self_intersections(const Mesh& mesh,
-                                                     ParallelFor parallel_for) {
+std::vector<TriangleMeeting> find_self_intersections(const Mesh& mesh, ParallelFor parallel_for) {
     const std::vector<std::uint64_t> flat = find_degenerate(mesh, parallel_for);
     std::vector<TriangleMeeting> found =
         find_neighbour_meetings(mesh, VertexStars(mesh, flat), parallel_for);

@@ -28,6 +28,9 @@ nlohmann::ordered_json to_json(const BakeReport& report) {
     json["merged_vertices"] = report.merged_vertices;
     json["degenerate_triangles"] = report.degenerate_triangles;
     json["closed"] = report.closed;
+    if (!report.repaired.empty()) json["repaired"] = report.repaired;
+    json["promises"] = report.promises;
+    json["warnings"] = report.warnings;
     json["precision"] = report.single_precision ? "f32" : "f64";
     json["bytes"] = report.bytes;
     json["seconds"] = report.seconds;
@@ -43,6 +46,11 @@ std::string bake_text(const BakeReport& report, Timings timings) {
         std::to_string(report.vertices) + " vertices, " + (report.closed ? "closed" : "open") +
         ", " + (report.single_precision ? "f32" : "f64") + ", " + std::to_string(report.bytes) +
         " bytes, " + fixed(report.seconds, 3) + " s\n";
+    if (report.warnings > 0) {
+        text += "  " + std::to_string(report.warnings) +
+                (report.warnings == 1 ? " rule finds" : " rules find") +
+                " defects; 'cdprep info' lists them\n";
+    }
     if (timings == Timings::hide) return text;
     for (const StageTime& stage : report.stages) {
         text += "  " + stage.stage +

@@ -24,6 +24,9 @@ struct BakeReport {
     std::uint64_t merged_vertices = 0;
     std::uint64_t degenerate_triangles = 0;
     bool closed = false;
+    std::string repaired;               ///< the preset, or empty
+    std::vector<std::string> promises;  ///< what answers mean on it, as promise_words()
+    std::uint64_t warnings = 0;         ///< rules that found a warning or more
     bool single_precision = false;
     std::uint64_t bytes = 0;
     double seconds = 0;

@@ -7,6 +7,7 @@
 
 #include "cdprep/format/sections.h"
 #include "report/bounds_name.h"
+#include "report/verdict_words.h"
 
 namespace cdprep::report {
 namespace {
@@ -43,6 +44,36 @@ nlohmann::ordered_json provenance(const Model& model) {
     return parsed;
 }
 
+/// What was found, with the numbers of each rule; nothing where the file has none, or
+/// no JSON.
+nlohmann::ordered_json findings(const Model& model) {
+    auto parsed = nlohmann::ordered_json::parse(model.findings(), nullptr, false);
+    return parsed.is_object() ? parsed : nlohmann::ordered_json();
+}
+
+/// One line a rule: "  CDP0501 crossing-triangles: 12".
+std::string findings_text(const Model& model) {
+    const nlohmann::ordered_json found = findings(model);
+    if (!found.contains("findings") || !found["findings"].is_array()) return {};
+    std::string text;
+    for (const auto& finding : found["findings"]) {
+        text += "  " + finding.value("rule", "") + " " + finding.value("name", "") + ": " +
+                std::to_string(finding.value("count", std::uint64_t{0})) + "\n";
+    }
+    return text.empty() ? "findings: none\n" : "findings:\n" + text;
+}
+
+std::string mesh_text(const Model& model) {
+    if (model.verdicts().empty()) return {};
+    const format::Verdict& verdict = model.verdicts()[0];
+    std::string text = "mesh: " + verdict_text(verdict) + "\n";
+    text += "promises: " + promises_text(verdict) + "\n";
+    if (!model.repaired_from().empty()) {
+        text += "repaired: source numbers are those of the repaired mesh\n";
+    }
+    return text + findings_text(model);
+}
+
 }  // namespace
 
 std::string info_text(const std::string& file, const Model& model,
@@ -56,6 +87,7 @@ std::string info_text(const std::string& file, const Model& model,
                               : "solid questions: unknown, the mesh is open\n";
     text +=
         std::string("questions about pairs: bounded by ") + bounds_name(bounds_of(model)) + "\n";
+    text += mesh_text(model);
     text += "section                  offset        bytes\n";
     for (const format::SectionEntry& entry : sections) {
         std::array<char, 96> line{};
@@ -84,6 +116,11 @@ std::string info_json(const std::string& file, const Model& model,
         {"bounds", bounds_name(bounds_of(model))},
         {"guarantees", {{"surface", "exact"}, {"solid", model.is_closed() ? "exact" : "unknown"}}},
     };
+    if (!model.verdicts().empty()) {
+        json["facts"] = fact_words(model.verdicts()[0]);
+        json["promises"] = promise_words(model.verdicts()[0]);
+    }
+    if (const auto found = findings(model); !found.is_null()) json["found"] = found;
     json["sections"] = nlohmann::ordered_json::array();
     for (const format::SectionEntry& entry : sections) {
         json["sections"].push_back({{"name", format::section_name(entry.id)},

@@ -20,11 +20,19 @@ std::string provenance_json(const Provenance& provenance) {
     const nlohmann::json json = {
         {"tool", {{"name", "cdprep"}, {"version", provenance.tool_version}}},
         // Raised whenever a stage gives other bytes for the same input.
-        {"algorithms", {{"bvh", 1}, {"weld", 1}, {"topology", 1}, {"bounds", 1}, {"mass", 1}}},
+        {"algorithms",
+         {{"bvh", 1},
+          {"weld", 1},
+          {"topology", 1},
+          {"bounds", 1},
+          {"mass", 1},
+          {"defects", 1},
+          {"repair", 1}}},
         {"options",
          {{"bounds", provenance.bounds},
           {"effects", provenance.effects},
           {"normalize", provenance.normalize},
+          {"repair", provenance.repair},
           {"weld", provenance.weld_distance}}},
         {"source", {{"xxh3_64", hexadecimal(provenance.source_hash)}}},
     };

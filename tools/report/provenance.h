@@ -14,6 +14,7 @@ struct Provenance {
     std::vector<std::string> effects;  ///< sorted
     bool normalize = false;
     double weld_distance = 0;
+    std::string repair;             ///< the preset, or empty
     std::string bounds;             ///< as --bounds spells it
     std::uint64_t source_hash = 0;  ///< format::checksum() of the input file
 };

@@ -153,6 +153,22 @@ Json to_json(const mesh::StepReport& step) {
     return json;
 }
 
+/// How many of each.
+Json summary(const mesh::StepReport& step) {
+    Json json = {{"step", mesh::name_of(step.step)},
+                 {"dropped", step.dropped.size()},
+                 {"reversed", step.reversed.size()},
+                 {"cut", step.cut.size()},
+                 {"merged", step.merged.size()},
+                 {"copied", step.parted.size()},
+                 {"added_triangles", step.added_triangles},
+                 {"added_vertices", step.added_vertices},
+                 {"moved", step.moved},
+                 {"refused", step.refused.size()}};
+    if (!step.undone.empty()) json["undone"] = step.undone;
+    return json;
+}
+
 /// The source number of each, or -1, and the step that made or cut it, or null.
 void add_origins(Json& json, const char* source, const char* step,
                  const std::vector<mesh::Origin>& origins) {
@@ -215,6 +231,18 @@ std::string repair_json(const RepairFileReport& report) {
         add_origins(json, "vertex_source", "vertex_step", report.vertex_origin);
     }
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string repair_summary_json(const mesh::RepairReport& repair) {
+    Json json = {{"before", to_json(repair.before)},
+                 {"after", to_json(repair.after)},
+                 {"counts", to_json(repair.counts)},
+                 {"input_to_output", to_json(repair.input_to_output)},
+                 {"output_to_input", to_json(repair.output_to_input)},
+                 {"settled", repair.settled}};
+    json["steps"] = Json::array();
+    for (const mesh::StepReport& step : repair.steps) json["steps"].push_back(summary(step));
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace cdprep::report

@@ -32,4 +32,8 @@ struct RepairFileReport {
 /// entry for each of the output, -1 for those that a step made.
 [[nodiscard]] std::string repair_json(const RepairFileReport& report);
 
+/// What a baked file keeps: one object with the numbers of what was changed, step by step,
+/// without lists.
+[[nodiscard]] std::string repair_summary_json(const mesh::RepairReport& repair);
+
 }  // namespace cdprep::report

@@ -155,11 +155,13 @@ std::string validation_json_tail(const ValidationTotals& totals) {
     return "],\n " + member("summary", summary) + ",\n " + member("exit", totals.exit) + "}\n";
 }
 
-std::string baked_findings_json(const ValidationReport& report, std::size_t max_places) {
+std::string baked_findings_json(const ValidationReport& report, const std::string& repair,
+                                std::size_t max_places) {
     ValidationRun run;
     run.max_places = max_places;
     Json json = mesh_json(report, run);
     for (const char* name : {"input", "uri", "exit"}) json.erase(name);
+    if (!repair.empty()) json["repair"] = Json::parse(repair);
     return compact(json);
 }
 

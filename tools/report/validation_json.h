@@ -18,9 +18,10 @@ inline constexpr int kValidationReportVersion = 1;
                                                const ValidationRun& run);
 [[nodiscard]] std::string validation_json_tail(const ValidationTotals& totals);
 
-/// What a baked file keeps of it: the same mesh without the names of files.
+/// What a baked file keeps of it: the same mesh without the names of files, and as
+/// "repair" what repair_summary_json() said, unless that is empty.
 [[nodiscard]] std::string baked_findings_json(const ValidationReport& report,
-                                              std::size_t max_places);
+                                              const std::string& repair, std::size_t max_places);
 
 /// The same mesh on a line of its own.
 [[nodiscard]] std::string validation_ndjson(const ValidationReport& report,

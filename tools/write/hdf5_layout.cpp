@@ -261,6 +261,8 @@ const std::vector<Look>& looks() {
          "what was found of the whole mesh, then of each component"},
         {SectionId::findings, [] { return scalar(H5T_STD_U8LE); }, 0, "1",
          "JSON, UTF-8: what was found wrong with the mesh, and what was mended"},
+        {SectionId::repaired_from, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "number in the imported file of each triangle of the repaired mesh; 2^32 - 1: made"},
     };
     return all;
 }

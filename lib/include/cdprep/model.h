@@ -76,6 +76,9 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> source_triangle() const noexcept;
     [[nodiscard]] std::span<const std::uint32_t> source_vertex() const noexcept;
     [[nodiscard]] std::span<const std::uint32_t> source_face() const noexcept;
+    /// By source triangle, what it was in the file before `bake --repair` mended it, or
+    /// format::kMadeByRepair; empty when nothing was repaired, and numbers are the file's.
+    [[nodiscard]] std::span<const std::uint32_t> repaired_from() const noexcept;
     [[nodiscard]] std::span<const format::BvhNode> nodes() const noexcept;  ///< root first
     [[nodiscard]] std::span<const format::BvhLeaf> leaves() const noexcept;
     /// True when leaves() are there and hold model coordinates without loss.

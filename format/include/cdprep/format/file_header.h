@@ -55,7 +55,12 @@ enum class SectionId : std::uint32_t {
     swept_nodes = 21,      ///< SweptNode per BvhNode
     verdicts = 22,         ///< Verdict of the whole mesh, then one per component
     findings = 23,         ///< uint8: JSON, UTF-8: what was found wrong, and what was mended
+    repaired_from = 24,    ///< uint32 per source triangle: its number in the imported file before
+                           ///< it was repaired, or kMadeByRepair; absent when it was not
 };
+
+/// In repaired_from and source_vertex: made by a repair, from nothing in the file.
+inline constexpr std::uint32_t kMadeByRepair = 0xffffffffU;
 
 /// Where a section lies.
 struct SectionEntry {
