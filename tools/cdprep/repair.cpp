@@ -10,6 +10,7 @@
 
 #include "command.h"
 #include "import/import_file.h"
+#include "interrupt.h"
 #include "parallel.h"
 #include "report/repair_report.h"
 #include "write/mesh_file.h"
@@ -91,6 +92,10 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     const Result<mesh::TriangleSoup> soup = import::import_file(arguments.input, limits);
     if (!soup) return soup.error();
     const mesh::Repaired repaired = mesh::repair(soup.value(), options);
+    if (is_interrupted()) {
+        return Error{ErrorCode::interrupted,
+                     arguments.input.string() + ": stopped; nothing was written."};
+    }
     const Result<Done> written = write::write_mesh_file(
         arguments.output, *format,
         {repaired.mesh.positions, repaired.mesh.triangles, repaired.mesh.single_precision});

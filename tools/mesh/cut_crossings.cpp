@@ -9,8 +9,8 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <map>
-#include <variant>
 
 #include "mesh/repair_steps.h"
 #include "predicates.h"
@@ -237,6 +237,7 @@ RepairMesh cut_once(RepairMesh mesh, const std::vector<TriangleMeeting>& meeting
 CutMesh cut_crossings(RepairMesh mesh, ParallelFor parallel_for) {
     mesh = joined(std::move(mesh));
     CutMesh cut;
+    std::size_t before = std::numeric_limits<std::size_t>::max();
     try {
         for (int round = 0; round <= kMostRounds; ++round) {
             const std::vector<TriangleMeeting> meetings = find_meetings(mesh, parallel_for);
@@ -244,7 +245,9 @@ CutMesh cut_crossings(RepairMesh mesh, ParallelFor parallel_for) {
             cut.left.reset();
             if (worst == meetings.end()) break;
             cut.left = *worst;
-            if (round == kMostRounds) break;
+            // Rounded cuts that make as many meetings as they end go on for ever.
+            if (round == kMostRounds || meetings.size() >= before) break;
+            before = meetings.size();
             mesh = joined(cut_once(std::move(mesh), meetings));
         }
     } catch (const std::exception& error) {

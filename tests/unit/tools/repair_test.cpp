@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/repair.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "mesh/mesh_meetings.h"
+#include "unit/tools/soup_of.h"
+
+namespace cdprep::mesh {
+namespace {
+
+using test::joined;
+using test::moved_by;
+using test::reversed;
+using test::soup_of;
+using test::TestMesh;
+using test::unit_cube;
+
+Repaired repaired(const TriangleSoup& soup, const char* preset) {
+    RepairOptions options;
+    options.steps = *find_repair_preset(preset);
+    return repair(soup, options);
+}
+
+bool has(const StoredVerdict& found, format::VerdictFacts fact) {
+    return (found.verdict.facts & fact) != 0;
+}
+
+bool is_closed_manifold(const StoredVerdict& found) {
+    return has(found, format::verdict_closed) && has(found, format::verdict_two_manifold) &&
+           has(found, format::verdict_oriented);
+}
+
+const StepReport* step_of(const RepairReport& report, RepairStep step) {
+    for (const StepReport& taken : report.steps) {
+        if (taken.step == step) return &taken;
+    }
+    return nullptr;
+}
+
+/// The cube without its last `count` triangles.
+TestMesh open_cube(std::size_t count) {
+    TestMesh cube = unit_cube();
+    cube.triangles.resize(cube.triangles.size() - count);
+    return cube;
+}
+
+TEST(Repair, ACleanMeshStaysAsItIs) {
+    const TestMesh cube = unit_cube();
+    for (const char* preset : {"safe", "closed", "solid"}) {
+        const Repaired mended = repaired(soup_of(cube), preset);
+        EXPECT_EQ(mended.mesh.positions, cube.positions);
+        EXPECT_EQ(mended.mesh.triangles, cube.triangles);
+        EXPECT_TRUE(mended.report.steps.empty()) << preset;
+        EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+        EXPECT_EQ(mended.report.output_to_input.upper, 0.0);
+        EXPECT_TRUE(mended.report.settled);
+    }
+}
+
+TEST(Repair, AnInsideOutCubeIsTurned) {
+    const Repaired mended = repaired(soup_of(reversed(unit_cube())), "safe");
+    EXPECT_EQ(mended.report.counts.reversed, 12U);
+    EXPECT_EQ(mended.report.after.verdict.volume, 1.0);
+}
+
+// A cavity is wound inwards, and lies within one other component.
+TEST(Repair, ACavityStaysInsideOut) {
+    const TestMesh hollow =
+        joined(unit_cube(), reversed(moved_by(unit_cube(), 0.5, {0.25, 0.25, 0.25})));
+    const Repaired mended = repaired(soup_of(hollow), "safe");
+    EXPECT_EQ(mended.report.counts.kept, 24U);
+    EXPECT_EQ(mended.report.after.verdict.volume, 0.875);
+}
+
+TEST(Repair, OneTurnedTriangleIsTurnedBack) {
+    TestMesh cube = unit_cube();
+    std::swap(cube.triangles[5].vertex[1], cube.triangles[5].vertex[2]);
+    const Repaired mended = repaired(soup_of(cube), "safe");
+    EXPECT_EQ(mended.report.counts.reversed, 1U);
+    ASSERT_NE(step_of(mended.report, RepairStep::orient), nullptr);
+    EXPECT_EQ(step_of(mended.report, RepairStep::orient)->reversed,
+              std::vector<std::uint32_t>{5});
+    EXPECT_TRUE(is_closed_manifold(mended.report.after));
+}
+
+TEST(Repair, BadNumbersAndRepeatedCornersAreListedAndDropped) {
+    TriangleSoup soup = soup_of(unit_cube());
+    soup.positions.push_back({std::numeric_limits<double>::quiet_NaN(), 0, 0});
+    soup.triangles.push_back({{0, 1, 8}});
+    soup.triangles.push_back({{0, 1, 1}});
+    soup.triangles.push_back({{0, 0, 0}});
+    soup.bad_numbers.push_back({BadNumber::Kind::index_out_of_range, 0, 14, 99, 9});
+    soup.bad_number_count = 1;
+    const Repaired mended = repaired(soup, "safe");
+    EXPECT_EQ(mended.report.counts.dropped, 3U);
+    EXPECT_EQ(mended.report.counts.unused_vertices + mended.report.counts.merged_vertices, 1U);
+    const StepReport* bad = step_of(mended.report, RepairStep::drop_bad_numbers);
+    ASSERT_NE(bad, nullptr);
+    ASSERT_EQ(bad->dropped.size(), 2U);
+    EXPECT_EQ(bad->dropped[0].source, 12U);
+    EXPECT_EQ(bad->dropped[0].reason, DropReason::not_finite);
+    EXPECT_EQ(bad->dropped[1].source, 14U);
+    EXPECT_EQ(bad->dropped[1].reason, DropReason::out_of_range);
+    EXPECT_TRUE(is_closed_manifold(mended.report.after));
+}
+
+TEST(Repair, ADuplicateNamesTheTriangleThatStays) {
+    TestMesh sheet = test::grid_sheet(2, 2);
+    sheet.triangles.push_back(test::Triangle(sheet.triangles[3]));
+    const Repaired mended = repaired(soup_of(sheet), "safe");
+    const StepReport* step = step_of(mended.report, RepairStep::drop_duplicates);
+    ASSERT_NE(step, nullptr);
+    ASSERT_EQ(step->dropped.size(), 1U);
+    EXPECT_EQ(step->dropped[0].source, 8U);
+    EXPECT_EQ(step->dropped[0].because, 3U);
+    EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+}
+
+// Cubes that share an edge: four triangles around it. Both stay whole and closed.
+TEST(Repair, CubesThatShareAnEdgeArePartedIntoTwo) {
+    const TestMesh cubes = joined(unit_cube(), moved_by(unit_cube(), 1, {1, 1, 0}));
+    const Repaired mended = repaired(soup_of(cubes), "safe");
+    EXPECT_EQ(mended.report.before.non_manifold_edges, 1U);
+    EXPECT_TRUE(is_closed_manifold(mended.report.after));
+    EXPECT_EQ(mended.report.after.components, 2U);
+    EXPECT_EQ(mended.report.after.verdict.volume, 2.0);
+    EXPECT_EQ(mended.report.counts.kept, 24U);
+    EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+}
+
+TEST(Repair, CubesThatShareACornerArePartedIntoTwo) {
+    const TestMesh cubes = joined(unit_cube(), moved_by(unit_cube(), 1, {1, 1, 1}));
+    const Repaired mended = repaired(soup_of(cubes), "safe");
+    EXPECT_EQ(mended.report.before.non_manifold_vertices, 1U);
+    EXPECT_TRUE(is_closed_manifold(mended.report.after));
+    EXPECT_EQ(mended.report.after.components, 2U);
+}
+
+// A sheet of two sides is balanced: it stays closed, around nothing.
+TEST(Repair, ATwoSidedTriangleStaysClosed) {
+    TriangleSoup soup;
+    soup.positions = {{0, 0, 0}, {3, 0, 0}, {0, 3, 0}};
+    soup.triangles = {{{0, 1, 2}}, {{1, 0, 2}}};
+    const Repaired mended = repaired(soup, "safe");
+    EXPECT_TRUE(is_closed_manifold(mended.report.after));
+    EXPECT_EQ(mended.report.counts.cut, 1U);
+    EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+    const Repaired solid = repaired(soup, "solid");
+    const StepReport* step = step_of(solid.report, RepairStep::resolve_self_intersections);
+    ASSERT_NE(step, nullptr);
+    ASSERT_EQ(step->refused.size(), 1U);
+    EXPECT_EQ(step->refused[0].triangles, (std::vector<std::uint32_t>{0, 1}));
+}
+
+// Corner 1 lies on the edge from 0 to 2: the triangle has no area. Its neighbour is cut there.
+TEST(Repair, AFlatTriangleGivesItsCornerToItsNeighbour) {
+    TriangleSoup soup;
+    soup.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, -2, 0}};
+    soup.triangles = {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 4, 1}}, {{1, 4, 2}}};
+    const Repaired mended = repaired(soup, "safe");
+    EXPECT_EQ(mended.mesh.triangles.size(), 4U);
+    EXPECT_EQ(mended.report.counts.cut, 1U);
+    EXPECT_EQ(mended.report.counts.dropped, 1U);
+    EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+    EXPECT_EQ(mended.report.output_to_input.upper, 0.0);
+}
+
+TEST(Repair, AMoebiusStripIsCutOnce) {
+    TriangleSoup soup;
+    constexpr int kCount = 12;
+    for (int i = 0; i < kCount; ++i) {
+        const double turn = 3.14159265358979 * i / kCount;
+        const double c = std::cos(2 * turn), s = std::sin(2 * turn), w = std::cos(turn) / 2;
+        for (const double side : {-1.0, 1.0}) {
+            soup.positions.push_back(
+                {c * (2 + side * w), s * (2 + side * w), side * std::sin(turn) / 2});
+        }
+    }
+    const auto vertex = [](int i, int side) {
+        const bool round = i == kCount;  // after one turn the sides have changed places
+        return static_cast<std::uint32_t>(2 * (round ? 0 : i) + (round ? 1 - side : side));
+    };
+    for (int i = 0; i < kCount; ++i) {
+        soup.triangles.push_back({{vertex(i, 0), vertex(i + 1, 0), vertex(i, 1)}});
+        soup.triangles.push_back({{vertex(i, 1), vertex(i + 1, 0), vertex(i + 1, 1)}});
+    }
+    const Repaired mended = repaired(soup, "safe");
+    EXPECT_FALSE(has(mended.report.before, format::verdict_oriented));
+    EXPECT_TRUE(has(mended.report.after, format::verdict_oriented));
+    EXPECT_TRUE(has(mended.report.after, format::verdict_two_manifold));
+    EXPECT_EQ(mended.report.counts.parted_vertices, 2U);
+    EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+}
+
+TEST(Repair, AHoleIsClosedUpToTheSizeAllowed) {
+    const TriangleSoup soup = soup_of(open_cube(2));
+    const Repaired closed = repaired(soup, "closed");
+    EXPECT_TRUE(is_closed_manifold(closed.report.after));
+    EXPECT_EQ(closed.report.counts.made, 2U);
+    EXPECT_EQ(closed.report.after.verdict.volume, 1.0);
+
+    RepairOptions options;
+    options.steps = *find_repair_preset("closed");
+    options.hole_size = 1;  // the hole is sqrt(2) across
+    const Repaired open = repair(soup, options);
+    EXPECT_EQ(open.report.counts.made, 0U);
+    const StepReport* step = step_of(open.report, RepairStep::fill_holes);
+    ASSERT_NE(step, nullptr);
+    ASSERT_EQ(step->refused.size(), 1U);
+    EXPECT_EQ(step->refused[0].vertices.size(), 4U);
+    EXPECT_EQ(step->refused[0].measure, std::sqrt(2.0));
+}
+
+// The vertex in the middle of one side of a quad, used from the other side only.
+TEST(Repair, ATJunctionCutsTheTriangleThatItLiesOn) {
+    TriangleSoup soup;
+    soup.positions = {{0, 0, 0}, {2, 0, 0}, {1, 2, 0}, {1, 0, 0}, {1, -2, 0}};
+    soup.triangles = {{{0, 1, 2}}, {{0, 4, 3}}, {{3, 4, 1}}};
+    const Repaired mended = repaired(soup, "closed");
+    const StepReport* step = step_of(mended.report, RepairStep::resolve_t_junctions);
+    ASSERT_NE(step, nullptr);
+    EXPECT_EQ(step->cut, std::vector<std::uint32_t>{0});
+    EXPECT_EQ(step->moved, 0.0);
+    EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+}
+
+TEST(Repair, ASeamIsStitchedWithinItsWidth) {
+    TestMesh right = moved_by(test::grid_sheet(1, 1), 1, {1.125, 0, 0});
+    RepairOptions options;
+    options.steps = *find_repair_preset("closed");
+    options.steps.reset(static_cast<std::size_t>(RepairStep::fill_holes));
+    options.seam_width = 0.25;
+    const Repaired mended = repair(soup_of(joined(test::grid_sheet(1, 1), right)), options);
+    const StepReport* step = step_of(mended.report, RepairStep::stitch_seams);
+    ASSERT_NE(step, nullptr);
+    EXPECT_EQ(step->merged.size(), 2U);
+    EXPECT_EQ(step->moved, 0.125);
+    EXPECT_EQ(mended.report.after.components, 1U);
+    EXPECT_GE(mended.report.input_to_output.upper, 0.0);
+    EXPECT_NEAR(mended.report.output_to_input.upper, 0.0625, 0.0626);
+}
+
+// Two unit cubes half a side apart along all axes: 2 - 1/8.
+TEST(Repair, CrossingCubesBecomeTheirUnion) {
+    const TestMesh cubes = joined(unit_cube(), moved_by(unit_cube(), 1, {0.5, 0.5, 0.5}));
+    const Repaired mended = repaired(soup_of(cubes), "solid");
+    EXPECT_TRUE(is_closed_manifold(mended.report.after));
+    EXPECT_EQ(mended.report.after.verdict.volume, 1.875);
+    EXPECT_EQ(mended.report.after.components, 1U);
+    EXPECT_TRUE(find_meetings(mended.mesh, serial_for).empty());
+}
+
+// Two unit cubes with half a face in common: in one plane, and no crossing at all.
+TEST(Repair, CubesThatShareHalfAFaceBecomeTheirUnion) {
+    const TestMesh cubes = joined(unit_cube(), moved_by(unit_cube(), 1, {1, 0.5, 0}));
+    const Repaired mended = repaired(soup_of(cubes), "solid");
+    EXPECT_TRUE(is_closed_manifold(mended.report.after));
+    EXPECT_EQ(mended.report.after.verdict.volume, 2.0);
+    EXPECT_TRUE(find_meetings(mended.mesh, serial_for).empty());
+}
+
+TEST(Repair, AnOpenMeshThatCrossesIsRefusedByItsPair) {
+    RepairOptions options;
+    options.steps = *find_repair_preset("solid");
+    options.steps.reset(static_cast<std::size_t>(RepairStep::fill_holes));
+    const TestMesh cubes = joined(open_cube(2), moved_by(open_cube(2), 1, {0.5, 0.5, 0.5}));
+    const Repaired mended = repair(soup_of(cubes), options);
+    const StepReport* step = step_of(mended.report, RepairStep::resolve_self_intersections);
+    ASSERT_NE(step, nullptr);
+    ASSERT_EQ(step->refused.size(), 1U);
+    EXPECT_EQ(step->refused[0].triangles.size(), 2U);
+    EXPECT_EQ(mended.mesh.triangles.size(), 20U);
+}
+
+TEST(Repair, SmallComponentsGoOnlyWhenAskedFor) {
+    const TestMesh mixed = joined(unit_cube(), moved_by(test::grid_sheet(1, 1), 1, {5, 0, 0}));
+    EXPECT_EQ(repaired(soup_of(mixed), "safe").report.counts.dropped, 0U);
+    RepairOptions options;
+    options.steps = *find_repair_preset("safe");
+    options.steps.set(static_cast<std::size_t>(RepairStep::drop_components));
+    options.least_triangles = 3;
+    const Repaired mended = repair(soup_of(mixed), options);
+    EXPECT_EQ(mended.report.counts.dropped, 2U);
+    EXPECT_EQ(mended.report.counts.unused_vertices + mended.report.counts.merged_vertices, 4U);
+}
+
+}  // namespace
+}  // namespace cdprep::mesh
