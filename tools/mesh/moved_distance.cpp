@@ -12,6 +12,7 @@
 #include <cmath>
 #include <queue>
 
+#include "exact_within.h"
 #include "point_triangle_distance.h"
 
 namespace cdprep::mesh {
@@ -72,6 +73,28 @@ struct Piece {
     }
 };
 
+/// At least the distance of a point and a triangle; 0 exactly where the point is on it.
+double distance_at_most(const Double3& p, const Corners& t) {
+    const PointTriangleDistance found = point_triangle_distance(p, t);
+    return found.lower == 0 && is_within_exactly({&p, 1}, t, 0) ? 0 : found.upper;
+}
+
+/// Without area: the longest of its sides, as a triangle whose last two corners are one.
+Corners as_segment(const Corners& c) {
+    std::size_t longest = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+        if (apart(c[k], c[(k + 1) % 3]) > apart(c[longest], c[(longest + 1) % 3])) longest = k;
+    }
+    return {c[longest], c[(longest + 1) % 3], c[(longest + 1) % 3]};
+}
+
+std::vector<Corners> cut_in_middles(const Corners& c) {
+    const Double3 ab = middle(c[0], c[1]);
+    if (c[1] == c[2]) return {{c[0], ab, ab}, {ab, c[1], c[1]}};
+    const Double3 bc = middle(c[1], c[2]), ca = middle(c[2], c[0]);
+    return {{c[0], ab, ca}, {ab, c[1], bc}, {ca, bc, c[2]}, {ab, bc, ca}};
+}
+
 /// Bounds a piece. The distance to one triangle is convex: it is largest at a corner of the
 /// piece, for each of the triangles that are nearest to a corner. Where they are far apart,
 /// no point of the piece is farther from some corner than its longest side.
@@ -81,7 +104,7 @@ Piece bounded(const Corners& corners, const Surface& surface, double& lower) {
     for (std::size_t k = 0; k < 3; ++k) {
         near[k] = surface.nearest(corners[k]);
         const PointTriangleDistance found = point_triangle_distance(corners[k], near[k]);
-        most = std::max(most, found.upper);
+        most = std::max(most, distance_at_most(corners[k], near[k]));
         lower = std::max(lower, found.lower);
     }
     const double side = std::max({apart(corners[0], corners[1]), apart(corners[1], corners[2]),
@@ -90,7 +113,7 @@ Piece bounded(const Corners& corners, const Surface& surface, double& lower) {
     for (const Corners& t : near) {
         double to_t = 0;
         for (const Double3& corner : corners) {
-            to_t = std::max(to_t, point_triangle_distance(corner, t).upper);
+            to_t = std::max(to_t, distance_at_most(corner, t));
         }
         upper = std::min(upper, to_t);
     }
@@ -107,15 +130,15 @@ MovedDistance farthest(const std::vector<Corners>& triangles, const Surface& sur
         return distance;
     }
     std::priority_queue<Piece> pieces;
-    for (const Corners& t : triangles) pieces.push(bounded(t, surface, distance.lower));
+    for (const Corners& t : triangles) {
+        pieces.push(bounded(is_degenerate(t) ? as_segment(t) : t, surface, distance.lower));
+    }
     std::size_t left = kMostPieces;
     while (left > 0 &&
            pieces.top().upper > distance.lower * (1 + kRelative) + kOfModel * diagonal) {
-        const Corners c = pieces.top().corners;
+        const Corners corners = pieces.top().corners;
         pieces.pop();
-        const Double3 ab = middle(c[0], c[1]), bc = middle(c[1], c[2]), ca = middle(c[2], c[0]);
-        for (const Corners& part : {Corners{c[0], ab, ca}, Corners{ab, c[1], bc},
-                                    Corners{ca, bc, c[2]}, Corners{ab, bc, ca}}) {
+        for (const Corners& part : cut_in_middles(corners)) {
             pieces.push(bounded(part, surface, distance.lower));
         }
         left -= std::min<std::size_t>(left, 4);
@@ -177,7 +200,7 @@ std::vector<Pieces> find_pieces(const TriangleSoup& soup, const RepairMesh& mesh
         of.area += area_of(piece);
         for (const Double3& corner : piece) {
             if (std::find(whole.begin(), whole.end(), corner) != whole.end()) continue;
-            of.farthest = std::max(of.farthest, point_triangle_distance(corner, whole).upper);
+            of.farthest = std::max(of.farthest, distance_at_most(corner, whole));
         }
     }
     return pieces;
@@ -199,7 +222,7 @@ MovedDistances find_moved_distances(const TriangleSoup& soup, const RepairMesh& 
             for (const Double3& corner : output.back()) {
                 if (std::find(whole.begin(), whole.end(), corner) != whole.end()) continue;
                 double& upper = moved.output_to_input.upper;
-                upper = std::max(upper, point_triangle_distance(corner, whole).upper);
+                upper = std::max(upper, distance_at_most(corner, whole));
             }
         } else {
             from_output.push_back(output.back());

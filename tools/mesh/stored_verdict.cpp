@@ -113,9 +113,10 @@ void measure_volume(StoredComponent& component, std::span<const Double3> positio
     for (const std::uint32_t t : component.triangles) {
         const auto& v = triangles[t].vertex;
         const Volume6 part = volume_6(positions[v[0]], positions[v[1]], positions[v[2]], o);
-        component.volume += part.volume / 6;
+        component.volume += part.volume;  // six times: whole numbers stay exact
         size += part.size / 6;
     }
+    component.volume /= 6;
     // Each term is off by 8 u of its size, u = 2^-53, and every addition by u of what is
     // summed so far, which is at most the sum of all sizes.
     constexpr double kUnit = 1.1102230246251565e-16;

@@ -82,8 +82,7 @@ TEST(Repair, OneTurnedTriangleIsTurnedBack) {
     const Repaired mended = repaired(soup_of(cube), "safe");
     EXPECT_EQ(mended.report.counts.reversed, 1U);
     ASSERT_NE(step_of(mended.report, RepairStep::orient), nullptr);
-    EXPECT_EQ(step_of(mended.report, RepairStep::orient)->reversed,
-              std::vector<std::uint32_t>{5});
+    EXPECT_EQ(step_of(mended.report, RepairStep::orient)->reversed, std::vector<std::uint32_t>{5});
     EXPECT_TRUE(is_closed_manifold(mended.report.after));
 }
 
@@ -165,7 +164,8 @@ TEST(Repair, AFlatTriangleGivesItsCornerToItsNeighbour) {
     EXPECT_EQ(mended.mesh.triangles.size(), 4U);
     EXPECT_EQ(mended.report.counts.cut, 1U);
     EXPECT_EQ(mended.report.counts.dropped, 1U);
-    EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+    // What has no area lies across two triangles: its bound is found by cutting it.
+    EXPECT_LT(mended.report.input_to_output.upper, 1e-14);
     EXPECT_EQ(mended.report.output_to_input.upper, 0.0);
 }
 
