@@ -3,6 +3,7 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <map>
@@ -107,6 +108,7 @@ public:
             const HalfEdge h = edges.of(edge)[0];
             edges_.insert(edge_of(start_of(mesh.triangles, h), end_of(mesh.triangles, h)));
         }
+        find_lone(edges);
     }
 
     void run(double most) {
@@ -151,6 +153,19 @@ public:
     }
 
 private:
+    void find_lone(const EdgeUses& edges) {
+        std::vector<std::uint8_t> boundary(mesh_.triangles.size(), 0);
+        for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
+            if (edges.of(edge).size() == 1) ++boundary[edges.of(edge)[0] / 3];
+        }
+        for (std::size_t t = 0; t < boundary.size(); ++t) {
+            if (boundary[t] != 3) continue;
+            std::array<std::uint32_t, 3> corners = mesh_.triangles[t].vertex;
+            std::sort(corners.begin(), corners.end());
+            lone_.insert(corners);
+        }
+    }
+
     void fill(std::uint32_t number) {
         const Loop& loop = loops_[number];
         const std::vector<Triangle> proposed = propose(mesh_, loop);
@@ -174,13 +189,19 @@ private:
                 diagonals.insert(edge_of(loop[a], loop[b]));
             }
         }
-        // A triangle over three edges of the boundary would lie on the one that has them.
-        if (diagonals.empty()) return false;
+        if (diagonals.empty()) return !is_lone(loop);
         for (const Edge& edge : diagonals) {
             if (edges_.contains(edge)) return false;
         }
         edges_.insert(diagonals.begin(), diagonals.end());
         return true;
+    }
+
+    /// Whether the loop is all the edges of one triangle: another would lie upon it.
+    [[nodiscard]] bool is_lone(const Loop& loop) const {
+        std::array<std::uint32_t, 3> corners = {loop[0], loop[1], loop[2]};
+        std::sort(corners.begin(), corners.end());
+        return lone_.contains(corners);
     }
 
     void fill_around_middle(std::uint32_t number) {
@@ -216,7 +237,8 @@ private:
     StepReport& report_;
     std::vector<Loop> loops_;
     std::set<Edge> edges_;
-    std::vector<std::uint32_t> patch_of_;  ///< per triangle the loop it fills, or kNone
+    std::set<std::array<std::uint32_t, 3>> lone_;  ///< corners of triangles of three boundary edges
+    std::vector<std::uint32_t> patch_of_;          ///< per triangle the loop it fills, or kNone
 };
 
 }  // namespace
