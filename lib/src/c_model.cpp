@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "c_face.h"
 
+#include <cstddef>
+#include <cstring>
 #include <utility>
 
 namespace cdprep {
@@ -16,6 +18,12 @@ int opened(Result<Model> result, cdprep_model** model, cdprep_error* error) {
 }  // namespace cdprep
 
 using cdprep::Model;
+
+static_assert(sizeof(cdprep_verdict) == sizeof(cdprep::format::Verdict) &&
+              offsetof(cdprep_verdict, genus) == offsetof(cdprep::format::Verdict, genus) &&
+              offsetof(cdprep_verdict, volume) == offsetof(cdprep::format::Verdict, volume));
+static_assert(CDPREP_PROMISE_SIMPLE_SOLID == cdprep::format::promise_simple_solid &&
+              CDPREP_PROMISE_CONTAINED_PIECES == cdprep::format::promise_contained_pieces);
 
 int cdprep_open(const char* path, cdprep_model** model, cdprep_error* error) {
     if (cdprep::any_null(path, model)) return cdprep::null_argument(error);
@@ -56,4 +64,18 @@ uint32_t cdprep_vertex_count(const cdprep_model* model) {
 
 int cdprep_is_closed(const cdprep_model* model) {
     return model != nullptr && model->model.is_closed() ? 1 : 0;
+}
+
+size_t cdprep_verdict_count(const cdprep_model* model) {
+    return model == nullptr ? 0 : model->model.verdicts().size();
+}
+
+int cdprep_read_verdict(const cdprep_model* model, size_t number, cdprep_verdict* verdict) {
+    if (verdict == nullptr || number >= cdprep_verdict_count(model)) return 0;
+    std::memcpy(verdict, &model->model.verdicts()[number], sizeof *verdict);
+    return 1;
+}
+
+const uint32_t* cdprep_repaired_from(const cdprep_model* model) {
+    return model == nullptr ? nullptr : model->model.repaired_from().data();
 }

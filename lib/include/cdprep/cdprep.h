@@ -61,6 +61,40 @@ uint32_t cdprep_triangle_count(const cdprep_model* model);
 uint32_t cdprep_vertex_count(const cdprep_model* model);
 int cdprep_is_closed(const cdprep_model* model);
 
+/* Bits of cdprep_verdict.promises; cdprep/format/verdict.h says what they and those of
+ * `facts` mean. */
+enum {
+    CDPREP_PROMISE_SURFACE = 1,
+    CDPREP_PROMISE_INSIDE_EXACT = 2,
+    CDPREP_PROMISE_SIMPLE_SOLID = 4,
+    CDPREP_PROMISE_CONTAINED_PIECES = 8
+};
+
+/* What was found of a mesh when it was baked, and what answers mean on it. */
+typedef struct cdprep_verdict {
+    uint32_t facts;
+    uint32_t promises;
+    uint32_t triangle_count;
+    uint32_t first_triangle; /* the lowest, source numbering */
+    uint32_t boundary_loops;
+    int32_t euler;
+    int32_t genus; /* -1: none */
+    uint32_t reserved;
+    double area;   /* square model units */
+    double volume; /* cubic model units, signed; 0 unless balanced */
+} cdprep_verdict;
+
+/* How many verdicts a model has: number 0 is of the whole mesh, the others of its
+ * components. 0 when the file has none. */
+size_t cdprep_verdict_count(const cdprep_model* model);
+
+/* Returns 0, and stores nothing, when there is none of this number. */
+int cdprep_read_verdict(const cdprep_model* model, size_t number, cdprep_verdict* verdict);
+
+/* By source triangle, what it was in the file before it was repaired, or UINT32_MAX; null
+ * when nothing was repaired. Lives as long as the model. */
+const uint32_t* cdprep_repaired_from(const cdprep_model* model);
+
 /* --- Scratch ------------------------------------------------------------------ */
 
 /* Bytes that a workspace takes, and what their address must be a multiple of. */

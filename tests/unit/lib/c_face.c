@@ -316,6 +316,9 @@ static const char* ask_wrongly(const cdprep_model* cube, cdprep_workspace* scrat
     MUST(none == NULL && strstr(error.message, "no such file") != NULL);
     MUST(cdprep_open_memory("short", 5, "bytes", &none, &error) != CDPREP_OK && none == NULL);
     MUST(cdprep_triangle_count(NULL) == 0 && !cdprep_is_closed(NULL));
+    cdprep_verdict verdict;
+    MUST(cdprep_verdict_count(NULL) == 0 && cdprep_repaired_from(NULL) == NULL);
+    MUST(cdprep_verdict_count(cube) == 0 && !cdprep_read_verdict(cube, 0, &verdict));
     cdprep_close(NULL);
     return NULL;
 }

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdint>
 #include <fstream>
 
+#include "cdprep/cdprep.h"
 #include "cdprep/collide.h"
 #include "support/meshes.h"
 #include "support/run_threads.h"
@@ -24,6 +27,32 @@ TEST(CFace, AProgramInC99GetsTheAnswers) {
                static_cast<std::streamsize>(file.size()));
     const char* wrong = ask_everything(file.span().data(), file.size(), path.c_str());
     EXPECT_EQ(wrong, nullptr) << wrong;
+}
+
+// Written by hand: what C reads must be what was stored.
+TEST(CFace, ReadsWhatWasFoundWhenAModelWasBaked) {
+    const format::Verdict stored{
+        format::verdict_closed, format::promise_simple_solid, 2, 0, 3, -4, 5, 0, 6.5, 7.5};
+    const std::array<std::uint32_t, 2> from = {7, format::kMadeByRepair};
+    const auto verdict = std::as_bytes(std::span(&stored, 1));
+    const auto numbers = std::as_bytes(std::span(from));
+    format::FileHeader facts{};
+    facts.triangle_count = 2;
+    const AlignedBytes file =
+        assemble(facts, {{SectionId::verdicts, {verdict.begin(), verdict.end()}},
+                         {SectionId::repaired_from, {numbers.begin(), numbers.end()}}});
+    cdprep_model* model = nullptr;
+    ASSERT_EQ(cdprep_open_memory(file.span().data(), file.size(), "two", &model, nullptr), 0);
+    cdprep_verdict read{};
+    ASSERT_EQ(cdprep_verdict_count(model), 1u);
+    EXPECT_EQ(cdprep_read_verdict(model, 1, &read), 0);
+    EXPECT_EQ(cdprep_read_verdict(model, 0, nullptr), 0);
+    ASSERT_EQ(cdprep_read_verdict(model, 0, &read), 1);
+    EXPECT_EQ(read.promises, static_cast<std::uint32_t>(CDPREP_PROMISE_SIMPLE_SOLID));
+    EXPECT_EQ(read.euler, -4);
+    EXPECT_EQ(read.volume, 7.5);
+    EXPECT_EQ(cdprep_repaired_from(model)[1], UINT32_MAX);
+    cdprep_close(model);
 }
 
 /// A thread for every task, as a C program has them; counts the tasks.
