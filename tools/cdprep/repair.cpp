@@ -41,13 +41,17 @@ Result<mesh::RepairSteps> parse_steps(const std::string& list) {
     for (std::string name; std::getline(names, name, ',');) {
         const auto step = mesh::find_repair_step(name);
         if (!step) {
-            std::string known;
+            std::string known = "there are ";
             for (std::size_t i = 0; i < mesh::kRepairStepCount; ++i) {
                 known += (i == 0 ? "" : ", ");
                 known += mesh::name_of(static_cast<mesh::RepairStep>(i));
             }
-            return Error{ErrorCode::bad_argument,
-                         "--steps: there is no step '" + name + "'; there are " + known + "."};
+            known += '.';
+            std::string message = "--steps: there is no step '";
+            message += name;
+            message += "'; ";
+            message += known;
+            return Error{ErrorCode::bad_argument, message};
         }
         steps.set(static_cast<std::size_t>(*step));
     }

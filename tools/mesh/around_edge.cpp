@@ -25,7 +25,9 @@ AroundEdge::AroundEdge(std::span<const Double3> positions, std::span<const Trian
     const std::uint32_t start = start_of(triangles, uses[0]), end = end_of(triangles, uses[0]);
     lower_ = std::min(start, end);
     upper_ = std::max(start, end);
-    std::find_if(uses.begin(), uses.end(), [&](HalfEdge h) { return refer_to(apex(h)); });
+    for (const HalfEdge h : uses) {
+        if (refer_to(apex(h))) break;
+    }
 }
 
 AroundEdge::AroundEdge(std::span<const Double3> positions, std::span<const Triangle> triangles,

@@ -81,7 +81,7 @@ private:
     bool mend(std::uint32_t t) {
         const std::size_t middle = middle_corner(corners_of(mesh_, t));
         if (middle == 3) return refuse(t, "has two corners at one place; weld joins them");
-        const HalfEdge longest = next_in_triangle(static_cast<HalfEdge>(3 * t + middle));
+        const HalfEdge longest = next_in_triangle(3 * t + static_cast<HalfEdge>(middle));
         const std::uint32_t a = start_of(mesh_.triangles, longest);
         const std::uint32_t b = end_of(mesh_.triangles, longest);
         const std::uint32_t v = mesh_.triangles[t].vertex[middle];

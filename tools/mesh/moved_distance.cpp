@@ -251,6 +251,7 @@ MovedDistances find_moved_distances(const TriangleSoup& soup, const RepairMesh& 
                 });
         };
         std::vector<Corners> known;
+        known.reserve(output.size());
         for (const Corners& c : output) known.push_back(ordered(c));
         std::sort(known.begin(), known.end(), less);
         std::erase_if(from_input, [&](const Corners& c) {

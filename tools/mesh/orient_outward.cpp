@@ -58,6 +58,7 @@ Stepped orient_outward(RepairMesh mesh) {
     const std::vector<StoredComponent> components =
         find_stored_components(mesh.positions, mesh.triangles);
     std::vector<Box> boxes;
+    boxes.reserve(components.size());
     for (const StoredComponent& component : components) boxes.push_back(box_of(mesh, component));
     std::vector<std::size_t> turned;
     for (std::size_t i = 0; i < components.size(); ++i) {

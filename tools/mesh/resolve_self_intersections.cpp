@@ -87,10 +87,10 @@ public:
 
     /// In front of a facet, where its normal points, and behind it.
     [[nodiscard]] int front(std::uint32_t facet) const {
-        return number_[2 * facet];
+        return number_[std::size_t{2} * facet];
     }
     [[nodiscard]] int behind(std::uint32_t facet) const {
-        return number_[2 * facet + 1];
+        return number_[std::size_t{2} * facet + 1];
     }
 
 private:
