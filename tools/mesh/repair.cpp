@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "mesh/mesh_meetings.h"
 #include "mesh/moved_distance.h"
 #include "mesh/repair_steps.h"
 
@@ -220,23 +221,7 @@ RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
     return counts;
 }
 
-}  // namespace
-
-std::optional<RepairSteps> find_repair_preset(std::string_view name) noexcept {
-    RepairSteps steps =
-        steps_of({RepairStep::drop_bad_numbers, RepairStep::weld, RepairStep::drop_repeated_corners,
-                  RepairStep::drop_duplicates, RepairStep::drop_zero_area, RepairStep::orient,
-                  RepairStep::split_non_manifold, RepairStep::orient_outward});
-    if (name == "safe") return steps;
-    steps |= steps_of(
-        {RepairStep::stitch_seams, RepairStep::resolve_t_junctions, RepairStep::fill_holes});
-    if (name == "closed") return steps;
-    steps |= steps_of({RepairStep::resolve_self_intersections});
-    if (name == "solid") return steps;
-    return std::nullopt;
-}
-
-Repaired repair(const TriangleSoup& soup, const RepairOptions& options) {
+Repaired repair_once(const TriangleSoup& soup, const RepairOptions& options) {
     Repair work(soup, options);
     RepairReport report;
     report.before = work.before();
@@ -257,6 +242,41 @@ Repaired repair(const TriangleSoup& soup, const RepairOptions& options) {
     report.input_to_output = moved.input_to_output;
     report.output_to_input = moved.output_to_input;
     return {work.mesh(), std::move(report)};
+}
+
+}  // namespace
+
+std::optional<RepairSteps> find_repair_preset(std::string_view name) noexcept {
+    RepairSteps steps =
+        steps_of({RepairStep::drop_bad_numbers, RepairStep::weld, RepairStep::drop_repeated_corners,
+                  RepairStep::drop_duplicates, RepairStep::drop_zero_area, RepairStep::orient,
+                  RepairStep::split_non_manifold, RepairStep::orient_outward});
+    if (name == "safe") return steps;
+    steps |= steps_of(
+        {RepairStep::stitch_seams, RepairStep::resolve_t_junctions, RepairStep::fill_holes});
+    if (name == "closed") return steps;
+    steps |= steps_of({RepairStep::resolve_self_intersections});
+    if (name == "solid") return steps;
+    return std::nullopt;
+}
+
+Repaired repair(const TriangleSoup& soup, const RepairOptions& options) {
+    Repaired mended = repair_once(soup, options);
+    constexpr auto kResolve = static_cast<std::size_t>(RepairStep::resolve_self_intersections);
+    if (!options.steps.test(kResolve)) return mended;
+    // Patches were let cross, to be resolved. Where that was refused, none may cross.
+    if (find_meetings(mended.mesh, options.parallel_for).empty()) return mended;
+    const RepairMesh finite = drop_bad_numbers(as_repair_mesh(soup), out_of_range(soup)).mesh;
+    if (!find_meetings(finite, options.parallel_for).empty()) return mended;
+    RepairOptions without = options;
+    without.steps.reset(kResolve);
+    Repaired again = repair_once(soup, without);
+    for (StepReport& step : mended.report.steps) {
+        if (step.step != RepairStep::resolve_self_intersections) continue;
+        step.undone = "holes whose patches it could not resolve are left open";
+        again.report.steps.push_back(std::move(step));
+    }
+    return again;
 }
 
 }  // namespace cdprep::mesh
