@@ -63,7 +63,7 @@ Json plain(const std::vector<std::uint32_t>& sources) {
 std::string step_line(const mesh::StepReport& step) {
     std::string line = "  " + std::string(mesh::name_of(step.step)) + ":";
     const auto add = [&](std::uint64_t count, const char* what) {
-        if (count > 0) line += " " + std::to_string(count) + " " + what + ",";
+        if (count > 0) line.append(1, ' ').append(std::to_string(count) + ' ').append(what) += ',';
     };
     add(step.dropped.size(), "triangles dropped");
     add(step.reversed.size(), "triangles reversed");
