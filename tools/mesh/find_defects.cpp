@@ -8,12 +8,12 @@
 #include "mesh/boundary.h"
 #include "mesh/close_groups.h"
 #include "mesh/component_numbers.h"
+#include "mesh/copies.h"
 #include "mesh/edge_flaws.h"
 #include "mesh/finding_list.h"
 #include "mesh/meetings.h"
 #include "mesh/nesting.h"
 #include "mesh/orientability.h"
-#include "mesh/self_intersections.h"
 #include "mesh/sound_mesh.h"
 #include "mesh/source_places.h"
 #include "mesh/surface_measures.h"
@@ -227,8 +227,10 @@ private:
     void judge() {
         ComponentMeetings meetings;
         if (options_.crossings) {
-            meetings = list_meetings(find_self_intersections(sound_.mesh, options_.parallel_for),
-                                     sound_, components_, findings_, counts());
+            const Copies copies(std::move(flaws_.repeated));
+            meetings =
+                list_meetings(find_distinct_meetings(sound_.mesh, copies, options_.parallel_for),
+                              copies, sound_, components_, findings_, counts());
         }
         const std::vector<Nested> nested = find_nested(sound_.mesh, components_, balanced_);
         for (const Nested& pair : nested) {

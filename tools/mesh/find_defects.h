@@ -62,7 +62,8 @@ struct DefectReport {
 /// Everything is decided exactly on the coordinates as read, or RuleText::decided says
 /// how. Never fails: triangles with a corner that is out of range or not finite are
 /// reported and left out of all that follows. Source numbers throughout. The same for any
-/// parallel_for. O(n log n), and O(pairs) for triangles that meet.
+/// parallel_for. O(n log n), and O(pairs) for triangles that meet; copies of a triangle
+/// count in none of these pairs, however many there are.
 [[nodiscard]] DefectReport find_defects(const TriangleSoup& soup,
                                         const DefectOptions& options = {});
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/component_numbers.h"
+#include "mesh/copies.h"
 #include "mesh/finding_list.h"
 #include "mesh/self_intersections.h"
 #include "mesh/sound_mesh.h"
@@ -29,9 +30,11 @@ struct ComponentMeetings {
     [[nodiscard]] bool overlap(std::uint32_t a, std::uint32_t b) const;
 };
 
-/// CDP0403 and CDP0501 to 0503, and the counts of pairs.
-[[nodiscard]] ComponentMeetings list_meetings(std::span<const TriangleMeeting> meetings,
-                                              const SoundMesh& sound,
+/// CDP0403 and CDP0501 to 0503, and the counts of pairs, from find_distinct_meetings().
+/// Counts and lists what find_self_intersections() would have found, pair by pair, at the
+/// cost of the distinct meetings and of the places that are kept.
+[[nodiscard]] ComponentMeetings list_meetings(std::span<const TriangleMeeting> distinct,
+                                              const Copies& copies, const SoundMesh& sound,
                                               const ComponentNumbers& components,
                                               FindingList& findings, DefectCounts& counts);
 
