@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include "mesh/point_tree.h"
@@ -54,15 +55,15 @@ public:
     }
 
     std::vector<Nested> find() {
-        cast_rays();
-        std::vector<Nested> nested;
-        for (auto& [pair, around] : around_) {
-            const auto [inner, outer] = pair;
-            if (around.on_surface) around = ask_other_vertices(inner, outer);
-            if (around.winding == 0 || around.on_surface) continue;
-            nested.push_back({inner, outer, around.winding});
+        list_points();
+        sort_by_component();
+        for (std::uint32_t outer = 0; outer < components_.count; ++outer) {
+            if (balanced_[outer]) find_within(outer);
         }
-        return nested;
+        std::sort(nested_.begin(), nested_.end(), [](const Nested& a, const Nested& b) {
+            return std::tie(a.inner, a.outer) < std::tie(b.inner, b.outer);
+        });
+        return std::move(nested_);
     }
 
 private:
@@ -74,41 +75,49 @@ private:
         return components_.of_vertex[mesh_.triangles[triangle].vertex[0]];
     }
 
-    /// Each triangle is asked about the points in whose rays it may stand, and that its
-    /// component's box holds.
-    void cast_rays() {
+    void list_points() {
         std::vector<Double3> points;
-        std::vector<std::uint32_t> asking;
         for (std::uint32_t i = 0; i < components_.count; ++i) {
             if (!balanced_[i]) continue;
-            asking.push_back(i);
+            asking_.push_back(i);
             points.push_back(mesh_.positions[lowest_[i]]);
         }
-        const PointTree tree(std::move(points));
-        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
-            const std::uint32_t outer = component_of(i);
-            if (!balanced_[outer]) continue;
-            const Corners t = corners_of(i);
+        tree_.emplace(std::move(points));
+        around_.resize(asking_.size());
+    }
+
+    /// Each triangle is asked about the points in whose rays it may stand, and that its
+    /// component's box holds.
+    void find_within(std::uint32_t outer) {
+        touched_.clear();
+        for (std::uint32_t k = first_[outer]; k < first_[outer + 1]; ++k) {
+            const Corners t = corners_of(triangle_[k]);
             Box region;
             for (const Double3& p : t) region.add(p);
             region.lower.x = box_[outer].lower.x;
-            tree.visit([&region](const Box& box) { return region.meets(box); },
-                       [&](std::uint32_t number) {
-                           const std::uint32_t inner = asking[number];
-                           if (inner == outer || !region.contains(tree.point(number))) return;
-                           const Double3& q = tree.point(number);
-                           around_[{inner, outer}].add(q, behind(q, box_[outer]), t);
-                       });
+            tree_->visit([&region](const Box& box) { return region.meets(box); },
+                         [&](std::uint32_t number) {
+                             const Double3& q = tree_->point(number);
+                             if (asking_[number] == outer || !region.contains(q)) return;
+                             around_[number].add(q, behind(q, box_[outer]), t);
+                             touched_.push_back(number);
+                         });
+        }
+        for (const std::uint32_t number : touched_) {
+            Around around = std::exchange(around_[number], {});
+            const std::uint32_t inner = asking_[number];
+            if (around.on_surface) around = ask_other_vertices(inner, outer);
+            if (around.winding == 0 || around.on_surface) continue;
+            nested_.push_back({inner, outer, around.winding});
         }
     }
 
     /// The lowest vertex off the other's surface; on it when there is none.
     Around ask_other_vertices(std::uint32_t inner, std::uint32_t outer) {
-        sort_by_component();
         Around around;
         around.on_surface = true;
-        for (std::uint32_t i = lowest_[inner] + 1; i < mesh_.positions.size(); ++i) {
-            if (components_.of_vertex[i] != inner) continue;
+        for (const std::uint32_t i : vertices_of(inner)) {
+            if (i == lowest_[inner]) continue;
             around = {};
             for (std::uint32_t k = first_[outer]; k < first_[outer + 1]; ++k) {
                 const Double3& q = mesh_.positions[i];
@@ -119,8 +128,19 @@ private:
         return around;
     }
 
+    /// Ascending.
+    [[nodiscard]] std::vector<std::uint32_t> vertices_of(std::uint32_t component) const {
+        std::vector<std::uint32_t> vertices;
+        for (std::uint32_t k = first_[component]; k < first_[component + 1]; ++k) {
+            const auto& v = mesh_.triangles[triangle_[k]].vertex;
+            vertices.insert(vertices.end(), v.begin(), v.end());
+        }
+        std::sort(vertices.begin(), vertices.end());
+        vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+        return vertices;
+    }
+
     void sort_by_component() {
-        if (!first_.empty()) return;
         first_.assign(components_.count + 1, 0);
         for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) ++first_[component_of(i) + 1];
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
@@ -136,9 +156,13 @@ private:
     const std::vector<bool>& balanced_;
     std::vector<Box> box_;               ///< of each component
     std::vector<std::uint32_t> lowest_;  ///< vertex of each component
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Around> around_;  ///< by inner and outer
     std::vector<std::uint32_t> first_;
-    std::vector<std::uint32_t> triangle_;  ///< by component, when needed
+    std::vector<std::uint32_t> triangle_;  ///< by component
+    std::vector<std::uint32_t> asking_;    ///< components whose point is in the tree
+    std::optional<PointTree> tree_;
+    std::vector<Around> around_;          ///< by asking component, of one outer component
+    std::vector<std::uint32_t> touched_;  ///< of those, some more than once
+    std::vector<Nested> nested_;
 };
 
 }  // namespace

@@ -21,7 +21,8 @@ struct Nested {
 /// Those that cross are looked at no closer. Exact.
 ///
 /// One ray from each component along x. O(n log c) for c components, and O(pairs of a
-/// component within another's box and a triangle of that which its ray may meet).
+/// component within another's box and a triangle of that which its ray may meet): k shells,
+/// each in the next, are k (k - 1) / 2 pairs.
 [[nodiscard]] std::vector<Nested> find_nested(const Mesh& mesh, const ComponentNumbers& components,
                                               const std::vector<bool>& balanced);
 
