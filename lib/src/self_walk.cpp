@@ -29,10 +29,6 @@ constexpr kernels::BoxPairs once_each() noexcept {
     return pairs;
 }
 
-bool is_marked(std::span<const std::uint64_t> marked, std::uint32_t triangle) noexcept {
-    return !marked.empty() && ((marked[triangle / 64] >> (triangle % 64)) & 1) != 0;
-}
-
 }  // namespace
 
 /// Collects pairs of leaves and tests their triangles many at a time.
@@ -77,19 +73,17 @@ private:
 };
 
 SelfWalk::SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
-                   std::span<const std::uint64_t> marked, ParallelFor parallel_for)
+                   ParallelFor parallel_for)
     : bvh_(bvh), shape_(format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()))) {
     const PlacedBoxes placed = place_upon_itself(bvh.frame.origin, bvh.frame.exponent);
     boxes_ = placed.placement;
     leaves_ = place_leaves(bvh, placed);
     if (bvh.order.empty()) return;
-    read_leaves(triangles, marked, parallel_for);
+    read_leaves(triangles, parallel_for);
     find_starts();
 }
 
-void SelfWalk::read_leaves(std::span<const format::Triangle> triangles,
-                           std::span<const std::uint64_t> marked,
-                           ParallelFor parallel_for) {
+void SelfWalk::read_leaves(std::span<const format::Triangle> triangles, ParallelFor parallel_for) {
     const std::size_t leaves = bvh_.leaves.size();
     corner_numbers_.resize(leaves * kNumbersPerLeaf);
     used_.resize(leaves);
@@ -104,8 +98,7 @@ void SelfWalk::read_leaves(std::span<const format::Triangle> triangles,
                 corner_numbers_[leaf * kNumbersPerLeaf + corner * kBvhWidth + lane] =
                     triangles[triangle].vertex[corner];
             }
-            const unsigned bit = is_marked(marked, triangle) ? 0U : 1U << lane;
-            used_[leaf] = static_cast<std::uint8_t>(used_[leaf] | bit);
+            used_[leaf] = static_cast<std::uint8_t>(used_[leaf] | 1U << lane);
         }
     };
     parallel_for((leaves + kLeavesPerTask - 1) / kLeavesPerTask, read);

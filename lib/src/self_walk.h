@@ -23,10 +23,9 @@ struct SelfPair {
 /// cross or touch is among those found, each once, and few that do neither.
 class SelfWalk {
 public:
-    /// The tree must outlive the walk. `triangles` are those it was built over; those that
-    /// are marked, one bit each or no words at all, are in no pair.
+    /// The tree must outlive the walk. `triangles` are those it was built over.
     SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
-             std::span<const std::uint64_t> marked, ParallelFor parallel_for);
+             ParallelFor parallel_for);
 
     /// How many parts the walk has; the same for any parallel_for.
     [[nodiscard]] std::size_t part_count() const noexcept;
@@ -45,8 +44,7 @@ private:
     };
     class Batch;
 
-    void read_leaves(std::span<const format::Triangle> triangles,
-                     std::span<const std::uint64_t> marked, ParallelFor parallel_for);
+    void read_leaves(std::span<const format::Triangle> triangles, ParallelFor parallel_for);
 
     /// Calls step(pair) for each pair of children whose boxes overlap.
     template <class Step>

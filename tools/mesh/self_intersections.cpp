@@ -33,21 +33,43 @@ std::vector<Double3> shrunk_if_too_large(const Mesh& mesh) {
     return shrunk;
 }
 
+/// Triangles of a mesh, ascending, and their numbers there.
+struct SomeTriangles {
+    std::vector<Triangle> triangle;
+    std::vector<std::uint32_t> number;
+};
+
+/// Flat ones stay out of the hierarchy: those along one line would be around each other.
+SomeTriangles without_flat(const Mesh& mesh, const std::vector<std::uint64_t>& flat) {
+    SomeTriangles left;
+    if (flat.empty()) return left;
+    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (((flat[i / 64] >> (i % 64)) & 1) != 0) continue;
+        left.triangle.push_back(mesh.triangles[i]);
+        left.number.push_back(i);
+    }
+    return left;
+}
+
 /// Appends the meetings of triangles without a common vertex, in no order.
 void find_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& flat,
                          ParallelFor parallel_for, std::vector<TriangleMeeting>& all) {
     const std::vector<Double3> shrunk = shrunk_if_too_large(mesh);
-    const build::Bvh bvh =
-        build::build_bvh(shrunk.empty() ? mesh.positions : shrunk, mesh.triangles,
-                         {.parallel_for = parallel_for,
-                          .bounds = build::BvhBounds::aligned,
-                          .quality = build::Quality::fast});
-    const SelfWalk walk(bvh, mesh.triangles, flat, parallel_for);
+    const SomeTriangles left = without_flat(mesh, flat);
+    const std::vector<Triangle>& triangles = flat.empty() ? mesh.triangles : left.triangle;
+    const build::Bvh bvh = build::build_bvh(shrunk.empty() ? mesh.positions : shrunk, triangles,
+                                            {.parallel_for = parallel_for,
+                                             .bounds = build::BvhBounds::aligned,
+                                             .quality = build::Quality::fast});
+    const auto number = [&](std::uint32_t at) {
+        return flat.empty() ? bvh.order[at] : left.number[bvh.order[at]];
+    };
+    const SelfWalk walk(bvh, triangles, parallel_for);
     std::vector<std::vector<TriangleMeeting>> found(walk.part_count());
     const auto run = [&](std::size_t part) {
         Workspace workspace;
         walk.run(part, workspace.storage(), [&](const SelfPair& pair) {
-            const auto [a, b] = std::minmax({bvh.order[pair.a], bvh.order[pair.b]});
+            const auto [a, b] = std::minmax({number(pair.a), number(pair.b)});
             const Corners in_a = corners_of(mesh, a), in_b = corners_of(mesh, b);
             const auto meeting =
                 pair.certain ? meeting_across(in_a, in_b) : meeting_apart(in_a, in_b);

@@ -41,11 +41,10 @@ struct Pair {
     auto operator<=>(const Pair&) const = default;
 };
 
-std::vector<Pair> walk(const test::TestMesh& mesh, build::Quality quality,
-                       const std::vector<std::uint64_t>& marked = {}) {
+std::vector<Pair> walk(const test::TestMesh& mesh, build::Quality quality) {
     const build::Bvh bvh = build::build_bvh(
         mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned, .quality = quality});
-    const SelfWalk walk(bvh, mesh.triangles, marked, serial_for);
+    const SelfWalk walk(bvh, mesh.triangles, serial_for);
     Workspace workspace;
     std::vector<Pair> pairs;
     for (std::size_t part = 0; part < walk.part_count(); ++part) {
@@ -126,19 +125,6 @@ TEST(SelfWalk, MissesNothingFarFromTheOrigin) {
 
 TEST(SelfWalk, FewPairsAreLeftOpenOnASmoothSurface) {
     EXPECT_LT(walk(test::icosphere(4), build::Quality::fast).size(), 20u * 256 / 100);
-}
-
-TEST(SelfWalk, MarkedTrianglesAreInNoPair) {
-    const test::TestMesh mesh = test::random_soup(9, 300, 1.2);
-    std::vector<std::uint64_t> marked(5);
-    for (std::size_t i = 0; i < marked.size(); ++i) marked[i] = 0x9249249249249249 >> i;
-    std::vector<Pair> expected = walk(mesh, build::Quality::fast);
-    const auto is_marked = [&](std::uint32_t i) { return (marked[i / 64] >> (i % 64) & 1) != 0; };
-    const std::size_t all = expected.size();
-    std::erase_if(expected, [&](const Pair& p) { return is_marked(p.a) || is_marked(p.b); });
-    EXPECT_EQ(walk(mesh, build::Quality::fast, marked), expected);
-    EXPECT_GT(expected.size(), all / 4);
-    EXPECT_LT(expected.size(), all * 3 / 4);
 }
 
 TEST(SelfWalk, OfNothingFindsNothing) {
