@@ -6,12 +6,16 @@
 #include <cmath>
 
 #include "mesh/fan.h"
+#include "mesh/star_pairs.h"
 #include "mesh/triangle_meeting.h"
 
 namespace cdprep::mesh {
 namespace {
 
 constexpr std::size_t kVerticesPerTask = 4096;
+
+/// Of fewer triangles around a vertex all pairs are asked before those to ask are found.
+constexpr std::size_t kFewAround = 64;
 
 /// The corners that two triangles share: places in either.
 struct SharedCorners {
@@ -65,6 +69,11 @@ public:
 
     void ask_around(std::uint32_t vertex, std::vector<TriangleMeeting>& found) const {
         const auto star = stars_.around(vertex);
+        if (star.size() > kFewAround) {
+            for_star_pairs(mesh_, vertex, star,
+                           [&](std::uint32_t a, std::uint32_t b) { ask(vertex, a, b, found); });
+            return;
+        }
         for (std::size_t i = 0; i < star.size(); ++i) {
             for (std::size_t j = i + 1; j < star.size(); ++j) {
                 ask(vertex, star[i], star[j], found);

@@ -52,9 +52,10 @@ struct TriangleMeeting {
 /// leaves them. Positions must be finite. CGAL's answer is defined for meshes with at most
 /// two triangles at an edge; here more may meet there, and every two of them are asked.
 ///
-/// Exact. The same for any parallel_for. O(n log n), and O(k^2) for k triangles around one
-/// vertex that do not lie side by side. Some 60 bytes of scratch a triangle.
-/// tests/bench/self_intersections_bench measures.
+/// Exact. The same for any parallel_for. O(n log n), and O(pairs) for those that meet
+/// and for those whose boxes overlap, or around one vertex are seen over each other from it.
+/// k copies of one triangle are k (k - 1) / 2 pairs: see Copies. Some 60 bytes of scratch a
+/// triangle. tests/bench/self_intersections_bench measures.
 [[nodiscard]] std::vector<TriangleMeeting> find_self_intersections(
     const Mesh& mesh, ParallelFor parallel_for = serial_for);
 
