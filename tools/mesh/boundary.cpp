@@ -47,6 +47,8 @@ class LoopWalk {
 public:
     explicit LoopWalk(const Boundary& boundary) : boundary_(boundary) {
         used_.resize(boundary.edge.size());
+        leading_seen_.resize(boundary.vertex.size());
+        seen_.resize(boundary.vertex.size());
         by_loop_.resize(boundary.edge.size());
         std::iota(by_loop_.begin(), by_loop_.end(), 0U);
         std::stable_sort(by_loop_.begin(), by_loop_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -72,18 +74,29 @@ public:
 
 private:
     /// The lowest edge at the vertex that has not been walked, first one that leads on.
-    std::uint32_t unused_at(std::uint32_t vertex) const {
-        std::uint32_t found = kNone;
-        for (const std::uint32_t i : boundary_.edges_of(boundary_.end_at(vertex))) {
-            if (used_[i]) continue;
-            if (boundary_.edge[i].from == vertex) return i;
-            if (found == kNone) found = i;
+    std::uint32_t unused_at(std::uint32_t vertex) {
+        const std::uint32_t end = boundary_.end_at(vertex);
+        const std::uint32_t leading = next_of(
+            end, leading_seen_[end], [&](const FlawedEdge& edge) { return edge.from == vertex; });
+        if (leading != kNone) return leading;
+        return next_of(end, seen_[end], [](const FlawedEdge&) { return true; });
+    }
+
+    /// The lowest edge at an end that is of a kind and has not been walked. `seen` says how
+    /// many at its beginning are not, and never will be: no edge is passed twice.
+    template <class OfKind>
+    std::uint32_t next_of(std::uint32_t end, std::uint32_t& seen, OfKind of_kind) const {
+        const std::span<const std::uint32_t> edges = boundary_.edges_of(end);
+        for (; seen < edges.size(); ++seen) {
+            if (!used_[edges[seen]] && of_kind(boundary_.edge[edges[seen]])) return edges[seen];
         }
-        return found;
+        return kNone;
     }
 
     const Boundary& boundary_;
     std::vector<bool> used_;
+    std::vector<std::uint32_t> leading_seen_;  ///< by end, as next_of() says
+    std::vector<std::uint32_t> seen_;
     std::vector<std::uint32_t> by_loop_;
     std::size_t next_ = 0;
 };

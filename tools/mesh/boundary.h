@@ -44,7 +44,7 @@ struct Boundary {
 void list_boundary(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
                    FindingList& findings);
 
-/// CDP0307: O(n log n) for edges that pass few vertices.
+/// CDP0307: O(n log n) for edges that pass few vertices, and O(pairs) for those that do.
 void find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
                       FindingList& findings, DefectCounts& counts);
 

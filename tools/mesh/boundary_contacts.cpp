@@ -70,12 +70,16 @@ private:
     double margin_;
 };
 
-/// Exactly on the segment, ends among it.
-bool lies_on(const Double3& p, const Double3& a, const Double3& b) {
+Box box_of(const Double3& a, const Double3& b) {
     Box box;
     box.add(a);
     box.add(b);
-    return box.contains(p) && is_degenerate({a, p, b});
+    return box;
+}
+
+/// Exactly on the segment, ends among it.
+bool lies_on(const Double3& p, const Double3& a, const Double3& b) {
+    return box_of(a, b).contains(p) && is_degenerate({a, p, b});
 }
 
 struct OnSegment {
@@ -196,7 +200,14 @@ void find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Bo
         const Double3& from = sound.mesh.positions[edge.from];
         const Double3& to = sound.mesh.positions[edge.to];
         ends.clear();
-        tree.visit(SegmentReach(from, to, 0), [&](std::uint32_t end) {
+        const Box around = box_of(from, to);
+        const SegmentReach reach(from, to, 0);
+        // Most boxes are told by comparing alone.
+        const auto enter = [&](const Box& box) {
+            return around.meets(box) && (box.contains(from) || reach(box));
+        };
+        tree.visit(enter, [&](std::uint32_t end) {
+            if (!around.contains(tree.point(end))) return;
             const std::uint32_t vertex = boundary.vertex[end];
             if (vertex == edge.from || vertex == edge.to) return;
             if (lies_on(tree.point(end), from, to)) ends.push_back(end);

@@ -75,6 +75,26 @@ TEST(FindDefects, GenusCountsHandles) {
     EXPECT_EQ(balls.verdicts.front().genus, 0);
 }
 
+// A book of so many pages that looking through them again at each would show: its two
+// spine ends are ends of 2 boundary edges a page, and the whole boundary is one loop.
+TEST(FindDefects, ManyBoundaryEdgesAtAVertexAreOneLoop) {
+    constexpr std::uint32_t kPages = 100000;
+    test::TestMesh book;
+    book.positions = {{0, 0, 0}, {0, 0, 1}};
+    for (std::uint32_t i = 0; i < kPages; ++i) {
+        const double t = 6.283185307179586 * i / kPages;
+        book.positions.push_back({std::cos(t), std::sin(t), 0.5});
+        book.triangles.push_back({{0, 1, 2 + i}});
+    }
+    const DefectReport report = report_of(book, {.crossings = false});
+    EXPECT_EQ(report.counts.boundary_edges, 2 * kPages);
+    EXPECT_EQ(report.counts.boundary_loops, 1U);
+    EXPECT_EQ(report.counts.non_manifold_edges, 1U);
+    EXPECT_EQ(report.counts.t_junctions, 0U);
+    const Finding loops = finding_of(report, Rule::boundary_loop);
+    EXPECT_EQ(loops.places.at(0).vertices.front(), 1U);
+}
+
 TEST(FindDefects, NothingIsFoundInNothing) {
     const DefectReport report = find_defects({});
     EXPECT_TRUE(report.findings.empty());
