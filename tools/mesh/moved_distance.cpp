@@ -11,6 +11,8 @@
 #include <array>
 #include <cmath>
 #include <queue>
+#include <utility>
+#include <vector>
 
 #include "exact_within.h"
 #include "point_triangle_distance.h"
@@ -40,7 +42,8 @@ public:
             shapes_.emplace_back(point(t[0]), point(t[1]), point(t[2]));
         }
         tree_.insert(shapes_.begin(), shapes_.end());
-        tree_.accelerate_distance_queries();
+        const std::vector<Hint> hints = hints_for_queries();
+        tree_.accelerate_distance_queries(hints.begin(), hints.end());
     }
 
     [[nodiscard]] const Corners& nearest(const Double3& p) const {
@@ -52,6 +55,21 @@ public:
     }
 
 private:
+    using Hint = std::pair<Kernel::Point_3, Primitive::Id>;
+
+    /// First corners, each place once: CGAL's own hints, one a triangle, are cut in two
+    /// until the stack ends where many are one point.
+    std::vector<Hint> hints_for_queries() {
+        std::vector<Hint> hints;
+        for (auto shape = shapes_.begin(); shape != shapes_.end(); ++shape) {
+            hints.emplace_back(shape->vertex(0), shape);
+        }
+        std::sort(hints.begin(), hints.end());
+        const auto same_place = [](const Hint& a, const Hint& b) { return a.first == b.first; };
+        hints.erase(std::unique(hints.begin(), hints.end(), same_place), hints.end());
+        return hints;
+    }
+
     std::vector<Corners> triangles_;
     mutable std::vector<Kernel::Triangle_3> shapes_;
     Tree tree_;
