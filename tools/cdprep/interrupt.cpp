@@ -8,6 +8,11 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
+/// Nobody reads what we write: as if the person had stopped us, but however often.
+void on_closed_pipe(int) {
+    interrupted = 1;
+}
+
 void on_signal(int signal) {
     if (interrupted != 0) {
         std::signal(signal, SIG_DFL);
@@ -21,6 +26,7 @@ void on_signal(int signal) {
 void watch_for_interrupts() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
+    std::signal(SIGPIPE, on_closed_pipe);
     // A file longer than permitted is then an error of the write that we report.
     std::signal(SIGXFSZ, SIG_IGN);
 }

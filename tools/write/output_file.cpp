@@ -25,8 +25,30 @@ std::filesystem::path temporary_name(const std::filesystem::path& target, int nu
 }
 
 Error unwritable(const std::filesystem::path& target, const std::string& why) {
+    std::error_code unknown;
+    const bool was_there = std::filesystem::exists(target, unknown);
     return {ErrorCode::unwritable,
-            target.string() + ": " + why + ". The file that was there before is unchanged."};
+            target.string() + ": " + why +
+                (was_there ? ". What was there before is unchanged." : ". Nothing was written.")};
+}
+
+/// Where a chain of symbolic links leads: a link stays, and what it names is replaced.
+std::filesystem::path followed(std::filesystem::path target) {
+    constexpr int kMostLinks = 40;  // as the kernel
+    std::error_code error;
+    for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i) {
+        const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+        if (error) break;
+        target = target.parent_path() / next;  // an absolute one replaces all
+    }
+    return target;
+}
+
+/// A rename would replace a device or a pipe by a file.
+bool is_replaceable(const std::filesystem::path& target) {
+    std::error_code error;
+    const auto status = std::filesystem::status(target, error);
+    return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
 }
 
 /// Opens and locks one temporary; -1 with errno when it cannot be had. The lock
@@ -77,7 +99,11 @@ OutputFile::~OutputFile() {
     ::close(descriptor_);
 }
 
-Result<OutputFile> OutputFile::create(const std::filesystem::path& target) {
+Result<OutputFile> OutputFile::create(const std::filesystem::path& wanted) {
+    const std::filesystem::path target = followed(wanted);
+    if (!is_replaceable(target)) {
+        return unwritable(wanted, "is a folder, a device or a pipe; only a file can be replaced");
+    }
     for (int number = 0; number < kMostWriters; ++number) {
         const std::filesystem::path temporary = temporary_name(target, number);
         const int descriptor = open_locked(temporary);

@@ -17,8 +17,9 @@ namespace cdprep::write {
 /// target takes it over. Destroyed before commit(), it leaves nothing behind.
 class OutputFile {
 public:
-    /// Fails with `unwritable` when no temporary can be made.
-    [[nodiscard]] static Result<OutputFile> create(const std::filesystem::path& target);
+    /// A symbolic link stays, and what it leads to is replaced. Fails with `unwritable`
+    /// when that is there and no regular file, and when no temporary can be made.
+    [[nodiscard]] static Result<OutputFile> create(const std::filesystem::path& wanted);
 
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&&) = delete;

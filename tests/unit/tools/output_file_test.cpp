@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <string>
@@ -46,6 +47,37 @@ TEST(OutputFile, WithoutCommitItLeavesNothing) {
     }
     EXPECT_EQ(content_of(folder.file("out")), "old");
     EXPECT_EQ(folder.names(), (std::set<std::string>{"out"}));
+}
+
+TEST(OutputFile, ALinkStaysAndWhatItNamesIsReplaced) {
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder.file("far"));
+    test::put_content(folder.file("far/out"), "old");
+    std::filesystem::create_symlink("far/out", folder.file("near"));
+    std::filesystem::create_symlink("near", folder.file("nearer"));
+    {
+        Result<OutputFile> file = OutputFile::create(folder.file("nearer"));
+        ASSERT_TRUE(file);
+        put(file.value(), "new");
+        ASSERT_TRUE(file.value().commit());
+    }
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.file("near")));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder.file("nearer")));
+    EXPECT_EQ(content_of(folder.file("far/out")), "new");
+}
+
+// A rename would make a file of it, /dev/null too for who may.
+TEST(OutputFile, NeitherAPipeNorAFolderIsReplaced) {
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder.file("folder"));
+    ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0666), 0);
+    for (const char* name : {"folder", "pipe"}) {
+        const Result<OutputFile> file = OutputFile::create(folder.file(name));
+        ASSERT_FALSE(file) << name;
+        EXPECT_EQ(file.error().code, ErrorCode::unwritable);
+        EXPECT_NE(file.error().message.find(name), std::string::npos);
+    }
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"folder", "pipe"}));
 }
 
 /// What a killed writer leaves: its temporary, with no lock on it.
@@ -115,16 +147,6 @@ TEST(OutputFile, ATemporaryThatIsBeingWrittenIsLeftAlone) {
     EXPECT_EQ(content_of(held), "held");
     EXPECT_EQ(content_of(folder.file("out")), "new");
     ::close(descriptor);
-}
-
-TEST(OutputFile, AFolderInThePlaceOfTheTargetIsASentence) {
-    const ScratchFolder folder;
-    std::filesystem::create_directory(folder.file("out"));
-    Result<OutputFile> file = OutputFile::create(folder.file("out"));
-    ASSERT_TRUE(file);
-    const Result<Done> done = file.value().commit();
-    ASSERT_FALSE(done);
-    EXPECT_EQ(done.error().code, ErrorCode::unwritable);
 }
 
 }  // namespace
