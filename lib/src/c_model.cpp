@@ -22,8 +22,10 @@ using cdprep::Model;
 static_assert(sizeof(cdprep_verdict) == sizeof(cdprep::format::Verdict) &&
               offsetof(cdprep_verdict, genus) == offsetof(cdprep::format::Verdict, genus) &&
               offsetof(cdprep_verdict, volume) == offsetof(cdprep::format::Verdict, volume));
-static_assert(CDPREP_PROMISE_SIMPLE_SOLID == cdprep::format::promise_simple_solid &&
-              CDPREP_PROMISE_CONTAINED_PIECES == cdprep::format::promise_contained_pieces);
+static_assert(CDPREP_PROMISE_SURFACE == int{cdprep::format::promise_surface} &&
+              CDPREP_PROMISE_INSIDE_EXACT == int{cdprep::format::promise_inside_exact} &&
+              CDPREP_PROMISE_SIMPLE_SOLID == int{cdprep::format::promise_simple_solid} &&
+              CDPREP_PROMISE_CONTAINED_PIECES == int{cdprep::format::promise_contained_pieces});
 
 int cdprep_open(const char* path, cdprep_model** model, cdprep_error* error) {
     if (cdprep::any_null(path, model)) return cdprep::null_argument(error);
