@@ -8,35 +8,20 @@ repairing it again must change no byte. The checker is check_mesh.py of the test
 Usage: repair.py CDPREP [PRESET...]
 """
 import concurrent.futures
-import importlib.util
 import json
 import math
 import os
 import pathlib
-import shutil
-import subprocess
 import sys
 import tempfile
 import time
 
-from shared_models import must, run, shared_folder
+from shared_models import checker, hard_files, must, run, shared_folder
 
 PRESETS = ("safe", "closed", "solid")
 LOST = 1e-5  # of the diagonal
 CLOSED = 26  # at least so many of the 30 by `closed`
 SOLID = 12   # and by `solid`
-
-
-def checker(models, folder):
-    """check_mesh.py with its self-intersection counter built beside it."""
-    for name in ("check_mesh.py", "selfx.cpp"):
-        shutil.copy(models / name, folder / name)
-    subprocess.run(["g++", "-O2", "-o", folder / "selfx", folder / "selfx.cpp", "-lquadmath"],
-                   check=True)
-    spec = importlib.util.spec_from_file_location("check_mesh", folder / "check_mesh.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
 
 
 def flags(found, words=("closed", "two_manifold", "oriented")):
@@ -104,8 +89,7 @@ def repair_one(program, checks, preset, path, folder):
 def main():
     program, presets = sys.argv[1], sys.argv[2:] or PRESETS
     models = shared_folder() / "models"
-    hard = sorted(path for path in (models / "hard").iterdir()
-                  if path.is_file() and path.suffix not in {".md", ".bin"})
+    hard = hard_files(models)
     must(len(hard) == 30, f"{len(hard)} hard files instead of 30")
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """The test models, where a checkout has them, and the program under test."""
+import importlib.util
 import json
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -24,6 +26,24 @@ def shared_models_if_there(*names):
     beside = pathlib.Path(__file__).resolve().parents[2].parent / "shared"
     folder = pathlib.Path(os.environ.get("CDPREP_SHARED", beside)) / "models"
     return [folder / name for name in names if (folder / name).is_file()]
+
+
+def hard_files(models):
+    """The 30 hard models."""
+    return sorted(path for path in (models / "hard").iterdir()
+                  if path.is_file() and path.suffix not in {".md", ".bin"})
+
+
+def checker(models, folder):
+    """check_mesh.py with its self-intersection counter built beside it, in a folder."""
+    for name in ("check_mesh.py", "selfx.cpp"):
+        shutil.copy(models / name, folder / name)
+    subprocess.run(["g++", "-O2", "-o", folder / "selfx", folder / "selfx.cpp", "-lquadmath"],
+                   check=True)
+    spec = importlib.util.spec_from_file_location("check_mesh", folder / "check_mesh.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def run(program, *arguments, **options):
