@@ -18,13 +18,17 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -147,13 +151,46 @@ std::optional<mesh::TriangleSoup> read(const char* path) {
     return std::nullopt;
 }
 
-/// Without a word on where the result's triangles come from, all of them are measured.
+std::tuple<double, double, double> key_of(const mesh::Double3& p) {
+    return {p.x, p.y, p.z};
+}
+
+/// The corners of a triangle, the same for any order of them.
+std::array<mesh::Double3, 3> corners_of(const mesh::TriangleSoup& soup, const mesh::Triangle& t) {
+    std::array corners{soup.positions[t.vertex[0]], soup.positions[t.vertex[1]],
+                       soup.positions[t.vertex[2]]};
+    std::ranges::sort(corners, {}, key_of);
+    return corners;
+}
+
+/// Names an input triangle with the same corners for each of the result, where there is one:
+/// those are not away. Sound for the result of any program; others are measured.
+std::vector<mesh::Origin> find_origins(const mesh::TriangleSoup& soup,
+                                       const mesh::TriangleSoup& result) {
+    const auto less = [](const auto& a, const auto& b) {
+        return std::ranges::lexicographical_compare(a, b, {}, key_of, key_of);
+    };
+    std::map<std::array<mesh::Double3, 3>, std::uint32_t, decltype(less)> known(less);
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        known.emplace(corners_of(soup, soup.triangles[t]), t);
+    }
+    std::vector<mesh::Origin> origins;
+    for (const mesh::Triangle& t : result.triangles) {
+        const auto same = known.find(corners_of(result, t));
+        origins.push_back({same == known.end() ? mesh::kNone : same->second, std::nullopt});
+    }
+    return origins;
+}
+
 int print_distances(const char* file, const char* result_file) {
     const auto soup = read(file), result = read(result_file);
     if (!soup || !result) return 1;
-    const std::vector<mesh::Origin> nowhere(result->triangles.size());
-    const mesh::MovedDistances moved = mesh::find_moved_distances(
-        *soup, {result->positions, result->triangles, {}, nowhere, result->single_precision});
+    const mesh::MovedDistances moved =
+        mesh::find_moved_distances(*soup, {result->positions,
+                                           result->triangles,
+                                           {},
+                                           find_origins(*soup, *result),
+                                           result->single_precision});
     std::printf("%.9g,%.9g,%.9g,%.9g\n", moved.input_to_output.lower, moved.input_to_output.upper,
                 moved.output_to_input.lower, moved.output_to_input.upper);
     return 0;
