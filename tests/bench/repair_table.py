@@ -6,7 +6,8 @@ stderr too as they are found.
 
 Every result is a file, and judged by the same: check_mesh.py of the test models says
 whether it is closed, 2-manifold and oriented, by its vertex numbers, and, with equal
-positions joined, how many pairs of triangles meet; repair_bench --distance proves how far
+positions joined, how many pairs of triangles meet (2-manifold there also asks that no two
+triangles have the same corners, which CGAL does not); repair_bench --distance proves how far
 the surfaces are from each other. The row `as_read` is the file before, with equal positions
 joined. Where a peer is missing, its rows say `not measured`.
 
