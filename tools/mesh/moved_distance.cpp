@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <queue>
 #include <utility>
 #include <vector>
@@ -97,13 +98,25 @@ double distance_at_most(const Double3& p, const Corners& t) {
     return found.lower == 0 && is_within_exactly({&p, 1}, t, 0) ? 0 : found.upper;
 }
 
-/// Without area: the longest of its sides, as a triangle whose last two corners are one.
-Corners as_segment(const Corners& c) {
-    std::size_t longest = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-        if (apart(c[k], c[(k + 1) % 3]) > apart(c[longest], c[(longest + 1) % 3])) longest = k;
-    }
-    return {c[longest], c[(longest + 1) % 3], c[(longest + 1) % 3]};
+bool lexicographically_less(const Double3& a, const Double3& b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+Corners ordered(Corners c) {
+    std::sort(c.begin(), c.end(), lexicographically_less);
+    return c;
+}
+
+bool less_corners(const Corners& a, const Corners& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                        lexicographically_less);
+}
+
+/// The triangle; without area the segment that it is, as a triangle whose last two corners
+/// are one: of collinear points the first and the last are its ends.
+Corners shape_of(const Corners& c) {
+    const Corners sorted = ordered(c);
+    return is_degenerate(c) ? Corners{sorted[0], sorted[2], sorted[2]} : sorted;
 }
 
 std::vector<Corners> cut_in_middles(const Corners& c) {
@@ -149,7 +162,7 @@ MovedDistance farthest(const std::vector<Corners>& triangles, const Surface& sur
     }
     std::priority_queue<Piece> pieces;
     for (const Corners& t : triangles) {
-        pieces.push(bounded(is_degenerate(t) ? as_segment(t) : t, surface, distance.lower));
+        pieces.push(bounded(t, surface, distance.lower));
     }
     std::size_t left = kMostPieces;
     while (left > 0 &&
@@ -184,116 +197,290 @@ bool same_corners(const Corners& a, const Corners& b) {
     return std::is_permutation(a.begin(), a.end(), b.begin());
 }
 
-Corners ordered(Corners c) {
-    std::sort(c.begin(), c.end(), [](const Double3& a, const Double3& b) {
-        return std::array{a.x, a.y, a.z} < std::array{b.x, b.y, b.z};
-    });
-    return c;
-}
+/// Shapes of source triangles that are not in the output as they were, and how far each is
+/// from it where that is known of a triangle that has it as itself, a side or a corner.
+class MissingShapes {
+public:
+    void add(const Corners& triangle) {
+        shapes_.push_back({shape_of(triangle), kUnknown});
+    }
+    [[nodiscard]] bool empty() const {
+        return shapes_.empty();
+    }
+    /// After the last add().
+    void sort() {
+        const auto less = [](const Shape& a, const Shape& b) {
+            return less_corners(a.corners, b.corners);
+        };
+        std::sort(shapes_.begin(), shapes_.end(), less);
+        const auto equal = [](const Shape& a, const Shape& b) { return a.corners == b.corners; };
+        shapes_.erase(std::unique(shapes_.begin(), shapes_.end(), equal), shapes_.end());
+        for (const Shape& shape : shapes_) {
+            corners_.insert(corners_.end(), shape.corners.begin(), shape.corners.end());
+        }
+        std::sort(corners_.begin(), corners_.end(), lexicographically_less);
+        corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+    }
+    [[nodiscard]] bool has_corner(const Double3& p) const {
+        return std::binary_search(corners_.begin(), corners_.end(), p, lexicographically_less);
+    }
+    /// Nothing of the triangle is farther than `upper` from the output.
+    void know(const Corners& triangle, double upper) {
+        const Corners c = ordered(triangle);
+        know_shape(c, upper);
+        for (std::size_t k = 0; k < 3; ++k) {
+            know_shape({c[k], c[k], c[k]}, upper);
+            const auto [low, high] = std::minmax({k, (k + 1) % 3});
+            know_shape({c[low], c[high], c[high]}, upper);
+        }
+    }
+    /// The bound of those that are known; the others go to `rest`.
+    [[nodiscard]] double find_known(std::vector<Corners>& rest) const {
+        double most = 0;
+        for (const Shape& shape : shapes_) {
+            if (shape.upper == kUnknown) {
+                rest.push_back(shape.corners);
+            } else {
+                most = std::max(most, shape.upper);
+            }
+        }
+        return most;
+    }
 
-}  // namespace
+private:
+    static constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    struct Shape {
+        Corners corners;
+        double upper;
+    };
 
-double area_of(const Corners& c) {
-    const Double3 u{c[1].x - c[0].x, c[1].y - c[0].y, c[1].z - c[0].z};
-    const Double3 v{c[2].x - c[0].x, c[2].y - c[0].y, c[2].z - c[0].z};
-    return std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x) / 2;
-}
+    void know_shape(const Corners& shape, double upper) {
+        const auto less = [](const Shape& a, const Corners& b) {
+            return less_corners(a.corners, b);
+        };
+        const auto at = std::lower_bound(shapes_.begin(), shapes_.end(), shape, less);
+        if (at != shapes_.end() && at->corners == shape) at->upper = std::min(at->upper, upper);
+    }
 
-/// The pieces that a source triangle was cut into, and how far their corners are from it.
-/// The map that takes each piece to the part of the triangle that it stands for moves no
-/// point farther than a corner; so where the pieces are all there, both distances are bounded.
-struct Pieces {
-    double area = 0;
-    double farthest = 0;
+    std::vector<Shape> shapes_;
+    std::vector<Double3> corners_;
 };
 
-std::vector<Pieces> find_pieces(const TriangleSoup& soup, const RepairMesh& mesh) {
-    std::vector<Pieces> pieces(soup.triangles.size());
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        const Origin& origin = mesh.triangle_origin[t];
-        if (origin.source == kNone || !origin.step) continue;
-        const Corners piece = corners_of(mesh, mesh.triangles[t]);
-        const Corners whole = corners_of(soup, soup.triangles[origin.source]);
-        Pieces& of = pieces[origin.source];
-        of.area += area_of(piece);
-        for (const Double3& corner : piece) {
-            if (std::find(whole.begin(), whole.end(), corner) != whole.end()) continue;
-            of.farthest = std::max(of.farthest, distance_at_most(corner, whole));
+/// The edges that an odd number of pieces has, by position, followed around from the first
+/// corner of the triangle that they are pieces of. Empty when they are not one loop.
+std::vector<Double3> find_outline(const std::vector<Corners>& pieces, const Double3& first) {
+    using Edge = std::array<Double3, 2>;
+    const auto less = [](const Edge& a, const Edge& b) {
+        return a[0] == b[0] ? lexicographically_less(a[1], b[1])
+                            : lexicographically_less(a[0], b[0]);
+    };
+    std::vector<Edge> edges;
+    for (const Corners& piece : pieces) {
+        const Corners c = ordered(piece);
+        edges.insert(edges.end(), {{c[0], c[1]}, {c[1], c[2]}, {c[0], c[2]}});
+    }
+    std::sort(edges.begin(), edges.end(), less);
+    std::vector<Edge> outline;  // either way
+    for (const Edge& edge : edges) {
+        if (!outline.empty() && outline.back() == Edge{edge[1], edge[0]}) {
+            outline.resize(outline.size() - 2);
+        } else {
+            outline.push_back(edge);
+            outline.push_back({edge[1], edge[0]});
         }
     }
-    return pieces;
+    std::sort(outline.begin(), outline.end(), less);
+    std::vector<Double3> loop;
+    Double3 before{}, at = first;
+    do {
+        const auto next = std::partition_point(
+            outline.begin(), outline.end(),
+            [&](const Edge& edge) { return lexicographically_less(edge[0], at); });
+        if (outline.end() - next < 2 || !(next[0][0] == at) || !(next[1][0] == at)) return {};
+        if (outline.end() - next > 2 && next[2][0] == at) return {};
+        const bool back = !loop.empty() && next[0][1] == before;
+        loop.push_back(at);
+        before = at;
+        at = next[back ? 1 : 0][1];
+    } while (!(at == first) && loop.size() <= outline.size());
+    return 2 * loop.size() == outline.size() ? loop : std::vector<Double3>{};
 }
 
-MovedDistances find_moved_distances(const TriangleSoup& soup, const RepairMesh& mesh) {
-    MovedDistances moved;
-    std::vector<Corners> input, output, from_input, from_output;
-    std::vector<bool> found(soup.triangles.size(), false);
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-        output.push_back(corners_of(mesh, mesh.triangles[t]));
-        const std::uint32_t source = mesh.triangle_origin[t].source;
-        if (source != kNone &&
-            same_corners(output.back(), corners_of(soup, soup.triangles[source]))) {
-            found[source] = true;
-        } else if (source != kNone && usable(soup, soup.triangles[source])) {
-            // The distance to one triangle is convex: no inner point is farther than a corner.
-            const Corners whole = corners_of(soup, soup.triangles[source]);
-            for (const Double3& corner : output.back()) {
-                if (std::find(whole.begin(), whole.end(), corner) != whole.end()) continue;
-                double& upper = moved.output_to_input.upper;
-                upper = std::max(upper, distance_at_most(corner, whole));
-            }
-        } else {
-            from_output.push_back(output.back());
+/// How far a triangle is from its pieces at most; nothing where some may be missing.
+///
+/// They are all there when the edges of an odd number of them make one loop through the
+/// three corners. For seen along the normal that loop, and so the pieces, go around every
+/// point of the triangle that is farther from its sides than the loop is; and what covers
+/// it there is not higher than a corner of a piece. A point nearer to a side than that has
+/// the loop, which passes beside all of the side, within twice as much.
+std::optional<double> distance_to_pieces(const Corners& whole, const std::vector<Corners>& pieces) {
+    const std::vector<Double3> loop = find_outline(pieces, whole[0]);
+    const auto second = std::find(loop.begin(), loop.end(), whole[1]);
+    const auto third = std::find(loop.begin(), loop.end(), whole[2]);
+    if (second == loop.end() || third == loop.end()) return std::nullopt;
+    // In the order of the loop: from corner to corner.
+    const std::array<Double3, 4> corner = second < third
+                                              ? std::array{whole[0], whole[1], whole[2], whole[0]}
+                                              : std::array{whole[0], whole[2], whole[1], whole[0]};
+    double farthest = 0;
+    std::size_t side = 0;
+    for (const Double3& p : loop) {
+        if (p == corner[side + 1]) ++side;
+        const Corners segment = {corner[side], corner[side + 1], corner[side + 1]};
+        if (p == segment[0]) continue;
+        farthest = std::max(farthest, 2 * distance_at_most(p, segment));
+    }
+    for (const Corners& piece : pieces) {
+        for (const Double3& p : piece) {
+            if (std::find(whole.begin(), whole.end(), p) != whole.end()) continue;
+            farthest = std::max(farthest, distance_at_most(p, whole));
         }
     }
-    // Pieces that cover less of a triangle than its rounded area were left out in part.
-    constexpr double kAllOfIt = 1 - 1e-6;
-    const std::vector<Pieces> pieces = find_pieces(soup, mesh);
-    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-        if (!usable(soup, soup.triangles[t])) continue;
-        input.push_back(corners_of(soup, soup.triangles[t]));
-        if (found[t]) continue;
-        if (pieces[t].area > 0 && pieces[t].area >= kAllOfIt * area_of(input.back())) {
-            double& upper = moved.input_to_output.upper;
-            upper = std::max(upper, pieces[t].farthest);
-        } else {
-            from_input.push_back(input.back());
+    return farthest;
+}
+
+/// For each source triangle of which all pieces are there, its distance to them.
+std::vector<std::optional<double>> find_pieces(const TriangleSoup& soup, const RepairMesh& mesh) {
+    std::vector<std::optional<double>> bounds(soup.triangles.size());
+    struct PieceOf {
+        std::uint32_t source, triangle;
+    };
+    std::vector<PieceOf> all;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Origin& origin = mesh.triangle_origin[t];
+        if (origin.source == kNone || !origin.step) continue;
+        if (usable(soup, soup.triangles[origin.source])) all.push_back({origin.source, t});
+    }
+    std::sort(all.begin(), all.end(), [](const PieceOf& a, const PieceOf& b) {
+        return a.source != b.source ? a.source < b.source : a.triangle < b.triangle;
+    });
+    std::vector<Corners> pieces;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        pieces.push_back(corners_of(mesh, mesh.triangles[all[i].triangle]));
+        const std::uint32_t source = all[i].source;
+        if (i + 1 < all.size() && all[i + 1].source == source) continue;
+        const Corners whole = corners_of(soup, soup.triangles[source]);
+        if (!is_degenerate(whole)) bounds[source] = distance_to_pieces(whole, pieces);
+        pieces.clear();
+    }
+    return bounds;
+}
+
+/// Tells of what is in the output, whole or in all its pieces.
+void know_output(const TriangleSoup& soup, const RepairMesh& mesh,
+                 const std::vector<std::optional<double>>& pieces, MissingShapes& missing) {
+    std::vector<bool> is_corner(mesh.positions.size());
+    for (std::size_t v = 0; v < is_corner.size(); ++v) {
+        is_corner[v] = missing.has_corner(mesh.positions[v]);
+    }
+    for (const Triangle& t : mesh.triangles) {
+        const auto& v = t.vertex;
+        if (is_corner[v[0]] || is_corner[v[1]] || is_corner[v[2]]) {
+            missing.know(corners_of(mesh, t), 0);
         }
     }
-    // What was dropped because its corners are there again is not away at all.
-    if (!from_input.empty()) {
-        const auto less = [](const Corners& a, const Corners& b) {
-            return std::lexicographical_compare(
-                a.begin(), a.end(), b.begin(), b.end(), [](const Double3& p, const Double3& q) {
-                    return std::array{p.x, p.y, p.z} < std::array{q.x, q.y, q.z};
-                });
-        };
-        std::vector<Corners> known;
-        known.reserve(output.size());
-        for (const Corners& c : output) known.push_back(ordered(c));
-        std::sort(known.begin(), known.end(), less);
-        std::erase_if(from_input, [&](const Corners& c) {
-            return std::binary_search(known.begin(), known.end(), ordered(c), less);
-        });
+    for (std::size_t t = 0; t < pieces.size(); ++t) {
+        if (pieces[t]) missing.know(corners_of(soup, soup.triangles[t]), *pieces[t]);
     }
-    if (from_input.empty() && from_output.empty()) return moved;
-    Double3 lower = input.empty() ? Double3{} : input[0][0], upper = lower;
-    for (const Corners& c : input) {
+}
+
+std::vector<Corners> usable_triangles(const TriangleSoup& soup) {
+    std::vector<Corners> all;
+    all.reserve(soup.triangles.size());
+    for (const Triangle& t : soup.triangles) {
+        if (usable(soup, t)) all.push_back(corners_of(soup, t));
+    }
+    return all;
+}
+
+std::vector<Corners> all_triangles(const RepairMesh& mesh) {
+    std::vector<Corners> all;
+    all.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) all.push_back(corners_of(mesh, t));
+    return all;
+}
+
+double diagonal_of(const std::vector<Corners>& triangles) {
+    Double3 lower = triangles.empty() ? Double3{} : triangles[0][0], upper = lower;
+    for (const Corners& c : triangles) {
         for (const Double3& p : c) {
             lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
             upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
         }
     }
-    const double diagonal = apart(lower, upper);
-    if (!from_input.empty()) {
-        const MovedDistance rest = farthest(from_input, Surface(output), diagonal);
-        moved.input_to_output.lower = rest.lower;
-        moved.input_to_output.upper = std::max(moved.input_to_output.upper, rest.upper);
+    return apart(lower, upper);
+}
+
+/// How far output triangles that are not their source are from it: no inner point is
+/// farther than a corner, since the distance to one triangle is convex. Those without a
+/// source go to `made`. Sources that are there whole are marked in `found`.
+double bound_by_sources(const TriangleSoup& soup, const RepairMesh& mesh, std::vector<bool>& found,
+                        std::vector<Corners>& made) {
+    double upper = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::uint32_t source = mesh.triangle_origin[t].source;
+        const Corners triangle = corners_of(mesh, mesh.triangles[t]);
+        if (source == kNone || !usable(soup, soup.triangles[source])) {
+            made.push_back(shape_of(triangle));
+            continue;
+        }
+        const Corners whole = corners_of(soup, soup.triangles[source]);
+        if (same_corners(triangle, whole)) {
+            found[source] = true;
+            continue;
+        }
+        for (const Double3& corner : triangle) {
+            if (std::find(whole.begin(), whole.end(), corner) != whole.end()) continue;
+            upper = std::max(upper, distance_at_most(corner, whole));
+        }
     }
-    if (!from_output.empty()) {
-        const MovedDistance rest = farthest(from_output, Surface(std::move(input)), diagonal);
-        moved.output_to_input.lower = rest.lower;
-        moved.output_to_input.upper = std::max(moved.output_to_input.upper, rest.upper);
+    return upper;
+}
+
+/// How far source triangles of which all pieces are there are from them. The others that
+/// are not `found` go to `missing`.
+double bound_by_pieces(const TriangleSoup& soup, const std::vector<bool>& found,
+                       const std::vector<std::optional<double>>& pieces, MissingShapes& missing) {
+    double upper = 0;
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        if (found[t] || !usable(soup, soup.triangles[t])) continue;
+        if (pieces[t]) {
+            upper = std::max(upper, *pieces[t]);
+        } else {
+            missing.add(corners_of(soup, soup.triangles[t]));
+        }
+    }
+    missing.sort();
+    return upper;
+}
+
+void widen(MovedDistance& distance, const MovedDistance& other) {
+    distance.lower = std::max(distance.lower, other.lower);
+    distance.upper = std::max(distance.upper, other.upper);
+}
+
+}  // namespace
+
+MovedDistances find_moved_distances(const TriangleSoup& soup, const RepairMesh& mesh) {
+    MovedDistances moved;
+    std::vector<bool> found(soup.triangles.size(), false);
+    std::vector<Corners> made, lost;
+    moved.output_to_input.upper = bound_by_sources(soup, mesh, found, made);
+    const std::vector<std::optional<double>> pieces = find_pieces(soup, mesh);
+    MissingShapes missing;
+    moved.input_to_output.upper = bound_by_pieces(soup, found, pieces, missing);
+    if (!missing.empty()) {
+        know_output(soup, mesh, pieces, missing);
+        widen(moved.input_to_output, {0, missing.find_known(lost)});
+    }
+    if (lost.empty() && made.empty()) return moved;
+    std::vector<Corners> input = usable_triangles(soup);
+    const double diagonal = diagonal_of(input);
+    if (!lost.empty()) {
+        widen(moved.input_to_output, farthest(lost, Surface(all_triangles(mesh)), diagonal));
+    }
+    if (!made.empty()) {
+        widen(moved.output_to_input, farthest(made, Surface(std::move(input)), diagonal));
     }
     return moved;
 }

@@ -19,6 +19,14 @@ std::vector<HalfEdge> find_neighbours(const RepairMesh& mesh) {
     return across;
 }
 
+bool are_all_wound_alike(const RepairMesh& mesh, const std::vector<HalfEdge>& across) {
+    for (HalfEdge h = 0; h < across.size(); ++h) {
+        if (across[h] == kNone || across[h] < h) continue;
+        if (start_of(mesh.triangles, h) == start_of(mesh.triangles, across[h])) return false;
+    }
+    return true;
+}
+
 enum class Winding : std::uint8_t { unknown, kept, turned };
 
 /// Winds the patch of `seed`, breadth first, and returns its triangles.
@@ -45,6 +53,7 @@ std::vector<std::uint32_t> wind_patch(const RepairMesh& mesh, const std::vector<
 Stepped orient(RepairMesh mesh) {
     StepReport report(RepairStep::orient);
     const std::vector<HalfEdge> across = find_neighbours(mesh);
+    if (are_all_wound_alike(mesh, across)) return {std::move(mesh), std::move(report)};
     std::vector<Winding> winding(mesh.triangles.size(), Winding::unknown);
     std::vector<std::uint32_t> turned;
     for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {

@@ -2,6 +2,7 @@
 #include "mesh/repair.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "mesh/mesh_meetings.h"
@@ -52,8 +53,8 @@ public:
     Repair(const TriangleSoup& soup, const RepairOptions& options)
         : options_(options), bad_(out_of_range(soup)), mesh_(as_repair_mesh(soup)) {
         // What is wrong is said of the mesh as find_defects() sees it.
-        RepairMesh joined = weld_vertices(drop_bad_numbers(mesh_, bad_).mesh, 0).mesh;
-        before_ = verdict_ = verdict_of(joined);
+        joined_ = weld_vertices(drop_bad_numbers(mesh_, bad_).mesh, 0).mesh;
+        before_ = verdict_of(joined_);
     }
 
     /// Takes each step once.
@@ -61,17 +62,17 @@ public:
         reports_.clear();
         take(RepairStep::drop_bad_numbers,
              [&](RepairMesh mesh) { return drop_bad_numbers(std::move(mesh), bad_); });
-        if (joining_equal_positions_gains()) {
-            take(RepairStep::weld,
-                 [&](RepairMesh mesh) { return weld_vertices(std::move(mesh), 0); });
-        } else {
-            take(RepairStep::weld, drop_unused);
-        }
-        verdict_ = verdict_of(mesh_);
+        take(RepairStep::weld, [&](RepairMesh mesh) {
+            if (!joining_equal_positions_gains()) return drop_unused(std::move(mesh));
+            return weld_vertices(std::move(mesh), 0);
+        });
         if (options_.weld_distance > 0) {
-            take(RepairStep::weld, [&](RepairMesh mesh) {
-                return weld_vertices(std::move(mesh), options_.weld_distance);
-            });
+            take(
+                RepairStep::weld,
+                [&](RepairMesh mesh) {
+                    return weld_vertices(std::move(mesh), options_.weld_distance);
+                },
+                known_[kRepairStepCount]);
         }
         if (options_.seam_width > 0) {
             take(RepairStep::stitch_seams, [&](RepairMesh mesh) {
@@ -114,8 +115,12 @@ public:
     [[nodiscard]] const StoredVerdict& before() const {
         return before_;
     }
-    [[nodiscard]] const StoredVerdict& after() const {
-        return verdict_;
+    [[nodiscard]] const StoredVerdict& after() {
+        return verdict();
+    }
+    /// Another number for every mesh that the steps came to.
+    [[nodiscard]] std::uint64_t revision() const {
+        return revision_;
     }
     [[nodiscard]] const std::vector<StepReport>& reports() const {
         return reports_;
@@ -124,48 +129,84 @@ public:
 private:
     /// False where the mesh is 2-manifold and oriented as it is stored, and joined positions
     /// would give no boundary edge a partner: then copies of a vertex were parted on purpose.
-    [[nodiscard]] bool joining_equal_positions_gains() const {
-        const StoredVerdict stored = verdict_of(mesh_);
+    [[nodiscard]] bool joining_equal_positions_gains() {
+        const StoredVerdict& stored = verdict();
         constexpr std::uint32_t kBoth = format::verdict_two_manifold | format::verdict_oriented;
         if ((stored.verdict.facts & kBoth) != kBoth) return true;
         const RepairMesh joined = weld_vertices(mesh_, 0).mesh;
         return count_unpaired_uses(joined.positions, joined.triangles) < stored.boundary_edges;
     }
 
-    [[nodiscard]] bool is_manifold() const {
+    [[nodiscard]] bool is_manifold() {
         constexpr std::uint32_t kBoth = format::verdict_two_manifold | format::verdict_oriented;
-        return (verdict_.verdict.facts & kBoth) == kBoth;
+        return (verdict().verdict.facts & kBoth) == kBoth;
     }
 
     [[nodiscard]] bool asked(RepairStep step) const {
         return options_.steps.test(static_cast<std::size_t>(step));
     }
 
+    /// What a step said of a mesh that it left as it was.
+    struct Known {
+        std::uint64_t revision = std::numeric_limits<std::uint64_t>::max();
+        StepReport report{RepairStep::drop_bad_numbers};
+    };
+
     template <class Step>
     void take(RepairStep name, Step step) {
+        take(name, step, known_[static_cast<std::size_t>(name)]);
+    }
+    template <class Step>
+    void take(RepairStep name, Step step, Known& known) {
         if (!asked(name)) return;
-        Stepped stepped = step(mesh_);
-        if (stepped.report.changed()) {
-            const StoredVerdict verdict = verdict_of(stepped.mesh);
+        if (known.revision != revision_) {
+            Stepped stepped = step(mesh_);
             // Joining equal positions says what the mesh is: before_ was found so.
             const bool may = name <= RepairStep::weld && stepped.report.moved == 0;
-            if (!may && is_worse(verdict, verdict_)) {
-                stepped.report.undone = "the verdict would be worse";
-            } else {
-                mesh_ = std::move(stepped.mesh);
-                verdict_ = verdict;
+            known.report = std::move(stepped.report);
+            const bool taken =
+                known.report.changed() && accept(std::move(stepped.mesh), may, known.report);
+            if (!taken) known.revision = revision_;
+        }
+        if (known.report.changed() || !known.report.refused.empty()) {
+            reports_.push_back(known.report);
+        }
+    }
+
+    /// Goes on with the mesh, or says that the step is undone: then false.
+    bool accept(RepairMesh mesh, bool may_be_worse, StepReport& report) {
+        std::optional<StoredVerdict> found;
+        if (!may_be_worse) {
+            found = verdict_of(mesh);
+            if (is_worse(*found, verdict())) {
+                report.undone = "the verdict would be worse";
+                return false;
             }
         }
-        if (stepped.report.changed() || !stepped.report.refused.empty()) {
-            reports_.push_back(std::move(stepped.report));
+        mesh_ = std::move(mesh);
+        verdict_ = found;
+        ++revision_;
+        return true;
+    }
+
+    [[nodiscard]] const StoredVerdict& verdict() {
+        if (!verdict_) {
+            const bool is_joined =
+                mesh_.positions == joined_.positions && mesh_.triangles == joined_.triangles;
+            verdict_ = is_joined ? before_ : verdict_of(mesh_);
         }
+        return *verdict_;
     }
 
     const RepairOptions& options_;
     std::vector<std::uint32_t> bad_;
     RepairMesh mesh_;
-    StoredVerdict before_;
-    StoredVerdict verdict_;
+    std::uint64_t revision_ = 0;
+    /// Of each step, and of weld() within a distance.
+    std::array<Known, kRepairStepCount + 1> known_;
+    RepairMesh joined_;                     ///< the input, finite, with equal positions joined
+    StoredVerdict before_;                  ///< of joined_
+    std::optional<StoredVerdict> verdict_;  ///< of mesh_
     std::vector<StepReport> reports_;
 };
 
@@ -228,8 +269,10 @@ Repaired repair_once(const TriangleSoup& soup, const RepairOptions& options) {
     for (int round = 0; round < kMostRounds && !report.settled; ++round) {
         const auto positions = work.mesh().positions;
         const auto triangles = work.mesh().triangles;
+        const std::uint64_t revision = work.revision();
         work.run_round();
-        report.settled = positions == work.mesh().positions && triangles == work.mesh().triangles;
+        report.settled = revision == work.revision() ||
+                         (positions == work.mesh().positions && triangles == work.mesh().triangles);
         for (const StepReport& step : work.reports()) {
             // A round that changed nothing in the end still says what it refused.
             if (report.settled && round > 0) continue;

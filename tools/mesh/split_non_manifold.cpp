@@ -161,12 +161,26 @@ void cut_twin_triangles(RepairMesh& mesh, StepReport& report) {
     }
 }
 
+/// Whether every edge has one triangle, or two that `twins` joins and that have not all
+/// corners in common.
+bool are_edges_sound(const RepairMesh& mesh, const std::vector<HalfEdge>& twins) {
+    const EdgeUses edges = find_edge_uses(mesh.triangles, mesh.positions.size());
+    for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
+        const auto uses = edges.of(edge);
+        if (uses.size() == 1) continue;
+        if (uses.size() > 2 || twins[uses[0]] != uses[1]) return false;
+        if (apex_of(mesh.triangles, uses[0]) == apex_of(mesh.triangles, uses[1])) return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 Stepped split_non_manifold(RepairMesh mesh) {
     StepReport report(RepairStep::split_non_manifold);
     std::vector<HalfEdge> twins = pair_all(mesh);
     part_fans(mesh, twins, report.parted, report.step);
+    if (are_edges_sound(mesh, twins)) return {std::move(mesh), std::move(report)};
     for (std::size_t pass = 0; pass < kMostPasses; ++pass) {
         if (!cut_shared_edges(mesh, twins, report)) break;
     }

@@ -19,29 +19,33 @@ Groups join_by_vertices(std::span<const Triangle> triangles, std::size_t vertex_
     return groups;
 }
 
-std::array<std::uint32_t, 3> sorted_corners(const Triangle& t) {
-    std::array<std::uint32_t, 3> corners = {t.vertex[0], t.vertex[1], t.vertex[2]};
-    std::sort(corners.begin(), corners.end());
-    return corners;
-}
-
-std::uint64_t count_duplicates(std::span<const Triangle> triangles) {
-    std::vector<std::array<std::uint32_t, 3>> all;
-    all.reserve(triangles.size());
-    for (const Triangle& t : triangles) {
-        if (!repeats_corner(t)) all.push_back(sorted_corners(t));
-    }
-    std::sort(all.begin(), all.end());
-    const auto distinct = std::unique(all.begin(), all.end());
-    return static_cast<std::uint64_t>(all.end() - distinct);
-}
-
 std::int64_t balance_of(std::span<const Triangle> triangles, std::span<const HalfEdge> uses) {
     std::int64_t balance = 0;
     for (const HalfEdge h : uses) {
         balance += start_of(triangles, h) < end_of(triangles, h) ? 1 : -1;
     }
     return balance;
+}
+
+/// How many triangles have the corners of one before them. Each is looked at from the edge
+/// of its two lower corners: there its apex is the highest.
+std::uint64_t count_duplicates(std::span<const Triangle> triangles, const EdgeUses& edges) {
+    std::uint64_t duplicates = 0;
+    std::vector<std::uint32_t> apexes;
+    for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
+        const auto uses = edges.of(edge);
+        if (uses.size() == 1) continue;
+        apexes.clear();
+        for (const HalfEdge h : uses) {
+            const std::uint32_t apex = apex_of(triangles, h);
+            const std::uint32_t high = std::max(start_of(triangles, h), end_of(triangles, h));
+            if (apex > high) apexes.push_back(apex);
+        }
+        std::sort(apexes.begin(), apexes.end());
+        const auto distinct = std::unique(apexes.begin(), apexes.end());
+        duplicates += static_cast<std::uint64_t>(apexes.end() - distinct);
+    }
+    return duplicates;
 }
 
 /// Vertices that several fans meet in. Here a fan goes across every edge, however many
@@ -123,6 +127,32 @@ void measure_volume(StoredComponent& component, std::span<const Double3> positio
     component.volume_error = kUnit * (16 + static_cast<double>(component.triangles.size())) * size;
 }
 
+std::vector<StoredComponent> find_components(std::span<const Double3> positions,
+                                             std::span<const Triangle> triangles,
+                                             const EdgeUses& edges) {
+    Groups joined = join_by_vertices(triangles, positions.size());
+    std::vector<std::uint32_t> number(positions.size(), kNone);
+    std::vector<StoredComponent> components;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        std::uint32_t& at = number[joined.lowest(triangles[t].vertex[0])];
+        if (at == kNone) {
+            at = static_cast<std::uint32_t>(components.size());
+            components.emplace_back();
+        }
+        components[at].triangles.push_back(t);
+    }
+    for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
+        const auto uses = edges.of(edge);
+        StoredComponent& of = components[number[joined.lowest(start_of(triangles, uses[0]))]];
+        if (uses.size() == 1) of.closed = false;
+        if (balance_of(triangles, uses) != 0) of.balanced = false;
+    }
+    for (StoredComponent& component : components) {
+        if (component.balanced) measure_volume(component, positions, triangles);
+    }
+    return components;
+}
+
 }  // namespace
 
 std::uint64_t count_unpaired_uses(std::span<const Double3> positions,
@@ -138,28 +168,7 @@ std::uint64_t count_unpaired_uses(std::span<const Double3> positions,
 
 std::vector<StoredComponent> find_stored_components(std::span<const Double3> positions,
                                                     std::span<const Triangle> triangles) {
-    Groups joined = join_by_vertices(triangles, positions.size());
-    std::vector<std::uint32_t> number(positions.size(), kNone);
-    std::vector<StoredComponent> components;
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-        std::uint32_t& at = number[joined.lowest(triangles[t].vertex[0])];
-        if (at == kNone) {
-            at = static_cast<std::uint32_t>(components.size());
-            components.emplace_back();
-        }
-        components[at].triangles.push_back(t);
-    }
-    const EdgeUses edges = find_edge_uses(triangles, positions.size());
-    for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
-        const auto uses = edges.of(edge);
-        StoredComponent& of = components[number[joined.lowest(start_of(triangles, uses[0]))]];
-        if (uses.size() == 1) of.closed = false;
-        if (balance_of(triangles, uses) != 0) of.balanced = false;
-    }
-    for (StoredComponent& component : components) {
-        if (component.balanced) measure_volume(component, positions, triangles);
-    }
-    return components;
+    return find_components(positions, triangles, find_edge_uses(triangles, positions.size()));
 }
 
 StoredVerdict find_stored_verdict(std::span<const Double3> positions,
@@ -175,7 +184,7 @@ StoredVerdict find_stored_verdict(std::span<const Double3> positions,
         found.inconsistent_edges += uses.size() == 2 && balance != 0 ? 1 : 0;
         balanced = balanced && balance == 0;
     }
-    found.duplicate_triangles = count_duplicates(triangles);
+    found.duplicate_triangles = count_duplicates(triangles, edges);
     found.non_manifold_vertices = count_parted_vertices(triangles, edges, positions.size());
     format::Verdict& verdict = found.verdict;
     std::vector<bool> used(positions.size(), false);
@@ -188,7 +197,7 @@ StoredVerdict find_stored_verdict(std::span<const Double3> positions,
         for (const std::uint32_t vertex : v) used[vertex] = true;
         verdict.area += area_of(positions[v[0]], positions[v[1]], positions[v[2]]);
     }
-    const auto components = find_stored_components(positions, triangles);
+    const auto components = find_components(positions, triangles, edges);
     found.components = components.size();
     for (const StoredComponent& component : components) {
         found.closed_components += component.closed ? 1 : 0;
