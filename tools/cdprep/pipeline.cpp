@@ -200,8 +200,9 @@ struct Mended {
 Mended mend(mesh::TriangleSoup& soup, const std::string& preset, const Threads& threads) {
     const auto steps = mesh::find_repair_preset(preset);
     if (!steps) return {};
-    mesh::Repaired repaired =
-        mesh::repair(soup, {.steps = *steps, .parallel_for = threads.parallel_for()});
+    mesh::Repaired repaired = mesh::repair(
+        soup,
+        {.steps = *steps, .interrupted = is_interrupted, .parallel_for = threads.parallel_for()});
     mesh::RepairedSoup as_imported = mesh::as_soup(soup, std::move(repaired.mesh));
     soup = std::move(as_imported.soup);
     return {std::move(as_imported.triangle_from), std::move(as_imported.vertex_from),

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kMostThreads = 4096;
+constexpr double kMostSeconds = 300;       ///< unless --time says otherwise
 constexpr std::size_t kRefusalsShown = 5;  ///< of each step, in text
 
 struct Arguments {
@@ -91,6 +92,7 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     const Clock::time_point begin = Clock::now();
     const Threads threads(arguments.threads);
     options.parallel_for = threads.parallel_for();
+    options.interrupted = is_interrupted;
     import::ImportOptions limits;
     limits.parallel_for = threads.parallel_for();
     const Result<mesh::TriangleSoup> soup = import::import_file(arguments.input, limits);
@@ -142,6 +144,7 @@ Exit run(const Arguments& arguments) {
 
 void add_repair(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
+    arguments->options.seconds = kMostSeconds;
     CLI::App* command =
         app.add_subcommand("repair", "Mend what is asked, and account for every change");
     command->add_option("input", arguments->input, "OBJ, STL, PLY, OFF, glTF, ... file")
@@ -171,6 +174,11 @@ void add_repair(CLI::App& app, Exit& exit) {
         ->check(CLI::NonNegativeNumber);
     command->add_option("--drop-components", arguments->options.least_triangles,
                         "Leave out components of fewer triangles");
+    command
+        ->add_option("--time", arguments->options.seconds,
+                     "Seconds after which crossings are left as they are, and that is said")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
     command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
         ->check(CLI::Range(0, kMostThreads));
     command->add_option("--format", arguments->format, "text or json")

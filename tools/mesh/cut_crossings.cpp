@@ -189,8 +189,9 @@ RepairMesh joined(RepairMesh mesh) {
     return mesh;
 }
 
-/// Replaces every triangle of a meeting by its pieces, in its place.
-RepairMesh cut_once(RepairMesh mesh, const std::vector<TriangleMeeting>& meetings) {
+/// Replaces every triangle of a meeting by its pieces, in its place. Nothing when stopped.
+std::optional<RepairMesh> cut_once(RepairMesh mesh, const std::vector<TriangleMeeting>& meetings,
+                                   const StopCheck& stop) {
     std::vector<std::vector<std::uint32_t>> others(mesh.triangles.size());
     for (const TriangleMeeting& meeting : meetings) {
         if (is_allowed(meeting)) continue;
@@ -212,6 +213,7 @@ RepairMesh cut_once(RepairMesh mesh, const std::vector<TriangleMeeting>& meeting
         }
         CutTriangle cut(mesh, t, points);
         for (const std::uint32_t other : others[t]) {
+            if (is_stopped(stop)) return std::nullopt;
             cut.cut_along(CutTriangle::corners_of(mesh, other));
         }
         const std::vector<Triangle> pieces = cut.pieces();
@@ -234,7 +236,7 @@ RepairMesh cut_once(RepairMesh mesh, const std::vector<TriangleMeeting>& meeting
 
 }  // namespace
 
-CutMesh cut_crossings(RepairMesh mesh, ParallelFor parallel_for) {
+CutMesh cut_crossings(RepairMesh mesh, ParallelFor parallel_for, const StopCheck& stop) {
     mesh = joined(std::move(mesh));
     CutMesh cut;
     std::size_t before = std::numeric_limits<std::size_t>::max();
@@ -248,10 +250,16 @@ CutMesh cut_crossings(RepairMesh mesh, ParallelFor parallel_for) {
             // Rounded cuts that make as many meetings as they end go on for ever.
             if (round == kMostRounds || meetings.size() >= before) break;
             before = meetings.size();
-            mesh = joined(cut_once(std::move(mesh), meetings));
+            std::optional<RepairMesh> pieces = cut_once(std::move(mesh), meetings, stop);
+            if (!pieces) {
+                cut.failed = "cutting them took longer than was allowed";
+                return cut;
+            }
+            mesh = joined(std::move(*pieces));
         }
     } catch (const std::exception& error) {
-        cut.failed = error.what();
+        cut.failed = "the exact cut failed: ";
+        cut.failed += error.what();
     }
     cut.mesh = std::move(mesh);
     return cut;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "mesh/mesh_meetings.h"
+#include "mesh/stop.h"
 
 namespace cdprep::mesh {
 
@@ -11,7 +12,7 @@ struct CutMesh {
     RepairMesh mesh;
     /// A pair that still meets, when rounding kept making new ones.
     std::optional<TriangleMeeting> left;
-    std::string failed;  ///< what CGAL threw; empty: nothing
+    std::string failed;  ///< why there is no mesh, as a clause; empty: there is one
 };
 
 /// Cuts triangles along each other until any two have nothing in common but corners and
@@ -20,6 +21,7 @@ struct CutMesh {
 /// Cuts are made in exact arithmetic, then their ends are rounded to doubles; what meets
 /// after that is cut again, a few times. Triangles without area are left out: their edges
 /// are cut by the others. Equal positions become one vertex.
-[[nodiscard]] CutMesh cut_crossings(RepairMesh mesh, ParallelFor parallel_for);
+[[nodiscard]] CutMesh cut_crossings(RepairMesh mesh, ParallelFor parallel_for,
+                                    const StopCheck& stop);
 
 }  // namespace cdprep::mesh

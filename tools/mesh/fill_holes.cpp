@@ -111,9 +111,11 @@ public:
         find_lone(edges);
     }
 
-    void run(double most) {
+    void run(const HoleLimits& limits) {
+        const double most = limits.diagonal;
         patch_of_.assign(mesh_.triangles.size(), kNone);
         for (std::uint32_t i = 0; i < loops_.size(); ++i) {
+            if (is_stopped(limits.interrupted)) return;
             const double diagonal = diagonal_of(mesh_, loops_[i]);
             if (diagonal <= most) {
                 fill(i);
@@ -248,7 +250,7 @@ Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits, ParallelFor parall
     const bool may_cross =
         limits.crossing == Crossing::resolved_later || !find_meetings(mesh, parallel_for).empty();
     HoleFilling filling(mesh, report);
-    filling.run(limits.diagonal);
+    filling.run(limits);
     // Where triangles meet already, a patch that meets one makes nothing worse.
     if (!may_cross && report.added_triangles > 0) {
         filling.take_back(find_meetings(mesh, parallel_for));

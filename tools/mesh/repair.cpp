@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <utility>
 
 #include "mesh/mesh_meetings.h"
@@ -50,8 +51,9 @@ StoredVerdict verdict_of(const RepairMesh& mesh) {
 /// Takes steps, and undoes those that make the verdict worse.
 class Repair {
 public:
-    Repair(const TriangleSoup& soup, const RepairOptions& options)
-        : options_(options), bad_(out_of_range(soup)), mesh_(as_repair_mesh(soup)) {
+    /// `stop` ends resolve_self_intersections().
+    Repair(const TriangleSoup& soup, const RepairOptions& options, const StopCheck& stop)
+        : options_(options), stop_(stop), bad_(out_of_range(soup)), mesh_(as_repair_mesh(soup)) {
         // What is wrong is said of the mesh as find_defects() sees it.
         joined_ = weld_vertices(drop_bad_numbers(mesh_, bad_).mesh, 0).mesh;
         before_ = verdict_of(joined_);
@@ -90,18 +92,20 @@ public:
         take(RepairStep::drop_zero_area, drop_zero_area);
         if (is_manifold()) {
             take(RepairStep::fill_holes, [&](RepairMesh mesh) {
-                return fill_holes(std::move(mesh),
-                                  {options_.hole_size, asked(RepairStep::resolve_self_intersections)
-                                                           ? Crossing::resolved_later
-                                                           : Crossing::refused},
-                                  options_.parallel_for);
+                return fill_holes(
+                    std::move(mesh),
+                    {options_.hole_size,
+                     asked(RepairStep::resolve_self_intersections) ? Crossing::resolved_later
+                                                                   : Crossing::refused,
+                     options_.interrupted},
+                    options_.parallel_for);
             });
             take(RepairStep::drop_zero_area, drop_zero_area);
         }
         take(RepairStep::orient_outward, orient_outward);
         if (is_manifold()) {
             take(RepairStep::resolve_self_intersections, [&](RepairMesh mesh) {
-                return resolve_self_intersections(std::move(mesh), options_.parallel_for);
+                return resolve_self_intersections(std::move(mesh), options_.parallel_for, stop_);
             });
         }
         take(RepairStep::drop_components, [&](RepairMesh mesh) {
@@ -158,7 +162,7 @@ private:
     }
     template <class Step>
     void take(RepairStep name, Step step, Known& known) {
-        if (!asked(name)) return;
+        if (!asked(name) || is_stopped(options_.interrupted)) return;
         if (known.revision != revision_) {
             Stepped stepped = step(mesh_);
             // Joining equal positions says what the mesh is: before_ was found so.
@@ -199,6 +203,7 @@ private:
     }
 
     const RepairOptions& options_;
+    const StopCheck& stop_;
     std::vector<std::uint32_t> bad_;
     RepairMesh mesh_;
     std::uint64_t revision_ = 0;
@@ -262,8 +267,9 @@ RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
     return counts;
 }
 
-Repaired repair_once(const TriangleSoup& soup, const RepairOptions& options) {
-    Repair work(soup, options);
+Repaired repair_once(const TriangleSoup& soup, const RepairOptions& options,
+                     const StopCheck& stop) {
+    Repair work(soup, options, stop);
     RepairReport report;
     report.before = work.before();
     for (int round = 0; round < kMostRounds && !report.settled; ++round) {
@@ -279,6 +285,7 @@ Repaired repair_once(const TriangleSoup& soup, const RepairOptions& options) {
             report.steps.push_back(step);
         }
     }
+    if (is_stopped(options.interrupted)) return {work.mesh(), std::move(report)};
     report.after = work.after();
     report.counts = count(soup, work.mesh());
     const MovedDistances moved = find_moved_distances(soup, work.mesh());
@@ -304,16 +311,22 @@ std::optional<RepairSteps> find_repair_preset(std::string_view name) noexcept {
 }
 
 Repaired repair(const TriangleSoup& soup, const RepairOptions& options) {
-    Repaired mended = repair_once(soup, options);
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    const StopCheck stop = [&] {
+        return is_stopped(options.interrupted) ||
+               std::chrono::duration<double>(Clock::now() - begin).count() >= options.seconds;
+    };
+    Repaired mended = repair_once(soup, options, stop);
     constexpr auto kResolve = static_cast<std::size_t>(RepairStep::resolve_self_intersections);
-    if (!options.steps.test(kResolve)) return mended;
+    if (!options.steps.test(kResolve) || is_stopped(options.interrupted)) return mended;
     // Patches were let cross, to be resolved. Where that was refused, none may cross.
     if (find_meetings(mended.mesh, options.parallel_for).empty()) return mended;
     const RepairMesh finite = drop_bad_numbers(as_repair_mesh(soup), out_of_range(soup)).mesh;
     if (!find_meetings(finite, options.parallel_for).empty()) return mended;
     RepairOptions without = options;
     without.steps.reset(kResolve);
-    Repaired again = repair_once(soup, without);
+    Repaired again = repair_once(soup, without, stop);
     for (StepReport& step : mended.report.steps) {
         if (step.step != RepairStep::resolve_self_intersections) continue;
         step.undone = "holes whose patches it could not resolve are left open";

@@ -10,6 +10,7 @@
 
 #include "cdprep/parallel_for.h"
 #include "mesh/repair_step.h"
+#include "mesh/stop.h"
 #include "mesh/stored_verdict.h"
 
 namespace cdprep::mesh {
@@ -29,6 +30,10 @@ struct RepairOptions {
     /// fill_holes: the diagonal of a loop's box is at most this, model units.
     double hole_size = std::numeric_limits<double>::infinity();
     std::uint64_t least_triangles = 0;  ///< drop_components: what stays has as many
+    /// resolve_self_intersections: refused, and said so, where it is not done so long after
+    /// repair() began. What comes out then depends on the machine.
+    double seconds = std::numeric_limits<double>::infinity();
+    StopCheck interrupted;  ///< ends repair() soon; what it returns then is of no use
     ParallelFor parallel_for = serial_for;
 };
 

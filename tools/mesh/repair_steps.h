@@ -3,6 +3,7 @@
 
 #include "cdprep/build_bvh.h"
 #include "mesh/repair_step.h"
+#include "mesh/stop.h"
 
 /// The steps of repair(), each a function from a mesh to a mesh and what it changed. All
 /// but the first ask for finite positions, and corners that are in range.
@@ -58,6 +59,7 @@ enum class Crossing : std::uint8_t {
 struct HoleLimits {
     double diagonal;  ///< of a loop's box, at most; model units
     Crossing crossing;
+    StopCheck interrupted;  ///< leaves the loops that are left open, unsaid
 };
 
 /// Closes loops of boundary edges: with the triangles that CGAL's
@@ -75,9 +77,10 @@ struct HoleLimits {
 /// components become their union, and what lies inside goes.
 ///
 /// Changes nothing where no two triangles meet. Refuses, and names the pair: a mesh that is
-/// not balanced; one whose cuts, rounded, go on crossing; and one with sheets that bound
-/// nothing, which would be lost.
-[[nodiscard]] Stepped resolve_self_intersections(RepairMesh mesh, ParallelFor parallel_for);
+/// not balanced; one whose cuts, rounded, go on crossing; one with sheets that bound
+/// nothing, which would be lost; and one that `stop` gave up.
+[[nodiscard]] Stepped resolve_self_intersections(RepairMesh mesh, ParallelFor parallel_for,
+                                                 const StopCheck& stop);
 
 /// Leaves out components of fewer than `least` triangles.
 [[nodiscard]] Stepped drop_components(RepairMesh mesh, std::uint64_t least);

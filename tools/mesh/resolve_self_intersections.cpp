@@ -74,13 +74,13 @@ public:
         join_sides();
     }
 
-    /// False when the counts of the facets around some edge do not cancel.
-    bool find() {
+    /// False when the counts of the facets around some edge do not cancel, or when stopped.
+    bool find(const StopCheck& stop) {
         std::vector<std::vector<std::uint32_t>> members(facets_.size());
         for (std::uint32_t f = 0; f < facets_.size(); ++f) members[parts_.lowest(f)].push_back(f);
         collect_links();
         for (const auto& part : members) {
-            if (!part.empty() && !number_part(part)) return false;
+            if (!part.empty() && !number_part(part, stop)) return false;
         }
         return true;
     }
@@ -124,11 +124,12 @@ private:
         }
     }
 
-    bool number_part(const std::vector<std::uint32_t>& part) {
+    bool number_part(const std::vector<std::uint32_t>& part, const StopCheck& stop) {
         const std::uint32_t outer = cells_.lowest(outer_side(part));
         std::vector<std::optional<int>>& known = known_;
         known.resize(2 * facets_.size());
-        known[outer] = number_of_others(part);
+        known[outer] = number_of_others(part, stop);
+        if (is_stopped(stop)) return false;
         std::deque<std::uint32_t> queue = {outer};
         while (!queue.empty()) {
             const std::uint32_t cell = queue.front();
@@ -202,12 +203,12 @@ private:
     }
 
     /// The winding number of all other parts at this one.
-    int number_of_others(const std::vector<std::uint32_t>& part) {
+    int number_of_others(const std::vector<std::uint32_t>& part, const StopCheck& stop) {
         const std::uint32_t own = parts_.lowest(part[0]);
         std::size_t left = kMostTestPoints;
         for (const std::uint32_t f : part) {
             for (const std::uint32_t vertex : triangles_[f].vertex) {
-                if (left-- == 0) return 0;
+                if (left-- == 0 || is_stopped(stop)) return 0;
                 if (const auto number = number_at(positions_[vertex], own)) return *number;
             }
         }
@@ -309,7 +310,8 @@ void account(const RepairMesh& before, const RepairMesh& after, StepReport& repo
 
 }  // namespace
 
-Stepped resolve_self_intersections(RepairMesh mesh, ParallelFor parallel_for) {
+Stepped resolve_self_intersections(RepairMesh mesh, ParallelFor parallel_for,
+                                   const StopCheck& stop) {
     const std::vector<TriangleMeeting> meetings = find_meetings(mesh, parallel_for);
     if (meetings.empty()) {
         return {std::move(mesh), StepReport(RepairStep::resolve_self_intersections)};
@@ -319,10 +321,9 @@ Stepped resolve_self_intersections(RepairMesh mesh, ParallelFor parallel_for) {
         return refused_pair(mesh, mesh, first.a, first.b,
                             " meet, and the mesh is open: it has no inside to keep.");
     }
-    CutMesh cut = cut_crossings(mesh, parallel_for);
+    CutMesh cut = cut_crossings(mesh, parallel_for, stop);
     if (!cut.failed.empty()) {
-        return refused_pair(mesh, mesh, first.a, first.b,
-                            " meet, and the exact cut failed: " + cut.failed + ".");
+        return refused_pair(mesh, mesh, first.a, first.b, " meet, and " + cut.failed + ".");
     }
     if (cut.left) {
         return refused_pair(mesh, cut.mesh, cut.left->a, cut.left->b,
@@ -330,7 +331,12 @@ Stepped resolve_self_intersections(RepairMesh mesh, ParallelFor parallel_for) {
     }
     const std::vector<Facet> facets = join_facets(cut.mesh.triangles);
     Windings windings(cut.mesh.positions, facets);
-    if (!windings.find()) {
+    const bool add_up = windings.find(stop);
+    if (is_stopped(stop)) {
+        return refused_pair(mesh, mesh, first.a, first.b,
+                            " meet, and finding the inside took longer than was allowed.");
+    }
+    if (!add_up) {
         return refused_pair(mesh, mesh, first.a, first.b,
                             " meet, and around a cut edge winding numbers do not add up.");
     }

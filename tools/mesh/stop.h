@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+
+namespace cdprep::mesh {
+
+/// Asked now and then during long work: true gives it up, and is true from then on. Empty
+/// never does. Called from one thread at a time; must not throw.
+using StopCheck = std::function<bool()>;
+
+[[nodiscard]] inline bool is_stopped(const StopCheck& stop) {
+    return stop && stop();
+}
+
+}  // namespace cdprep::mesh
