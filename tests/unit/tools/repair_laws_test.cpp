@@ -3,12 +3,20 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <random>
 #include <set>
 #include <string>
 
+#include "import/import_file.h"
 #include "mesh/mesh_meetings.h"
 #include "mesh/repair.h"
+#include "point_triangle_distance.h"
+#include "support/exact_winding.h"
 #include "unit/tools/soup_of.h"
+#include "winding.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -134,6 +142,134 @@ TEST(RepairLaws, UnionsOfGridBoxesHaveTheVolumeOfTheirCells) {
     }
     EXPECT_EQ(solid, kRounds);
     EXPECT_GT(crossing * 10, kRounds * 3);
+}
+
+std::vector<Corners> corners_of(const RepairMesh& mesh) {
+    std::vector<Corners> all;
+    for (const Triangle& t : mesh.triangles) {
+        all.push_back({mesh.positions[t.vertex[0]], mesh.positions[t.vertex[1]],
+                       mesh.positions[t.vertex[2]]});
+    }
+    return all;
+}
+
+/// Nothing on the surface. Large meshes are asked by the library's own exact rays, which
+/// have their own test against these numbers.
+std::optional<int> winding_at(const std::vector<Corners>& surface, const Double3& q) {
+    constexpr std::size_t kFew = 500;
+    if (surface.size() < kFew) return test::exact_winding(surface, q);
+    int number = 0;
+    for (const Corners& t : surface) {
+        const WindingTerm term = winding_term({q.x - 1e3, q.y, q.z}, q, t);
+        if (term.on_surface) return std::nullopt;
+        number += term.crossings;
+    }
+    return number;
+}
+
+double distance_to(const std::vector<Corners>& surface, const Double3& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Corners& t : surface) least = std::min(least, point_triangle_distance(p, t).lower);
+    return least;
+}
+
+struct Samples {
+    int outer = 0, inner = 0;
+};
+
+/// Draws points of the triangles before crossings were resolved and looks `step` off them,
+/// on either side. Where the winding number is 0 on one side only, the point is of the outer
+/// surface: there must be surface within the step, and the same sides must be outside. Inner
+/// points must be within the solid.
+void expect_same_solid(const RepairMesh& before, const RepairMesh& after, double step, int count,
+                       Samples& samples) {
+    const std::vector<Corners> was = corners_of(before), is = corners_of(after);
+    std::mt19937 random(kSeed);
+    for (int i = 0; i < count; ++i) {
+        const Corners& t = was[random() % was.size()];
+        const double b = 0.1 + 0.01 * static_cast<double>(random() % 40), c = (0.95 - b) / 2;
+        const Double3 u{t[1].x - t[0].x, t[1].y - t[0].y, t[1].z - t[0].z};
+        const Double3 v{t[2].x - t[0].x, t[2].y - t[0].y, t[2].z - t[0].z};
+        const Double3 n{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+        const double length = std::hypot(n.x, n.y, n.z);
+        if (length == 0) continue;
+        const Double3 p{t[0].x + b * u.x + c * v.x, t[0].y + b * u.y + c * v.y,
+                        t[0].z + b * u.z + c * v.z};
+        std::array<bool, 2> solid{};
+        bool decided = true;
+        for (std::size_t side = 0; side < 2; ++side) {
+            const double far = (side == 0 ? step : -step) / length;
+            const Double3 q{p.x + far * n.x, p.y + far * n.y, p.z + far * n.z};
+            const std::optional<int> old = winding_at(was, q), now = winding_at(is, q);
+            if (!old || !now) {
+                decided = false;
+                continue;
+            }
+            solid[side] = *old != 0;
+            EXPECT_EQ(*now, *old != 0 ? 1 : 0) << q.x << ' ' << q.y << ' ' << q.z;
+        }
+        if (!decided) continue;
+        if (solid[0] != solid[1]) {
+            EXPECT_LE(distance_to(is, p), 2 * step);
+        }
+        ++(solid[0] != solid[1] ? samples.outer : samples.inner);
+    }
+}
+
+/// What goes into resolve_self_intersections: all other steps of the preset.
+RepairMesh without_resolving(const TriangleSoup& soup) {
+    RepairOptions options = options_of("solid");
+    options.steps.reset(static_cast<std::size_t>(RepairStep::resolve_self_intersections));
+    return repair(soup, options).mesh;
+}
+
+// Boxes at odd places, so that cuts are rounded.
+TEST(RepairLaws, UnionsOfBoxesLoseNothingOfTheirOuterSurface) {
+    Samples samples;
+    int resolved = 0;
+    for (std::uint32_t seed = 1; seed <= kRounds; ++seed) {
+        SCOPED_TRACE(seed);
+        std::mt19937 random(seed);
+        const auto within = [&] { return static_cast<double>(random() % 1000003) / 1000003; };
+        test::TestMesh boxes;
+        for (int box = 0; box < 4; ++box) {
+            const double size = 0.5 + within();
+            test::TestMesh skewed =
+                test::moved_by(test::unit_cube(), size, {within(), within(), within()});
+            const double shear = within() - 0.5;
+            for (Double3& p : skewed.positions) p = {p.x + shear * p.y, p.y, p.z + shear * p.x};
+            boxes = test::joined(boxes, skewed);
+        }
+        const Repaired mended = repair(test::soup_of(boxes), options_of("solid"));
+        if (!find_meetings(mended.mesh, serial_for).empty()) continue;
+        ++resolved;
+        expect_same_solid(without_resolving(test::soup_of(boxes)), mended.mesh, 1e-9, 30, samples);
+    }
+    EXPECT_GT(resolved * 10, 9 * static_cast<int>(kRounds));
+    const int all = samples.outer + samples.inner;
+    EXPECT_GT(samples.outer * 10, all * 3);
+    EXPECT_LT(samples.outer * 10, all * 9);
+}
+
+TEST(RepairLaws, HardModelsLoseNothingOfTheirOuterSurface) {
+    const char* const chosen = std::getenv("CDPREP_SHARED");
+    const std::filesystem::path beside =
+        std::filesystem::path(__FILE__).parent_path() / "../../../../shared";
+    const std::filesystem::path hard =
+        (chosen != nullptr ? std::filesystem::path(chosen) : beside) / "models/hard";
+    if (!std::filesystem::is_directory(hard)) GTEST_SKIP() << "no models in " << hard;
+    Samples samples;
+    for (const char* name : {"Spider_ascii.stl", "al.obj", "hips.obj"}) {
+        SCOPED_TRACE(name);
+        const Result<TriangleSoup> soup = import::import_file(hard / name, {});
+        ASSERT_TRUE(soup) << soup.error().message;
+        const Repaired mended = repair(soup.value(), options_of("solid"));
+        ASSERT_TRUE(find_meetings(mended.mesh, serial_for).empty());
+        expect_same_solid(without_resolving(soup.value()), mended.mesh,
+                          1e-7 * std::sqrt(mended.report.before.verdict.area), 100, samples);
+    }
+    EXPECT_GT(samples.outer, 50);
+    EXPECT_GT(samples.inner, 10);
 }
 
 }  // namespace
