@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Repairs all hard files through the program and asks an independent checker.
+"""Repairs hard files through the program and asks an independent checker.
 
 For each preset and file: the verdict before and after, triangles changed, distance moved and
 seconds; every file must come out as the preset promises, account for every triangle, and
 repairing it again must change no byte. The checker is check_mesh.py of the test models.
+By default the files that take little time; all 30, and how many come out closed and solid,
+with CDPREP_ALL_POSES=yes.
 Usage: repair.py CDPREP [PRESET...]
 """
 import concurrent.futures
@@ -22,6 +24,9 @@ PRESETS = ("safe", "closed", "solid")
 LOST = 1e-5  # of the diagonal
 CLOSED = 26  # at least so many of the 30 by `closed`
 SOLID = 12   # and by `solid`
+SMALL = 1_000_000  # bytes: no file of the short form is larger
+# Small, but with so many crossings that cutting them takes long: only in the long form.
+SLOW = {"b9_mesh.off", "regr01.obj", "openscad-nonmanifold-crash.obj", "illformated_mesh.dae"}
 
 
 def flags(found, words=("closed", "two_manifold", "oriented")):
@@ -91,6 +96,9 @@ def main():
     models = shared_folder() / "models"
     hard = hard_files(models)
     must(len(hard) == 30, f"{len(hard)} hard files instead of 30")
+    everything = os.environ.get("CDPREP_ALL_POSES") == "yes"
+    if not everything:
+        hard = [path for path in hard if path.stat().st_size <= SMALL and path.name not in SLOW]
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         checks = checker(models, folder)
@@ -105,6 +113,8 @@ def main():
             closed, solid = sum(row[1] for row in rows), sum(row[2] for row in rows)
             print(f"{preset}: all {len(hard)} files 2-manifold and oriented, "
                   f"{closed} closed, {solid} without crossings too", flush=True)
+            if not everything:
+                continue
             must(preset == "safe" or closed >= CLOSED, f"only {closed} files are closed")
             must(preset != "solid" or solid >= SOLID, f"only {solid} files are solid")
 
