@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/ray_along_x.h"
 #include "mesh/repair_steps.h"
 #include "mesh/stored_verdict.h"
-#include "winding.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -37,14 +37,12 @@ bool contains(const Box& outer, const Box& inner) {
 }
 
 /// Whether p lies within the component: an odd winding number. False on its surface.
-bool is_within(const RepairMesh& mesh, const StoredComponent& component, const Box& box,
-               const Double3& p) {
-    const Double3 origin{box.lower.x - (box.upper.x - box.lower.x) - 1, box.lower.y, box.lower.z};
+bool is_within(const RepairMesh& mesh, const StoredComponent& component, const Double3& p) {
     int winding = 0;
     for (const std::uint32_t t : component.triangles) {
         const auto& v = mesh.triangles[t].vertex;
-        const WindingTerm term = winding_term(
-            origin, p, {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]});
+        const WindingTerm term = winding_term_along_x(
+            p, {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]});
         if (term.on_surface) return false;
         winding += term.crossings;
     }
@@ -68,7 +66,7 @@ Stepped orient_outward(RepairMesh mesh) {
         const Double3& p = mesh.positions[mesh.triangles[component.triangles[0]].vertex[0]];
         for (std::size_t j = 0; j < components.size(); ++j) {
             if (j == i || !components[j].balanced || !contains(boxes[j], boxes[i])) continue;
-            if (is_within(mesh, components[j], boxes[j], p)) ++around;
+            if (is_within(mesh, components[j], p)) ++around;
         }
         if (around % 2 == 0) turned.push_back(i);  // an odd number: a cavity, wound as one
     }

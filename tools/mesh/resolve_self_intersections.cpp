@@ -6,10 +6,10 @@
 
 #include "mesh/around_edge.h"
 #include "mesh/cut_crossings.h"
+#include "mesh/ray_along_x.h"
 #include "mesh/repair_steps.h"
 #include "mesh/stored_verdict.h"
 #include "predicates.h"
-#include "winding.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -216,13 +216,12 @@ private:
     }
 
     std::optional<int> number_at(const Double3& p, std::uint32_t own) {
-        const Double3 origin{p.x - 1 - 2 * std::abs(p.x), p.y, p.z};
         int number = 0;
         for (std::uint32_t f = 0; f < facets_.size(); ++f) {
             if (parts_.lowest(f) == own) continue;
             const auto& v = triangles_[f].vertex;
             const WindingTerm term =
-                winding_term(origin, p, {positions_[v[0]], positions_[v[1]], positions_[v[2]]});
+                winding_term_along_x(p, {positions_[v[0]], positions_[v[1]], positions_[v[2]]});
             if (term.on_surface) return std::nullopt;
             number += term.crossings * facets_[f].count;
         }
