@@ -31,8 +31,7 @@ void pair_around(const RepairMesh& mesh, std::span<const HalfEdge> uses,
     }
 }
 
-std::vector<HalfEdge> pair_all(const RepairMesh& mesh) {
-    const EdgeUses edges = find_edge_uses(mesh.triangles, mesh.positions.size());
+std::vector<HalfEdge> pair_all(const RepairMesh& mesh, const EdgeUses& edges) {
     std::vector<HalfEdge> twins = find_twins(mesh.triangles, edges);
     for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
         if (edges.of(edge).size() > 2) pair_around(mesh, edges.of(edge), twins);
@@ -163,8 +162,8 @@ void cut_twin_triangles(RepairMesh& mesh, StepReport& report) {
 
 /// Whether every edge has one triangle, or two that `twins` joins and that have not all
 /// corners in common.
-bool are_edges_sound(const RepairMesh& mesh, const std::vector<HalfEdge>& twins) {
-    const EdgeUses edges = find_edge_uses(mesh.triangles, mesh.positions.size());
+bool are_edges_sound(const RepairMesh& mesh, const EdgeUses& edges,
+                     const std::vector<HalfEdge>& twins) {
     for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
         const auto uses = edges.of(edge);
         if (uses.size() == 1) continue;
@@ -178,9 +177,12 @@ bool are_edges_sound(const RepairMesh& mesh, const std::vector<HalfEdge>& twins)
 
 Stepped split_non_manifold(RepairMesh mesh) {
     StepReport report(RepairStep::split_non_manifold);
-    std::vector<HalfEdge> twins = pair_all(mesh);
+    const EdgeUses edges = find_edge_uses(mesh.triangles, mesh.positions.size());
+    std::vector<HalfEdge> twins = pair_all(mesh, edges);
     part_fans(mesh, twins, report.parted, report.step);
-    if (are_edges_sound(mesh, twins)) return {std::move(mesh), std::move(report)};
+    // Where no fan was parted, edges are as they were.
+    if (report.parted.empty() && are_edges_sound(mesh, edges, twins))
+        return {std::move(mesh), std::move(report)};
     for (std::size_t pass = 0; pass < kMostPasses; ++pass) {
         if (!cut_shared_edges(mesh, twins, report)) break;
     }
