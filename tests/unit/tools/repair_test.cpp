@@ -288,5 +288,29 @@ TEST(Repair, SmallComponentsGoOnlyWhenAskedFor) {
     EXPECT_EQ(mended.report.counts.unused_vertices + mended.report.counts.merged_vertices, 4U);
 }
 
+TEST(Repair, CrossingsAreLeftAsTheyAreWhenTheTimeIsOver) {
+    RepairOptions options;
+    options.steps = *find_repair_preset("solid");
+    options.seconds = 0;
+    const TestMesh crossing = joined(unit_cube(), moved_by(unit_cube(), 1, {0.5, 0.25, 0.125}));
+    const Repaired mended = repair(soup_of(crossing), options);
+    EXPECT_EQ(mended.mesh.triangles, crossing.triangles);
+    const StepReport* step = step_of(mended.report, RepairStep::resolve_self_intersections);
+    ASSERT_NE(step, nullptr);
+    ASSERT_EQ(step->refused.size(), 1U);
+    EXPECT_NE(step->refused[0].sentence.find("longer than was allowed"), std::string::npos);
+    EXPECT_EQ(step->refused[0].triangles.size(), 2U);
+}
+
+TEST(Repair, AnInterruptEndsIt) {
+    RepairOptions options;
+    options.steps = *find_repair_preset("solid");
+    int asked = 0;
+    options.interrupted = [&] { return ++asked > 0; };
+    const Repaired mended = repair(soup_of(reversed(unit_cube())), options);
+    EXPECT_GT(asked, 0);
+    EXPECT_TRUE(mended.report.steps.empty());
+}
+
 }  // namespace
 }  // namespace cdprep::mesh
