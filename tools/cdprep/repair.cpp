@@ -82,6 +82,12 @@ Result<mesh::RepairOptions> options_of(const Arguments& arguments) {
 
 Result<report::RepairFileReport> repair_file(const Arguments& arguments,
                                              mesh::RepairOptions options) {
+    std::error_code unknown;  // not there: not the same
+    if (fs::equivalent(arguments.input, arguments.output, unknown)) {
+        return Error{ErrorCode::bad_argument,
+                     arguments.output.string() +
+                         ": is the input and would be replaced. Choose another output."};
+    }
     const auto format = write::mesh_format_of(arguments.output);
     if (!format) {
         return Error{ErrorCode::bad_argument,
