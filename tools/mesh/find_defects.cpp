@@ -37,6 +37,9 @@ public:
         counts().components = components_.count;
         list_large_extents();
         list_near_vertices();
+        if (sound_.mesh.triangles.empty()) {
+            findings_.add(Rule::empty_mesh, [] { return Place{}; });
+        }
         find_flaws_of_edges();
         find_flaws_of_boundary();
         measure();

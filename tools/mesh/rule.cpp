@@ -57,6 +57,14 @@ constexpr std::array kRules = {
         "can be said to be inside.",
         "Weld with that distance.", "by distances in double, rounded, as weld does; chains join",
         "the distance to the vertex it would be joined to, in model units"},
+    RuleText{Rule::empty_mesh, "empty-mesh", Severity::warning, "Mesh has no triangles",
+             "No triangle is left to ask: the file has none, or all of them are left out by "
+             "CDP0101, CDP0102 and CDP0201.",
+             "Nothing is hit, nothing is inside, and nothing else can be found wrong: a model that "
+             "was lost on the way looks flawless.",
+             "Export the file again, with its faces: only points or lines came, or they were cut "
+             "off.",
+             kExact, ""},
     RuleText{Rule::repeated_corner, "repeated-corner", Severity::warning,
              "Triangle repeats a corner",
              "A triangle with two corners that are one vertex, or have equal positions. The "

@@ -21,6 +21,7 @@ enum class Rule : std::uint16_t {
     unreferenced_vertex = 104,
     duplicate_vertex = 105,  ///< equal positions
     near_vertex = 106,       ///< within the weld distance, not equal
+    empty_mesh = 107,        ///< no triangle is left to ask
     repeated_corner = 201,
     zero_area = 202,
     sliver = 203,

@@ -94,12 +94,15 @@ private:
         const auto fact = [&verdict](VerdictFacts bit, bool is_true) {
             if (is_true) verdict.facts |= bit;
         };
-        fact(verdict_closed, tally.boundary == 0);
-        fact(verdict_two_manifold, tally.non_manifold == 0 && tally.pinched == 0);
-        fact(verdict_oriented, tally.inconsistent == 0);
-        fact(verdict_orientable, tally.orientable);
-        fact(verdict_balanced, tally.balanced);
-        fact(verdict_inverted, tally.balanced && measure.volume_sign < 0);
+        // Of no triangles all of it is true, and means nothing.
+        if (tally.triangles > 0) {
+            fact(verdict_closed, tally.boundary == 0);
+            fact(verdict_two_manifold, tally.non_manifold == 0 && tally.pinched == 0);
+            fact(verdict_oriented, tally.inconsistent == 0);
+            fact(verdict_orientable, tally.orientable);
+            fact(verdict_balanced, tally.balanced);
+            fact(verdict_inverted, tally.balanced && measure.volume_sign < 0);
+        }
         fact(verdict_crossings_examined, g_.meetings != nullptr);
         fact(verdict_self_crossing, tally.self_crossing);
         verdict.promises = promises_of(verdict.facts);

@@ -41,11 +41,12 @@ nlohmann::ordered_json to_json(const BakeReport& report) {
 }  // namespace
 
 std::string bake_text(const BakeReport& report, Timings timings) {
-    std::string text =
-        report.output + ": " + std::to_string(report.triangles) + " triangles, " +
-        std::to_string(report.vertices) + " vertices, " + (report.closed ? "closed" : "open") +
-        ", " + (report.single_precision ? "f32" : "f64") + ", " + std::to_string(report.bytes) +
-        " bytes, " + fixed(report.seconds, 3) + " s\n";
+    const char* const closed = report.triangles == 0 ? "empty" : report.closed ? "closed" : "open";
+    std::string text = report.output + ": " + std::to_string(report.triangles) + " triangles, " +
+                       std::to_string(report.vertices) + " vertices, " + closed + ", " +
+                       (report.single_precision ? "f32" : "f64") + ", " +
+                       std::to_string(report.bytes) + " bytes, " + fixed(report.seconds, 3) +
+                       " s\n";
     if (report.warnings > 0) {
         text += "  " + std::to_string(report.warnings) +
                 (report.warnings == 1 ? " rule finds" : " rules find") +

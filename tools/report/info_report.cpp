@@ -83,8 +83,12 @@ std::string info_text(const std::string& file, const Model& model,
                        std::to_string(model.vertex_count()) + " vertices, " +
                        std::to_string(model.components().size()) + " components\n";
     text += std::string("surface questions: exact; positions ") + precision(model) + "\n";
-    text += model.is_closed() ? "solid questions: exact, the mesh is closed\n"
-                              : "solid questions: unknown, the mesh is open\n";
+    if (model.triangle_count() == 0) {
+        text += "solid questions: nothing is inside, there are no triangles\n";
+    } else {
+        text += model.is_closed() ? "solid questions: exact, the mesh is closed\n"
+                                  : "solid questions: unknown, the mesh is open\n";
+    }
     text +=
         std::string("questions about pairs: bounded by ") + bounds_name(bounds_of(model)) + "\n";
     text += mesh_text(model);

@@ -145,6 +145,8 @@ MarkStyle mark_style(mesh::Rule rule) noexcept {
             return {kPoint, true, false, "teal"};
         case Rule::near_vertex:
             return {kPath, true, false, "blue"};
+        case Rule::empty_mesh:
+            return {kPoint, true, false, "slate"};
         case Rule::repeated_corner:
             return {kTriangle, true, false, "magenta"};
         case Rule::zero_area:

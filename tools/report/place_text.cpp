@@ -33,6 +33,7 @@ std::string node_of(const ValidationReport& report, std::uint32_t triangle) {
 
 std::string place_text(const ValidationReport& report, mesh::Rule rule, const mesh::Place& place,
                        std::size_t most_numbers) {
+    if (rule == mesh::Rule::empty_mesh) return "the whole mesh";
     const std::string triangles =
         numbers_text("triangle", "triangles", place.triangles, most_numbers);
     const std::string vertices = numbers_text("vertex", "vertices", place.vertices, most_numbers);

@@ -55,6 +55,12 @@ std::string crossing_text(const format::Verdict& verdict) {
                                                                 : "not self-crossing";
 }
 
+/// Whether no triangle was left to judge: open without a boundary, and no other fact either.
+bool is_of_nothing(const format::Verdict& verdict) {
+    return (verdict.facts & ~format::verdict_crossings_examined) == 0 &&
+           verdict.boundary_loops == 0;
+}
+
 }  // namespace
 
 std::vector<std::string> fact_words(const format::Verdict& verdict) {
@@ -66,6 +72,7 @@ std::vector<std::string> promise_words(const format::Verdict& verdict) {
 }
 
 std::string verdict_text(const format::Verdict& verdict) {
+    if (is_of_nothing(verdict)) return "no triangles to judge";
     const bool closed = (verdict.facts & format::verdict_closed) != 0;
     const bool manifold = (verdict.facts & format::verdict_two_manifold) != 0;
     const bool balanced = (verdict.facts & format::verdict_balanced) != 0;

@@ -115,6 +115,7 @@ public:
 
     /// Of the whole; whether it can be oriented is not asked.
     [[nodiscard]] std::uint32_t facts() const {
+        if (uses_.empty()) return 0;  // nothing is said of nothing
         const bool balanced = std::all_of(uses_.begin(), uses_.end(), [](const auto& edge) {
             return std::accumulate(edge.second.begin(), edge.second.end(), 0) == 0;
         });

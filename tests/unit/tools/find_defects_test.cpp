@@ -95,9 +95,10 @@ TEST(FindDefects, ManyBoundaryEdgesAtAVertexAreOneLoop) {
     EXPECT_EQ(loops.places.at(0).vertices.front(), 1U);
 }
 
-TEST(FindDefects, NothingIsFoundInNothing) {
+TEST(FindDefects, OfNothingOnlyThatIsFound) {
     const DefectReport report = find_defects({});
-    EXPECT_TRUE(report.findings.empty());
+    ASSERT_EQ(report.findings.size(), 1U);
+    EXPECT_EQ(report.findings[0].rule, Rule::empty_mesh);
     ASSERT_EQ(report.verdicts.size(), 1U);
     EXPECT_EQ(report.verdicts.front().triangle_count, 0U);
     EXPECT_EQ(report.counts.components, 0U);
@@ -125,6 +126,37 @@ TEST(FindDefects, TrianglesWithoutPlaceAreLeftOutOfAllElse) {
     const Finding out_of_range = finding_of(report, Rule::index_out_of_range);
     EXPECT_EQ(out_of_range.places[0].triangles, Numbers{14});
     EXPECT_EQ(out_of_range.places[0].measure, 10);
+}
+
+// Of nothing every sentence is true: none may be said, and the mesh is told of.
+TEST(FindDefects, MeshesWithoutASoundTrianglePromiseNothingOfTheSolid) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    const test::TestMesh nothing{{}, {}};
+    const test::TestMesh points{{{0, 0, 0}, {1, 0, 0}}, {}};
+    const test::TestMesh infinite{{{0, 0, 0}, {1, 0, 0}, {infinity, 0, 0}}, {{{0, 1, 2}}}};
+    const test::TestMesh out_of_range{{{0, 0, 0}, {1, 0, 0}}, {{{0, 1, 2}}}};
+    const test::TestMesh segments{{{0, 0, 0}, {1, 0, 0}}, {{{0, 1, 0}}, {{1, 1, 0}}}};
+    for (const bool crossings : {true, false}) {
+        for (const auto* mesh : {&nothing, &points, &infinite, &out_of_range, &segments}) {
+            DefectOptions options;
+            options.crossings = crossings;
+            const DefectReport report = report_of(*mesh, options);
+            const Finding finding = finding_of(report, Rule::empty_mesh);
+            EXPECT_EQ(finding.count, 1U);
+            ASSERT_EQ(finding.places.size(), 1U);
+            EXPECT_TRUE(finding.places[0].triangles.empty());
+            ASSERT_EQ(report.verdicts.size(), 1U);
+            const Verdict& verdict = report.verdicts.front();
+            EXPECT_EQ(verdict.facts, crossings ? format::verdict_crossings_examined : 0U);
+            EXPECT_EQ(verdict.promises, format::promise_surface);
+            EXPECT_EQ(verdict.genus, -1);
+            EXPECT_EQ(verdict.euler, 0);
+        }
+    }
+    test::TestMesh one = segments;
+    one.positions.push_back({0, 1, 0});
+    one.triangles.push_back({{0, 1, 2}});
+    EXPECT_EQ(finding_of(report_of(one), Rule::empty_mesh).count, 0U);
 }
 
 // As an import leaves them: corners set to 0, the first thousand listed, the others counted.

@@ -10,7 +10,8 @@ namespace cdprep::format {
 /// Bits of Verdict::facts: what was found true of a mesh, or of one component of it.
 /// A bit that is not set is false, but for self_crossing, which says something only
 /// together with crossings_examined. All are decided after vertices with equal
-/// positions were joined and triangles that repeat a corner were left out.
+/// positions were joined and triangles that repeat a corner were left out. Where no triangle
+/// is left all but crossings_examined are unset, and promise_surface is the only promise.
 enum VerdictFacts : std::uint32_t {
     verdict_closed = 1,               ///< every edge is used by two triangles or more
     verdict_two_manifold = 2,         ///< at most two triangles an edge, one fan a vertex
