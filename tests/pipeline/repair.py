@@ -36,8 +36,13 @@ def flags(found, words=("closed", "two_manifold", "oriented")):
 def repaired(program, preset, path, output):
     begun = time.time()
     done = run(program, "repair", path, "-o", output, "--preset", preset, "--format", "json")
-    must(done.returncode == 0, f"{path.name}: exit {done.returncode}: {done.stderr}")
-    return json.loads(done.stdout), time.time() - begun
+    must(done.returncode in (0, 1), f"{path.name}: exit {done.returncode}: {done.stderr}")
+    report = json.loads(done.stdout)
+    must((done.returncode == 0) == report["goal"] and report["exit"] == done.returncode,
+         f"{path.name}: exit {done.returncode}, goal {report['goal']}: {done.stderr}")
+    must(report["goal"] or f"not {preset}: " in done.stderr,
+         f"{path.name}: no sentence of what is missed: {done.stderr}")
+    return report, time.time() - begun
 
 
 def check_accounts(name, report):
@@ -84,11 +89,38 @@ def repair_one(program, checks, preset, path, folder):
         refused = [refusal for step in report["steps"] for refusal in step["refused"]
                    if len(refusal["triangles"]) == 2 or refusal["vertices"]]
         must(refused, f"{path.name}: not solid, and no pair or loop is named")
+    reached = {"safe": True, "closed": bool(found["closed"]), "solid": bool(is_solid)}[preset]
+    must(report["goal"] == reached, f"{path.name}: {preset} says goal {report['goal']}, the "
+         f"checker {reached}: {report.get('missed')}")
     counts = report["counts"]
     row = (f"{path.name:42} {preset:6} {flags(report['before'])} {flags(found)}"
            f"{'X' if crosses else '-'} {counts['reversed']:7} {counts['cut']:6}"
            f" {counts['dropped']:6} {counts['made']:6} {lost:9.1e} {added:9.1e} {seconds:7.2f}")
     return row, bool(found["closed"]), bool(is_solid)
+
+
+def says_what_is_missed(program, folder):
+    """By hand: a square is safe and, its hole left open, not closed; steps have no goal; and a
+    triangle with a bad number leaves nothing."""
+    square, nothing, output = folder / "square.off", folder / "nothing.off", folder / "small.ply"
+    square.write_text("OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n")
+    nothing.write_text("OFF\n3 1 0\n0 0 0\n1 0 0\nnan 1 0\n3 0 1 2\n")
+    for path, arguments, code, goal, sentence in (
+            (square, ["--preset", "safe"], 0, True, ""),
+            (square, ["--preset", "closed", "--hole-size", "0.5"], 1, False,
+             "not closed: 4 edges are still open."),
+            (square, ["--steps", "weld"], 0, None, ""),
+            (nothing, ["--preset", "solid"], 1, False, "no triangle is left of the 1 of the input."),
+            (nothing, ["--steps", "drop-bad-numbers"], 1, None, "no triangle is left")):
+        output.unlink(missing_ok=True)
+        done = run(program, "repair", path, "-o", output, *arguments, "--format", "json")
+        report = json.loads(done.stdout)
+        must((done.returncode, report["exit"], report["goal"]) == (code, code, goal),
+             f"{path.name} {arguments}: exit {done.returncode}, goal {report['goal']}")
+        must(sentence in done.stderr and bool(sentence) == bool(done.stderr), done.stderr)
+        must(output.is_file(), f"{path.name} {arguments}: nothing was written")
+        must((report["input_to_output"]["upper"] is None) == (path is nothing),
+             "what is lost is as far away as can be")
 
 
 def main():
@@ -102,6 +134,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)
         checks = checker(models, folder)
+        says_what_is_missed(program, folder)
         print("Flags: Closed, Two-manifold, Oriented; X: triangles meet.")
         print(f"{'file':42} {'preset':6} bef aft  {'turned':>7} {'cut':>6} {'dropped':>6}"
               f" {'new':>6} {'lost/diag':>9} {'added':>9} {'seconds':>7}")

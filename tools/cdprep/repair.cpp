@@ -5,12 +5,14 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 #include <sstream>
 
 #include "command.h"
 #include "import/import_file.h"
 #include "interrupt.h"
+#include "mesh/repair_goal.h"
 #include "parallel.h"
 #include "report/repair_report.h"
 #include "write/mesh_file.h"
@@ -80,6 +82,33 @@ Result<mesh::RepairOptions> options_of(const Arguments& arguments) {
     return options;
 }
 
+/// Takes over the report of the repair, and says whether the preset reached its goal.
+void judge(const Arguments& arguments, const mesh::TriangleSoup& input,
+           const mesh::Repaired& repaired, ParallelFor parallel_for,
+           report::RepairFileReport& report) {
+    report.repair = repaired.report;
+    const bool has_preset = arguments.steps.empty();
+    if (has_preset && arguments.preset == "solid") {
+        mesh::TriangleSoup output;
+        output.positions = repaired.mesh.positions;
+        output.triangles = repaired.mesh.triangles;
+        report.crossing_before = mesh::find_self_crossing(input, parallel_for);
+        report.crossing_after = mesh::find_self_crossing(output, parallel_for);
+    }
+    if (has_preset) {
+        report.missed =
+            mesh::missed_goal(arguments.preset, repaired.report.after, report.crossing_after);
+        report.goal = report.missed.empty();
+    }
+    if (repaired.mesh.triangles.empty() && !input.triangles.empty()) {
+        report.missed = "no triangle is left of the " + std::to_string(input.triangles.size()) +
+                        " of the input";
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        report.repair.input_to_output = {kInfinity, kInfinity};
+    }
+    if (!report.missed.empty()) report.exit = static_cast<int>(Exit::findings);
+}
+
 Result<report::RepairFileReport> repair_file(const Arguments& arguments,
                                              mesh::RepairOptions options) {
     std::error_code unknown;  // not there: not the same
@@ -104,6 +133,8 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     const Result<mesh::TriangleSoup> soup = import::import_file(arguments.input, limits);
     if (!soup) return soup.error();
     const mesh::Repaired repaired = mesh::repair(soup.value(), options);
+    report::RepairFileReport report;
+    if (!is_interrupted()) judge(arguments, soup.value(), repaired, options.parallel_for, report);
     if (is_interrupted()) {
         return Error{ErrorCode::interrupted,
                      arguments.input.string() + ": stopped; nothing was written."};
@@ -113,10 +144,8 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
         {repaired.mesh.positions, repaired.mesh.triangles, repaired.mesh.single_precision});
     if (!written) return written.error();
 
-    report::RepairFileReport report;
     report.input = arguments.input.string();
     report.output = arguments.output.string();
-    report.repair = repaired.report;
     report.triangles = repaired.mesh.triangles.size();
     report.vertices = repaired.mesh.positions.size();
     report.triangle_origin = repaired.mesh.triangle_origin;
@@ -143,7 +172,10 @@ Exit run(const Arguments& arguments) {
     std::cout << (arguments.format == "json"
                       ? report::repair_json(repaired.value())
                       : report::repair_text(repaired.value(), kRefusalsShown));
-    return Exit::success;
+    if (repaired.value().missed.empty()) return Exit::success;
+    std::cerr << "cdprep repair: " << repaired.value().output << ": " << repaired.value().missed
+              << ".\n";
+    return Exit::findings;
 }
 
 }  // namespace
@@ -153,6 +185,9 @@ void add_repair(CLI::App& app, Exit& exit) {
     arguments->options.seconds = kMostSeconds;
     CLI::App* command =
         app.add_subcommand("repair", "Mend what is asked, and account for every change");
+    command->footer(
+        "Exits with 1 when the output is not what the preset promises, or has no triangle\n"
+        "left; it is written all the same.");
     command->add_option("input", arguments->input, "OBJ, STL, PLY, OFF, glTF, ... file")
         ->required();
     command->add_option("-o,--output", arguments->output, "An .obj, .ply, .stl or .off file")

@@ -16,17 +16,25 @@ std::string number(double value, const char* pattern) {
     return text.data();
 }
 
-bool has(const mesh::StoredVerdict& found, format::VerdictFacts fact) {
-    return (found.verdict.facts & fact) != 0;
+/// Of none every fact is true, and means nothing.
+bool has_triangles(const mesh::StoredVerdict& found) {
+    return found.verdict.triangle_count > found.repeated_corners;
 }
 
-std::string verdict_line(const mesh::StoredVerdict& found) {
+bool has(const mesh::StoredVerdict& found, format::VerdictFacts fact) {
+    return has_triangles(found) && (found.verdict.facts & fact) != 0;
+}
+
+std::string verdict_line(const mesh::StoredVerdict& found,
+                         const std::optional<mesh::SelfCrossing>& crossing) {
+    if (!has_triangles(found)) return "no triangles";
     std::string line = has(found, format::verdict_closed) ? "closed" : "open";
     line += has(found, format::verdict_two_manifold) ? ", 2-manifold" : ", not 2-manifold";
     line += has(found, format::verdict_oriented) ? ", oriented" : ", not oriented";
     line += ", " + std::to_string(found.components) + " components, " +
             std::to_string(found.boundary_edges) + " boundary edges in " +
             std::to_string(found.verdict.boundary_loops) + " loops";
+    if (crossing) line += ", " + std::to_string(crossing->pairs) + " pairs that cross or touch";
     return line;
 }
 
@@ -98,6 +106,11 @@ Json to_json(const mesh::StoredVerdict& found) {
             {"euler", found.verdict.euler},
             {"area", found.verdict.area},
             {"volume", found.verdict.volume}};
+}
+
+void add_crossing(Json& json, const std::optional<mesh::SelfCrossing>& crossing) {
+    json["self_crossing"] = crossing ? Json(crossing->pairs > 0) : Json();
+    json["crossing_pairs"] = crossing ? Json(crossing->pairs) : Json();
 }
 
 Json to_json(const mesh::MovedDistance& moved) {
@@ -188,8 +201,9 @@ std::string repair_text(const RepairFileReport& report, std::size_t most_refusal
     std::string text = report.output + ": " + std::to_string(report.triangles) + " triangles, " +
                        std::to_string(report.vertices) + " vertices, " +
                        number(report.seconds, "%.3f") + " s\n";
-    text += "  before: " + verdict_line(repair.before) + "\n";
-    text += "  after:  " + verdict_line(repair.after) + "\n";
+    text += "  before: " + verdict_line(repair.before, report.crossing_before) + "\n";
+    text += "  after:  " + verdict_line(repair.after, report.crossing_after) + "\n";
+    if (report.goal) text += *report.goal ? "  goal: reached\n" : "  goal: missed\n";
     text += "  of " + std::to_string(counts.source_triangles) + " triangles " +
             std::to_string(counts.kept) + " kept, " + std::to_string(counts.reversed) +
             " reversed, " + std::to_string(counts.cut) + " cut, " + std::to_string(counts.dropped) +
@@ -219,8 +233,12 @@ std::string repair_json(const RepairFileReport& report) {
         json["seconds"] = report.seconds;
         json["triangles"] = report.triangles;
         json["vertices"] = report.vertices;
+        json["goal"] = report.goal ? Json(*report.goal) : Json();
+        if (!report.missed.empty()) json["missed"] = report.missed;
         json["before"] = to_json(repair.before);
+        add_crossing(json["before"], report.crossing_before);
         json["after"] = to_json(repair.after);
+        add_crossing(json["after"], report.crossing_after);
         json["counts"] = to_json(repair.counts);
         json["input_to_output"] = to_json(repair.input_to_output);
         json["output_to_input"] = to_json(repair.output_to_input);
