@@ -187,7 +187,9 @@ void add_repair(CLI::App& app, Exit& exit) {
         app.add_subcommand("repair", "Mend what is asked, and account for every change");
     command->footer(
         "Exits with 1 when the output is not what the preset promises, or has no triangle\n"
-        "left; it is written all the same.");
+        "left; it is written all the same. 2-manifold is meant by vertex numbers, as the output\n"
+        "is stored; validate joins vertices with equal positions first, and may find what was\n"
+        "parted here.");
     command->add_option("input", arguments->input, "OBJ, STL, PLY, OFF, glTF, ... file")
         ->required();
     command->add_option("-o,--output", arguments->output, "An .obj, .ply, .stl or .off file")

@@ -203,6 +203,9 @@ std::string repair_text(const RepairFileReport& report, std::size_t most_refusal
                        number(report.seconds, "%.3f") + " s\n";
     text += "  before: " + verdict_line(repair.before, report.crossing_before) + "\n";
     text += "  after:  " + verdict_line(repair.after, report.crossing_after) + "\n";
+    if (has_triangles(repair.after))
+        text +=
+            "  (2-manifold by vertex numbers, as stored; validate joins equal positions first)\n";
     if (report.goal) text += *report.goal ? "  goal: reached\n" : "  goal: missed\n";
     text += "  of " + std::to_string(counts.source_triangles) + " triangles " +
             std::to_string(counts.kept) + " kept, " + std::to_string(counts.reversed) +
