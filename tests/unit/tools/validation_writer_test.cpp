@@ -76,6 +76,21 @@ TEST(ValidationText, NamesPlacesAndWhatIsLeftOut) {
     EXPECT_TRUE(holds(text, "2 files: 1 failed, 1 unreadable; 0 errors, 3 warnings, 1 note\n"));
 }
 
+// Neither "closed" nor "open" may be said of nothing.
+TEST(ValidationText, HasNoWordForTheShapeOfNothing) {
+    ValidationReport nothing;
+    nothing.input = "nothing.obj";
+    nothing.defects = mesh::find_defects({});
+    nothing.judgements = {{mesh::Severity::warning, 1, {1}}};
+    const std::string text = written(ValidationFormat::text, run_of(), {nothing});
+    EXPECT_TRUE(holds(text,
+                      "warning CDP0107 Mesh has no triangles: 1 (empty-mesh)\n"
+                      "    the whole mesh\n"));
+    EXPECT_TRUE(holds(text, "verdict: no triangles to judge\n"));
+    EXPECT_FALSE(holds(text, "closed"));
+    EXPECT_FALSE(holds(text, "open"));
+}
+
 TEST(ValidationJson, IsABaselineOfItself) {
     const std::string text =
         written(ValidationFormat::json, run_of(), {with_a_hole(), unreadable()});

@@ -347,6 +347,8 @@ const PROMISES = [
 
 function facts_of(verdict) {
   const has = (name) => (verdict.facts & FACT[name]) !== 0;
+  // Open without a boundary: of no triangles there is nothing to say.
+  if ((verdict.facts & ~FACT.examined) === 0 && verdict.loops === 0) return [[false, '', 'no triangles']];
   return [
     [has('closed'), 'closed', 'open'],
     [has('two_manifold'), '2-manifold', 'not 2-manifold'],
