@@ -9,13 +9,14 @@ import json
 import os
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
 import textwrap
 
 from shared_models import must
-from validate import CORNERS, CUBE, ROOT, write_obj
+from validate import CORNERS, CUBE, ROOT, shuffled, write_obj
 
 
 def recipes():
@@ -55,6 +56,68 @@ def results(folder):
             for result in log["runs"][0]["results"]]
 
 
+def test_hook(repository, hook):
+    """It sees what is committed, and nothing else."""
+    assets = repository.folder / "assets"
+    path = repository.folder / ".git/hooks/pre-commit"
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(hook)
+    path.chmod(0o755)
+
+    def refuse(words):
+        refused = repository.sh("git commit -qm bad", 1)
+        must(words in refused.stdout + refused.stderr, f"no {words!r} in {refused}")
+
+    repository.sh("git commit -qm text", 0)
+    repository.sh("git add assets mesh-baseline.json && git commit -qm known", 0)
+    for name in ("new\u00e9 one.obj", "T\u00fcr neu.OBJ", "\"two\" 'quotes'.Obj", "two\nlines.obj"):
+        write_obj(assets / name, CORNERS, CUBE[2:])
+        write_obj(assets / "good.obj", CORNERS, [*CUBE[2:], *CUBE[:2]])
+        repository.sh("git add assets/good.obj && git commit --allow-empty -qm good", 0)
+        repository.sh("git add assets", 0)
+        refuse(".obj: FAILED" if name.endswith(".obj") else f"{name}: FAILED")
+        # Mended where it is edited, but not where it is staged; then the other way round.
+        write_obj(assets / name, CORNERS, CUBE)
+        refuse(": FAILED")
+        repository.sh("git add assets", 0)
+        write_obj(assets / name, CORNERS, CUBE[2:])
+        repository.sh("git commit -qm mended", 0)
+        (assets / name).write_text("v 0 0 0\nf 1 2 3\n")
+        repository.sh("git add assets", 0)
+        refuse("")
+        repository.sh("git reset -q --hard", 0)
+
+    # A known mesh may stay as it is; a baseline counts as it is staged.
+    write_obj(assets / "old.obj", *shuffled(CORNERS, CUBE[1:], 3))
+    (repository.folder / "mesh-baseline.json").write_text("{}")
+    repository.sh("git add assets && git commit -qm known", 0)
+    repository.sh("git checkout -q mesh-baseline.json", 0)
+
+    # A glTF file is seen with its buffer, also one that no commit touches.
+    positions = struct.pack("<24f", *(float(c) for corner in CORNERS for c in corner))
+    indices = struct.pack("<36H", *(v for t in CUBE for v in t))
+    (assets / "cube.bin").write_bytes(positions + indices)
+    repository.sh("git add assets && git commit -qm buffer", 0)
+    (assets / "cube.gltf").write_text(json.dumps(gltf_of(len(positions), len(indices))))
+    repository.sh("git add assets && git commit -qm gltf", 0)
+    must(repository.sh("git status --porcelain", 0).stdout == "?? meshes.sarif\n",
+         "the hook left something")
+
+
+def gltf_of(position_bytes, index_bytes):
+    return {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "buffers": [{"uri": "cube.bin", "byteLength": position_bytes + index_bytes}],
+            "bufferViews": [
+                {"buffer": 0, "byteOffset": 0, "byteLength": position_bytes},
+                {"buffer": 0, "byteOffset": position_bytes, "byteLength": index_bytes}],
+            "accessors": [
+                {"bufferView": 0, "componentType": 5126, "count": 8, "type": "VEC3",
+                 "min": [0, 0, 0], "max": [1, 1, 1]},
+                {"bufferView": 1, "componentType": 5123, "count": 36, "type": "SCALAR"}]}
+
+
 def main():
     program = sys.argv[1]
     baseline, workflow, hook = recipes()
@@ -73,21 +136,7 @@ def main():
         write_obj(assets / "new.obj", CORNERS, CUBE)
         repository.sh(workflow, 0)
 
-        # The hook sees what is committed, and nothing else.
-        path = repository.folder / ".git/hooks/pre-commit"
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(hook)
-        path.chmod(0o755)
-        repository.sh("git commit -qm text", 0)
-        repository.sh("git add assets mesh-baseline.json && git commit -qm known", 0)
-        write_obj(assets / "new\u00e9 one.obj", CORNERS, CUBE[2:])
-        write_obj(assets / "good.obj", CORNERS, [*CUBE[2:], *CUBE[:2]])
-        repository.sh("git add assets/good.obj && git commit -qm good", 0)
-        refused = repository.sh("git add assets && git commit -qm bad", 1)
-        must("new\u00e9 one.obj: FAILED" in refused.stdout + refused.stderr, f"{refused}")
-        (assets / "new\u00e9 one.obj").write_text("v 0 0 0\nf 1 2 3\n")
-        repository.sh("git add assets && git commit -qm worse", 1)
-        must(repository.sh("git log --oneline | wc -l", 0).stdout.strip() == "3", "commits")
+        test_hook(repository, hook)
     print("the recipes of README.md hold")
 
 

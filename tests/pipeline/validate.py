@@ -225,6 +225,14 @@ def test_inputs(validate):
                           capture_output=True)
     must([mesh["input"] for mesh in json.loads(done.stdout)["meshes"]] == listed[:1],
          "a list on standard input")
+    line_break = write_obj(validate.folder / "odd/two\nlines\r/ \"'.obj", CORNERS, CUBE)
+    done = subprocess.run([validate.program, "validate", "-0", "--files-from", "-", "--format",
+                           "json"], cwd=validate.folder, text=True, capture_output=True,
+                          input="odd/two\nlines\r/ \"'.obj\0\0good\0odd/a[1].obj\0")
+    must([mesh["input"].rsplit("/")[-1] for mesh in json.loads(done.stdout)["meshes"]] ==
+         [" \"'.obj", "cube.obj", "a[1].obj"] and done.returncode == 0, f"NUL: {done}")
+    line_break.unlink()
+    must(validate("good", "--null").returncode == 2, "--null without a list")
     (validate.folder / "odd/nothing").write_text("")
     must(names("--files-from", "odd/nothing", code=0) == [], "an empty list is no mistake")
     for wrong in ("odd/*.stl", "nowhere"):

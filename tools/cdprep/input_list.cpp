@@ -71,13 +71,13 @@ void keep_each_once(std::vector<Input>& inputs) {
     });
 }
 
-std::vector<std::string> lines_of(std::istream& in) {
-    std::vector<std::string> lines;
-    for (std::string line; std::getline(in, line);) {
-        if (line.ends_with('\r')) line.pop_back();
-        if (!line.empty()) lines.push_back(line);
+std::vector<std::string> paths_of(std::istream& in, ListEnd end) {
+    std::vector<std::string> paths;
+    for (std::string path; std::getline(in, path, end == ListEnd::nul ? '\0' : '\n');) {
+        if (end == ListEnd::line && path.ends_with('\r')) path.pop_back();
+        if (!path.empty()) paths.push_back(path);
     }
-    return lines;
+    return paths;
 }
 
 }  // namespace
@@ -89,18 +89,18 @@ std::vector<Input> list_inputs(const std::vector<std::string>& arguments) {
     return inputs;
 }
 
-Result<std::vector<std::string>> read_file_list(const std::string& name) {
-    if (name == "-") return lines_of(std::cin);
+Result<std::vector<std::string>> read_file_list(const std::string& name, ListEnd end) {
+    if (name == "-") return paths_of(std::cin, end);
     std::ifstream file(name);
     if (!file) {
         return Error{ErrorCode::unreadable, name + ": the list of files cannot be read: " +
                                                 std::generic_category().message(errno) + "."};
     }
-    std::vector<std::string> lines = lines_of(file);
+    std::vector<std::string> paths = paths_of(file, end);
     if (file.bad()) {
         return Error{ErrorCode::unreadable, name + ": the list of files cannot be read whole."};
     }
-    return lines;
+    return paths;
 }
 
 void add_inputs(std::vector<Input>& inputs, const std::vector<std::string>& paths) {

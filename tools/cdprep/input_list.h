@@ -24,9 +24,15 @@ struct Input {
 /// passed over.
 [[nodiscard]] std::vector<Input> list_inputs(const std::vector<std::string>& arguments);
 
-/// The paths that a file lists, one a line, or that standard input does for "-". Empty
-/// lines are skipped; nothing in a line is a pattern. Fails with `unreadable`.
-[[nodiscard]] Result<std::vector<std::string>> read_file_list(const std::string& name);
+/// What ends each path in a list.
+enum class ListEnd {
+    line,  ///< with or without a carriage return
+    nul,   ///< as `git -z` and `find -print0` write; any name can be listed
+};
+
+/// The paths that a file lists, or that standard input does for "-". Empty ones are
+/// skipped; none is a pattern. Fails with `unreadable`.
+[[nodiscard]] Result<std::vector<std::string>> read_file_list(const std::string& name, ListEnd end);
 
 /// Adds the files of such paths to `inputs`, as list_inputs() does.
 void add_inputs(std::vector<Input>& inputs, const std::vector<std::string>& paths);

@@ -51,6 +51,7 @@ struct Arguments {
     std::vector<std::string> fail_on;
     std::optional<std::size_t> max_issues;
     std::size_t threads = 0;
+    bool null = false;
     bool no_crossings = false;
     ImportLimits import;
     ValidationOptions options;
@@ -67,7 +68,8 @@ Result<std::vector<Input>> inputs_for(const Arguments& arguments) {
     }
     std::vector<Input> inputs = list_inputs(arguments.inputs);
     if (arguments.files_from.empty()) return inputs;
-    const Result<std::vector<std::string>> listed = read_file_list(arguments.files_from);
+    const Result<std::vector<std::string>> listed =
+        read_file_list(arguments.files_from, arguments.null ? ListEnd::nul : ListEnd::line);
     if (!listed) return listed.error();
     add_inputs(inputs, listed.value());
     return inputs;
@@ -291,8 +293,14 @@ void add_validate(CLI::App& app, Exit& exit) {
     CLI::App* command = app.add_subcommand("validate", "Say what is wrong with meshes, and where");
     command->add_option("input", arguments->inputs,
                         "Mesh files, folders of them, or patterns such as 'assets/**/*.obj'");
-    command->add_option("--files-from", arguments->files_from,
-                        "A file that lists inputs, one a line; -: standard input");
+    CLI::Option* list =
+        command->add_option("--files-from", arguments->files_from,
+                            "A file that lists inputs, a file or folder in each line and no "
+                            "patterns; empty lines are skipped. -: standard input");
+    command
+        ->add_flag("-0,--null", arguments->null,
+                   "Names in the list end with NUL, as git -z and find -print0 write them")
+        ->needs(list);
     command->add_option("--format", arguments->format, "text, json, ndjson, sarif or junit")
         ->check(CLI::IsMember({"text", "json", "ndjson", "sarif", "junit"}))
         ->capture_default_str();
