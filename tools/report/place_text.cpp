@@ -50,6 +50,10 @@ std::string place_text(const ValidationReport& report, mesh::Rule rule, const me
     return measure.empty() ? text : text + "; " + measure + ": " + number_text(place.measure);
 }
 
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
 std::string number_text(double number) {
     constexpr std::size_t kLongest = 32;
     std::array<char, kLongest> digits{};

@@ -17,6 +17,9 @@ namespace cdprep::report {
 [[nodiscard]] std::string place_text(const ValidationReport& report, mesh::Rule rule,
                                      const mesh::Place& place, std::size_t most_numbers);
 
+/// "1 triangle", "2 triangles".
+[[nodiscard]] std::string counted(std::uint64_t count, const char* one, const char* many);
+
 /// The shortest text that reads back as the same number.
 [[nodiscard]] std::string number_text(double number);
 

@@ -2,8 +2,10 @@
 #include "report/validation_text.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "report/place_text.h"
+#include "report/printable.h"
 #include "report/severity_name.h"
 #include "report/verdict_words.h"
 
@@ -11,10 +13,6 @@ namespace cdprep::report {
 namespace {
 
 constexpr std::size_t kMostNumbers = 8;  ///< of triangles or vertices in a line
-
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
 
 std::string findings_text(std::uint64_t errors, std::uint64_t warnings, std::uint64_t notes) {
     return counted(errors, "error", "errors") + ", " + counted(warnings, "warning", "warnings") +
@@ -47,7 +45,8 @@ std::string verdict_lines(const ValidationReport& report, const ValidationRun& r
                 "\n";
     }
     if (shown == components) return text;
-    return text + "  and " + std::to_string(components - shown) + " more components\n";
+    return text + "  and " + counted(components - shown, "more component", "more components") +
+           "\n";
 }
 
 std::string timings_text(const ValidationReport& report) {
@@ -61,11 +60,25 @@ std::string timings_text(const ValidationReport& report) {
 std::string head_line(const ValidationReport& report) {
     ValidationTotals totals;
     totals.add(report);
-    std::string text = report.input + ": " + (report.exit == 0 ? "passed" : "FAILED") + ", " +
-                       findings_text(totals.errors, totals.warnings, totals.notes);
+    std::string text = printable(report.input) + ": " + (report.exit == 0 ? "passed" : "FAILED") +
+                       ", " + findings_text(totals.errors, totals.warnings, totals.notes);
     if (report.known > 0) text += ", besides " + std::to_string(report.known) + " known";
     return text + "; " + counted(report.triangles, "triangle", "triangles") + ", " +
            counted(report.vertices, "vertex", "vertices") + "\n";
+}
+
+/// The findings by severity, errors first, each in the order of the rules.
+std::vector<std::size_t> worst_first(const ValidationReport& report) {
+    std::vector<std::size_t> order(report.judgements.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return report.judgements[a].severity > report.judgements[b].severity;
+    });
+    return order;
+}
+
+bool has_news(const ValidationReport& report) {
+    return report.error ? !report.known_error : !report.judgements.empty();
 }
 
 }  // namespace
@@ -83,12 +96,12 @@ std::string places_text(const ValidationReport& report, std::size_t finding, std
 }
 
 std::string validation_text(const ValidationReport& report, const ValidationRun& run) {
+    if (!run.baseline.empty() && !has_news(report)) return "";
     if (report.error) {
-        return report.input + ": " + (report.known_error ? "known as unreadable" : "UNREADABLE") +
-               "\n  " + *report.error + "\n";
+        return printable(report.input) + ": UNREADABLE\n  " + printable(*report.error) + "\n";
     }
     std::string text = head_line(report);
-    for (std::size_t i = 0; i < report.defects.findings.size(); ++i) {
+    for (const std::size_t i : worst_first(report)) {
         text +=
             finding_line(report.defects.findings[i], report.judgements[i], !run.baseline.empty());
         text += places_text(report, i, run.max_places, "    ");

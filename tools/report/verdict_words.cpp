@@ -82,7 +82,7 @@ std::string verdict_text(const format::Verdict& verdict) {
     text += "; Euler characteristic " + std::to_string(verdict.euler);
     if (verdict.genus >= 0) text += ", genus " + std::to_string(verdict.genus);
     if (verdict.boundary_loops > 0) {
-        text += ", " + std::to_string(verdict.boundary_loops) + " boundary loops";
+        text += ", " + counted(verdict.boundary_loops, "boundary loop", "boundary loops");
     }
     text += ", area " + number_text(verdict.area);
     if (balanced) text += ", volume " + number_text(verdict.volume);

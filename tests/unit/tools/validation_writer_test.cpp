@@ -91,6 +91,59 @@ TEST(ValidationText, HasNoWordForTheShapeOfNothing) {
     EXPECT_FALSE(holds(text, "open"));
 }
 
+TEST(ValidationText, ListsErrorsFirst) {
+    ValidationReport report = with_a_hole();
+    report.judgements[0].severity = mesh::Severity::note;
+    report.judgements[1].severity = mesh::Severity::error;
+    const std::string text = written(ValidationFormat::text, run_of(), {report});
+    EXPECT_LT(text.find("error   CDP0302"), text.find("note    CDP0301"));
+}
+
+TEST(ValidationText, CountsOneAsOne) {
+    ValidationReport report = with_a_hole();
+    format::Verdict& verdict = report.defects.verdicts[0];
+    report.triangles = 1;
+    verdict.boundary_loops = 1;
+    report.defects.verdicts.assign(4, verdict);
+    const std::string text = written(ValidationFormat::text, run_of(), {report});
+    EXPECT_TRUE(holds(text, "; 1 triangle, 8 vertices\n"));
+    EXPECT_TRUE(holds(text, ", 1 boundary loop, area"));
+    EXPECT_TRUE(holds(text, "and 1 more component\n"));
+}
+
+// Of what is known, only the sum is told.
+TEST(ValidationText, WithABaselineListsOnlyNews) {
+    ValidationRun run = run_of();
+    run.baseline = "old.json";
+    ValidationReport known = unreadable();
+    known.known_error = true;
+    known.exit = 0;
+    ValidationReport old = with_a_hole();
+    old.defects.findings.clear();
+    old.judgements.clear();
+    old.known = 4;
+    old.exit = 0;
+    old.remarks = {"CDP0301 was compared by number."};
+    EXPECT_EQ(written(ValidationFormat::text, run, {known, old}),
+              "2 files: 0 failed, 1 unreadable; 0 errors, 0 warnings, 0 notes, besides 5 known\n");
+    ValidationReport fresh = with_a_hole();
+    fresh.input = "fresh.obj";
+    fresh.remarks = old.remarks;
+    const std::string text =
+        written(ValidationFormat::text, run, {known, old, fresh, unreadable()});
+    EXPECT_EQ(text.find("fresh.obj: FAILED"), 0U);
+    EXPECT_TRUE(holds(text, "  CDP0301 was compared by number.\n"));
+    EXPECT_TRUE(holds(text, "none.obj: UNREADABLE\n"));
+}
+
+TEST(ValidationText, EscapesControlCharacters) {
+    ValidationReport report = unreadable();
+    report.input = "a\x1b[2J\n\t\x7f\xc2\x9b\xc3\xbc.obj";
+    report.error = report.input + ": cannot be opened.";
+    const std::string text = written(ValidationFormat::text, run_of(), {report});
+    EXPECT_TRUE(holds(text, "a\\x1b[2J\\n\\t\\x7f\\xc2\\x9b\xc3\xbc.obj: UNREADABLE\n  a\\x1b["));
+}
+
 TEST(ValidationJson, IsABaselineOfItself) {
     const std::string text =
         written(ValidationFormat::json, run_of(), {with_a_hole(), unreadable()});
