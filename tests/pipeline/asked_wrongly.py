@@ -54,8 +54,11 @@ def main():
         (["bake", folder / "sheet.off", "-o", folder / "sheet.off"], 2, ["sheet.off"]),
         (["bake", folder / "sheet.off", "-o", folder / "no" / "m.cdp.h5"], 4, ["m.cdp.h5"]),
         (["bake", folder / "sheet.off", "--output-dir", model], 4, ["sheet.cdp.h5"]),
-        (["bake", folder / "sheet.off", "--weld", "-1"], 2, []),
-        (["bake", folder / "sheet.off", "--weld", "nan"], 2, []),
+        *(([command, folder / "sheet.off", f"{option}={word}"], 2,
+           [f"{option}: '{word}' is not a finite number of 0 or more."])
+          for command, option in (("bake", "--weld"), ("validate", "--weld"),
+                                  ("validate", "--seam-width"))
+          for word in ("-1", "nan", "inf", "abc", "1e999")),
         (["bake", folder / "sheet.off", "--progress", "loud"], 2, ["loud"]),
         (["bake", folder / "sheet.off", "--import-file-size", "10"], 5, ["sheet.off"]),
         (["bake", folder / "sheet.off", "-j", "-1"], 2, []),

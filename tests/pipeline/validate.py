@@ -8,6 +8,7 @@ Usage: validate.py CDPREP
 import json
 import os
 import pathlib
+import pty
 import random
 import struct
 import subprocess
@@ -261,6 +262,7 @@ def test_rules(validate):
         (["bad/open.obj", "--rule", "CDP0301=off", "--rule", "cdp0302=off", "--fail-on",
           "note"], 0),
         (["bad/range.obj", "--rule", "CDP0102=warn"], 0),
+        (["bad/range.obj", "--rule", "CDP0102=warning", "--fail-on", "warning"], 1),
         (["good", "--fail-on", "note"], 0),
     ]
     for arguments, code in cases:
@@ -310,6 +312,9 @@ def test_baseline(validate):
         known = sum(found.values())
         must([mesh.get("findings", []) for mesh in report["meshes"]] == [[], []] and
              report["summary"]["known"] == known + 1, f"renumbering: {report}")
+        text = validate("base", "good", *strict, "--baseline", "old.json").stdout
+        must(text == "3 files: 0 failed, 1 unreadable; 0 errors, 0 warnings, 0 notes, besides "
+                     f"{known + 1} known\n", f"what is known is listed: {text}")
 
     # One triangle less: a hole of its own, with three edges, and nothing else is new.
     write_obj(folder / "mesh.obj", *shuffled(corners, triangles[:100] + triangles[101:], 7))
@@ -404,6 +409,12 @@ def test_ends(validate):
          f"stopped: exit {going.returncode}")
     odd = os.fsencode(validate.folder) + b"/\xff\xfe odd\n&<\".obj"
     os.link(validate.folder / "bad/open.obj", odd)
+    done = validate(os.fsdecode(odd), os.fsdecode(odd) + "\x1b[2J", "--format", "text",
+                    errors="surrogateescape")
+    for text in (done.stdout, done.stderr):
+        must("odd\\n&<\".obj" in text and "\x1b" not in text and "odd\n" not in text,
+             f"control characters: {text!r}")
+    must(done.stderr.count("\n") == 1 and "obj\\x1b[2J: " in done.stderr, done.stderr)
     for form in FORMATS:
         done = subprocess.run([validate.program, "validate", odd, "--format", form],
                               capture_output=True, cwd=validate.folder)
@@ -414,6 +425,21 @@ def test_ends(validate):
             check_sarif(json.loads(done.stdout))
         if form == "junit":
             check_junit(done.stdout.decode(), validate.folder)
+
+
+def test_terminal(validate):
+    """There, what cannot be read is told once; scripts find it in the report and on stderr."""
+    ours, theirs = pty.openpty()
+    done = subprocess.run([validate.program, "validate", "bad/broken.off", "--progress", "none"],
+                          cwd=validate.folder, stdout=theirs, stderr=subprocess.PIPE, text=True)
+    shown = os.read(ours, 4096).decode()
+    os.close(ours)
+    os.close(theirs)
+    must(done.returncode == 3 and done.stderr == "" and shown.count("broken.off: ") == 2 and
+         shown.startswith("bad/broken.off: UNREADABLE"), f"{shown}{done.stderr}")
+    done = validate("bad/broken.off")
+    must(done.stdout == shown.replace("\r\n", "\n") and
+         done.stderr == "cdprep validate: " + done.stdout.splitlines()[1].strip() + "\n", f"{done}")
 
 
 def test_html(validate):
@@ -453,6 +479,7 @@ def main():
         test_rules(validate)
         test_baseline(validate)
         test_bounds(validate, other)
+        test_terminal(validate)
         test_html(validate)
         test_ends(validate)
         test_explain(program)

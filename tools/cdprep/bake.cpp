@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -152,9 +151,6 @@ Exit run(Arguments& arguments) {
     if (!effects) return fail("bake", effects.error());
     const Result<ProgressStyle> style = parse_progress(arguments.progress);
     if (!style) return fail("bake", style.error());
-    if (!std::isfinite(arguments.options.weld_distance)) {
-        return fail("bake", {ErrorCode::bad_argument, "--weld is not finite; it must be."});
-    }
     const Result<std::vector<fs::path>> outputs = outputs_for(arguments);
     if (!outputs) return fail("bake", outputs.error());
     if (!arguments.output_folder.empty()) {
@@ -191,7 +187,7 @@ void add_bake(CLI::App& app, Exit& exit) {
     command
         ->add_option("--weld", arguments->options.weld_distance,
                      "Merge vertices this close, in model units")
-        ->check(CLI::NonNegativeNumber)
+        ->check(is_length())
         ->capture_default_str();
     command
         ->add_option("--repair", arguments->options.repair,

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "command.h"
 
+#include <cmath>
 #include <iostream>
+
+#include "report/printable.h"
 
 namespace cdprep::cli {
 
@@ -23,8 +26,18 @@ Exit exit_for(ErrorCode code) {
 }
 
 Exit fail(const char* command, const Error& error) {
-    std::cerr << "cdprep " << command << ": " << error.message << '\n';
+    std::cerr << "cdprep " << command << ": " << report::printable(error.message) << '\n';
     return exit_for(error.code);
+}
+
+CLI::Validator is_length() {
+    return {[](std::string& word) -> std::string {
+                double length = 0;
+                const bool is_number = CLI::detail::lexical_cast(word, length);
+                if (is_number && std::isfinite(length) && length >= 0) return "";
+                return "'" + report::printable(word) + "' is not a finite number of 0 or more.";
+            },
+            ""};
 }
 
 }  // namespace cdprep::cli

@@ -24,6 +24,10 @@ enum class Exit : int {
 /// Prints "cdprep COMMAND: SENTENCE" on stderr; returns the exit code for it.
 Exit fail(const char* command, const Error& error);
 
+/// For options that are a length in model units: a finite number, 0 or more. Refuses in
+/// one sentence what is none.
+[[nodiscard]] CLI::Validator is_length();
+
 /// Each adds its subcommand; its callback stores how it went in `exit`.
 void add_bake(CLI::App& app, Exit& exit);
 void add_explain(CLI::App& app, Exit& exit);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -17,6 +18,7 @@
 #include "input_list.h"
 #include "interrupt.h"
 #include "progress.h"
+#include "report/printable.h"
 #include "report/validation_writer.h"
 #include "report_output.h"
 #include "validation.h"
@@ -107,6 +109,8 @@ public:
         std::optional<ValidationPage> page, Progress& progress)
         : options_(options),
           writer_(format, options.run),
+          shows_errors_(format == ValidationFormat::text && !output.is_file() &&
+                        ::isatty(STDOUT_FILENO) != 0),
           output_(std::move(output)),
           page_(std::move(page)),
           progress_(progress) {}
@@ -117,7 +121,7 @@ public:
             if (is_over()) return [] {};
             auto validation = std::make_shared<Validation>(
                 validate(inputs[i], options_, threads, [&](const char* stage) {
-                    show(inputs[i].path.filename().string() + ": " + stage);
+                    show(report::printable(inputs[i].path.filename().string()) + ": " + stage);
                 }));
             if (!page_) validation->soup = {};  // before it waits for its turn
             return [this, validation] { take(*validation); };
@@ -141,8 +145,8 @@ private:
         const std::lock_guard lock(progress_mutex_);
         progress_.clear();
         ++done_;
-        if (report.error && !report.known_error) {
-            std::cerr << "cdprep validate: " << *report.error << '\n';
+        if (report.error && !report.known_error && !shows_errors_) {
+            std::cerr << "cdprep validate: " << report::printable(*report.error) << '\n';
         }
         deliver(writer_.add(report));
         if (page_) page_->add(std::move(validation));
@@ -174,6 +178,7 @@ private:
 
     const ValidationOptions& options_;
     report::ValidationWriter writer_;
+    bool shows_errors_;  ///< the report does, to who would read them on stderr too
     ReportOutput output_;
     std::optional<ValidationPage> page_;
     Progress& progress_;
@@ -200,9 +205,6 @@ Result<Done> settle(Arguments& arguments) {
     const auto rules = report::RuleSettings::parse(arguments.rules, arguments.fail_on);
     if (!rules) return rules.error();
     mesh::DefectOptions& defects = arguments.options.defects;
-    if (!std::isfinite(defects.weld_distance) || !std::isfinite(defects.seam_width)) {
-        return Error{ErrorCode::bad_argument, "--weld or --seam is not finite; both must be."};
-    }
     defects.crossings = !arguments.no_crossings;
     report::ValidationRun& run = arguments.options.run;
     run.tool_version = CDPREP_VERSION;
@@ -260,9 +262,10 @@ void add_judging_options(CLI::App& command, Arguments& arguments) {
                     "again. Default: error")
         ->allow_extra_args(false);
     command
-        .add_option("--rule", arguments.rules,
-                    "RULE=off, note, warn or error, for its id or name. May be given again; "
-                    "'cdprep explain' lists all")
+        .add_option(
+            "--rule", arguments.rules,
+            "RULE=off, note, warn (or warning) or error, for its id or name. May be given again; "
+            "'cdprep explain' lists all")
         ->allow_extra_args(false);
     command.add_option("--baseline", arguments.baseline,
                        "An older report of --format json: only what it lacks is listed and "
@@ -275,12 +278,12 @@ void add_judging_options(CLI::App& command, Arguments& arguments) {
     command
         .add_option("--weld", arguments.options.defects.weld_distance,
                     "Look for vertices this close, in model units; 0: not")
-        ->check(CLI::NonNegativeNumber)
+        ->check(is_length())
         ->capture_default_str();
     command
-        .add_option("--seam", arguments.options.defects.seam_width,
-                    "Look for seams with gaps this wide, in model units; 0: not")
-        ->check(CLI::NonNegativeNumber)
+        .add_option("--seam-width,--seam", arguments.options.defects.seam_width,
+                    "Look for boundaries this close, in model units; 0: not")
+        ->check(is_length())
         ->capture_default_str();
     command.add_flag("--no-crossings", arguments.no_crossings,
                      "Leave out CDP0403 and CDP0501 to CDP0503; the verdict then says so");
@@ -291,6 +294,7 @@ void add_judging_options(CLI::App& command, Arguments& arguments) {
 void add_validate(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("validate", "Say what is wrong with meshes, and where");
+    command->footer("Triangles and vertices are numbered as in the file, from 0.");
     command->add_option("input", arguments->inputs,
                         "Mesh files, folders of them, or patterns such as 'assets/**/*.obj'");
     CLI::Option* list =
