@@ -127,6 +127,18 @@ def main():
         write_obj(assets / "good.obj", CORNERS, CUBE)
         write_obj(assets / "old.obj", CORNERS, CUBE[1:])
         repository.sh(baseline, 0)
+        known = (repository.folder / "mesh-baseline.json").read_bytes()
+        write_obj(assets / "range.obj", CORNERS, [(0, 1, 90)])
+        repository.sh(baseline, 0)  # errors and unreadable files can be known too
+        repository.sh(workflow, 0)
+        (assets / "range.obj").write_text("f x\n")
+        repository.sh(workflow, 3)
+        repository.sh(baseline, 0)
+        repository.sh(workflow, 0)
+        (assets / "range.obj").unlink()
+        repository.sh(baseline, 0)
+        must((repository.folder / "mesh-baseline.json").read_bytes() == known, "other bytes")
+        repository.sh(baseline.replace("mesh-", "no/where/"), 4)
 
         repository.sh(workflow, 0)
         must(results(repository.folder) == [], "known findings are listed")

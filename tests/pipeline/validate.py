@@ -10,6 +10,7 @@ import os
 import pathlib
 import pty
 import random
+import shutil
 import struct
 import subprocess
 import sys
@@ -407,6 +408,13 @@ def test_ends(validate):
     going.communicate()
     must(going.returncode == 130 and (validate.folder / "kept").read_text() == "old",
          f"stopped: exit {going.returncode}")
+    # Without the program that reads most formats, a file of those cannot be read.
+    (validate.folder / "alone").mkdir()
+    alone = shutil.copy(validate.program, validate.folder / "alone/cdprep")
+    (validate.folder / "scene.gltf").write_text('{"asset": {"version": "2.0"}}')
+    done = run(alone, "validate", "scene.gltf", "good", cwd=validate.folder)
+    must(done.returncode == 3 and "cdprep-import-child" in done.stderr and
+         "good/cube.obj: passed" in done.stdout, f"no import program: {done}")
     odd = os.fsencode(validate.folder) + b"/\xff\xfe odd\n&<\".obj"
     os.link(validate.folder / "bad/open.obj", odd)
     done = validate(os.fsdecode(odd), os.fsdecode(odd) + "\x1b[2J", "--format", "text",

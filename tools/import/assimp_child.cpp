@@ -241,15 +241,16 @@ Result<mesh::TriangleSoup> import_in_child(const SourceFile& file,
                                            const ImportOptions& options) {
     const auto program = find_child_program();
     if (!program) {
-        return Error{ErrorCode::internal, file.name() + ": the program " + kProgram +
-                                              ", which reads this format, is not installed."};
+        return file.unreadable(std::string("the program ") + kProgram +
+                               ", which reads this format, is neither beside cdprep nor in "
+                               "../libexec/cdprep");
     }
     const Descriptor result(::memfd_create("cdprep-import", MFD_CLOEXEC));
     auto child = Child::start(*program, path, result.number(), options);
     if (result.number() < 0 || !child) {
-        return Error{ErrorCode::internal,
-                     file.name() + ": " + program->string() +
-                         " cannot be started: " + std::generic_category().message(errno) + "."};
+        return file.unreadable(program->string() +
+                               ", which reads this format, cannot be started: " +
+                               std::generic_category().message(errno));
     }
     const Ending ending = child->wait(options.time);
     const ResultBytes bytes(result.number());
