@@ -93,6 +93,13 @@ def test_hook(repository, hook):
     repository.sh("git add assets && git commit -qm known", 0)
     repository.sh("git checkout -q mesh-baseline.json", 0)
 
+    # What -a stages, and what is named, is in an index of its own.
+    write_obj(assets / "good.obj", CORNERS, CUBE[3:])
+    for commit in ("git commit -qam bad", "cd assets && git commit -qm bad good.obj"):
+        refused = repository.sh(commit, 1)
+        must("assets/good.obj: FAILED" in refused.stdout + refused.stderr, f"{refused}")
+    repository.sh("git checkout -q assets", 0)
+
     # A glTF file is seen with its buffer, also one that no commit touches.
     positions = struct.pack("<24f", *(float(c) for corner in CORNERS for c in corner))
     indices = struct.pack("<36H", *(v for t in CUBE for v in t))
