@@ -64,11 +64,6 @@ Result<mesh::RepairSteps> parse_steps(const std::string& list) {
 /// What the arguments ask for, or why they make no sense.
 Result<mesh::RepairOptions> options_of(const Arguments& arguments) {
     mesh::RepairOptions options = arguments.options;
-    for (const double length : {options.weld_distance, options.seam_width}) {
-        if (!std::isfinite(length)) {
-            return Error{ErrorCode::bad_argument, "--weld and --seam-width must be finite."};
-        }
-    }
     if (arguments.steps.empty()) {
         options.steps = *mesh::find_repair_preset(arguments.preset);
     } else {
@@ -206,15 +201,15 @@ void add_repair(CLI::App& app, Exit& exit) {
     command
         ->add_option("--weld", arguments->options.weld_distance,
                      "Merge vertices this close, in model units")
-        ->check(CLI::NonNegativeNumber);
+        ->check(is_length());
     command
-        ->add_option("--seam-width", arguments->options.seam_width,
+        ->add_option("--seam-width,--seam", arguments->options.seam_width,
                      "Join boundaries this close, in model units")
-        ->check(CLI::NonNegativeNumber);
+        ->check(is_length());
     command
         ->add_option("--hole-size", arguments->options.hole_size,
                      "Close holes whose box has at most this diagonal, in model units")
-        ->check(CLI::NonNegativeNumber);
+        ->check(is_length());
     command->add_option("--drop-components", arguments->options.least_triangles,
                         "Leave out components of fewer triangles");
     command
