@@ -8,20 +8,20 @@ namespace {
 
 // By RFC 3986: everything but letters, digits and -._~ is written as its bytes.
 TEST(FileUri, IsRelativeBelowTheFolder) {
-    EXPECT_EQ(file_uri("a/b.obj", "/work"), "a/b.obj");
-    EXPECT_EQ(file_uri("./a/../b.obj", "/work"), "b.obj");
-    EXPECT_EQ(file_uri("/work/a/b.obj", "/work"), "a/b.obj");
-    EXPECT_EQ(file_uri("/work/a/b.obj", "/work/"), "a/b.obj");
-    EXPECT_EQ(file_uri("a b%#?:.obj", "/work"), "a%20b%25%23%3F%3A.obj");
-    EXPECT_EQ(file_uri("\xc3\xa9\xff.obj", "/work"), "%C3%A9%FF.obj");
-    EXPECT_EQ(file_uri("..a/b.obj", "/work"), "..a/b.obj");
+    EXPECT_EQ(file_uri("a/b.obj", "/meshes"), "a/b.obj");
+    EXPECT_EQ(file_uri("./a/../b.obj", "/meshes"), "b.obj");
+    EXPECT_EQ(file_uri("/meshes/a/b.obj", "/meshes"), "a/b.obj");
+    EXPECT_EQ(file_uri("/meshes/a/b.obj", "/meshes/"), "a/b.obj");
+    EXPECT_EQ(file_uri("a b%#?:.obj", "/meshes"), "a%20b%25%23%3F%3A.obj");
+    EXPECT_EQ(file_uri("\xc3\xa9\xff.obj", "/meshes"), "%C3%A9%FF.obj");
+    EXPECT_EQ(file_uri("..a/b.obj", "/meshes"), "..a/b.obj");
 }
 
 TEST(FileUri, IsWholeElsewhere) {
-    EXPECT_EQ(file_uri("../b.obj", "/work/here"), "file:///work/b.obj");
-    EXPECT_EQ(file_uri("/else where/b.obj", "/work"), "file:///else%20where/b.obj");
-    EXPECT_EQ(file_uri("/workshop/b.obj", "/work"), "file:///workshop/b.obj");
-    EXPECT_EQ(file_uri("/work", "/work"), "file:///work");
+    EXPECT_EQ(file_uri("../b.obj", "/meshes/here"), "file:///meshes/b.obj");
+    EXPECT_EQ(file_uri("/else where/b.obj", "/meshes"), "file:///else%20where/b.obj");
+    EXPECT_EQ(file_uri("/meshesx/b.obj", "/meshes"), "file:///meshesx/b.obj");
+    EXPECT_EQ(file_uri("/meshes", "/meshes"), "file:///meshes");
 }
 
 }  // namespace
