@@ -454,6 +454,23 @@ Found find_bad_content(const Content& content) {
         case SectionId::provenance:
         case SectionId::findings:
             return nothing_more();
+        // Sections that only make sense together are checked together.
+        case SectionId::octree_grid:
+        case SectionId::octree_nodes:
+        case SectionId::octree_references:
+        case SectionId::octree_leaf_codes:
+        case SectionId::octree_leaf_nodes:
+        case SectionId::octree_top:
+        case SectionId::octree_modulus_table:
+        case SectionId::octree_mixed_table:
+        case SectionId::adaptive_octree:
+        case SectionId::adaptive_octree_nodes:
+        case SectionId::adaptive_octree_references:
+        case SectionId::tetra_tree:
+        case SectionId::tetra_nodes:
+        case SectionId::tetra_references:
+        case SectionId::tetra_top:
+            return nothing_more();
     }
     return nothing_more();
 }

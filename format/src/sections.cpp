@@ -5,6 +5,8 @@
 #include <cstring>
 
 #include "cdprep/format/geometry.h"
+#include "cdprep/format/octree.h"
+#include "cdprep/format/tetra_tree.h"
 #include "cdprep/format/verdict.h"
 
 namespace cdprep::format {
@@ -16,7 +18,7 @@ struct Kind {
     const char* name;
 };
 
-constexpr std::array<Kind, 24> kKinds = {{
+constexpr std::array<Kind, 39> kKinds = {{
     {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
     {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
     {SectionId::triangles, sizeof(Triangle), "triangles"},
@@ -41,6 +43,21 @@ constexpr std::array<Kind, 24> kKinds = {{
     {SectionId::verdicts, sizeof(Verdict), "verdicts"},
     {SectionId::findings, 1, "findings"},
     {SectionId::repaired_from, 4, "repaired_from"},
+    {SectionId::octree_grid, sizeof(OctreeGrid), "octree_grid"},
+    {SectionId::octree_nodes, sizeof(OctreeNode), "octree_nodes"},
+    {SectionId::octree_references, 4, "octree_references"},
+    {SectionId::octree_leaf_codes, 8, "octree_leaf_codes"},
+    {SectionId::octree_leaf_nodes, 4, "octree_leaf_nodes"},
+    {SectionId::octree_top, 4, "octree_top"},
+    {SectionId::octree_modulus_table, 4, "octree_modulus_table"},
+    {SectionId::octree_mixed_table, 4, "octree_mixed_table"},
+    {SectionId::adaptive_octree, sizeof(AdaptiveOctree), "adaptive_octree"},
+    {SectionId::adaptive_octree_nodes, sizeof(AdaptiveOctreeNode), "adaptive_octree_nodes"},
+    {SectionId::adaptive_octree_references, 4, "adaptive_octree_references"},
+    {SectionId::tetra_tree, sizeof(TetraTree), "tetra_tree"},
+    {SectionId::tetra_nodes, sizeof(TetraNode), "tetra_nodes"},
+    {SectionId::tetra_references, 4, "tetra_references"},
+    {SectionId::tetra_top, 4, "tetra_top"},
 }};
 
 const Kind* find_kind(SectionId id) noexcept {

@@ -43,6 +43,21 @@ struct Model::State {
     std::span<const format::Verdict> verdicts;
     std::span<const char> findings;
     std::span<const std::uint32_t> repaired_from;
+    std::span<const format::OctreeGrid> octree_grid;
+    std::span<const format::AdaptiveOctree> adaptive_octree;
+    std::span<const format::TetraTree> tetra_tree;
+    std::span<const format::OctreeNode> octree_nodes;
+    std::span<const std::uint32_t> octree_references;
+    std::span<const std::uint64_t> octree_leaf_codes;
+    std::span<const std::uint32_t> octree_leaf_nodes;
+    std::span<const std::uint32_t> octree_top;
+    std::span<const std::uint32_t> octree_modulus_table;
+    std::span<const std::uint32_t> octree_mixed_table;
+    std::span<const format::AdaptiveOctreeNode> adaptive_octree_nodes;
+    std::span<const std::uint32_t> adaptive_octree_references;
+    std::span<const format::TetraNode> tetra_nodes;
+    std::span<const std::uint32_t> tetra_references;
+    std::span<const std::uint32_t> tetra_top;
 
     void find_sections(SectionSet wanted);
 
@@ -87,12 +102,33 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::verdicts, wanted, verdicts);
     view(SectionId::findings, wanted, findings);
     view(SectionId::repaired_from, wanted, repaired_from);
+    view(SectionId::octree_grid, wanted, octree_grid);
+    view(SectionId::adaptive_octree, wanted, adaptive_octree);
+    view(SectionId::tetra_tree, wanted, tetra_tree);
+    view(SectionId::octree_nodes, wanted, octree_nodes);
+    view(SectionId::octree_references, wanted, octree_references);
+    view(SectionId::octree_leaf_codes, wanted, octree_leaf_codes);
+    view(SectionId::octree_leaf_nodes, wanted, octree_leaf_nodes);
+    view(SectionId::octree_top, wanted, octree_top);
+    view(SectionId::octree_modulus_table, wanted, octree_modulus_table);
+    view(SectionId::octree_mixed_table, wanted, octree_mixed_table);
+    view(SectionId::adaptive_octree_nodes, wanted, adaptive_octree_nodes);
+    view(SectionId::adaptive_octree_references, wanted, adaptive_octree_references);
+    view(SectionId::tetra_nodes, wanted, tetra_nodes);
+    view(SectionId::tetra_references, wanted, tetra_references);
+    view(SectionId::tetra_top, wanted, tetra_top);
 }
 
 namespace {
 
 Error damaged(std::string_view name, const format::Damage& damage) {
     return {ErrorCode::unreadable, damage_sentence(name, damage)};
+}
+
+/// The element of a section that has one, or null.
+template <class T>
+const T* only(std::span<const T> section) {
+    return section.empty() ? nullptr : section.data();
 }
 
 }  // namespace
@@ -201,10 +237,10 @@ std::span<const format::NamedRun> Model::material_runs() const noexcept {
     return state_->material_runs;
 }
 const format::Bounds* Model::bounds() const noexcept {
-    return state_->bounds.empty() ? nullptr : state_->bounds.data();
+    return only(state_->bounds);
 }
 const format::MassProperties* Model::mass_properties() const noexcept {
-    return state_->mass_properties.empty() ? nullptr : state_->mass_properties.data();
+    return only(state_->mass_properties);
 }
 std::string_view Model::provenance() const noexcept {
     return {state_->provenance.data(), state_->provenance.size()};
@@ -223,6 +259,52 @@ const format::BvhShape& Model::shape() const noexcept {
 }
 bool Model::is_closed() const noexcept {
     return (state_->header->flags & format::model_closed) != 0;
+}
+
+const format::OctreeGrid* Model::octree_grid() const noexcept {
+    return only(state_->octree_grid);
+}
+const format::AdaptiveOctree* Model::adaptive_octree() const noexcept {
+    return only(state_->adaptive_octree);
+}
+const format::TetraTree* Model::tetra_tree() const noexcept {
+    return only(state_->tetra_tree);
+}
+std::span<const format::OctreeNode> Model::octree_nodes() const noexcept {
+    return state_->octree_nodes;
+}
+std::span<const std::uint32_t> Model::octree_references() const noexcept {
+    return state_->octree_references;
+}
+std::span<const std::uint64_t> Model::octree_leaf_codes() const noexcept {
+    return state_->octree_leaf_codes;
+}
+std::span<const std::uint32_t> Model::octree_leaf_nodes() const noexcept {
+    return state_->octree_leaf_nodes;
+}
+std::span<const std::uint32_t> Model::octree_top() const noexcept {
+    return state_->octree_top;
+}
+std::span<const std::uint32_t> Model::octree_modulus_table() const noexcept {
+    return state_->octree_modulus_table;
+}
+std::span<const std::uint32_t> Model::octree_mixed_table() const noexcept {
+    return state_->octree_mixed_table;
+}
+std::span<const format::AdaptiveOctreeNode> Model::adaptive_octree_nodes() const noexcept {
+    return state_->adaptive_octree_nodes;
+}
+std::span<const std::uint32_t> Model::adaptive_octree_references() const noexcept {
+    return state_->adaptive_octree_references;
+}
+std::span<const format::TetraNode> Model::tetra_nodes() const noexcept {
+    return state_->tetra_nodes;
+}
+std::span<const std::uint32_t> Model::tetra_references() const noexcept {
+    return state_->tetra_references;
+}
+std::span<const std::uint32_t> Model::tetra_top() const noexcept {
+    return state_->tetra_top;
 }
 
 std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {

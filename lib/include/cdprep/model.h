@@ -9,7 +9,9 @@
 #include <string_view>
 
 #include "cdprep/format/bvh_shape.h"
+#include "cdprep/format/octree.h"
 #include "cdprep/format/section_set.h"
+#include "cdprep/format/tetra_tree.h"
 #include "cdprep/format/verdict.h"
 #include "cdprep/result.h"
 
@@ -100,6 +102,27 @@ public:
     [[nodiscard]] std::string_view provenance() const noexcept;  ///< canonical JSON
     /// JSON: what was found wrong with the mesh, and what was mended; or empty.
     [[nodiscard]] std::string_view findings() const noexcept;
+
+    /// The octree, its hash tables and its sorted leaves (format/octree.h); empty when baked
+    /// without.
+    [[nodiscard]] const format::OctreeGrid* octree_grid() const noexcept;  ///< or null
+    [[nodiscard]] std::span<const format::OctreeNode> octree_nodes() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> octree_references() const noexcept;
+    [[nodiscard]] std::span<const std::uint64_t> octree_leaf_codes() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> octree_leaf_nodes() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> octree_top() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> octree_modulus_table() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> octree_mixed_table() const noexcept;
+    /// The octree with split points of its own (format/octree.h).
+    [[nodiscard]] const format::AdaptiveOctree* adaptive_octree() const noexcept;  ///< or null
+    [[nodiscard]] std::span<const format::AdaptiveOctreeNode> adaptive_octree_nodes()
+        const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> adaptive_octree_references() const noexcept;
+    /// The tetra-tree (format/tetra_tree.h).
+    [[nodiscard]] const format::TetraTree* tetra_tree() const noexcept;  ///< or null
+    [[nodiscard]] std::span<const format::TetraNode> tetra_nodes() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> tetra_references() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> tetra_top() const noexcept;
 
     /// Name number `index` of instance_names, group_names or material_names;
     /// empty when there is none. O(index).

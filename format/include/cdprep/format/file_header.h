@@ -57,6 +57,26 @@ enum class SectionId : std::uint32_t {
     findings = 23,         ///< uint8: JSON, UTF-8: what was found wrong, and what was mended
     repaired_from = 24,    ///< uint32 per source triangle: its number in the imported file before
                            ///< it was repaired, or kMadeByRepair; absent when it was not
+    octree_grid = 25,      ///< OctreeGrid, one; sections 25 to 32 are in octree.h
+    octree_nodes = 26,     ///< OctreeNode, sorted by key
+    octree_references = 27,      ///< uint32: a triangle, tree order, and kSharedReference; a leaf's
+                                 ///< rise
+    octree_leaf_codes = 28,      ///< uint64 per leaf, rising: its key without the leading one,
+                                 ///< shifted up to 21 levels
+    octree_leaf_nodes = 29,      ///< uint32 per leaf: number of its OctreeNode
+    octree_top = 30,             ///< uint32: for each cell of level top_level, along the z curve,
+                                 ///< the number of leaves before it; then of all
+    octree_modulus_table = 31,   ///< uint32: 2^slot_bits first nodes, then a next node per node,
+                                 ///< each plus one, 0 ends a chain; slot: key modulo 2^slot_bits
+    octree_mixed_table = 32,     ///< the same; slot: the upper bits of the key times kKeyMixer
+    adaptive_octree = 33,        ///< AdaptiveOctree, one
+    adaptive_octree_nodes = 34,  ///< AdaptiveOctreeNode, root first
+    adaptive_octree_references = 35,  ///< as octree_references
+    tetra_tree = 36,                  ///< TetraTree, one
+    tetra_nodes = 37,                 ///< TetraNode, sorted by key
+    tetra_references = 38,            ///< as octree_references
+    tetra_top = 39,  ///< uint32 per cone of level top_level, by key: the node in which the
+                     ///< search for a direction in it goes on, plus one; 0 where none is
 };
 
 /// In repaired_from and source_vertex: made by a repair, from nothing in the file.

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cdprep/format/geometry.h"
+#include "cdprep/format/tetra_tree.h"
+#include "cdprep/parallel_for.h"
+
+namespace cdprep::build {
+
+/// A tetra-tree, as format/tetra_tree.h has it.
+struct TetraTree {
+    format::TetraTree tree{};
+    std::vector<format::TetraNode> nodes;
+    std::vector<std::uint32_t> references;
+    std::vector<std::uint32_t> top;
+};
+
+struct TetraTreeOptions {
+    ParallelFor parallel_for = serial_for;
+    std::uint32_t level = 3;      ///< no cone has more splits above it; to kMaxTetraLevel
+    std::uint32_t threshold = 1;  ///< a cone with fewer triangles is not split; 1 at least
+    format::TetraBounding bounding = format::TetraBounding::caps;
+    std::int32_t frame_exponent = 0;  ///< of the model's frame: the unit of radii
+};
+
+/// Builds it over triangles of finite positions of at most format::kMaxCoordinate;
+/// references are their numbers in `triangles` (a model's: tree order). A triangle is
+/// listed in every leaf whose closed cone it touches, exactly; those that hold the
+/// centre in none. Deterministic: the same bytes for any parallel_for and processor.
+[[nodiscard]] TetraTree build_tetra_tree(std::span<const format::Double3> positions,
+                                         std::span<const format::Triangle> triangles,
+                                         const TetraTreeOptions& options = {});
+
+}  // namespace cdprep::build

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "cdprep/overlapping_triangles.h"
+#include "cdprep/structure.h"
+
+namespace cdprep {
+
+/// Finds what overlapping_triangles() finds, through another structure of both files,
+/// which must have the sections that sections_of() names; a file that lacks them
+/// overlaps nothing. Same sets, same order, same exactness, never allocates.
+/// Structure::hashed_octree_literal finds a part of them: that is the talk's algorithm.
+[[nodiscard]] std::size_t overlapping_triangles_through(
+    const StructureOptions& through, const Model& a, const Model& b, const Placement& placement,
+    Workspace& workspace, std::span<TrianglePair> pairs,
+    const OverlapOptions& options = {}) noexcept;
+
+/// Returns whether any two triangles overlap; stops at the first pair found.
+[[nodiscard]] bool any_overlap_through(const StructureOptions& through, const Model& a,
+                                       const Model& b, const Placement& placement,
+                                       Workspace& workspace,
+                                       const OverlapOptions& options = {}) noexcept;
+
+}  // namespace cdprep

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "support/tiny_baker.h"
+
+#include "cdprep/build_adaptive_octree.h"
+#include "cdprep/build_octree.h"
+#include "cdprep/build_tetra_tree.h"
+#include "cdprep/model.h"
+
+namespace cdprep::test {
+
+/// A section's id and the bytes of its elements.
+template <class T>
+TinySection as_section(SectionId id, std::span<const T> elements) {
+    const std::span<const std::byte> bytes = std::as_bytes(elements);
+    return {id, {bytes.begin(), bytes.end()}};
+}
+
+/// The same file with these sections too, which have higher ids than it has.
+[[nodiscard]] AlignedBytes with_sections(const AlignedBytes& file,
+                                         std::vector<TinySection> sections);
+
+/// What builders take, of a model that is open: tree order, double precision.
+struct BuilderInput {
+    std::vector<Double3> positions;
+    std::vector<Triangle> triangles;
+};
+[[nodiscard]] BuilderInput builder_input(const Model& model);
+
+/// The same file with an octree, an adaptive octree, a tetra-tree over its triangles. To
+/// have several, ask in this order.
+[[nodiscard]] AlignedBytes with_octree(const AlignedBytes& file,
+                                       const build::OctreeOptions& options = {});
+[[nodiscard]] AlignedBytes with_adaptive_octree(const AlignedBytes& file,
+                                                const build::AdaptiveOctreeOptions& options = {});
+/// Radii are in the frame of the file.
+[[nodiscard]] AlignedBytes with_tetra_tree(const AlignedBytes& file,
+                                           build::TetraTreeOptions options = {});
+
+}  // namespace cdprep::test
