@@ -31,12 +31,22 @@ struct OctreeOptions {
     bool hashed = true;           ///< whether to make what finds cells by their keys
 };
 
+/// References that an octree may have beside kMostReferencesPerTriangle for each triangle.
+inline constexpr std::uint64_t kMostFreeReferences = std::uint64_t{1} << 22;
+inline constexpr std::uint64_t kMostReferencesPerTriangle = 64;
+
 /// Builds the octree over triangles of finite positions of at most
 /// format::kMaxCoordinate; references are their numbers in `triangles` (a model's: tree
 /// order). A triangle is listed in every leaf whose closed cell it touches, exactly;
 /// degenerate ones as the segment or point they are. Deterministic: the same bytes for
-/// any parallel_for and any processor. O(references); scratch is stated at the definition
-/// and bounded by a multiple of the input and the result.
+/// any parallel_for and any processor.
+///
+/// A level whose division would give the tree more than kMostFreeReferences and
+/// kMostReferencesPerTriangle for each triangle is not divided, nor is any below: level 21
+/// around a triangle that fills the cube has 2^42 cells. O(levels * references). Scratch, at
+/// most: 12 bytes a vertex, and for each reference of the result 13, for each node 68.
+/// Throws nothing but std::bad_alloc. Coordinates that are NaN are refused long before, by
+/// whoever read them; here they give no answer.
 [[nodiscard]] Octree build_octree(std::span<const format::Double3> positions,
                                   std::span<const format::Triangle> triangles,
                                   const OctreeOptions& options = {});

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/build_octree.h"
+
+#include "octree_grid.h"
+#include "octree_levels.h"
+#include "octree_tables.h"
+
+namespace cdprep::build {
+
+Octree build_octree(std::span<const format::Double3> positions,
+                    std::span<const format::Triangle> triangles, const OctreeOptions& options) {
+    Octree octree;
+    if (triangles.empty()) {
+        octree.grid = octree_grid_around({{}, {}, true});
+    } else {
+        octree.grid = octree_grid_around(extent_of(positions, triangles, options.parallel_for));
+    }
+    octree.grid.level = std::min(options.level, format::kOctreeBits);
+    octree.grid.threshold = std::max(options.threshold, 1U);
+    if (!triangles.empty()) divide_octree(octree, positions, triangles, options.parallel_for);
+    if (options.hashed) make_octree_tables(octree);
+    return octree;
+}
+
+}  // namespace cdprep::build

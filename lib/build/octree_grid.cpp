@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "octree_grid.h"
+
+#include <cmath>
+
+// The step. Planes rise strictly, and no vertex that is more than a step inside is taken to
+// be outside, when a step is at least 2 ulp of every plane: the rounding of a plane moves it
+// by at most half an ulp. An ulp is at most 2^-52 of its number, and no plane is farther out
+// than (1 + 2^-20) times the largest coordinate and twice the extent, so 2^-50 of that sum is
+// enough. The cube: half the extent is at most 2^20 - 4 steps, and its middle and the origin
+// are rounded by less than a step, so three steps stay free on every side.
+
+namespace cdprep::build {
+namespace {
+
+constexpr int kStepBits = 32;
+
+/// The least number of kStepBits significant bits that is not below x > 0.
+double rounded_up(double x) {
+    int exponent = 0;
+    const double fraction = std::frexp(x, &exponent);  // in [1/2, 1)
+    const double up = std::ldexp(std::ceil(std::ldexp(fraction, kStepBits)), exponent - kStepBits);
+    // Where numbers are subnormal the last step may round down.
+    return up < x ? x : up;
+}
+
+}  // namespace
+
+format::OctreeGrid octree_grid_around(const Extent& extent) {
+    double widest = 0;
+    double farthest = 0;
+    std::array<double, 3> middle{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double lower = extent.lower[axis];
+        const double upper = extent.upper[axis];
+        widest = std::max(widest, upper - lower);
+        farthest = std::max({farthest, std::fabs(lower), std::fabs(upper)});
+        middle[axis] = lower + (upper - lower) / 2;
+    }
+    constexpr double kLeastStep = 0x1p-1072;  // the numbers are 2^-1074 apart there
+    const double step = rounded_up(
+        std::max({widest / (kOctreeSteps - 8), 0x1p-50 * (farthest + 2 * widest), kLeastStep}));
+    const double half = step * (kOctreeSteps / 2);
+    format::OctreeGrid grid{};
+    grid.origin = {middle[0] - half, middle[1] - half, middle[2] - half};
+    grid.step = step;
+    return grid;
+}
+
+}  // namespace cdprep::build

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "frame_map.h"
+#include "octree_cells.h"
+
+namespace cdprep::build {
+
+/// The cube around an extent and its finest planes, as format::OctreeGrid defines them: the
+/// extent's middle in the middle, more than a step beyond on every side, planes that rise
+/// strictly. `level`, `threshold` and what concerns tables are left 0.
+[[nodiscard]] format::OctreeGrid octree_grid_around(const Extent& extent);
+
+/// Where a vertex stands among the finest planes of each axis, doubled: 2 i on plane i,
+/// 2 i + 1 strictly between planes i and i + 1. What lies on a plane touches both sides, so
+/// this, unlike a number of a cell, tells exactly which closed cells a vertex is in.
+using Stand = std::array<std::uint32_t, 3>;
+
+[[nodiscard]] inline std::uint32_t octree_stand(double origin, double step, double x) noexcept {
+    const std::uint32_t cell = octree_cell(origin, step, x);
+    return 2 * cell + (x > octree_plane(origin, step, cell) ? 1 : 0);
+}
+
+[[nodiscard]] inline Stand octree_stand(const format::OctreeGrid& grid, const Double3& p) noexcept {
+    return {octree_stand(grid.origin.x, grid.step, p.x),
+            octree_stand(grid.origin.y, grid.step, p.y),
+            octree_stand(grid.origin.z, grid.step, p.z)};
+}
+
+}  // namespace cdprep::build
