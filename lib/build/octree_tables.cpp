@@ -75,12 +75,12 @@ void make_octree_tables(Octree& octree) {
     if (!octree.nodes.empty()) LeafWalk(octree).add_below(0);
     make_top(octree);
     // At least two slots a node.
-    const std::uint32_t bits = std::bit_width(std::max<std::size_t>(octree.nodes.size(), 1));
-    octree.grid.slot_bits = bits + 1;
-    octree.modulus_table = chained(
-        octree, [&](std::uint64_t key) { return key & ((std::uint64_t{1} << (bits + 1)) - 1); });
+    const std::uint32_t bits = std::bit_width(std::max<std::size_t>(octree.nodes.size(), 1)) + 1;
+    octree.grid.slot_bits = bits;
+    octree.modulus_table =
+        chained(octree, [=](std::uint64_t key) { return format::modulus_slot(key, bits); });
     octree.mixed_table =
-        chained(octree, [&](std::uint64_t key) { return key * format::kKeyMixer >> (63 - bits); });
+        chained(octree, [=](std::uint64_t key) { return format::mixed_slot(key, bits); });
 }
 
 }  // namespace cdprep::build

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -21,23 +20,9 @@ inline double octree_plane(double origin, double step, std::uint32_t i) noexcept
     return origin + static_cast<double>(i) * step;
 }
 
-/// Level of a key with a leading one.
-inline std::uint32_t level_of(std::uint64_t key) noexcept {
-    return static_cast<std::uint32_t>(std::bit_width(key) - 1) / 3;
-}
-
-/// A key without its leading one, shifted up to kOctreeBits levels: where the cell's
-/// first finest cell stands along the z curve.
-inline std::uint64_t code_of(std::uint64_t key) noexcept {
-    const std::uint32_t level = level_of(key);
-    const std::uint64_t path = key ^ (std::uint64_t{1} << (3 * level));
-    return path << (3 * (format::kOctreeBits - level));
-}
-
-/// Finest cells below a cell of a level.
-inline std::uint64_t cells_below(std::uint32_t level) noexcept {
-    return std::uint64_t{1} << (3 * (format::kOctreeBits - level));
-}
+using format::cells_below;
+using format::code_of;
+using format::level_of;
 
 /// The number of the half-open finest cell [plane i, plane i + 1) that holds x along one
 /// axis, exactly; outside the cube the nearest. x must not be NaN.

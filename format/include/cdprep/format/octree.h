@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -29,8 +30,9 @@ inline constexpr std::uint64_t kKeyMixer = 0x9e3779b97f4a7c15U;
 /// Plane i of an axis, 0 <= i <= 2^21, lies at origin + i * step: the product is exact
 /// (step has at most 32 significant bits), the sum is rounded to double once, and
 /// planes of rising number rise strictly. A cell of level l is the closed box between
-/// two planes 2^(21 - l) apart along each axis; the root, level 0, holds every vertex
-/// and more than a step beyond. So cells of every level are exact, whatever the model's size.
+/// two planes 2^(21 - l) apart along each axis; the root, level 0, holds every vertex that a
+/// triangle uses, and more than a step beyond. So cells of every level are exact, whatever
+/// the model's size.
 struct OctreeGrid {
     Double3 origin;           ///< model units
     double step;              ///< model units, > 0
@@ -52,6 +54,33 @@ struct OctreeNode {
     std::uint32_t first;
     std::uint32_t count;  ///< kInnerNode | mask of children, or number of references
 };
+
+/// Level of a key with a leading one.
+constexpr std::uint32_t level_of(std::uint64_t key) noexcept {
+    return static_cast<std::uint32_t>(std::bit_width(key) - 1) / 3;
+}
+
+/// A key without its leading one, shifted up to kOctreeBits levels: where the cell's
+/// first finest cell stands along the z curve.
+constexpr std::uint64_t code_of(std::uint64_t key) noexcept {
+    const std::uint32_t level = level_of(key);
+    const std::uint64_t path = key ^ (std::uint64_t{1} << (3 * level));
+    return path << (3 * (kOctreeBits - level));
+}
+
+/// Finest cells below a cell of a level.
+constexpr std::uint64_t cells_below(std::uint32_t level) noexcept {
+    return std::uint64_t{1} << (3 * (kOctreeBits - level));
+}
+
+/// The slot of a key in octree_modulus_table and in octree_mixed_table.
+constexpr std::uint64_t modulus_slot(std::uint64_t key, std::uint32_t slot_bits) noexcept {
+    return key & ((std::uint64_t{1} << slot_bits) - 1);
+}
+constexpr std::uint64_t mixed_slot(std::uint64_t key, std::uint32_t slot_bits) noexcept {
+    // In two steps: there may be one slot only, and no shift by 64.
+    return (key * kKeyMixer) >> 1 >> (63 - slot_bits);
+}
 
 /// How an adaptive octree chooses the point at which a node is split.
 enum class SplitRule : std::uint32_t {
