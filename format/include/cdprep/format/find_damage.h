@@ -26,7 +26,7 @@ enum class DamageKind : std::uint32_t {
     bad_count = 12,        ///< found elements, limit the number that the header's counts demand
     bad_index = 13,        ///< found index, limit the largest allowed
     bad_number = 14,       ///< a coordinate is not finite or beyond kMaxCoordinate
-    bad_order = 15,        ///< runs that do not follow each other, names that are not ended
+    bad_order = 15,        ///< runs or nodes that do not follow each other, names not ended
     bad_box = 16,          ///< deep check: a box does not contain what lies below it
     bad_fact = 17,         ///< deep check: a recorded fact (flag, component, bounds) is not true
 };
@@ -50,6 +50,10 @@ struct Damage {
 /// section in `wanted` that is present, checksum, element count, every index in
 /// range, every coordinate finite and at most kMaxCoordinate. Sections outside
 /// `wanted` are not read. Reads each byte once, in O(bytes); never allocates.
+///
+/// Sections that only make sense together are proved together: an octree's tables with
+/// its nodes, those with its grid and its references. What is wanted without the ones it
+/// leans on has its checksum checked alone.
 ///
 /// Safe means: no query reads outside the file or fails to end. That the
 /// content is *right* is proved by find_deep_damage().

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstring>
+#include <optional>
+#include <span>
+
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/section_set.h"
+#include "cdprep/format/sections.h"
+
+namespace cdprep::format {
+
+/// The elements of one section of a file, which is proved to lie inside it. Every read is a
+/// copy: the file's bytes may have any alignment.
+template <class T>
+struct SectionView {
+    std::span<const std::byte> file;
+    SectionEntry entry{};
+
+    /// Of a section that is not there, or not wanted: empty.
+    SectionView(std::span<const std::byte> of, SectionId id, SectionSet wanted) noexcept
+        : file(of) {
+        entry.id = id;
+        const std::optional<SectionEntry> found = find_section(of, id);
+        if (found && wanted.contains(id)) entry = *found;
+    }
+    [[nodiscard]] std::uint64_t count() const noexcept {
+        return entry.count;
+    }
+    /// Requires index < count().
+    [[nodiscard]] T operator[](std::uint64_t index) const noexcept {
+        T value;
+        std::memcpy(&value, file.data() + entry.offset + index * sizeof value, sizeof value);
+        return value;
+    }
+    [[nodiscard]] Damage damage(DamageKind kind, std::uint64_t index, std::uint64_t found,
+                                std::uint64_t limit) const noexcept {
+        return {kind, entry.id, entry.offset + index * sizeof(T), found, limit};
+    }
+};
+
+}  // namespace cdprep::format

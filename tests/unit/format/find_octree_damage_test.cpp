@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "cdprep/format/content_hash.h"
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/octree.h"
+#include "cdprep/format/sections.h"
+#include "support/meshes.h"
+#include "support/more_sections.h"
+#include "support/open_tiny.h"
+#include "support/reseal.h"
+
+namespace cdprep::format {
+namespace {
+
+using test::AlignedBytes;
+
+constexpr std::array kIds = {SectionId::octree_grid,          SectionId::octree_nodes,
+                             SectionId::octree_references,    SectionId::octree_leaf_codes,
+                             SectionId::octree_leaf_nodes,    SectionId::octree_top,
+                             SectionId::octree_modulus_table, SectionId::octree_mixed_table};
+
+AlignedBytes baked(const test::TestMesh& mesh, const build::OctreeOptions& options) {
+    return test::with_octree(test::bake_tiny(mesh.positions, mesh.triangles), options);
+}
+
+AlignedBytes small_octree() {
+    return baked(test::icosphere(1), {.level = 3, .threshold = 9});
+}
+
+std::optional<Damage> check(const AlignedBytes& file, SectionSet wanted = SectionSet::all()) {
+    return find_damage(file.span(), wanted);
+}
+
+SectionEntry entry_of(const AlignedBytes& file, SectionId id) {
+    return find_section(file.span(), id).value();
+}
+
+/// The file with other bytes at a place of a section, sealed again.
+template <class T>
+AlignedBytes with(const AlignedBytes& file, SectionId id, std::uint64_t at, const T& value) {
+    AlignedBytes changed(file.span());
+    std::memcpy(changed.span().data() + entry_of(file, id).offset + at, &value, sizeof value);
+    test::reseal(changed.span());
+    return changed;
+}
+
+template <class T>
+T element(const AlignedBytes& file, SectionId id, std::uint64_t index) {
+    T value;
+    std::memcpy(&value, file.span().data() + entry_of(file, id).offset + index * sizeof value,
+                sizeof value);
+    return value;
+}
+
+TEST(FindOctreeDamage, AcceptsWhatTheBuilderMakes) {
+    for (const test::TestMesh& mesh :
+         {test::TestMesh{}, test::unit_cube(), test::icosphere(2), test::fan(70),
+          test::coarse_grid_soup(3, 200, 3), test::copies_of_one_triangle(20),
+          test::moved_by(test::icosphere(1), 1e-3, {1e6, 0, 1e6}),
+          test::moved_by(test::icosphere(1), 0x1p-1000, {}),
+          test::moved_by(test::icosphere(1), 0x1p999, {})}) {
+        for (const std::uint32_t level : {0U, 3U, 6U}) {
+            for (const bool hashed : {false, true}) {
+                const AlignedBytes plain =
+                    test::bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true});
+                EXPECT_FALSE(check(
+                    test::with_octree(plain, {.level = level, .threshold = 12, .hashed = hashed})));
+            }
+        }
+    }
+}
+
+TEST(FindOctreeDamage, RefusesATreeOfWhichAPartIsMissing) {
+    const AlignedBytes whole = small_octree();
+    for (const SectionId missing : kIds) {
+        std::vector<test::TinySection> sections;
+        for (std::uint32_t id = 1; id < 64; ++id) {
+            const auto entry = find_section(whole.span(), SectionId{id});
+            if (!entry || SectionId{id} == missing) continue;
+            const auto bytes =
+                whole.span().subspan(entry->offset, entry->count * entry->element_size);
+            sections.push_back({entry->id, {bytes.begin(), bytes.end()}});
+        }
+        const auto damage = check(test::assemble(read_header(whole.span()), sections));
+        ASSERT_TRUE(damage) << section_name(missing);
+        EXPECT_EQ(damage->kind, DamageKind::missing_section);
+        EXPECT_EQ(damage->section, missing);
+    }
+}
+
+// The nodes and the tables hold nothing that the rest does not fix: any other word is
+// damage. A reference may be to another triangle between its neighbours, and be marked or
+// not, without any danger; and the grid's threshold is only reported.
+TEST(FindOctreeDamage, RefusesEveryOtherWordInNodesAndTables) {
+    const AlignedBytes file = small_octree();
+    std::mt19937 random(5);
+    for (const SectionId id : kIds) {
+        if (id == SectionId::octree_grid || id == SectionId::octree_references) continue;
+        const SectionEntry entry = entry_of(file, id);
+        const std::uint64_t words = entry.count * entry.element_size / 4;
+        for (std::uint64_t i = 0; i < words; ++i) {
+            const auto now = element<std::uint32_t>(file, id, i);
+            for (const std::uint32_t value : {0U, 1U, 0x7fffffffU, 0xffffffffU, now - 1, now + 1,
+                                              now ^ (1U << random() % 32)}) {
+                if (value == now) continue;
+                ASSERT_TRUE(check(with(file, id, 4 * i, value)))
+                    << section_name(id) << " word " << i << ": " << value << " for " << now;
+            }
+        }
+    }
+}
+
+TEST(FindOctreeDamage, ReferencesAreOfTrianglesAndRise) {
+    const AlignedBytes file = small_octree();
+    std::uint64_t leaf = 0;  // the first of two triangles or more
+    OctreeNode node{};
+    do {
+        node = element<OctreeNode>(file, SectionId::octree_nodes, leaf++);
+    } while ((node.count & kInnerNode) != 0 || node.count < 2);
+    const auto refused = [&](std::uint32_t triangle) {
+        const auto damage = check(
+            with(file, SectionId::octree_references, 4 * std::uint64_t{node.first}, triangle));
+        return damage ? damage->kind : DamageKind{0};
+    };
+    EXPECT_EQ(refused(80), DamageKind::bad_index);
+    EXPECT_EQ(refused(kSharedReference | 80), DamageKind::bad_index);
+    EXPECT_EQ(refused(0xffffffffU), DamageKind::bad_index);
+    const auto second = element<std::uint32_t>(file, SectionId::octree_references, node.first + 1);
+    EXPECT_EQ(refused(second), DamageKind::bad_order);
+}
+
+TEST(FindOctreeDamage, PlanesOfTheGridRiseStrictlyAndAreFinite) {
+    const AlignedBytes file = small_octree();
+    const auto grid = element<OctreeGrid>(file, SectionId::octree_grid, 0);
+    const auto refused = [&](auto change) {
+        OctreeGrid changed = grid;
+        change(changed);
+        return check(with(file, SectionId::octree_grid, 0, changed)).has_value();
+    };
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(refused([](OctreeGrid&) {}));
+    for (const double x : {kInfinity, -kInfinity, std::nan(""), 0x1p1010}) {
+        EXPECT_TRUE(refused([&](OctreeGrid& g) { g.origin.y = x; }));
+        EXPECT_TRUE(refused([&](OctreeGrid& g) { g.step = x; }));
+    }
+    EXPECT_TRUE(refused([](OctreeGrid& g) { g.step = 0; }));
+    EXPECT_TRUE(refused([](OctreeGrid& g) { g.step = -g.step; }));
+    EXPECT_TRUE(refused([](OctreeGrid& g) { g.step *= 0x1p-40; }));
+    EXPECT_TRUE(refused([](OctreeGrid& g) { g.step *= 1 + 0x1p-40; }));  // 32 bits
+    EXPECT_TRUE(refused([](OctreeGrid& g) { g.level = 22; }));
+    EXPECT_TRUE(refused([](OctreeGrid& g) { g.level = 1; }));  // there are deeper nodes
+    EXPECT_TRUE(refused([](OctreeGrid& g) { g.top_level = g.level + 1; }));
+    EXPECT_TRUE(refused([](OctreeGrid& g) { g.top_level = 0; }));  // the table is larger
+    for (const std::uint32_t bits : {0U, 1U, 40U, 41U, 64U, 0xffffffffU}) {
+        EXPECT_TRUE(refused([&](OctreeGrid& g) { g.slot_bits = bits; }));
+    }
+}
+
+// What is not wanted is not read, and a tree without its grid is no tree.
+TEST(FindOctreeDamage, LooksOnlyAtWhatIsWanted) {
+    const AlignedBytes file = small_octree();
+    const AlignedBytes bad_top = with(file, SectionId::octree_top, 0, 7U);
+    const SectionSet tree = {SectionId::octree_grid, SectionId::octree_nodes,
+                             SectionId::octree_references};
+    EXPECT_FALSE(check(bad_top, tree));
+    EXPECT_TRUE(check(bad_top));
+    const AlignedBytes bad_node = with(file, SectionId::octree_nodes, 0, std::uint64_t{2});
+    EXPECT_TRUE(check(bad_node, tree));
+    EXPECT_FALSE(check(bad_node, {SectionId::positions_f32}));
+}
+
+}  // namespace
+}  // namespace cdprep::format
