@@ -10,6 +10,7 @@
 
 #include "support/aligned_bytes.h"
 #include "support/meshes.h"
+#include "support/more_sections.h"
 #include "support/reseal.h"
 #include "support/tiny_baker.h"
 
@@ -119,6 +120,7 @@ std::vector<test::AlignedBytes> make_seeds() {
         seeds.push_back(test::bake_tiny(mesh.positions, mesh.triangles));
         seeds.push_back(
             test::bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}));
+        seeds.push_back(test::with_octree(seeds.back(), {.threshold = 4}));
     }
     return seeds;
 }
