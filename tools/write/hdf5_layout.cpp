@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cdprep/format/geometry.h"
+#include "cdprep/format/octree.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/format/verdict.h"
 #include "write/hdf5_in_memory.h"
@@ -194,6 +195,25 @@ Handle instance_type() {
          {"reserved", offsetof(Instance, reserved), H5T_STD_U32LE, {}}});
 }
 
+Handle octree_grid_type() {
+    using format::OctreeGrid;
+    return compound(sizeof(OctreeGrid),
+                    {{"origin", offsetof(OctreeGrid, origin), H5T_IEEE_F64LE, {3}},
+                     {"step", offsetof(OctreeGrid, step), H5T_IEEE_F64LE, {}},
+                     {"level", offsetof(OctreeGrid, level), H5T_STD_U32LE, {}},
+                     {"threshold", offsetof(OctreeGrid, threshold), H5T_STD_U32LE, {}},
+                     {"top_level", offsetof(OctreeGrid, top_level), H5T_STD_U32LE, {}},
+                     {"slot_bits", offsetof(OctreeGrid, slot_bits), H5T_STD_U32LE, {}}});
+}
+
+Handle octree_node_type() {
+    using format::OctreeNode;
+    return compound(sizeof(OctreeNode),
+                    {{"key", offsetof(OctreeNode, key), H5T_STD_U64LE, {}},
+                     {"first", offsetof(OctreeNode, first), H5T_STD_U32LE, {}},
+                     {"count", offsetof(OctreeNode, count), H5T_STD_U32LE, {}}});
+}
+
 Handle run_type() {
     using format::NamedRun;
     return compound(sizeof(NamedRun),
@@ -263,6 +283,22 @@ const std::vector<Look>& looks() {
          "JSON, UTF-8: what was found wrong with the mesh, and what was mended"},
         {SectionId::repaired_from, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
          "number in the imported file of each triangle of the repaired mesh; 2^32 - 1: made"},
+        {SectionId::octree_grid, octree_grid_type, 0, "origin, step: model units",
+         "the cube that the octree divides, and how far"},
+        {SectionId::octree_nodes, octree_node_type, 0, "1",
+         "cells of the octree that triangles touch, sorted by key"},
+        {SectionId::octree_references, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "triangles of each leaf, in tree order; bit 31: other leaves list it too"},
+        {SectionId::octree_leaf_codes, [] { return scalar(H5T_STD_U64LE); }, 0, "1",
+         "where the first finest cell of each leaf stands along the z curve"},
+        {SectionId::octree_leaf_nodes, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "number of the node of each leaf along the z curve"},
+        {SectionId::octree_top, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "leaves before each cell of top_level along the z curve, then all"},
+        {SectionId::octree_modulus_table, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "first nodes by key modulo the slots, then next nodes, plus one; 0 ends a chain"},
+        {SectionId::octree_mixed_table, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "the same by mixed key"},
     };
     return all;
 }
