@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "chunks.h"
+#include "octree_codes.h"
 #include "octree_grid.h"
 #include "triangle_box.h"
 
@@ -40,16 +41,8 @@ struct Cell {
     std::uint32_t half;  ///< from the lower plane to the middle one
 
     static Cell of(std::uint64_t key) noexcept {
-        const std::uint32_t level = level_of(key);
-        Cell cell{{}, kOctreeSteps >> level};
-        for (std::uint32_t i = level; i-- > 0;) {
-            const auto child = static_cast<std::uint32_t>(key >> (3 * i)) & 7;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                cell.lower[axis] = 2 * cell.lower[axis] | (child >> axis & 1);
-            }
-        }
-        for (std::uint32_t& lower : cell.lower) lower *= 2 * cell.half;
-        return cell;
+        const CellPlace first = octree_place(key);
+        return {{2 * first[0], 2 * first[1], 2 * first[2]}, kOctreeSteps >> level_of(key)};
     }
     [[nodiscard]] std::uint32_t middle(std::size_t axis) const noexcept {
         return lower[axis] + half;

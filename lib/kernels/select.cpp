@@ -1,23 +1,67 @@
 // SPDX-License-Identifier: MIT
 #include <cstdlib>
 #include <cstring>
+#ifdef CDPREP_HAVE_AVX2
+#include <cpuid.h>
+#endif
 
+#include "curve.h"
 #include "kernels.h"
 
 namespace cdprep::kernels {
 namespace {
 
+const char* wanted_kernels() noexcept {
+    // Read once, before any query: nothing else in the process writes it then.
+    return std::getenv("CDPREP_KERNELS");  // NOLINT(concurrency-mt-unsafe)
+}
+
 const Table& choose() noexcept {
     const Available tables = available();
-    // Read once, before any query: nothing else in the process writes it then.
-    const char* wanted = std::getenv("CDPREP_KERNELS");  // NOLINT(concurrency-mt-unsafe)
+    const char* wanted = wanted_kernels();
     for (std::size_t i = 0; wanted != nullptr && i < tables.count; ++i) {
         if (std::strcmp(tables.table[i]->name, wanted) == 0) return *tables.table[i];
     }
     return *tables.table[tables.count - 1];
 }
 
+#ifdef CDPREP_HAVE_AVX2
+/// Whether bits are dealt out in a few cycles: by Intel's, and by AMD's from Zen 3 (family
+/// 0x19) on. Of others nobody knows.
+bool has_fast_bmi2() noexcept {
+    if (!__builtin_cpu_supports("bmi2")) return false;
+    if (__builtin_cpu_is("intel")) return true;
+    unsigned a = 0, b = 0, c = 0, d = 0;
+    if (!__builtin_cpu_is("amd") || __get_cpuid(1, &a, &b, &c, &d) == 0) return false;
+    constexpr unsigned kZen3 = 0x19;
+    const unsigned family = (a >> 8 & 0xf) + (a >> 20 & 0xff);
+    return family >= kZen3;
+}
+#endif
+
+const Curve& choose_curve() noexcept {
+    const char* wanted = wanted_kernels();
+    if (wanted != nullptr && std::strcmp(wanted, kScalarCurve.name) == 0) return kScalarCurve;
+#ifdef CDPREP_HAVE_AVX2
+    if (has_fast_bmi2()) return kBmi2Curve;
+#endif
+    return kScalarCurve;
+}
+
 }  // namespace
+
+AvailableCurves available_curves() noexcept {
+    AvailableCurves curves = {{&kScalarCurve, nullptr}, 1};
+#ifdef CDPREP_HAVE_AVX2
+    if (__builtin_cpu_supports("bmi2")) curves.curve[curves.count++] = &kBmi2Curve;
+#endif
+    return curves;
+}
+
+const Curve& active_curve() noexcept {
+    static const Curve& curve = choose_curve();
+    return curve;
+}
 
 Available available() noexcept {
     Available tables = {{&kScalar, nullptr, nullptr}, 1};

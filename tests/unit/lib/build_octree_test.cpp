@@ -10,7 +10,7 @@
 #include <map>
 #include <random>
 
-#include "octree_cells.h"
+#include "octree_codes.h"
 #include "support/exact_box.h"
 #include "support/meshes.h"
 #include "support/run_threads.h"
@@ -29,19 +29,8 @@ bool is_inner(const OctreeNode& node) {
     return (node.count & kInnerNode) != 0;
 }
 
-CellPlace place_of(std::uint64_t key) {
-    CellPlace place{};
-    const std::uint64_t code = code_of(key);
-    for (std::uint32_t bit = 0; bit < format::kOctreeBits; ++bit) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            place[axis] |= static_cast<std::uint32_t>(code >> (3 * bit + axis) & 1) << bit;
-        }
-    }
-    return place;
-}
-
 Box3 box_of(const format::OctreeGrid& grid, std::uint64_t key) {
-    return octree_box(grid, place_of(key), level_of(key));
+    return octree_box(grid, octree_place(key), level_of(key));
 }
 
 Corners corners_of(const TestMesh& mesh, std::size_t i) {
