@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cdprep/build_tetra_tree.h"
+#include "frame_map.h"
+
+namespace cdprep::build {
+
+/// Where a tetra-tree's cones meet, and how large the model is about it.
+struct TetraCentre {
+    format::Double3 at;
+    std::int32_t exponent;  ///< 2^exponent brings the longest side of the box between 1 and 2
+};
+
+/// Returns the mean of the vertices that triangles use, rounded: by summing up distances
+/// from the least corner of their box, so that it does not leave the box, and neither
+/// overflows nor loses digits far from the origin. A float when all coordinates are:
+/// then nearly all differences to it are exact. `extent` is extent_of() the same.
+[[nodiscard]] TetraCentre tetra_centre(const Extent& extent,
+                                       std::span<const format::Double3> positions,
+                                       std::span<const format::Triangle> triangles,
+                                       ParallelFor parallel_for);
+
+}  // namespace cdprep::build
