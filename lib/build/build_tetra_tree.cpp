@@ -6,7 +6,7 @@
 
 #include "cdprep/format/octree.h"
 #include "chunks.h"
-#include "cone_place.h"
+#include "cone_children.h"
 #include "frame_map.h"
 #include "radial_range.h"
 #include "tetra_centre.h"
@@ -32,7 +32,6 @@ using format::TetraNode;
 using format::Triangle;
 
 constexpr double kThird = 0.57735026918962576;  ///< 1 / sqrt(3)
-constexpr std::uint32_t kRoot = 1;              ///< as a key: above the octants
 
 /// Part of a level's references: those of one cone.
 struct Run {
@@ -117,9 +116,7 @@ private:
     }
 
     void find_centre() {
-        const Extent extent = extent_of(positions_, triangles_, options_.parallel_for);
-        const TetraCentre centre =
-            tetra_centre(extent, positions_, triangles_, options_.parallel_for);
+        const TetraCentre centre = tetra_centre(positions_, triangles_, options_.parallel_for);
         centre_ = centre.at;
         exponent_ = centre.exponent;
         scale_ = std::ldexp(1.0, exponent_);
@@ -172,7 +169,7 @@ private:
         Level all;
         all.items.resize(triangles_.size());
         for (std::uint32_t i = 0; i < all.items.size(); ++i) all.items[i] = i;
-        Level level = split(all, {{kRoot, 0, all.items.size(), 0}}, 3);
+        Level level = split(all, {{kRootKey, 0, all.items.size(), 0}}, 3);
         for (std::size_t i = 0; i < all.items.size(); ++i) {
             if (mask_[i] == 0) result_.references.push_back(static_cast<std::uint32_t>(i));
         }
@@ -244,7 +241,7 @@ private:
     }
 
     void count_piece(const Level& from, const Run& run, std::uint32_t bits, Piece& piece) {
-        std::vector<ConeFaces> children;
+        ConeChildren children(run.key);
         for (std::size_t i = piece.first; i < piece.last; ++i) {
             const std::uint32_t triangle = reference_of(from.items[i]);
             const std::uint32_t home = home_[triangle];
@@ -254,8 +251,7 @@ private:
                 const std::uint32_t child = home >> (static_cast<std::uint32_t>(below) - bits);
                 mask = 1U << (child & ((1U << bits) - 1));
             } else {
-                if (children.empty()) children = faces_of_children(run.key, bits);
-                mask = exact_mask(triangle, children);
+                mask = children.touched_by(placed(triangle), centre_);
             }
             mask_[i] = static_cast<std::uint8_t>(mask);
             for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
@@ -264,28 +260,12 @@ private:
         }
     }
 
-    static std::vector<ConeFaces> faces_of_children(std::uint32_t key, std::uint32_t bits) {
-        std::vector<ConeFaces> children;
-        for (std::uint32_t child = 0; child < 1U << bits; ++child) {
-            children.push_back(cone_faces(tetra_cone(key << bits | child)));
-        }
-        return children;
-    }
-
-    /// The children that the triangle touches; none for one that holds the centre, which
-    /// only octants are asked about.
-    [[nodiscard]] std::uint32_t exact_mask(std::uint32_t triangle,
-                                           const std::vector<ConeFaces>& children) const {
+    [[nodiscard]] PlacedTriangle placed(std::uint32_t triangle) const {
         const Corners t = corners(triangle);
-        const bool octants = children.size() == 8;
-        if (octants && triangles_touch(t, {centre_, centre_, centre_})) return 0;
-        const SeenTriangle seen = seen_triangle(centre_, t, scale_);
-        std::uint32_t mask = 0;
-        for (std::uint32_t child = 0; child < children.size(); ++child) {
-            const ConeFaces& faces = children[child];
-            if (touches_faces(t, centre_, faces, face_values(faces, seen))) mask |= 1U << child;
-        }
-        return mask;
+        const auto& v = triangles_[triangle].vertex;
+        return {t,
+                seen_triangle(centre_, t, scale_),
+                {inner_cone_[v[0]], inner_cone_[v[1]], inner_cone_[v[2]]}};
     }
 
     /// Turns counts into places, and makes the children that have something.
@@ -307,7 +287,7 @@ private:
                 if (end == begin) continue;
                 level.runs.push_back({runs[i].key << bits | child, begin, end, 0});
             }
-            if (runs[i].key != kRoot) link_children(runs[i].node, level.runs, first_child);
+            if (runs[i].key != kRootKey) link_children(runs[i].node, level.runs, first_child);
         }
         level.items.resize(end);
     }

@@ -37,15 +37,25 @@ struct PointBounds {
     }
 };
 
+/// Grows bounds by part(first, last) of `count` items each, and adds these up.
+template <class Part>
+Extent extent_of_parts(std::size_t count, ParallelFor parallel_for, const Part& part) {
+    constexpr std::size_t kMostParts = 64;
+    std::array<PointBounds, kMostParts> parts;
+    const std::size_t size = std::max(kItemsPerTask, (count + kMostParts - 1) / kMostParts);
+    for_chunks(count, size, parallel_for, [&](std::size_t first, std::size_t last) {
+        parts[first / size] = part(first, last);
+    });
+    for (std::size_t i = 1; i < kMostParts; ++i) parts[0].grow(parts[i]);
+    const auto& [lower, upper, lost] = parts[0];
+    return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}, lost == 0};
+}
+
 }  // namespace
 
 Extent extent_of(std::span<const Double3> positions, std::span<const Triangle> triangles,
                  ParallelFor parallel_for) {
-    constexpr std::size_t kMostParts = 64;
-    std::array<PointBounds, kMostParts> parts;
-    const std::size_t size =
-        std::max(kItemsPerTask, (triangles.size() + kMostParts - 1) / kMostParts);
-    for_chunks(triangles.size(), size, parallel_for, [&](std::size_t first, std::size_t last) {
+    const auto part = [&](std::size_t first, std::size_t last) {
         // One for each corner: they do not wait for each other.
         std::array<PointBounds, 3> corner;
         for (std::size_t i = first; i < last; ++i) {
@@ -55,11 +65,21 @@ Extent extent_of(std::span<const Double3> positions, std::span<const Triangle> t
         }
         corner[0].grow(corner[1]);
         corner[0].grow(corner[2]);
-        parts[first / size] = corner[0];
-    });
-    for (std::size_t i = 1; i < kMostParts; ++i) parts[0].grow(parts[i]);
-    const auto& [lower, upper, lost] = parts[0];
-    return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}, lost == 0};
+        return corner[0];
+    };
+    return extent_of_parts(triangles.size(), parallel_for, part);
+}
+
+Extent extent_of(std::span<const Double3> positions, std::span<const std::uint8_t> marks,
+                 ParallelFor parallel_for) {
+    const auto part = [&](std::size_t first, std::size_t last) {
+        PointBounds bounds;
+        for (std::size_t i = first; i < last; ++i) {
+            if (marks[i] != 0) bounds.grow(positions[i]);
+        }
+        return bounds;
+    };
+    return extent_of_parts(positions.size(), parallel_for, part);
 }
 
 Frame frame_of(const Extent& extent) {

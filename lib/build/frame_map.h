@@ -38,6 +38,10 @@ struct Extent {
                                std::span<const format::Triangle> triangles,
                                ParallelFor parallel_for);
 
+/// The same, of the vertices whose mark is not 0.
+[[nodiscard]] Extent extent_of(std::span<const format::Double3> positions,
+                               std::span<const std::uint8_t> marks, ParallelFor parallel_for);
+
 /// Centres the box and scales it by a power of two so that no coordinate leaves
 /// [-1, 1], not even after rounding: the largest distance lands in [1/4, 1/2].
 [[nodiscard]] Frame frame_of(const Extent& extent);

@@ -13,7 +13,8 @@
 // rounded up. The best y makes the bound the maximum (duality of linear programs), and is
 // one of few: 0, when a corner is the maximum; with one part, that makes two corners
 // equal, when it is where an edge leaves through a face; with two parts, that make all
-// three equal, when it is on a generator. All are tried.
+// three equal, when it is on a generator. All are tried, but for faces that no edge
+// crosses: these cut nothing off.
 //
 // Rounding: with e the corner's slack (cone_faces.h: 8 u of its size), v and f are off by
 // less than e each; the products and sums add 3 u (|v| + sum(y |f|)), and both are at
@@ -27,9 +28,11 @@ class UpperBound {
 public:
     UpperBound(const FaceValues& f, const std::array<double, 3>& v) noexcept
         : f_(f), v_(v), best_(of({0, 0, 0})) {
+        std::array<bool, 3> crossed{};
+        for (std::size_t k = 0; k < 3; ++k) crossed[k] = try_face(k);
         for (std::size_t k = 0; k < 3; ++k) {
-            try_face(k);
-            try_generator((k + 1) % 3, (k + 2) % 3);
+            const std::size_t m = (k + 1) % 3;
+            if (crossed[k] && crossed[m]) try_generator(k, m);
         }
     }
     [[nodiscard]] double best() const noexcept {
@@ -54,16 +57,19 @@ private:
         }
         best_ = std::min(best_, of(y));
     }
-    /// Where an edge crosses face k.
-    void try_face(std::size_t k) noexcept {
+    /// Where edges cross face k; whether any does.
+    bool try_face(std::size_t k) noexcept {
+        bool crossed = false;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3;
             const double fi = f_.at[k][i], fj = f_.at[k][j];
             if ((fi >= 0) == (fj >= 0)) continue;
+            crossed = true;
             std::array<double, 3> y{};
             y[k] = (v_[i] - v_[j]) / (fj - fi);
             take(y);
         }
+        return crossed;
     }
     /// Where the line f_k = f_m = 0 pierces the triangle.
     void try_generator(std::size_t k, std::size_t m) noexcept {

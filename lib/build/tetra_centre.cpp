@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "chunks.h"
+#include "frame_map.h"
 
 namespace cdprep::build {
 namespace {
@@ -74,10 +75,11 @@ std::int32_t exponent_of(const Extent& extent) {
 
 }  // namespace
 
-TetraCentre tetra_centre(const Extent& extent, std::span<const Double3> positions,
-                         std::span<const Triangle> triangles, ParallelFor parallel_for) {
-    const std::int32_t exponent = exponent_of(extent);
+TetraCentre tetra_centre(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                         ParallelFor parallel_for) {
     const Marks used = mark_used(positions.size(), triangles, parallel_for);
+    const Extent extent = extent_of(positions, used, parallel_for);
+    const std::int32_t exponent = exponent_of(extent);
     const Sum sum = sum_all(positions, used, extent, std::ldexp(1.0, exponent), parallel_for);
     std::array<double, 3> at{};
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "cdprep/build_tetra_tree.h"
-#include "frame_map.h"
 
 namespace cdprep::build {
 
@@ -15,9 +14,8 @@ struct TetraCentre {
 /// Returns the mean of the vertices that triangles use, rounded: by summing up distances
 /// from the least corner of their box, so that it does not leave the box, and neither
 /// overflows nor loses digits far from the origin. A float when all coordinates are:
-/// then nearly all differences to it are exact. `extent` is extent_of() the same.
-[[nodiscard]] TetraCentre tetra_centre(const Extent& extent,
-                                       std::span<const format::Double3> positions,
+/// then nearly all differences to it are exact.
+[[nodiscard]] TetraCentre tetra_centre(std::span<const format::Double3> positions,
                                        std::span<const format::Triangle> triangles,
                                        ParallelFor parallel_for);
 

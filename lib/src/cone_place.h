@@ -11,21 +11,27 @@ namespace cdprep {
 
 inline constexpr std::uint32_t kOctantKeyBits = 4;  ///< a leading one, and the octant
 
-/// Returns the number of the child that holds the place with barycentric coordinates `l`
-/// of the given sum, which become those within the child; ties go to the lowest.
-/// is_negative(number) says what its name does.
-template <class Number, class IsNegative>
-[[nodiscard]] std::uint32_t split_place(std::array<Number, 3>& l, const Number& sum,
-                                        const IsNegative& is_negative) noexcept {
-    for (std::uint32_t child = 0; child < 3; ++child) {
-        if (is_negative(l[child] + l[child] - sum)) continue;
-        for (std::uint32_t k = 0; k < 3; ++k) {
-            l[k] = k == child ? l[k] + l[k] - sum : l[k] + l[k];
+/// Returns the key below an octant's of the cone that holds the places between whole
+/// steps, 2^level of them along each edge of the octant's face, that begin at `step`.
+///
+/// A place's first binary digits are those of its children: the child of a corner is
+/// where that coordinate is past the middle, and doubles what is left of all; in the
+/// middle child, coordinates run from the middles of the edges inwards.
+[[nodiscard]] inline std::uint32_t cone_below(std::uint32_t key, std::uint32_t level,
+                                              std::array<std::uint32_t, 3> step) noexcept {
+    for (std::uint32_t bit = level; bit-- > 0;) {
+        const std::uint32_t rest = (1U << bit) - 1;
+        // One of them at most is set.
+        const std::uint32_t past = step[0] >> bit | step[1] >> bit << 1 | step[2] >> bit << 2;
+        if (past != 0) {
+            key = key << 2 | past >> 1;
+            step = {step[0] & rest, step[1] & rest, step[2] & rest};
+        } else {
+            key = key << 2 | 3;
+            step = {~step[2] & rest, ~step[0] & rest, ~step[1] & rest};
         }
-        return child;
     }
-    l = {sum - (l[2] + l[2]), sum - (l[0] + l[0]), sum - (l[1] + l[1])};
-    return 3;
+    return key;
 }
 
 /// Returns the key of the deepest cone of at most `level` splits that certainly holds
@@ -37,31 +43,22 @@ template <class Number, class IsNegative>
     constexpr double kMargin = 0x1p-30;
     if (!(p.size > kLeastSeen && p.size < 1 / kLeastSeen)) return 0;
     const double one = 1 / p.size;
+    const std::uint32_t octant =
+        8U | (p.at[0] < 0 ? 1U : 0U) | (p.at[1] < 0 ? 2U : 0U) | (p.at[2] < 0 ? 4U : 0U);
     for (std::uint32_t l = level + 1; l-- > 0;) {
         const double steps = static_cast<double>(1U << l) * one;
-        std::array<std::int32_t, 3> step;
+        std::array<std::uint32_t, 3> step;
         double least = 1;
         double most = 0;
         for (std::size_t k = 0; k < 3; ++k) {
             const double place = std::fabs(p.at[k]) * steps;
-            step[k] = static_cast<std::int32_t>(place);
-            const double rest = place - step[k];
+            const auto whole = static_cast<std::int32_t>(place);
+            const double rest = place - whole;
+            step[k] = static_cast<std::uint32_t>(whole);
             least = std::min(least, rest);
             most = std::max(most, rest);
         }
-        if (!(least > kMargin && most < 1 - kMargin)) continue;
-        // The middle of the cone, in thirds of a step.
-        const std::int32_t all = 1 << l;
-        const std::int32_t rest = all - step[0] - step[1] - step[2];
-        std::array<std::int32_t, 3> middle = {3 * step[0] + rest, 3 * step[1] + rest,
-                                              3 * step[2] + rest};
-        std::uint32_t key =
-            8U | (p.at[0] < 0 ? 1U : 0U) | (p.at[1] < 0 ? 2U : 0U) | (p.at[2] < 0 ? 4U : 0U);
-        const auto is_negative = [](std::int32_t number) { return number < 0; };
-        for (std::uint32_t i = 0; i < l; ++i) {
-            key = key << 2 | split_place(middle, 3 * all, is_negative);
-        }
-        return key;
+        if (least > kMargin && most < 1 - kMargin) return cone_below(octant, l, step);
     }
     return 0;
 }

@@ -215,6 +215,20 @@ double scale_for(const Double3& centre, const Corners& t) noexcept {
     return std::ldexp(1.0, std::clamp(-std::ilogb(most), -1010, 1010));
 }
 
+/// Returns the number of the child that holds the place with barycentric coordinates `l`
+/// of the given sum, which become those within the child; ties go to the lowest.
+std::uint32_t split_place(std::array<Length, 3>& l, const Length& sum) noexcept {
+    for (std::uint32_t child = 0; child < 3; ++child) {
+        if ((l[child] + l[child] - sum).sign() < 0) continue;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            l[k] = k == child ? l[k] + l[k] - sum : l[k] + l[k];
+        }
+        return child;
+    }
+    l = {sum - (l[2] + l[2]), sum - (l[0] + l[0]), sum - (l[1] + l[1])};
+    return 3;
+}
+
 std::uint32_t octant_of(const Double3& centre, const Double3& p) noexcept {
     return (p.x < centre.x ? 1U : 0U) | (p.y < centre.y ? 2U : 0U) | (p.z < centre.z ? 4U : 0U);
 }
@@ -227,8 +241,7 @@ std::uint32_t exact_key(const Double3& centre, const Double3& p, std::uint32_t l
     }
     const Length sum = l[0] + l[1] + l[2];
     std::uint32_t key = 8U | octant_of(centre, p);
-    const auto is_negative = [](const Length& number) { return number.sign() < 0; };
-    for (std::uint32_t i = 0; i < level; ++i) key = key << 2 | split_place(l, sum, is_negative);
+    for (std::uint32_t i = 0; i < level; ++i) key = key << 2 | split_place(l, sum);
     return key;
 }
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "cone_children.h"
+
+#include <bit>
+
+namespace cdprep::build {
+namespace {
+
+constexpr std::uint32_t kMiddle = 3;  ///< the child between the other three
+
+/// The octants that corners of these signs may reach, when all are on one side of some
+/// coordinate planes. Signs of differences are exact.
+std::uint32_t possible_octants(const SeenTriangle& t) noexcept {
+    constexpr std::array<std::uint32_t, 3> kPositive = {0x55, 0x33, 0x0f};
+    std::uint32_t mask = 0xff;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double a = t[0].at[axis], b = t[1].at[axis], c = t[2].at[axis];
+        if (a > 0 && b > 0 && c > 0) mask &= kPositive[axis];
+        if (a < 0 && b < 0 && c < 0) mask &= ~kPositive[axis];
+    }
+    return mask;
+}
+
+}  // namespace
+
+/// The children that corners certainly lie in.
+std::uint32_t ConeChildren::sure_children(const PlacedTriangle& t) const noexcept {
+    const std::uint32_t bits = key_ == kRootKey ? 3 : 2;
+    const auto width = static_cast<std::uint32_t>(std::bit_width(key_));
+    std::uint32_t mask = 0;
+    for (const std::uint32_t cone : t.inner_cone) {
+        const auto deeper = static_cast<std::uint32_t>(std::bit_width(cone));
+        if (deeper < width + bits || cone >> (deeper - width) != key_) continue;
+        mask |= 1U << (cone >> (deeper - width - bits) & ((1U << bits) - 1));
+    }
+    return mask;
+}
+
+/// The children that the planes of the middle one do not keep the triangle from.
+std::uint32_t ConeChildren::possible_children(const PlacedTriangle& t) {
+    if (key_ == kRootKey) return possible_octants(t.seen);
+    // Generators m12, m23, m31: across from m12 is the child of v3, and so on.
+    constexpr std::array<std::uint32_t, 3> kBehind = {2, 0, 1};
+    const FaceValues f = face_values(faces_of(kMiddle), t.seen);
+    std::uint32_t mask = 0xf;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto& at = f.at[k];
+        const auto& slack = f.slack;
+        const bool before = at[0] > slack[0] && at[1] > slack[1] && at[2] > slack[2];
+        const bool behind = at[0] < -slack[0] && at[1] < -slack[1] && at[2] < -slack[2];
+        if (before) mask &= ~(1U << kBehind[k]);
+        if (behind) mask &= 1U << kBehind[k];
+    }
+    return mask;
+}
+
+const ConeFaces& ConeChildren::faces_of(std::uint32_t child) {
+    if (!faces_[child]) {
+        const std::uint32_t bits = key_ == kRootKey ? 3 : 2;
+        faces_[child] = cone_faces(tetra_cone(key_ << bits | child));
+    }
+    return *faces_[child];
+}
+
+std::uint32_t ConeChildren::touched_by(const PlacedTriangle& t, const Double3& centre) {
+    const std::uint32_t possible = possible_children(t);
+    // What is on one side of a plane through the centre does not hold it.
+    if (possible == 0xff && triangles_touch(t.corners, {centre, centre, centre})) return 0;
+    std::uint32_t mask = sure_children(t) & possible;
+    std::uint32_t open = possible & ~mask;
+    // It touches one of them.
+    if (mask == 0 && std::has_single_bit(open)) return open;
+    for (; open != 0; open &= open - 1) {
+        const auto child = static_cast<std::uint32_t>(std::countr_zero(open));
+        const ConeFaces& faces = faces_of(child);
+        if (touches_faces(t.corners, centre, faces, face_values(faces, t.seen))) {
+            mask |= 1U << child;
+        }
+    }
+    return mask;
+}
+
+}  // namespace cdprep::build
