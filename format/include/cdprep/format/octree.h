@@ -100,9 +100,13 @@ struct AdaptiveOctree {
 
 /// One cell that some triangle touches, a closed box: the root's is AdaptiveOctree's;
 /// the planes through `split` divide a node's box into those of its children, numbered
-/// as OctreeNode's. Nodes are stored level by level, root first, siblings side by side.
+/// as OctreeNode's. Nodes are stored level by level, root first, siblings side by side;
+/// leaves' references follow each other in the order of the nodes.
 struct AdaptiveOctreeNode {
-    Double3 split;        ///< inside the node's box, model units; of a leaf: zero
+    /// Along each axis strictly inside the node's box, model units; or its upper bound: then
+    /// the axis is not divided, as a flat one cannot be, and no child lies above it. At
+    /// least one axis is divided. Of a leaf: zero.
+    Double3 split;
     std::uint32_t first;  ///< as OctreeNode
     std::uint32_t count;  ///< as OctreeNode
 };
