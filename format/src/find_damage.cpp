@@ -11,6 +11,7 @@
 #include "cdprep/format/make_user_block.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/format/verdict.h"
+#include "find_adaptive_octree_damage.h"
 #include "find_octree_damage.h"
 
 // Every read is a copy of a few bytes at an offset that was proved to lie inside
@@ -497,6 +498,7 @@ Found find_missing(Bytes file) {
         return missing(SectionId::bvh_nodes);
     }
     if (const Found damage = find_missing_octree(file)) return damage;
+    if (const Found damage = find_missing_adaptive_octree(file)) return damage;
     return std::nullopt;
 }
 
@@ -533,6 +535,7 @@ std::optional<Damage> find_damage(std::span<const std::byte> file, SectionSet wa
         if (const Found damage = find_bad_content({file, header, entry})) return damage;
     }
     if (const Found damage = find_octree_damage(file, wanted)) return damage;
+    if (const Found damage = find_adaptive_octree_damage(file, wanted)) return damage;
     return std::nullopt;
 }
 

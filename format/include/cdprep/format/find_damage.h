@@ -27,7 +27,8 @@ enum class DamageKind : std::uint32_t {
     bad_index = 13,        ///< found index, limit the largest allowed
     bad_number = 14,       ///< a coordinate is not finite or beyond kMaxCoordinate
     bad_order = 15,        ///< runs or nodes that do not follow each other, names not ended
-    bad_box = 16,          ///< deep check: a box does not contain what lies below it
+    bad_box = 16,          ///< a box does not contain what lies below it: of stored boxes a deep
+                           ///< check, of those that follow from split points an ordinary one
     bad_fact = 17,         ///< deep check: a recorded fact (flag, component, bounds) is not true
 };
 

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <initializer_list>
+
+#include "cdprep/format/octree.h"
+#include "section_view.h"
+
+namespace cdprep::format {
+
+/// Of sections that a file has all of or none: the first that is missing beside others.
+inline std::optional<Damage> find_gap(std::span<const std::byte> file,
+                                      std::initializer_list<SectionId> sections) noexcept {
+    std::optional<Damage> gap;
+    bool has_some = false;
+    for (const SectionId id : sections) {
+        if (find_section(file, id)) {
+            has_some = true;
+        } else if (!gap) {
+            gap = Damage{DamageKind::missing_section, id, kSectionTableOffset, 0, 1};
+        }
+    }
+    return has_some ? gap : std::nullopt;
+}
+
+/// A leaf's references, which lie in the section: of triangles that there are, rising.
+inline std::optional<Damage> find_bad_list(const SectionView<std::uint32_t>& references,
+                                           std::uint64_t first, std::uint64_t count,
+                                           std::uint64_t triangle_count) noexcept {
+    std::uint64_t least = 0;
+    for (std::uint64_t i = first; i < first + count; ++i) {
+        const std::uint32_t triangle = references[i] & ~kSharedReference;
+        if (triangle >= triangle_count) {
+            return references.damage(DamageKind::bad_index, i, triangle, triangle_count - 1);
+        }
+        if (triangle < least) {
+            return references.damage(DamageKind::bad_order, i, triangle, least);
+        }
+        least = std::uint64_t{triangle} + 1;
+    }
+    return std::nullopt;
+}
+
+}  // namespace cdprep::format
