@@ -223,6 +223,25 @@ Handle run_type() {
                      {"reserved", offsetof(NamedRun, reserved), H5T_STD_U32LE, {}}});
 }
 
+Handle adaptive_octree_type() {
+    using format::AdaptiveOctree;
+    return compound(sizeof(AdaptiveOctree),
+                    {{"lower", offsetof(AdaptiveOctree, lower), H5T_IEEE_F64LE, {3}},
+                     {"upper", offsetof(AdaptiveOctree, upper), H5T_IEEE_F64LE, {3}},
+                     {"level", offsetof(AdaptiveOctree, level), H5T_STD_U32LE, {}},
+                     {"threshold", offsetof(AdaptiveOctree, threshold), H5T_STD_U32LE, {}},
+                     {"rule", offsetof(AdaptiveOctree, rule), H5T_STD_U32LE, {}},
+                     {"reserved", offsetof(AdaptiveOctree, reserved), H5T_STD_U32LE, {}}});
+}
+
+Handle adaptive_octree_node_type() {
+    using format::AdaptiveOctreeNode;
+    return compound(sizeof(AdaptiveOctreeNode),
+                    {{"split", offsetof(AdaptiveOctreeNode, split), H5T_IEEE_F64LE, {3}},
+                     {"first", offsetof(AdaptiveOctreeNode, first), H5T_STD_U32LE, {}},
+                     {"count", offsetof(AdaptiveOctreeNode, count), H5T_STD_U32LE, {}}});
+}
+
 Handle scalar(hid_t type) {
     return {H5Tcopy(type), H5Tclose};
 }
@@ -299,6 +318,12 @@ const std::vector<Look>& looks() {
          "first nodes by key modulo the slots, then next nodes, plus one; 0 ends a chain"},
         {SectionId::octree_mixed_table, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
          "the same by mixed key"},
+        {SectionId::adaptive_octree, adaptive_octree_type, 0, "model units",
+         "octree with split points of its own: its box, and how it was divided"},
+        {SectionId::adaptive_octree_nodes, adaptive_octree_node_type, 0, "model units",
+         "cells of the adaptive octree, level by level; count: bit 31 and children, or triangles"},
+        {SectionId::adaptive_octree_references, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "triangles of the tree order that touch each leaf; bit 31: other leaves too"},
     };
     return all;
 }
