@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "cdprep/build_octree.h"
+#include "cdprep/model.h"
+#include "cdprep/structure.h"
+#include "octree_cells.h"
+
+namespace cdprep {
+
+/// What a search says when no node has that key, or no leaf holds that point.
+inline constexpr std::uint32_t kNoNode = 0xffffffffU;
+
+/// The parts of a hashed octree that a search reads: a model's or a builder's, which outlive
+/// it. Safe to search when find_damage found nothing: then tops rise from 0 to the number of
+/// leaves, all numbers name nodes, and every chain ends.
+struct OctreeIndex {
+    std::uint32_t top_level = 0;  ///< as format::OctreeGrid
+    std::uint32_t slot_bits = 0;
+    std::uint32_t deepest = 0;  ///< level of the last node
+    std::span<const format::OctreeNode> nodes;
+    std::span<const std::uint64_t> leaf_codes;
+    std::span<const std::uint32_t> leaf_nodes;
+    std::span<const std::uint32_t> top;
+    std::span<const std::uint32_t> modulus_table;
+    std::span<const std::uint32_t> mixed_table;
+};
+
+/// The index of a model that has octree_grid(), or of a builder's octree; empty without nodes.
+[[nodiscard]] OctreeIndex octree_index(const Model& model) noexcept;
+[[nodiscard]] OctreeIndex octree_index(const build::Octree& octree) noexcept;
+
+/// The key of the cell of `level` in which the finest cell `code` lies.
+inline std::uint64_t key_at(std::uint64_t code, std::uint32_t level) noexcept {
+    return (std::uint64_t{1} << (3 * level)) | (code >> (3 * (format::kOctreeBits - level)));
+}
+
+inline bool is_leaf(const format::OctreeNode& node) noexcept {
+    return (node.count & format::kInnerNode) == 0;
+}
+
+/// The slot in which the chain of a key begins.
+inline std::uint64_t modulus_slot(std::uint64_t key, std::uint32_t slot_bits) noexcept {
+    return key & ((std::uint64_t{1} << slot_bits) - 1);
+}
+inline std::uint64_t mixed_slot(std::uint64_t key, std::uint32_t slot_bits) noexcept {
+    // In two steps: there may be one slot only, and no shift by 64.
+    return (key * format::kKeyMixer) >> 1 >> (63 - slot_bits);
+}
+
+/// The node of a key among those chained from a slot on, or kNoNode. O(length of the chain).
+inline std::uint32_t find_chained(const OctreeIndex& index, std::span<const std::uint32_t> table,
+                                  std::uint64_t slot, std::uint64_t key) noexcept {
+    const std::uint32_t* next = table.data() + (std::size_t{1} << index.slot_bits);
+    for (std::uint32_t entry = table[slot]; entry != 0; entry = next[entry - 1]) {
+        if (index.nodes[entry - 1].key == key) return entry - 1;
+    }
+    return kNoNode;
+}
+
+/// The node of a key by bisection of the nodes themselves, which are sorted: no table is
+/// read. O(log nodes).
+[[nodiscard]] std::uint32_t find_node_in_order(const OctreeIndex& index,
+                                               std::uint64_t key) noexcept;
+
+/// The node of a key, an inner node or a leaf, or kNoNode; 0 is no node's key. By the table
+/// that `search` names; sorted leaves do not tell of inner nodes: find_node_in_order then.
+[[nodiscard]] std::uint32_t find_node(const OctreeIndex& index, CellSearch search,
+                                      std::uint64_t key) noexcept;
+
+/// The leaf whose half-open cell holds the finest cell `code`, below 2^63, or kNoNode when
+/// no triangle touches its cell. The answer is the same whatever the search, and that of a
+/// descent from the root. Sorted: O(log of the leaves in one cell of top_level), one
+/// bisection. The others go up from the deepest level: O(levels between that and the
+/// answer) chains.
+[[nodiscard]] std::uint32_t find_leaf(const OctreeIndex& index, CellSearch search,
+                                      std::uint64_t code) noexcept;
+
+}  // namespace cdprep
