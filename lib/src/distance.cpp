@@ -110,7 +110,7 @@ void NearestSearch::point(const Double3& on_a, const Double3& on_b) noexcept {
 std::size_t NearestSearch::push_children(const Tree& a, const Tree& b, const PendingPair& pair,
                                          std::size_t end) noexcept {
     const kernels::BoxPlacement& placement = placed_.placement;
-    const Descent descent = choose_descent(a, b, pair, [&] {
+    const WaysDown descent = choose_descent(a, b, pair, [&] {
         return SizePair{box_size(a, pair.a, placement.scale_a),
                         box_size(b, pair.b, placement.scale_b)};
     });

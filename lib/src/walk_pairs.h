@@ -107,7 +107,7 @@ inline float box_size(const Tree& tree, const TreePlace& place, float scale) noe
 }
 
 /// Which sides go a level down.
-struct Descent {
+struct WaysDown {
     bool a;
     bool b;
 };
@@ -122,7 +122,7 @@ struct SizePair {
 /// root always (it has no siblings to be tested among). `sizes()` is called when it
 /// matters.
 template <class Sizes>
-Descent choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
+WaysDown choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
                        Sizes sizes) noexcept {
     constexpr float kSimilar = 2.5F;
     const bool a_can = pair.a.height > 0;
@@ -141,7 +141,7 @@ Descent choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
 
 /// Adds the boxes that a step tests.
 inline void count_step(const Tree& a, const Tree& b, const PendingPair& pair,
-                       const Descent& descent, QueryCounts& counts) noexcept {
+                       const WaysDown& descent, QueryCounts& counts) noexcept {
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     counts.box_pairs += std::uint64_t{side_a.last - side_a.first} * (side_b.last - side_b.first);
@@ -224,7 +224,7 @@ inline void prefetch_step(const Tree& a, const Tree& b, const OpenStep& step) no
 /// Search::first.
 template <Search kSearch>
 void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed,
-               const kernels::BoundTests& tests, const PendingPair& pair, const Descent& descent,
+               const kernels::BoundTests& tests, const PendingPair& pair, const WaysDown& descent,
                OpenStep& step, kernels::BoxDepths& depths) noexcept {
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
@@ -289,7 +289,7 @@ bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& 
                     box_size(b, start.b, placed.placement.scale_b)};
     for (;;) {
         const PendingPair pair = PendingPair::unpacked(next.pair);
-        const Descent descent = choose_descent(a, b, pair, [&] {
+        const WaysDown descent = choose_descent(a, b, pair, [&] {
             return SizePair{next.size_a, next.size_b};
         });
         OpenStep& step = scratch.open_steps[depth];
