@@ -48,15 +48,18 @@ public:
           counts_(counts) {}
 
     bool operator()(std::uint32_t at_a, std::uint32_t at_b, bool certain) const noexcept {
-        if (options_.degenerate == Degenerate::skip &&
-            (is_marked_degenerate(*a_.model, at_a) || is_marked_degenerate(*b_.model, at_b))) {
-            return false;
-        }
+        if (skips(at_a, at_b)) return false;
         if (!certain) {
             return in_contact(a_.corners(at_a), b_.corners(at_b), options_.contact, counts_);
         }
         if (counts_ != nullptr) ++counts_->by_kernel;
         return true;
+    }
+
+    /// Whether the pair is not to answer, whatever it does.
+    [[nodiscard]] bool skips(std::uint32_t at_a, std::uint32_t at_b) const noexcept {
+        return options_.degenerate == Degenerate::skip &&
+               (is_marked_degenerate(*a_.model, at_a) || is_marked_degenerate(*b_.model, at_b));
     }
 
 private:

@@ -64,12 +64,40 @@ public:
         prefetch_sources(source_b_, leaf_b);
         set_pair(count_++, leaf_a, leaf_b);
     }
+    /// The same of some of their triangles: bit sets.
+    void add(std::uint32_t leaf_a, std::uint8_t lanes_a, std::uint32_t leaf_b,
+             std::uint8_t lanes_b) noexcept {
+        add(leaf_a, leaf_b);
+        kernels::LeafPair& pair = scratch_.leaf_pairs[count_ - 1];
+        pair.used_a &= lanes_a;
+        pair.used_b &= lanes_b;
+    }
+    /// The pairs that were added since the last flush; the last flush's until then.
+    [[nodiscard]] const kernels::LeafPair& pair(std::size_t index) const noexcept {
+        return scratch_.leaf_pairs[index];
+    }
+    [[nodiscard]] std::size_t size() const noexcept {
+        return count_;
+    }
+    /// Forgets what was added, for who tests it otherwise.
+    void clear() noexcept {
+        if (scratch_.counts != nullptr) count_batch(*scratch_.counts, count_);
+        count_ = 0;
+    }
 
     /// Calls found(triangle_a, triangle_b, certain), in tree order, for every pair
     /// of triangles that crosses for certain or may touch, until it returns
     /// false; empties the batch. Returns false when it did.
     template <class Found>
     bool flush(Found&& found) noexcept {
+        return flush_numbered([&](std::size_t /*pair*/, std::uint32_t at_a, std::uint32_t at_b,
+                                  bool certain) { return found(at_a, at_b, certain); });
+    }
+
+    /// The same by found(pair, triangle_a, triangle_b, certain) with the number of the
+    /// pair of leaves: those of one pair follow each other.
+    template <class Found>
+    bool flush_numbered(Found&& found) noexcept {
         const std::size_t contacts = kernels::active().find_contacts(
             placement_, scratch_.leaf_pairs.data(), count_, scratch_.leaf_scratch);
         if (scratch_.counts != nullptr) count_batch(*scratch_.counts, count_);
@@ -79,7 +107,7 @@ public:
             const kernels::LeafPair& pair = scratch_.leaf_pairs[contact.pair];
             const std::uint32_t at_a = pair.number_a * format::kBvhWidth + contact.a;
             const std::uint32_t at_b = pair.number_b * format::kBvhWidth + contact.b;
-            if (!found(at_a, at_b, contact.certain)) return false;
+            if (!found(std::size_t{contact.pair}, at_a, at_b, contact.certain)) return false;
         }
         return true;
     }

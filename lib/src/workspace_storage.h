@@ -10,6 +10,7 @@
 #include "cdprep/workspace.h"
 #include "kernels.h"
 #include "sort_pairs.h"
+#include "tested_pairs.h"
 
 namespace cdprep {
 
@@ -74,7 +75,9 @@ struct Workspace::Storage {
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     kernels::LeafScratch leaf_scratch;
     SortScratch sort_scratch;
-    QueryCounts* counts = nullptr;  ///< or null: nobody asked
+    TestedPairs tested_pairs;
+    std::array<std::uint64_t, kernels::kLeafBatch> batch_places;  ///< of leaf_pairs: which cells
+    QueryCounts* counts = nullptr;                                ///< or null: nobody asked
 };
 
 }  // namespace cdprep

@@ -22,6 +22,8 @@ struct QueryCounts {
     std::uint64_t by_filter = 0;  ///< double: apart or crossing for certain
     std::uint64_t by_exact = 0;   ///< exact arithmetic
 
+    std::uint64_t cell_pairs = 0;  ///< leaf cells of octrees or tetra-trees, A's against B's
+
     std::uint64_t measured = 0;        ///< distances of two triangles taken in double
     std::uint64_t measured_again = 0;  ///< again, for the last digits
 };

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "box_placement.h"
+#include "cdprep/format/bvh_shape.h"
+
+namespace cdprep {
+
+/// What bounds eight cells side by side, in frame coordinates, as the kernels read them.
+struct CellBounds {
+    format::BvhNode boxes;
+    format::OrientedNode oriented;  ///< set by trees that say so
+};
+
+/// From model coordinates to a model's frame, rounded outwards.
+class FrameOf {
+public:
+    explicit FrameOf(const Model& model) noexcept
+        : origin_{model.header().frame_origin.x, model.header().frame_origin.y,
+                  model.header().frame_origin.z},
+          first_factor_(two_to(model.header().frame_exponent / 2)),
+          second_factor_(
+              two_to(model.header().frame_exponent - model.header().frame_exponent / 2)) {}
+
+    /// In double: off by 2^-53 of itself at most.
+    [[nodiscard]] double frame(std::size_t axis, double x) const noexcept {
+        return (x - origin_[axis]) * first_factor_ * second_factor_;
+    }
+
+private:
+    std::array<double, 3> origin_;
+    double first_factor_;  ///< two, so that neither leaves the range when the result does not
+    double second_factor_;
+};
+
+/// Of a number that is off by 2^-52 of itself and by 2^-46 at most (frame units: nothing in
+/// a file is finer than float there): float rounds by 2^-24 of it, twice that covers all.
+inline float float_below(double x) noexcept {
+    return static_cast<float>(x - (std::fabs(x) * 0x1p-23 + 0x1p-45));
+}
+inline float float_over(double x) noexcept {
+    return static_cast<float>(x + (std::fabs(x) * 0x1p-23 + 0x1p-45));
+}
+
+/// Everything of a model lies in its frame: what of a box is outside holds nothing.
+inline float clipped(float x) noexcept {
+    return std::clamp(x, -1.0F, 1.0F);
+}
+
+/// One axis of a node: its box from `lower` to `upper`, and the plane that divides it.
+struct DividedAxis {
+    double lower;
+    double middle;
+    double upper;
+};
+
+/// The boxes of the eight children of a box, frame coordinates; lane as octree.h numbers
+/// them.
+inline void bound_octants(std::size_t axis, const DividedAxis& planes,
+                          format::BvhNode& boxes) noexcept {
+    const std::array<float, 2> lower = {clipped(float_below(planes.lower)),
+                                        clipped(float_below(planes.middle))};
+    const std::array<float, 2> upper = {clipped(float_over(planes.middle)),
+                                        clipped(float_over(planes.upper))};
+    for (std::size_t lane = 0; lane < format::kBvhWidth; ++lane) {
+        boxes.lower[axis][lane] = lower[lane >> axis & 1];
+        boxes.upper[axis][lane] = upper[lane >> axis & 1];
+    }
+}
+
+/// The one box of a root, in lane 0; the others repeat it.
+inline void bound_root(std::size_t axis, double lower, double upper,
+                       format::BvhNode& boxes) noexcept {
+    boxes.lower[axis].fill(clipped(float_below(lower)));
+    boxes.upper[axis].fill(clipped(float_over(upper)));
+}
+
+/// In place of a node's number: what stands above the roots of a tree.
+inline constexpr std::uint32_t kAboveRoots = 0xffffffff;
+
+/// How many lanes below `lane` are in a bit set: the place of a child among its siblings.
+inline std::uint32_t lanes_before(unsigned lanes, unsigned lane) noexcept {
+    return static_cast<std::uint32_t>(std::popcount(lanes & ((1U << lane) - 1)));
+}
+
+}  // namespace cdprep

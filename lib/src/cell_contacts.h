@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "cdprep/structure.h"
+#include "contact_pairs.h"
+
+namespace cdprep {
+
+/// The eight triangles of a BVH leaf that a cell lists, or all of them.
+struct LeafLanes {
+    std::uint32_t leaf;
+    std::uint8_t lanes;  ///< bit set
+};
+
+/// The references of a cell by leaf: triangles that are neighbours in the tree order are
+/// tested eight at a time. References rise.
+class LeavesOf {
+public:
+    explicit LeavesOf(std::span<const std::uint32_t> references) noexcept
+        : references_(references) {}
+
+    /// The next leaf; false past the last.
+    bool next(LeafLanes& leaf) noexcept {
+        if (at_ == references_.size()) return false;
+        leaf = {triangle() / format::kBvhWidth, 0};
+        while (at_ < references_.size() && triangle() / format::kBvhWidth == leaf.leaf) {
+            leaf.lanes |= static_cast<std::uint8_t>(1U << (triangle() % format::kBvhWidth));
+            ++at_;
+        }
+        return true;
+    }
+
+private:
+    [[nodiscard]] std::uint32_t triangle() const noexcept {
+        return references_[at_] & ~format::kSharedReference;
+    }
+    std::span<const std::uint32_t> references_;
+    std::size_t at_ = 0;
+};
+
+/// The decision about one pair of triangles by the paper's six segments.
+inline bool in_contact_by_segments(const Corners& a, const Corners& b, Contact contact) noexcept {
+    if (!triangles_touch_by_segments(a, b)) return false;
+    if (contact == Contact::closed) return true;
+    const TriangleContact kind = classify_contact(a, b);
+    return kind == TriangleContact::cross || kind == TriangleContact::coplanar_overlap;
+}
+
+/// The last stage of a question through cells: pairs of leaves of the two BVHs, and
+/// some lanes of each, are held against each other, many at a time; each pair of
+/// triangles in contact is an answer once, however many cells bring it.
+///
+/// A question begins with TestedPairs::begin() and may go on through several of these.
+/// `found(at_a, at_b)`, tree order, is called until it returns false. Where there is no
+/// room to remember an answer, `owns(place, at_a, at_b)` decides: of all places that bring
+/// the pair, with both triangles listed, it must be true for one.
+template <class Found, class Owns>
+class CellContacts {
+public:
+    CellContacts(const Model& a, const Model& b, const Placement& placement,
+                 const PlacedBoxes& placed, LeafTest leaf_test, const OverlapOptions& options,
+                 Workspace::Storage& scratch, Found found, Owns owns) noexcept
+        : scratch_(scratch),
+          leaf_test_(leaf_test),
+          options_(options),
+          a_(moved_a(a, placement)),
+          b_(moved_b(b, placement)),
+          touch_(a, b, placement, options, scratch.counts),
+          batch_(a, b, placed, scratch),
+          found_(std::move(found)),
+          owns_(std::move(owns)) {}
+
+    /// Adds what was not tested yet. `place` is whatever `owns` wants to know of. False
+    /// when `found` ended the question.
+    bool add(const LeafLanes& a, const LeafLanes& b, std::uint64_t place) noexcept {
+        const std::uint64_t tested = scratch_.tested_pairs.tested(a.leaf, b.leaf);
+        if ((pairs_of(a.lanes, b.lanes) & ~tested) == 0) return true;
+        scratch_.batch_places[batch_.size()] = place;
+        batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
+        return !batch_.full() || flush();
+    }
+
+    /// Tests all that was added. False when `found` ended the question.
+    bool flush() noexcept {
+        if (batch_.size() == 0) return true;
+        const std::size_t count = batch_.size();
+        const bool whole =
+            leaf_test_ == LeafTest::feito_torres ? flush_by_segments(count) : flush_by_kernel();
+        if (!whole) return false;
+        note_misses(count);
+        return true;
+    }
+
+private:
+    /// Bits as TestedPairs has them.
+    static std::uint64_t pairs_of(std::uint8_t lanes_a, std::uint8_t lanes_b) noexcept {
+        std::uint64_t pairs = 0;
+        for (unsigned rest = lanes_b; rest != 0; rest &= rest - 1) {
+            pairs |= std::uint64_t{lanes_a} << (8 * std::countr_zero(rest));
+        }
+        return pairs;
+    }
+
+    bool flush_by_kernel() noexcept {
+        begin_answers();
+        return batch_.flush_numbered(
+            [&](std::size_t pair, std::uint32_t at_a, std::uint32_t at_b, bool certain) {
+                return !touch_(at_a, at_b, certain) || answer(pair, at_a, at_b);
+            });
+    }
+
+    /// Every pair of triangles by the exact test; nothing in float.
+    bool flush_by_segments(std::size_t count) noexcept;
+
+    void begin_answers() noexcept {
+        answered_ = 0;
+        current_ = kernels::kLeafBatch;
+    }
+    /// Two triangles of pair `pair` are in contact.
+    bool answer(std::size_t pair, std::uint32_t at_a, std::uint32_t at_b) noexcept {
+        if (pair != current_) begin_pair(pair);
+        const unsigned bit =
+            8 * (at_b % format::kBvhWidth) + at_a % static_cast<unsigned>(format::kBvhWidth);
+        if (((fresh_ >> bit) & 1) == 0) return true;
+        if (!remembered_ && !owns_(scratch_.batch_places[pair], at_a, at_b)) return true;
+        return static_cast<bool>(found_(at_a, at_b));
+    }
+    void begin_pair(std::size_t pair) noexcept {
+        const kernels::LeafPair& leaves = batch_.pair(pair);
+        TestedPairs& tested = scratch_.tested_pairs;
+        current_ = pair;
+        answered_ |= 1U << pair;
+        fresh_ = ~tested.tested(leaves.number_a, leaves.number_b);
+        remembered_ = tested.record(leaves.number_a, leaves.number_b,
+                                    pairs_of(leaves.used_a, leaves.used_b), true);
+    }
+    void note_misses(std::size_t count) noexcept {
+        for (std::size_t i = 0; i < count; ++i) {
+            if (((answered_ >> i) & 1) != 0) continue;
+            const kernels::LeafPair& pair = batch_.pair(i);
+            scratch_.tested_pairs.record(pair.number_a, pair.number_b,
+                                         pairs_of(pair.used_a, pair.used_b), false);
+        }
+    }
+
+    Workspace::Storage& scratch_;
+    LeafTest leaf_test_;
+    OverlapOptions options_;
+    MovedModel a_;
+    MovedModel b_;
+    ContactTest touch_;
+    LeafBatch batch_;
+    Found found_;
+    Owns owns_;
+
+    // Of the batch that is being answered.
+    std::uint32_t answered_ = 0;  ///< bit set of pairs
+    std::size_t current_ = 0;
+    std::uint64_t fresh_ = 0;  ///< of the current pair: not answered before
+    bool remembered_ = true;
+};
+
+template <class Found, class Owns>
+bool CellContacts<Found, Owns>::flush_by_segments(std::size_t count) noexcept {
+    begin_answers();
+    batch_.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+        const kernels::LeafPair& pair = batch_.pair(i);
+        for (unsigned rest_b = pair.used_b; rest_b != 0; rest_b &= rest_b - 1) {
+            const std::uint32_t at_b =
+                pair.number_b * format::kBvhWidth + static_cast<unsigned>(std::countr_zero(rest_b));
+            const Corners corners_b = b_.corners(at_b);
+            const Box3 box_b = box_around(corners_b);
+            for (unsigned rest_a = pair.used_a; rest_a != 0; rest_a &= rest_a - 1) {
+                const std::uint32_t at_a = pair.number_a * format::kBvhWidth +
+                                           static_cast<unsigned>(std::countr_zero(rest_a));
+                const Corners corners_a = a_.corners(at_a);
+                if (!overlap(box_around(corners_a), box_b)) continue;
+                if (touch_.skips(at_a, at_b)) continue;
+                if (scratch_.counts != nullptr) ++scratch_.counts->by_exact;
+                if (!in_contact_by_segments(corners_a, corners_b, options_.contact)) continue;
+                if (!answer(i, at_a, at_b)) return false;
+            }
+        }
+    }
+    return true;
+}
+
+}  // namespace cdprep

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "cell_bounds.h"
+#include "octree_cells.h"
+#include "triangle_box.h"
+
+namespace cdprep {
+
+/// A model's octree as walk_cells() sees it.
+class OctreeTree {
+public:
+    static constexpr std::uint32_t kMostLevels = format::kOctreeBits + 1;
+    static constexpr bool kOriented = false;
+
+    /// A node and where it is.
+    struct Cell {
+        std::uint32_t node;
+        std::uint32_t level;
+        CellPlace first;
+    };
+
+    explicit OctreeTree(const Model& model) noexcept
+        : grid_(model.octree_grid()),
+          nodes_(model.octree_nodes().data()),
+          references_(model.octree_references()),
+          frame_(model),
+          is_empty_(grid_ == nullptr || model.octree_nodes().empty()) {}
+
+    [[nodiscard]] bool is_empty() const noexcept {
+        return is_empty_;
+    }
+    [[nodiscard]] static Cell top() noexcept {
+        return {kAboveRoots, 0, {}};
+    }
+    /// Which children there are; one, the root, above it.
+    [[nodiscard]] unsigned lanes(const Cell& cell) const noexcept {
+        return cell.node == kAboveRoots ? 1 : nodes_[cell.node].count & 0xff;
+    }
+    [[nodiscard]] Cell child(const Cell& cell, unsigned lane) const noexcept {
+        if (cell.node == kAboveRoots) return {0, 0, {}};
+        Cell below{child_node(cell, lane), cell.level + 1, cell.first};
+        const std::uint32_t half = kOctreeSteps >> below.level;
+        for (std::size_t axis = 0; axis < 3; ++axis) below.first[axis] += half * (lane >> axis & 1);
+        return below;
+    }
+    [[nodiscard]] bool is_leaf(const Cell& cell) const noexcept {
+        return (nodes_[cell.node].count & format::kInnerNode) == 0;
+    }
+    /// Which of the children are leaves.
+    [[nodiscard]] unsigned leaf_lanes(const Cell& cell) const noexcept {
+        unsigned leaves = 0;
+        for (unsigned rest = lanes(cell); rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<unsigned>(std::countr_zero(rest));
+            const std::uint32_t node = cell.node == kAboveRoots ? 0 : child_node(cell, lane);
+            if ((nodes_[node].count & format::kInnerNode) == 0) leaves |= 1U << lane;
+        }
+        return leaves;
+    }
+    [[nodiscard]] std::span<const std::uint32_t> references(const Cell& cell) const noexcept {
+        return references_.subspan(nodes_[cell.node].first, nodes_[cell.node].count);
+    }
+    void bound(const Cell& cell, CellBounds& bounds) const noexcept {
+        const std::array<double, 3> origin = {grid_->origin.x, grid_->origin.y, grid_->origin.z};
+        const std::uint32_t steps = kOctreeSteps >> cell.level;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto plane = [&](std::uint32_t i) {
+                return frame_.frame(axis, octree_plane(origin[axis], grid_->step, i));
+            };
+            const std::uint32_t first = cell.first[axis];
+            if (cell.node == kAboveRoots) {
+                bound_root(axis, plane(0), plane(kOctreeSteps), bounds.boxes);
+            } else {
+                bound_octants(axis, {plane(first), plane(first + steps / 2), plane(first + steps)},
+                              bounds.boxes);
+            }
+        }
+    }
+    /// Which children list a triangle, and nothing else does.
+    [[nodiscard]] unsigned lanes_listing(const Cell& cell, std::uint32_t /*triangle*/,
+                                         const Corners& corners) const noexcept {
+        unsigned listing = 0;
+        for (unsigned rest = lanes(cell); rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<unsigned>(std::countr_zero(rest));
+            const Cell below = child(cell, lane);
+            if (triangle_touches_box(corners, octree_box(*grid_, below.first, below.level))) {
+                listing |= 1U << lane;
+            }
+        }
+        return listing;
+    }
+
+private:
+    [[nodiscard]] std::uint32_t child_node(const Cell& cell, unsigned lane) const noexcept {
+        const format::OctreeNode& node = nodes_[cell.node];
+        return node.first + lanes_before(node.count & 0xff, lane);
+    }
+
+    const format::OctreeGrid* grid_;
+    const format::OctreeNode* nodes_;
+    std::span<const std::uint32_t> references_;
+    FrameOf frame_;
+    bool is_empty_;
+};
+
+}  // namespace cdprep

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/overlap_through.h"
+
+#include "contacts_through.h"
+#include "smallest_pairs.h"
+
+namespace cdprep {
+namespace {
+
+bool visit_contacts_through(const QuestionThrough& question, ContactVisitor visit) noexcept {
+    if (question.a.triangle_count() == 0 || question.b.triangle_count() == 0) return true;
+    switch (question.through.structure) {
+        case Structure::octree:
+        case Structure::adaptive_octree:
+        case Structure::tetra_tree:
+            return visit_contacts_through_trees(question, visit);
+        default:
+            return true;
+    }
+}
+
+}  // namespace
+
+std::size_t overlapping_triangles_through(const StructureOptions& through, const Model& a,
+                                          const Model& b, const Placement& placement,
+                                          Workspace& workspace, std::span<TrianglePair> pairs,
+                                          const OverlapOptions& options) noexcept {
+    if (through.structure == Structure::bvh) {
+        return overlapping_triangles(a, b, placement, workspace, pairs, options);
+    }
+    const QuestionThrough question = {through, a, b, placement, workspace, options, Search::all};
+    return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
+        const auto visit = [&](const TreePair& pair) { return found(pair.a, pair.b); };
+        visit_contacts_through(question, visit);
+    });
+}
+
+bool any_overlap_through(const StructureOptions& through, const Model& a, const Model& b,
+                         const Placement& placement, Workspace& workspace,
+                         const OverlapOptions& options) noexcept {
+    if (through.structure == Structure::bvh) {
+        return any_contact(a, b, placement, workspace, options, nullptr);
+    }
+    const QuestionThrough question = {through, a, b, placement, workspace, options, Search::first};
+    const auto visit = [](const TreePair& /*pair*/) { return false; };
+    return !visit_contacts_through(question, visit);
+}
+
+}  // namespace cdprep

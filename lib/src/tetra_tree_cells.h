@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "cell_bounds.h"
+#include "tetra_cones.h"
+
+namespace cdprep {
+
+/// A model's tetra-tree as walk_cells() sees it, without the triangles that hold its
+/// centre: no cone lists those.
+class TetraTreeCells {
+public:
+    static constexpr std::uint32_t kMostLevels = format::kMaxTetraLevel + 1;
+    static constexpr bool kOriented = true;
+
+    struct Cell {
+        std::uint32_t node;
+    };
+
+    explicit TetraTreeCells(const Model& model) noexcept;
+
+    [[nodiscard]] bool is_empty() const noexcept {
+        return tree_ == nullptr || octants_ == 0;
+    }
+    [[nodiscard]] static Cell top() noexcept {
+        return {kAboveRoots};
+    }
+    [[nodiscard]] unsigned lanes(const Cell& cell) const noexcept {
+        return cell.node == kAboveRoots ? octants_
+                                        : nodes_[cell.node].flags & format::tetra_children;
+    }
+    [[nodiscard]] Cell child(const Cell& cell, unsigned lane) const noexcept {
+        const std::uint32_t first = cell.node == kAboveRoots ? 0 : nodes_[cell.node].first;
+        return {first + lanes_before(lanes(cell), lane)};
+    }
+    [[nodiscard]] bool is_leaf(const Cell& cell) const noexcept {
+        return (nodes_[cell.node].flags & format::tetra_inner) == 0;
+    }
+    [[nodiscard]] unsigned leaf_lanes(const Cell& cell) const noexcept {
+        unsigned leaves = 0;
+        for (unsigned rest = lanes(cell); rest != 0; rest &= rest - 1) {
+            const auto lane = static_cast<unsigned>(std::countr_zero(rest));
+            if (is_leaf(child(cell, lane))) leaves |= 1U << lane;
+        }
+        return leaves;
+    }
+    [[nodiscard]] std::span<const std::uint32_t> references(const Cell& cell) const noexcept {
+        return references_.subspan(nodes_[cell.node].first, nodes_[cell.node].count);
+    }
+    void bound(const Cell& cell, CellBounds& bounds) const noexcept;
+    [[nodiscard]] unsigned lanes_listing(const Cell& cell, std::uint32_t triangle,
+                                         const Corners& corners) const noexcept;
+
+    /// The triangles that hold the centre.
+    [[nodiscard]] std::span<const std::uint32_t> at_centre() const noexcept {
+        return tree_ == nullptr ? references_ : references_.first(tree_->centre_count);
+    }
+    [[nodiscard]] bool is_at_centre(std::uint32_t triangle) const noexcept {
+        const auto numbers = at_centre();
+        return std::any_of(numbers.begin(), numbers.end(), [&](std::uint32_t reference) {
+            return (reference & ~format::kSharedReference) == triangle;
+        });
+    }
+
+private:
+    const format::TetraTree* tree_;
+    const format::TetraNode* nodes_;
+    std::span<const std::uint32_t> references_;
+    std::array<double, 3> centre_;  ///< frame coordinates
+    unsigned octants_ = 0;          ///< bit set of those that are there
+};
+
+}  // namespace cdprep

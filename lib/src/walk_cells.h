@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "cdprep/structure.h"
+#include "cell_bounds.h"
+#include "walk_pairs.h"
+
+namespace cdprep {
+
+/// Some children of a node.
+template <class Cell>
+struct SomeChildren {
+    Cell parent;
+    unsigned lanes;  ///< bit set
+};
+
+/// Two leaf cells, by their parents and which children of those they are.
+template <class CellA, class CellB>
+struct CellPair {
+    CellA a;
+    CellB b;
+    unsigned lane_a;
+    unsigned lane_b;
+};
+
+/// What of two trees a walk may enter: everything.
+struct AllLanes {
+    template <class TreeA, class TreeB>
+    [[nodiscard]] kernels::BoxPairs kept(const TreeA& /*a*/, const typename TreeA::Cell& /*cell_a*/,
+                                         const TreeB& /*b*/,
+                                         const typename TreeB::Cell& /*cell_b*/) const noexcept {
+        return ~kernels::BoxPairs{0};
+    }
+};
+
+/// All pairs of some lanes of A and some of B.
+inline kernels::BoxPairs lane_pairs(unsigned of_a, unsigned of_b) noexcept {
+    kernels::BoxPairs pairs = 0;
+    for (; of_b != 0; of_b &= of_b - 1) {
+        pairs |= kernels::BoxPairs{of_a} << (8 * std::countr_zero(of_b));
+    }
+    return pairs;
+}
+
+/// A walk of two trees of cells side by side, from above their roots down.
+///
+/// A tree has Cell, a node and whatever tells where it is; top(), which stands above the
+/// roots; lanes(), which children a cell has, at most eight; child(); is_leaf(); leaf_lanes();
+/// and bound(), what bounds the children. A step bounds some children of one node and some of
+/// another, and one kernel call parts the pairs of them that are apart.
+template <Search kSearch, class TreeA, class TreeB, class Lanes>
+class CellWalk {
+public:
+    using CellA = typename TreeA::Cell;
+    using CellB = typename TreeB::Cell;
+    using Pair = CellPair<CellA, CellB>;
+
+    CellWalk(const TreeA& a, const TreeB& b, const PlacedBoxes& placed, Descent descent,
+             const Lanes& lanes, QueryCounts* counts) noexcept
+        : a_(a), b_(b), placed_(placed), descent_(descent), lanes_(lanes), counts_(counts) {}
+
+    /// Calls leaf(pair, bounds_a, bounds_b) for each pair of leaf cells that no test
+    /// parts, until it returns false; returns false when it did.
+    template <class Leaf>
+    bool run(Leaf&& leaf) noexcept {
+        std::size_t depth = 0;
+        SomeChildren<CellA> side_a = {a_.top(), a_.lanes(a_.top())};
+        SomeChildren<CellB> side_b = {b_.top(), b_.lanes(b_.top())};
+        for (;;) {
+            Step& step = steps_[depth];
+            open(side_a, side_b, step);
+            if (!take_leaves(step, leaf)) return false;
+            unsigned bit = step.pairs == 0 ? 0 : best(step.pairs);
+            if (step.pairs == 0) {
+                if (depth == 0) return true;
+                bit = first_of(steps_[--depth].pairs);
+            }
+            Step& top = steps_[depth];
+            choose(top, bit, side_a, side_b);
+            top.pairs &= ~(kernels::BoxPairs{1} << bit);
+            if (top.pairs != 0) ++depth;
+        }
+    }
+
+private:
+    struct Step {
+        CellA a;
+        CellB b;
+        kernels::BoxPairs pairs;
+        kernels::BoxSizes sizes;
+    };
+    // A step takes at least one side a level down.
+    static constexpr std::size_t kMostSteps = TreeA::kMostLevels + TreeB::kMostLevels + 1;
+
+    static kernels::NodeBoxes boxes_of(const CellBounds& bounds) noexcept {
+        const bool oriented = TreeA::kOriented && TreeB::kOriented;
+        return {bounds.boxes.lower[0].data(),
+                oriented ? bounds.oriented.axis[0][0].data() : nullptr};
+    }
+
+    void open(const SomeChildren<CellA>& side_a, const SomeChildren<CellB>& side_b,
+              Step& step) noexcept {
+        step.a = side_a.parent;
+        step.b = side_b.parent;
+        step.pairs = 0;
+        if (side_a.lanes == 0 || side_b.lanes == 0) return;  // a damaged file's
+        a_.bound(side_a.parent, bounds_a_);
+        b_.bound(side_b.parent, bounds_b_);
+        const kernels::BoxChoice choice = {static_cast<std::uint8_t>(side_a.lanes),
+                                           static_cast<std::uint8_t>(side_b.lanes), nullptr};
+        const kernels::Table& kernel = kernels::active();
+        step.pairs = kSearch == Search::first
+                         ? kernel.overlap_depths(placed_.placement, boxes_of(bounds_a_),
+                                                 boxes_of(bounds_b_), choice, step.sizes, depths_)
+                         : kernel.overlapping_boxes(placed_.placement, boxes_of(bounds_a_),
+                                                    boxes_of(bounds_b_), choice, step.sizes);
+        step.pairs &= lanes_.kept(a_, step.a, b_, step.b);
+        if (counts_ != nullptr) {
+            counts_->box_pairs +=
+                std::uint64_t(std::popcount(side_a.lanes)) * std::popcount(side_b.lanes);
+        }
+    }
+
+    [[nodiscard]] unsigned best(kernels::BoxPairs pairs) const noexcept {
+        return kSearch == Search::first ? deepest_of(pairs, depths_) : first_of(pairs);
+    }
+
+    /// Calls leaf() for the pairs of a step that are both leaves, and takes them away.
+    template <class Leaf>
+    bool take_leaves(Step& step, Leaf& leaf) noexcept {
+        if (step.pairs == 0) return true;
+        kernels::BoxPairs leaves =
+            step.pairs & lane_pairs(a_.leaf_lanes(step.a), b_.leaf_lanes(step.b));
+        step.pairs &= ~leaves;
+        while (leaves != 0) {
+            const unsigned bit = best(leaves);
+            leaves &= ~(kernels::BoxPairs{1} << bit);
+            if (!leaf(Pair{step.a, step.b, bit % 8, bit / 8}, bounds_a_, bounds_b_)) return false;
+        }
+        return true;
+    }
+
+    /// What replaces a pair of children: theirs, or one's and the other as it is.
+    void choose(const Step& step, unsigned bit, SomeChildren<CellA>& side_a,
+                SomeChildren<CellB>& side_b) const noexcept {
+        const unsigned lane_a = bit % 8;
+        const unsigned lane_b = bit / 8;
+        const CellA a = a_.child(step.a, lane_a);
+        const CellB b = b_.child(step.b, lane_b);
+        const bool a_can = !a_.is_leaf(a);
+        const bool b_can = !b_.is_leaf(b);
+        bool down_a = a_can;
+        bool down_b = b_can;
+        if (a_can && b_can && descent_ != Descent::both) {
+            // Asked so that a size that is no number takes one side down too.
+            down_a = descent_ == Descent::a_first ||
+                     (descent_ == Descent::larger && step.sizes.a[lane_a] >= step.sizes.b[lane_b]);
+            down_b = !down_a;
+        }
+        side_a = down_a ? SomeChildren<CellA>{a, a_.lanes(a)}
+                        : SomeChildren<CellA>{step.a, 1U << lane_a};
+        side_b = down_b ? SomeChildren<CellB>{b, b_.lanes(b)}
+                        : SomeChildren<CellB>{step.b, 1U << lane_b};
+    }
+
+    const TreeA& a_;
+    const TreeB& b_;
+    const PlacedBoxes& placed_;
+    Descent descent_;
+    Lanes lanes_;
+    QueryCounts* counts_;
+    std::array<Step, kMostSteps> steps_;
+    CellBounds bounds_a_;  ///< of the step that was opened last
+    CellBounds bounds_b_;
+    kernels::BoxDepths depths_;
+};
+
+}  // namespace cdprep
