@@ -161,6 +161,53 @@ TEST(TriangleContactLaws, BothTestsFollowTheDefinitionWhereRoundingDecides) {
     EXPECT_GT(kinds[TriangleContact::cross], 200) << "seed " << kSeed;
 }
 
+/// Two triangles of which corners, edges or insides lead past each other at a distance
+/// between nothing and a hundredth, on either side.
+std::array<Corners, 2> near_contact(std::mt19937& random) {
+    std::uniform_real_distribution<double> part(0, 1), exponent(-56, -7);
+    std::uniform_int_distribution<int> kind(0, 3);
+    // A point of a triangle: a corner, on an edge, inside, anywhere in the plane.
+    const auto point_of = [&](const Corners& t) {
+        const int of = kind(random);
+        const double u = of == 0 ? 0 : part(random);
+        const double v = of < 2 ? 0 : of == 2 ? (1 - u) * part(random) : 2 * part(random) - 1;
+        return Double3{t[0].x + u * (t[1].x - t[0].x) + v * (t[2].x - t[0].x),
+                       t[0].y + u * (t[1].y - t[0].y) + v * (t[2].y - t[0].y),
+                       t[0].z + u * (t[1].z - t[0].z) + v * (t[2].z - t[0].z)};
+    };
+    const Corners a{uniform_point(random), uniform_point(random), uniform_point(random)};
+    Corners b{uniform_point(random), uniform_point(random), uniform_point(random)};
+    const Double3 at = point_of(a), from = point_of(b), aside = uniform_point(random);
+    const double gap = kind(random) == 0 ? 0 : std::exp2(exponent(random));
+    for (Double3& p : b) {
+        p = {p.x - from.x + at.x + gap * aside.x, p.y - from.y + at.y + gap * aside.y,
+             p.z - from.z + at.z + gap * aside.z};
+    }
+    return {a, b};
+}
+
+// The definition in exact numbers is too slow for so many: it is asked about a hundredth.
+TEST(TriangleContactLaws, BothTestsAgreeOnAMillionPairsNearContact) {
+    constexpr std::uint32_t kSeed = 13;
+    constexpr int kRounds = 1'000'000;
+    std::mt19937 random(kSeed);
+    int hits = 0, beyond_filter = 0;
+    for (int round = 0; round < kRounds; ++round) {
+        const auto [a, b] = near_contact(random);
+        const bool touch = triangles_touch(a, b);
+        ASSERT_EQ(triangles_touch_by_segments(a, b), touch) << kSeed << ", round " << round;
+        ASSERT_EQ(triangles_touch(b, a), touch) << kSeed << ", round " << round;
+        if (round % 100 == 0) {
+            expect_agreement<ExactNumber>(a, b, "round " + std::to_string(round));
+        }
+        hits += touch ? 1 : 0;
+        beyond_filter += contact_by_filter(a, b) ? 0 : 1;
+    }
+    EXPECT_GT(hits, kRounds * 3 / 10);
+    EXPECT_LT(hits, kRounds * 7 / 10);
+    EXPECT_GT(beyond_filter, kRounds / 20);
+}
+
 // Slivers 2^-40 thick on a grid of their own thickness.
 TEST(TriangleContactLaws, BothTestsFollowTheDefinitionForSlivers) {
     constexpr std::uint32_t kSeed = 10;
