@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "moved_model.h"
@@ -72,28 +71,16 @@ private:
     double slack_ = 0;
 };
 
-/// A point before q on the line through q along x. As far away as the model is
-/// large: a step too small for the predicates' filter would make every triangle
-/// slow.
-Double3 ray_origin(const Double3& q, double reach) noexcept {
-    const double x = q.x - 2 * std::max(std::fabs(q.x), reach);
-    return {std::max(x, std::numeric_limits<double>::lowest()), q.y, q.z};
-}
-
 bool ray_meets(const Double3& q, const Box3& box) noexcept {
     return q.x <= box.upper.x && box.lower.y <= q.y && q.y <= box.upper.y && box.lower.z <= q.z &&
            q.z <= box.upper.z;
-}
-
-bool holds(const Box3& box, const Double3& q) noexcept {
-    return ray_meets(q, box) && box.lower.x <= q.x;
 }
 
 /// Exact winding number of a closed surface around q.
 Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
                           Workspace::Storage& scratch) noexcept {
     const MovedBoxes boxes(model);
-    const Double3 o = ray_origin(q, boxes.reach());
+    const Double3 o = before_along_x(q, boxes.reach());
     long winding = 0;
     const auto add_leaf = [&](std::uint32_t leaf) {
         const std::uint32_t first = leaf * format::kBvhWidth;

@@ -23,6 +23,11 @@ inline bool overlap(const Box3& a, const Box3& b) noexcept {
            b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
+/// Closed: a point of the border is held.
+inline bool holds(const Box3& box, const Double3& p) noexcept {
+    return overlap(box, {p, p});
+}
+
 inline Box3 box_around(const Corners& t) noexcept {
     const auto& [a, b, c] = t;
     return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},

@@ -70,10 +70,6 @@ bool is_on_one_side(const Corners& t, const std::array<int, 3>& normal, const Bo
     return orient3d(t[0], t[1], t[2], farthest(box, back)) < 0;
 }
 
-bool holds(const Box3& box, const Double3& p) noexcept {
-    return overlap(box, {p, p});
-}
-
 }  // namespace
 
 bool triangle_touches_box(const Corners& t, const Box3& box) noexcept {

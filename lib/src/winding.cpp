@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "winding.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "predicates.h"
 
@@ -46,6 +48,11 @@ WindingTerm winding_term(const Double3& o, const Double3& q, const Corners& t) n
     }
     // The line pierces the triangle; beyond q it does so when the signs differ.
     return {side != turn ? side : 0, false};
+}
+
+Double3 before_along_x(const Double3& q, double reach) noexcept {
+    const double x = q.x - 2 * std::max(std::fabs(q.x), reach);
+    return {std::max(x, std::numeric_limits<double>::lowest()), q.y, q.z};
 }
 
 double solid_angle(const Double3& q, const Corners& t) noexcept {
