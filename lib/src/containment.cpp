@@ -86,6 +86,7 @@ Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
         const std::uint32_t first = leaf * format::kBvhWidth;
         const std::uint32_t last =
             std::min(first + format::kBvhWidth, model.model->triangle_count());
+        if (scratch.counts != nullptr) scratch.counts->ray_triangles += last - first;
         for (std::uint32_t i = first; i < last; ++i) {
             const WindingTerm term = winding_term(o, q, model.corners(i));
             if (term.on_surface) return false;

@@ -5,8 +5,8 @@
 
 namespace cdprep {
 
-/// What queries about two models did to find their answers: for tuning, and for
-/// judging a change on a machine too noisy for a clock. Ask for it with
+/// What queries about two models, and whether a point is inside one, did to find their
+/// answers: for tuning, and for judging a change on a machine too noisy for a clock. Ask for it with
 /// Workspace::count_into(). No part of any answer: instruction sets round differently
 /// and leave different near misses to the next stage, and another version of the
 /// library may need more or less of anything.
@@ -26,6 +26,9 @@ struct QueryCounts {
 
     std::uint64_t measured = 0;        ///< distances of two triangles taken in double
     std::uint64_t measured_again = 0;  ///< again, for the last digits
+
+    /// Triangles held against a ray to learn whether a point is inside a model.
+    std::uint64_t ray_triangles = 0;
 };
 
 }  // namespace cdprep

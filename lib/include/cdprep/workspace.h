@@ -28,8 +28,8 @@ public:
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    /// From now on, adds to `*counts` what queries about two models do with this
-    /// workspace (query_counts.h); null ends that. Where it is off it costs 0.2 % of a
+    /// From now on, adds to `*counts` what queries that count (query_counts.h)
+    /// do with this workspace; null ends that. Where it is off it costs 0.2 % of a
     /// query (instructions counted by callgrind).
     void count_into(QueryCounts* counts) noexcept;
 

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/includes_through.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "moved_model.h"
+#include "octree_cells.h"
+#include "predicates.h"
+#include "tetra_cones.h"
+#include "winding.h"
+#include "workspace_storage.h"
+
+// The winding number is the sum of winding_term() over any list of triangles that holds
+// each one with a term other than 0 exactly once, and every triangle that q lies on.
+// Let R be the closed ray from q away from the origin o. A triangle whose term is not 0
+// is met by rays from q that come as near to R as one likes, at points that are bounded
+// since the triangle is; where these points pile up there is a point of R, and the
+// triangle, being closed, holds it. So a list will do that has once all triangles that
+// touch R. The symbolic perturbation of o asks for no neighbours beside.
+//
+// Tetra-tree: o is the centre C, so R = {C + s (q - C), s >= 1} lies in one cone, borders
+// or not: all its points have one direction from C. A triangle that touches R touches
+// that closed cone and so is in its leaf's list, or it holds C. If it holds C and touches
+// R it holds all points between, and q among them: those triangles need not be counted,
+// but they must be asked. A cone without a node touches none of the others. From q = C
+// the ray may run anywhere; it runs along +x, an edge of the cone of the least key.
+//
+// Octrees: R runs along +x, o being q moved back along x alone, and is cut into pieces
+// by the planes of the leaves that it runs through: x0 < x <= x1, the first and the last
+// without an end. A triangle with a term other than 0 has q outside its plane, and that
+// plane does not run along x: else only points beyond all bounds were met. So it has one
+// point h on R, and counts in that leaf alone whose piece has h; the leaf's closed cell
+// touches the triangle at h, so that the leaf lists it. Where h is, relative to x0 and
+// x1, orient3d() tells.
+
+namespace cdprep {
+namespace {
+
+/// As MovedBoxes::reach() for a model that stays where it is; never 0.
+double reach_of(const Model& model) noexcept {
+    const format::FileHeader& header = model.header();
+    const Double3& o = header.frame_origin;
+    return std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(o.z)}) +
+           std::ldexp(1.0, -header.frame_exponent);
+}
+
+/// A piece of a ray along x: x0 < x <= x1; either may be infinite.
+struct Piece {
+    double x0 = -std::numeric_limits<double>::infinity();
+    double x1 = std::numeric_limits<double>::infinity();
+};
+
+/// Adds up what the ray from q away from o crosses.
+class Crossings {
+public:
+    Crossings(const Model& model, const Double3& o, const Double3& q, QueryCounts* counts) noexcept
+        : model_(model, nullptr), o_(o), q_(q), counts_(counts) {}
+
+    /// All crossings with a triangle; false when q lies on it, which ends the search.
+    bool add(std::uint32_t triangle) noexcept {
+        return add(triangle, [](const Corners&, int) { return true; });
+    }
+
+    /// Those in a leaf's references, of which shared ones count in their own piece of the
+    /// ray alone, which must run along +x.
+    bool add(std::span<const std::uint32_t> references, const Piece& piece) noexcept {
+        for (const std::uint32_t reference : references) {
+            const bool shared = (reference & format::kSharedReference) != 0;
+            const auto counts_here = [&](const Corners& t, int crossings) {
+                return !shared || is_in(piece, t, crossings);
+            };
+            if (!add(reference & ~format::kSharedReference, counts_here)) return false;
+        }
+        return true;
+    }
+
+    [[nodiscard]] Inclusion inclusion() const noexcept {
+        if (on_surface_) return {Answer::yes, true, 0};
+        return {winding_ != 0 ? Answer::yes : Answer::no, false, static_cast<double>(winding_)};
+    }
+
+private:
+    template <class CountsHere>
+    bool add(std::uint32_t triangle, CountsHere&& counts_here) noexcept {
+        if (counts_ != nullptr) ++counts_->ray_triangles;
+        const Corners t = model_.corners(triangle);
+        const WindingTerm term = winding_term(o_, q_, t);
+        on_surface_ = term.on_surface;
+        if (term.crossings != 0 && counts_here(t, term.crossings)) winding_ += term.crossings;
+        return !on_surface_;
+    }
+
+    /// A crossing is the side of the plane that the ray comes from: as long as the ray is
+    /// there, the plane is ahead.
+    [[nodiscard]] bool is_in(const Piece& piece, const Corners& t, int crossings) const noexcept {
+        const auto is_ahead_at = [&](double x) {
+            return orient3d(t[0], t[1], t[2], {x, q_.y, q_.z}) == crossings;
+        };
+        return (std::isinf(piece.x0) || is_ahead_at(piece.x0)) &&
+               (std::isinf(piece.x1) || !is_ahead_at(piece.x1));
+    }
+
+    MovedModel model_;
+    Double3 o_;
+    Double3 q_;
+    QueryCounts* counts_;  ///< or null
+    long winding_ = 0;
+    bool on_surface_ = false;
+};
+
+/// The node's references, which are a leaf's.
+template <class Node>
+std::span<const std::uint32_t> listed(std::span<const std::uint32_t> references,
+                                      const Node& leaf) noexcept {
+    return references.subspan(leaf.first, leaf.count);
+}
+
+/// The number of a child among those that are there.
+std::uint32_t rank_of(std::uint32_t child, std::uint32_t mask) noexcept {
+    return static_cast<std::uint32_t>(std::popcount(mask & ((1U << child) - 1)));
+}
+
+/// The leaf that holds the cone of a key of the deepest level, or null.
+const format::TetraNode* find_leaf(const Model& model, std::uint32_t key) noexcept {
+    const format::TetraTree& tree = *model.tetra_tree();
+    const std::uint32_t top_key = key >> (2 * (tree.level - tree.top_level));
+    const std::uint32_t entry = model.tetra_top()[top_key - (8U << (2 * tree.top_level))];
+    if (entry == 0) return nullptr;
+    const format::TetraNode* node = &model.tetra_nodes()[entry - 1];
+    for (std::uint32_t level = tetra_level(node->key);
+         (node->flags & format::tetra_inner) != 0 && level < tree.level; ++level) {
+        const std::uint32_t child = (key >> (2 * (tree.level - level - 1))) & 3;
+        const std::uint32_t mask = node->flags & format::tetra_children;
+        if ((mask >> child & 1) == 0) return nullptr;
+        node = &model.tetra_nodes()[node->first + rank_of(child, mask)];
+    }
+    return node;
+}
+
+/// Whether q is farther out along its octant's axis than anything in the leaf: then the
+/// ray, which leads farther still, meets none of it. A difference, two sums, the
+/// quotient, its root and the product are each off by u at most: 6 u, and 2^-50 is 8 u.
+/// Scaling may round a number below 2^-1022, which only a leaf of radius 0 would
+/// notice: it has triangles at C alone, and they are in no list.
+bool is_beyond(const format::TetraNode& leaf, const Model& model, const Double3& q) noexcept {
+    constexpr double kRootOfThree = 1.7320508075688772;
+    const Double3& c = model.tetra_tree()->centre;
+    const double far =
+        (std::fabs(q.x - c.x) + std::fabs(q.y - c.y) + std::fabs(q.z - c.z)) / kRootOfThree;
+    return std::ldexp(far, model.header().frame_exponent) * (1 - 0x1p-50) > leaf.radius_max;
+}
+
+Inclusion through_tetra_tree(const Model& model, const Double3& q, QueryCounts* counts) noexcept {
+    const format::TetraTree& tree = *model.tetra_tree();
+    const bool at_centre = q == tree.centre;
+    Crossings crossings(model, at_centre ? before_along_x(q, reach_of(model)) : tree.centre, q,
+                        counts);
+    for (const std::uint32_t t : model.tetra_references().first(tree.centre_count)) {
+        if (!crossings.add(t & ~format::kSharedReference)) return crossings.inclusion();
+    }
+    const std::uint32_t least = 8U << (2 * tree.level);
+    const std::uint32_t key = at_centre ? least : tetra_key(tree.centre, q, tree.level);
+    const format::TetraNode* leaf = find_leaf(model, key);
+    if (leaf == nullptr || is_beyond(*leaf, model, q)) return crossings.inclusion();
+    for (const std::uint32_t t : listed(model.tetra_references(), *leaf)) {
+        if (!crossings.add(t & ~format::kSharedReference)) break;
+    }
+    return crossings.inclusion();
+}
+
+/// The cells of format::OctreeGrid as a walk sees them.
+class EqualCells {
+public:
+    struct Place {
+        std::uint32_t node;
+        std::uint32_t level;
+        CellPlace first;
+    };
+    using Node = format::OctreeNode;
+
+    explicit EqualCells(const Model& model) noexcept
+        : nodes_(model.octree_nodes()),
+          references_(model.octree_references()),
+          grid_(*model.octree_grid()) {}
+
+    [[nodiscard]] Place root() const noexcept {
+        return {0, 0, {0, 0, 0}};
+    }
+    [[nodiscard]] Box3 box() const noexcept {
+        return octree_box(grid_, {0, 0, 0}, 0);
+    }
+    [[nodiscard]] const Node& node(const Place& place) const noexcept {
+        return nodes_[place.node];
+    }
+    [[nodiscard]] std::span<const std::uint32_t> references(const Place& leaf) const noexcept {
+        return listed(references_, node(leaf));
+    }
+    [[nodiscard]] Double3 split(const Place& place) const noexcept {
+        const std::uint32_t half = half_of(place);
+        return {octree_plane(grid_.origin.x, grid_.step, place.first[0] + half),
+                octree_plane(grid_.origin.y, grid_.step, place.first[1] + half),
+                octree_plane(grid_.origin.z, grid_.step, place.first[2] + half)};
+    }
+    [[nodiscard]] Place child(const Place& place, std::uint32_t number,
+                              std::uint32_t node) const noexcept {
+        const std::uint32_t half = half_of(place);
+        return {node,
+                place.level + 1,
+                {place.first[0] + half * (number & 1), place.first[1] + half * (number >> 1 & 1),
+                 place.first[2] + half * (number >> 2)}};
+    }
+
+private:
+    static std::uint32_t half_of(const Place& place) noexcept {
+        return kOctreeSteps >> 1 >> place.level;
+    }
+
+    std::span<const Node> nodes_;
+    std::span<const std::uint32_t> references_;
+    const format::OctreeGrid& grid_;
+};
+
+/// The cells of format::AdaptiveOctree likewise.
+class AdaptiveCells {
+public:
+    struct Place {
+        std::uint32_t node;
+    };
+    using Node = format::AdaptiveOctreeNode;
+
+    explicit AdaptiveCells(const Model& model) noexcept
+        : nodes_(model.adaptive_octree_nodes()),
+          references_(model.adaptive_octree_references()),
+          tree_(*model.adaptive_octree()) {}
+
+    [[nodiscard]] Place root() const noexcept {
+        return {0};
+    }
+    [[nodiscard]] Box3 box() const noexcept {
+        return {tree_.lower, tree_.upper};
+    }
+    [[nodiscard]] const Node& node(const Place& place) const noexcept {
+        return nodes_[place.node];
+    }
+    [[nodiscard]] std::span<const std::uint32_t> references(const Place& leaf) const noexcept {
+        return listed(references_, node(leaf));
+    }
+    [[nodiscard]] Double3 split(const Place& place) const noexcept {
+        return node(place).split;
+    }
+    [[nodiscard]] Place child(const Place&, std::uint32_t, std::uint32_t node) const noexcept {
+        return {node};
+    }
+
+private:
+    std::span<const Node> nodes_;
+    std::span<const std::uint32_t> references_;
+    const format::AdaptiveOctree& tree_;
+};
+
+/// Adds what lies in the leaves along the ray, nearest first. Of two cells beside each
+/// other in y or z the ray is in the lower one where it runs on the plane between: either
+/// lists what touches that plane, and an axis that is not divided has the lower one alone.
+template <class Cells>
+void walk_row(const Cells& cells, const Double3& q, Crossings& crossings) noexcept {
+    struct OpenCell {
+        typename Cells::Place place;
+        Piece piece;
+    };
+    std::array<OpenCell, format::kOctreeBits + 1> open;  // one more than a level down
+    std::size_t depth = 0;
+    open[depth++] = {cells.root(), {}};
+    while (depth > 0) {
+        const auto [place, piece] = open[--depth];
+        if (piece.x1 < q.x) continue;
+        const auto& node = cells.node(place);
+        if ((node.count & format::kInnerNode) == 0) {
+            if (!crossings.add(cells.references(place), piece)) return;
+            continue;
+        }
+        const Double3 split = cells.split(place);
+        const std::uint32_t row = (q.y > split.y ? 2U : 0U) | (q.z > split.z ? 4U : 0U);
+        for (const std::uint32_t child : {row | 1U, row}) {
+            if ((node.count >> child & 1) == 0) continue;
+            const std::uint32_t below = node.first + rank_of(child, node.count & 0xff);
+            open[depth++] = {cells.child(place, child, below), (child & 1) != 0
+                                                                   ? Piece{split.x, piece.x1}
+                                                                   : Piece{piece.x0, split.x}};
+        }
+    }
+}
+
+template <class Cells>
+Inclusion through_cells(const Cells& cells, const Model& model, const Double3& q,
+                        QueryCounts* counts) noexcept {
+    if (!holds(cells.box(), q)) return {};
+    Crossings crossings(model, before_along_x(q, reach_of(model)), q, counts);
+    walk_row(cells, q, crossings);
+    return crossings.inclusion();
+}
+
+/// The place of a finest cell along the z curve.
+std::uint64_t octree_code(const CellPlace& place) noexcept {
+    const auto spread = [](std::uint64_t bits) {
+        bits = (bits | bits << 32) & 0x001f00000000ffff;
+        bits = (bits | bits << 16) & 0x001f0000ff0000ff;
+        bits = (bits | bits << 8) & 0x100f00f00f00f00f;
+        bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
+        return (bits | bits << 2) & 0x1249249249249249;
+    };
+    return spread(place[0]) | spread(place[1]) << 1 | spread(place[2]) << 2;
+}
+
+/// The largest cell around a finest cell that no leaf overlaps, where the leaves before
+/// and behind it along the z curve are these: its level.
+std::uint32_t level_of_empty_cell(std::uint64_t code, std::uint64_t other) noexcept {
+    const auto differ = static_cast<std::uint32_t>(std::bit_width(code ^ other) - 1);
+    return format::kOctreeBits - differ / 3;
+}
+
+/// One cell along the ray: a leaf, or an empty one.
+struct FoundCell {
+    const format::OctreeNode* leaf;  ///< or null
+    std::uint32_t level;
+};
+
+/// The leaf or the empty cell that holds a finest cell, by the sorted codes.
+FoundCell find_cell(const Model& model, std::uint64_t code) noexcept {
+    const auto codes = model.octree_leaf_codes();
+    const auto top = model.octree_top();
+    const std::uint64_t cell = code >> (3 * (format::kOctreeBits - model.octree_grid()->top_level));
+    const auto behind =
+        std::upper_bound(codes.begin() + top[cell], codes.begin() + top[cell + 1], code);
+    std::uint32_t empty = 0;
+    if (behind != codes.begin()) {
+        const auto index = static_cast<std::size_t>(behind - codes.begin()) - 1;
+        const format::OctreeNode& leaf = model.octree_nodes()[model.octree_leaf_nodes()[index]];
+        const std::uint32_t level = level_of(leaf.key);
+        if (code - codes[index] < cells_below(level)) return {&leaf, level};
+        empty = level_of_empty_cell(code, codes[index]);
+    }
+    if (behind != codes.end()) empty = std::max(empty, level_of_empty_cell(code, *behind));
+    return {nullptr, empty};
+}
+
+Inclusion through_keys(const Model& model, const Double3& q, QueryCounts* counts) noexcept {
+    const format::OctreeGrid& grid = *model.octree_grid();
+    if (!holds(octree_box(grid, {0, 0, 0}, 0), q)) return {};
+    Crossings crossings(model, before_along_x(q, reach_of(model)), q, counts);
+    CellPlace place = octree_cell(grid, q);
+    while (place[0] < kOctreeSteps) {
+        const FoundCell cell = find_cell(model, octree_code(place));
+        const std::uint32_t steps = kOctreeSteps >> cell.level;
+        const std::uint32_t first = place[0] & ~(steps - 1);
+        place[0] = first + steps;
+        if (cell.leaf == nullptr) continue;
+        const Piece piece = {octree_plane(grid.origin.x, grid.step, first),
+                             octree_plane(grid.origin.x, grid.step, place[0])};
+        if (!crossings.add(listed(model.octree_references(), *cell.leaf), piece)) break;
+    }
+    return crossings.inclusion();
+}
+
+}  // namespace
+
+Inclusion includes_through(Structure structure, const Model& model, const Double3& p,
+                           Workspace& workspace) noexcept {
+    if (!model.is_closed()) return includes(model, p, workspace);
+    QueryCounts* counts = workspace.storage().counts;
+    switch (structure) {
+        case Structure::tetra_tree:
+            if (model.tetra_top().empty()) break;
+            return through_tetra_tree(model, p, counts);
+        case Structure::octree:
+            if (model.octree_nodes().empty()) break;
+            return through_cells(EqualCells(model), model, p, counts);
+        case Structure::adaptive_octree:
+            if (model.adaptive_octree_nodes().empty()) break;
+            return through_cells(AdaptiveCells(model), model, p, counts);
+        case Structure::hashed_octree:
+        case Structure::hashed_octree_literal:
+            if (model.octree_leaf_codes().empty()) break;
+            return through_keys(model, p, counts);
+        case Structure::bvh:
+            break;
+    }
+    return includes(model, p, workspace);
+}
+
+}  // namespace cdprep
