@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "support/every_structure.h"
+
+#include <algorithm>
+
+namespace cdprep::test {
+
+AlignedBytes with_every_structure(const AlignedBytes& file, const Division& division) {
+    const auto [level, threshold] = division;
+    const AlignedBytes octree = with_octree(file, {.level = level, .threshold = threshold});
+    const AlignedBytes adaptive =
+        with_adaptive_octree(octree, {.level = level, .threshold = threshold});
+    return with_tetra_tree(
+        adaptive, {.level = std::min(level, format::kMaxTetraLevel), .threshold = threshold});
+}
+
+OpenModel open_with_every_structure(const TestMesh& mesh, const Division& division) {
+    return open_tiny(with_every_structure(
+        bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}), division));
+}
+
+}  // namespace cdprep::test

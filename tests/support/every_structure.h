@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "support/more_sections.h"
+#include "support/open_tiny.h"
+
+#include "cdprep/structure.h"
+
+namespace cdprep::test {
+
+inline constexpr std::array kStructures = {Structure::bvh,
+                                           Structure::octree,
+                                           Structure::adaptive_octree,
+                                           Structure::hashed_octree,
+                                           Structure::hashed_octree_literal,
+                                           Structure::tetra_tree};
+
+inline std::string name_of(Structure structure) {
+    constexpr std::array<const char*, 6> kNames = {
+        "bvh", "octree", "adaptive_octree", "hashed_octree", "hashed_octree_literal", "tetra_tree"};
+    return kNames.at(static_cast<std::size_t>(structure));
+}
+
+/// How far structures divide what they hold.
+struct Division {
+    std::uint32_t level = 3;
+    std::uint32_t threshold = 1;
+};
+
+/// A baked file with every structure that a question can go through.
+[[nodiscard]] AlignedBytes with_every_structure(const AlignedBytes& file,
+                                                const Division& division = {});
+
+/// Bakes and opens it, in double precision.
+[[nodiscard]] OpenModel open_with_every_structure(const TestMesh& mesh,
+                                                  const Division& division = {});
+
+}  // namespace cdprep::test
