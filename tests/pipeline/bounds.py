@@ -100,4 +100,5 @@ def main():
     print(f"{hits} of {count} poses collide")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -62,4 +62,5 @@ def main():
     print(f"{checked} poses, {triangles} pairs, all equal to the exact sets")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -11,20 +11,29 @@ import sys
 SKIPPED = 77  # ctest: SKIP_RETURN_CODE
 
 
+def place_of_shared_folder():
+    beside = pathlib.Path(__file__).resolve().parents[2].parent / "shared"
+    return pathlib.Path(os.environ.get("CDPREP_SHARED", beside))
+
+
+def shared_folder_if_there():
+    """The folder of test models, or None."""
+    folder = place_of_shared_folder()
+    return folder if (folder / "models").is_dir() else None
+
+
 def shared_folder():
     """The folder of test models, or exits as skipped with the reason."""
-    beside = pathlib.Path(__file__).resolve().parents[2].parent / "shared"
-    folder = pathlib.Path(os.environ.get("CDPREP_SHARED", beside))
-    if not (folder / "models").is_dir():
-        print(f"skipped: no test models in {folder} (set CDPREP_SHARED)")
+    folder = shared_folder_if_there()
+    if folder is None:
+        print(f"skipped: no test models in {place_of_shared_folder()} (set CDPREP_SHARED)")
         sys.exit(SKIPPED)
     return folder
 
 
 def shared_models_if_there(*names):
     """Those of the test models, or none where a checkout has none."""
-    beside = pathlib.Path(__file__).resolve().parents[2].parent / "shared"
-    folder = pathlib.Path(os.environ.get("CDPREP_SHARED", beside)) / "models"
+    folder = place_of_shared_folder() / "models"
     return [folder / name for name in names if (folder / name).is_file()]
 
 
