@@ -32,6 +32,7 @@ struct Arguments {
     std::size_t threads = 0;
     bool timings = false;
     ImportLimits import;
+    StructureArguments structures;
     BakeOptions options;
 };
 
@@ -149,6 +150,9 @@ build::BvhBounds bounds_named(const std::string& name, const Effects& effects) {
 Exit run(Arguments& arguments) {
     const Result<Effects> effects = parse_effects(arguments.effects);
     if (!effects) return fail("bake", effects.error());
+    const Result<StructureChoice> structures =
+        choose_structures(arguments.structures, effects.value());
+    if (!structures) return fail("bake", structures.error());
     const Result<ProgressStyle> style = parse_progress(arguments.progress);
     if (!style) return fail("bake", style.error());
     const Result<std::vector<fs::path>> outputs = outputs_for(arguments);
@@ -163,6 +167,7 @@ Exit run(Arguments& arguments) {
         }
     }
     arguments.options.effects = effects.value();
+    arguments.options.structures = structures.value();
     arguments.options.bounds = bounds_named(arguments.bounds, effects.value());
     arguments.options.import = arguments.import.options();
     return bake_all(arguments, outputs.value(), style.value());
@@ -204,6 +209,7 @@ void add_bake(CLI::App& app, Exit& exit) {
                      "within, else obb. No answer depends on it")
         ->check(CLI::IsMember({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
         ->capture_default_str();
+    add_structure_options(*command, arguments->structures);
     command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
         ->check(CLI::Range(0, kMostThreads));
     command->add_flag("--timings", arguments->timings, "Show how long each stage took");

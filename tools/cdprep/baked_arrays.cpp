@@ -34,6 +34,35 @@ std::span<const std::byte> bytes_of(const Range& elements) {
     return std::as_bytes(std::span(elements.data(), elements.size()));
 }
 
+template <class Element>
+std::span<const std::byte> bytes_of_one(const Element& element) {
+    return std::as_bytes(std::span(&element, 1));
+}
+
+/// A tree is stored with all its sections or with none, so also with those that a mesh
+/// without triangles leaves empty.
+template <class Add>
+void add_structures(const Structures& structures, const Add& add) {
+    const build::Octree& octree = structures.octree;
+    add(SectionId::octree_grid, bytes_of_one(octree.grid), true);
+    add(SectionId::octree_nodes, bytes_of(octree.nodes), true);
+    add(SectionId::octree_references, bytes_of(octree.references), true);
+    add(SectionId::octree_leaf_codes, bytes_of(octree.leaf_codes), true);
+    add(SectionId::octree_leaf_nodes, bytes_of(octree.leaf_nodes), true);
+    add(SectionId::octree_top, bytes_of(octree.top), true);
+    add(SectionId::octree_modulus_table, bytes_of(octree.modulus_table), true);
+    add(SectionId::octree_mixed_table, bytes_of(octree.mixed_table), true);
+    const build::AdaptiveOctree& adaptive = structures.adaptive_octree;
+    add(SectionId::adaptive_octree, bytes_of_one(adaptive.tree), true);
+    add(SectionId::adaptive_octree_nodes, bytes_of(adaptive.nodes), true);
+    add(SectionId::adaptive_octree_references, bytes_of(adaptive.references), true);
+    const build::TetraTree& tetra = structures.tetra_tree;
+    add(SectionId::tetra_tree, bytes_of_one(tetra.tree), true);
+    add(SectionId::tetra_nodes, bytes_of(tetra.nodes), true);
+    add(SectionId::tetra_references, bytes_of(tetra.references), true);
+    add(SectionId::tetra_top, bytes_of(tetra.top), true);
+}
+
 }  // namespace
 
 BakedArrays::BakedArrays(const mesh::TriangleSoup& soup, mesh::Mesh ordered, build::Bvh bvh,
@@ -62,6 +91,10 @@ std::size_t BakedArrays::degenerate_count() const noexcept {
                            [](std::size_t sum, std::uint64_t word) {
                                return sum + static_cast<std::size_t>(std::popcount(word));
                            });
+}
+
+void BakedArrays::keep(Structures structures) {
+    structures_ = std::move(structures);
 }
 
 std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) const {
@@ -96,6 +129,7 @@ std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) con
     add(SectionId::verdicts, bytes_of(notes_.verdicts), false);
     add(SectionId::findings, bytes_of(notes_.findings), false);
     add(SectionId::repaired_from, bytes_of(notes_.repaired_from), false);
+    add_structures(structures_, add);
     return sections;
 }
 

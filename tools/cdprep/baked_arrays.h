@@ -10,6 +10,7 @@
 #include "cdprep/format/section_set.h"
 #include "cdprep/format/verdict.h"
 #include "mesh/mesh.h"
+#include "structures.h"
 #include "write/write_file.h"
 
 namespace cdprep::cli {
@@ -32,12 +33,18 @@ public:
                 const format::Bounds& bounds, const std::optional<format::MassProperties>& mass,
                 BakedNotes notes);
 
+    /// Adds what was built over mesh().
+    void keep(Structures structures);
+
     /// Views of those sections in `wanted` that have something to say. Valid
     /// while this object lives and stays where it is.
     [[nodiscard]] std::vector<write::Section> sections(format::SectionSet wanted) const;
 
     [[nodiscard]] const mesh::Mesh& mesh() const noexcept {
         return mesh_;
+    }
+    [[nodiscard]] const Structures& structures() const noexcept {
+        return structures_;
     }
     [[nodiscard]] std::size_t component_count() const noexcept {
         return components_.size();
@@ -52,6 +59,7 @@ private:
     std::vector<format::Bounds> bounds_;
     std::vector<format::MassProperties> mass_;
     BakedNotes notes_;
+    Structures structures_;
     std::vector<format::Float3> floats_;
     std::vector<std::uint32_t> face_;
     std::vector<format::Instance> instances_;

@@ -76,18 +76,24 @@ std::vector<std::string> all_names() {
     return names;
 }
 
+void append_name(std::string& names, const char* name) {
+    if (!names.empty()) names += ", ";
+    names += name;
+}
+
 }  // namespace
 
 Result<Effects> parse_effects(const std::string& list) {
     std::vector<std::string> names = split(list);
     if (names.empty()) names = {"collide", "overlap", "distance", "within", "ray", "closest"};
-    if (std::find(names.begin(), names.end(), "all") != names.end()) {
+    const bool all = std::find(names.begin(), names.end(), "all") != names.end();
+    if (all) {
         std::erase(names, "all");
         for (const std::string& name : all_names()) names.push_back(name);
     }
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
-    Effects effects{names, kAlways};
+    Effects effects{names, kAlways, all};
     for (const std::string& name : names) {
         const Effect* effect = find_effect(name);
         if (effect == nullptr) return unknown_effect(name);
@@ -108,15 +114,25 @@ std::string missing_sections(SectionSet needed, SectionSet present) {
         SectionId::triangles, SectionId::bvh_nodes, SectionId::bvh_leaves,
         SectionId::source_triangle, SectionId::components};
     std::string names;
-    const auto add = [&names](const char* name) {
-        names += (names.empty() ? "" : ", ") + std::string(name);
-    };
     if (needed.contains(SectionId::positions_f32) && !present.contains(SectionId::positions_f32) &&
         !present.contains(SectionId::positions_f64)) {
-        add("positions");
+        append_name(names, "positions");
     }
     for (const SectionId id : kDemanded) {
-        if (needed.contains(id) && !present.contains(id)) add(format::section_name(id));
+        if (needed.contains(id) && !present.contains(id)) {
+            append_name(names, format::section_name(id));
+        }
+    }
+    return names;
+}
+
+std::string missing_parts(SectionSet needed, SectionSet present) {
+    std::string names;
+    for (std::uint32_t number = 0; number < 64; ++number) {
+        const SectionId id{number};
+        if (needed.contains(id) && !present.contains(id)) {
+            append_name(names, format::section_name(id));
+        }
     }
     return names;
 }

@@ -13,6 +13,7 @@ namespace cdprep::cli {
 struct Effects {
     std::vector<std::string> names;  ///< sorted, each once
     format::SectionSet sections;     ///< what they need
+    bool all = false;                ///< asked for by that word
 };
 
 /// Takes a comma-separated list of effects. "all" stands for every effect that
@@ -27,5 +28,8 @@ struct Effects {
 /// Names, with commas, of the sections in `needed` that `present` lacks. Either
 /// kind of positions will do.
 [[nodiscard]] std::string missing_sections(format::SectionSet needed, format::SectionSet present);
+
+/// Names, with commas, of all in `needed` that `present` lacks, whatever they are.
+[[nodiscard]] std::string missing_parts(format::SectionSet needed, format::SectionSet present);
 
 }  // namespace cdprep::cli

@@ -212,7 +212,68 @@ Mended mend(mesh::TriangleSoup& soup, const std::string& preset, const Threads& 
 std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash) {
     return report::provenance_json({CDPREP_VERSION, options.effects.names, options.normalize,
                                     options.weld_distance, options.repair,
-                                    report::bounds_name(options.bounds), source_hash});
+                                    report::bounds_name(options.bounds),
+                                    settings_of(options.structures), source_hash});
+}
+
+/// Builds what was chosen over a mesh in tree order, whose numbers the structures then
+/// speak of. One after the other: each shares its work out, and only one holds scratch.
+Structures build_structures(const mesh::Mesh& ordered, std::int32_t frame_exponent,
+                            StructureChoice choice, const Threads& threads, Stages& stages) {
+    Structures built;
+    if (choice.has_octree()) {
+        choice.octree.parallel_for = threads.parallel_for();
+        built.octree = stages.run("  octree", [&] {
+            return build::build_octree(ordered.positions, ordered.triangles, choice.octree);
+        });
+    }
+    if (choice.has_adaptive_octree()) {
+        choice.adaptive_octree.parallel_for = threads.parallel_for();
+        built.adaptive_octree = stages.run("  octree-adaptive", [&] {
+            return build::build_adaptive_octree(ordered.positions, ordered.triangles,
+                                                choice.adaptive_octree);
+        });
+    }
+    if (choice.has_tetra_tree()) {
+        choice.tetra_tree.parallel_for = threads.parallel_for();
+        choice.tetra_tree.frame_exponent = frame_exponent;
+        built.tetra_tree = stages.run("  tetra-tree", [&] {
+            return build::build_tetra_tree(ordered.positions, ordered.triangles, choice.tetra_tree);
+        });
+    }
+    return built;
+}
+
+std::vector<report::StructureReport> reports_of(const Structures& structures,
+                                                std::uint64_t triangle_count,
+                                                const StructureChoice& choice,
+                                                std::span<const write::Section> sections) {
+    report::StructureViews views;
+    if (choice.has_octree()) {
+        const build::Octree& tree = structures.octree;
+        views.octree = &tree.grid;
+        views.octree_nodes = tree.nodes;
+        views.octree_references = tree.references;
+        views.is_hashed = choice.octree.hashed;
+    }
+    if (choice.has_adaptive_octree()) {
+        const build::AdaptiveOctree& tree = structures.adaptive_octree;
+        views.adaptive_octree = &tree.tree;
+        views.adaptive_octree_nodes = tree.nodes;
+        views.adaptive_octree_references = tree.references;
+    }
+    if (choice.has_tetra_tree()) {
+        const build::TetraTree& tree = structures.tetra_tree;
+        views.tetra_tree = &tree.tree;
+        views.tetra_nodes = tree.nodes;
+        views.tetra_references = tree.references;
+    }
+    std::vector<report::SectionBytes> sizes;
+    sizes.reserve(sections.size());
+    for (const write::Section& section : sections) {
+        sizes.push_back({section.id, section.bytes.size()});
+    }
+    return report::structure_reports(views, triangle_count, sizes);
 }
 
 }  // namespace
@@ -256,7 +317,7 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
         return report;
     }
 
-    const BakedArrays arrays = stages.run("arrange", [&] {
+    BakedArrays arrays = stages.run("arrange", [&] {
         if (mended.report) {
             for (std::uint32_t& vertex : welded.mesh.source_vertex) {
                 vertex = mended.vertex_from[vertex];
@@ -279,10 +340,20 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
             {found.defects.defects.verdicts, kept_findings(found.defects, mended.report),
              provenance_of(options, found.source_hash), mended.triangle_from}};
     });
+    if (!options.structures.names.empty()) {
+        arrays.keep(stages.run("structures", [&] {
+            return build_structures(arrays.mesh(), found.bvh.frame.exponent, options.structures,
+                                    threads, stages);
+        }));
+    }
+    if (is_interrupted()) return interrupted(input);
+
     const format::FileHeader facts = facts_of(soup, arrays.mesh(), found, normalization, options);
-    const Result<Done> written = stages.run("write", [&] {
-        return write::write_file(output, facts, arrays.sections(options.effects.sections));
-    });
+    format::SectionSet wanted = options.effects.sections;
+    wanted.insert(options.structures.sections);
+    const std::vector<write::Section> sections = arrays.sections(wanted);
+    const Result<Done> written =
+        stages.run("write", [&] { return write::write_file(output, facts, sections); });
     if (!written) return written.error();
 
     report.triangles = facts.triangle_count;
@@ -295,6 +366,8 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     report.promises = report::promise_words(found.defects.defects.verdicts[0]);
     report.warnings = count_warnings(found.defects);
     report.single_precision = soup.single_precision;
+    report.structures =
+        reports_of(arrays.structures(), facts.triangle_count, options.structures, sections);
     report.bytes = std::filesystem::file_size(output);
     report.stages = stages.times();
     report.seconds = seconds_since(begin);

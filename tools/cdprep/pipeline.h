@@ -11,11 +11,13 @@
 #include "import/import_file.h"
 #include "parallel.h"
 #include "report/bake_report.h"
+#include "structures.h"
 
 namespace cdprep::cli {
 
 struct BakeOptions {
     Effects effects;
+    StructureChoice structures;
     bool normalize = false;
     double weld_distance = 0;  ///< model units
     std::string repair;        ///< a preset of mesh::find_repair_preset(), or empty
@@ -24,7 +26,7 @@ struct BakeOptions {
     import::ImportOptions import;
 };
 
-/// Bakes one file: import, weld, build, measure, write. Called back with the
+/// Bakes one file: import, weld, build, measure, structure, write. Called back with the
 /// name of each stage as it begins. Fails with the code that tells why;
 /// `interrupted` between two stages when the person stopped the program.
 [[nodiscard]] Result<report::BakeReport> bake(const std::filesystem::path& input,

@@ -2,18 +2,12 @@
 #include "report/bake_report.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "report/fixed.h"
 
 namespace cdprep::report {
 namespace {
-
-std::string fixed(double value, int digits) {
-    std::string text(64, '\0');
-    const int size = std::snprintf(text.data(), text.size(), "%.*f", digits, value);
-    text.resize(static_cast<std::size_t>(size));
-    return text;
-}
 
 nlohmann::ordered_json to_json(const BakeReport& report) {
     nlohmann::ordered_json json = {
@@ -32,6 +26,7 @@ nlohmann::ordered_json to_json(const BakeReport& report) {
     json["promises"] = report.promises;
     json["warnings"] = report.warnings;
     json["precision"] = report.single_precision ? "f32" : "f64";
+    if (!report.structures.empty()) json["structures"] = structures_json(report.structures);
     json["bytes"] = report.bytes;
     json["seconds"] = report.seconds;
     for (const StageTime& stage : report.stages) json["stages"][stage.stage] = stage.seconds;
@@ -52,10 +47,11 @@ std::string bake_text(const BakeReport& report, Timings timings) {
                 (report.warnings == 1 ? " rule finds" : " rules find") +
                 " defects; 'cdprep info' lists them\n";
     }
+    text += structures_text(report.structures);
     if (timings == Timings::hide) return text;
     for (const StageTime& stage : report.stages) {
         text += "  " + stage.stage +
-                std::string(12 - std::min<std::size_t>(11, stage.stage.size()), ' ') +
+                std::string(18 - std::min<std::size_t>(17, stage.stage.size()), ' ') +
                 fixed(stage.seconds, 4) + " s\n";
     }
     return text;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "report/structure_report.h"
+
 namespace cdprep::report {
 
 /// How long a stage took.
@@ -28,6 +30,7 @@ struct BakeReport {
     std::vector<std::string> promises;  ///< what answers mean on it, as promise_words()
     std::uint64_t warnings = 0;         ///< rules that found a warning or more
     bool single_precision = false;
+    std::vector<StructureReport> structures;
     std::uint64_t bytes = 0;
     double seconds = 0;
     std::vector<StageTime> stages;

@@ -7,6 +7,7 @@
 
 #include "cdprep/format/sections.h"
 #include "report/bounds_name.h"
+#include "report/structure_report.h"
 #include "report/verdict_words.h"
 
 namespace cdprep::report {
@@ -63,6 +64,16 @@ std::string findings_text(const Model& model) {
     return text.empty() ? "findings: none\n" : "findings:\n" + text;
 }
 
+std::vector<StructureReport> structures(const Model& model,
+                                        std::span<const format::SectionEntry> sections) {
+    std::vector<SectionBytes> sizes;
+    sizes.reserve(sections.size());
+    for (const format::SectionEntry& entry : sections) {
+        sizes.push_back({entry.id, byte_count(entry)});
+    }
+    return structure_reports(views_of(model), model.triangle_count(), sizes);
+}
+
 std::string mesh_text(const Model& model) {
     if (model.verdicts().empty()) return {};
     const format::Verdict& verdict = model.verdicts()[0];
@@ -92,10 +103,13 @@ std::string info_text(const std::string& file, const Model& model,
     text +=
         std::string("questions about pairs: bounded by ") + bounds_name(bounds_of(model)) + "\n";
     text += mesh_text(model);
-    text += "section                  offset        bytes\n";
+    if (const std::string others = structures_text(structures(model, sections)); !others.empty()) {
+        text += "structures:\n" + others;
+    }
+    text += "section                          offset        bytes\n";
     for (const format::SectionEntry& entry : sections) {
-        std::array<char, 96> line{};
-        std::snprintf(line.data(), line.size(), "%-18s %12llu %12llu\n",
+        std::array<char, 128> line{};
+        std::snprintf(line.data(), line.size(), "%-26s %12llu %12llu\n",
                       format::section_name(entry.id), static_cast<unsigned long long>(entry.offset),
                       static_cast<unsigned long long>(byte_count(entry)));
         text += line.data();
@@ -125,6 +139,9 @@ std::string info_json(const std::string& file, const Model& model,
         json["promises"] = promise_words(model.verdicts()[0]);
     }
     if (const auto found = findings(model); !found.is_null()) json["found"] = found;
+    if (const auto others = structures(model, sections); !others.empty()) {
+        json["structures"] = structures_json(others);
+    }
     json["sections"] = nlohmann::ordered_json::array();
     for (const format::SectionEntry& entry : sections) {
         json["sections"].push_back({{"name", format::section_name(entry.id)},

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "report/structure_name.h"
+
 namespace cdprep::report {
 namespace {
 
@@ -12,6 +14,17 @@ std::string hexadecimal(std::uint64_t value) {
     std::array<char, 17> text{};
     std::snprintf(text.data(), text.size(), "%016llx", static_cast<unsigned long long>(value));
     return text.data();
+}
+
+/// {} when nothing besides the hierarchy of boxes was built.
+nlohmann::json structures_json(const std::vector<StructureSettings>& structures) {
+    nlohmann::json json = nlohmann::json::object();
+    for (const StructureSettings& settings : structures) {
+        nlohmann::json& own = json[structure_name(settings.structure)];
+        own = {{"level", settings.level}, {"threshold", settings.threshold}};
+        if (!settings.rule_value.empty()) own[settings.rule] = settings.rule_value;
+    }
+    return json;
 }
 
 }  // namespace
@@ -27,12 +40,16 @@ std::string provenance_json(const Provenance& provenance) {
           {"bounds", 1},
           {"mass", 1},
           {"defects", 1},
-          {"repair", 1}}},
+          {"repair", 1},
+          {"octree", 1},
+          {"octree-adaptive", 1},
+          {"tetra-tree", 1}}},
         {"options",
          {{"bounds", provenance.bounds},
           {"effects", provenance.effects},
           {"normalize", provenance.normalize},
           {"repair", provenance.repair},
+          {"structures", structures_json(provenance.structures)},
           {"weld", provenance.weld_distance}}},
         {"source", {{"xxh3_64", hexadecimal(provenance.source_hash)}}},
     };

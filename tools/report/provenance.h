@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "report/structure_settings.h"
+
 namespace cdprep::report {
 
 /// Where a bake comes from: everything that decides its bytes, and nothing else
@@ -14,8 +16,9 @@ struct Provenance {
     std::vector<std::string> effects;  ///< sorted
     bool normalize = false;
     double weld_distance = 0;
-    std::string repair;             ///< the preset, or empty
-    std::string bounds;             ///< as --bounds spells it
+    std::string repair;  ///< the preset, or empty
+    std::string bounds;  ///< as --bounds spells it
+    std::vector<StructureSettings> structures;
     std::uint64_t source_hash = 0;  ///< format::checksum() of the input file
 };
 

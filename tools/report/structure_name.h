@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "cdprep/format/octree.h"
+#include "cdprep/format/tetra_tree.h"
+#include "cdprep/structure.h"
+
+namespace cdprep::report {
+
+/// How --structure, --structures, provenance and reports call a structure.
+struct StructureName {
+    const char* name;
+    Structure structure;
+    bool is_baked;  ///< --structures may ask for it; the others come of themselves
+};
+inline constexpr std::array<StructureName, 6> kStructureNames = {{
+    {"bvh", Structure::bvh, false},
+    {"octree", Structure::octree, true},
+    {"octree-adaptive", Structure::adaptive_octree, true},
+    {"hashed-octree", Structure::hashed_octree, true},
+    {"hashed-octree-literal", Structure::hashed_octree_literal, false},
+    {"tetra-tree", Structure::tetra_tree, true},
+}};
+
+[[nodiscard]] constexpr const char* structure_name(Structure structure) noexcept {
+    for (const StructureName& known : kStructureNames) {
+        if (known.structure == structure) return known.name;
+    }
+    return "unknown";
+}
+
+/// What to bake so that questions can be asked through it; empty for what every bake
+/// has. The talk's algorithm asks the same file as the repaired one.
+[[nodiscard]] constexpr const char* baked_name(Structure structure) noexcept {
+    if (structure == Structure::bvh) return "";
+    if (structure == Structure::hashed_octree_literal) structure = Structure::hashed_octree;
+    return structure_name(structure);
+}
+
+/// As --split and --bounding spell them.
+[[nodiscard]] constexpr const char* split_name(format::SplitRule rule) noexcept {
+    return rule == format::SplitRule::median ? "median" : "area";
+}
+[[nodiscard]] constexpr const char* bounding_name(format::TetraBounding bounding) noexcept {
+    return bounding == format::TetraBounding::tetra ? "tetra" : "caps";
+}
+
+}  // namespace cdprep::report
