@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <sstream>
 #include <type_traits>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "cdprep/collide.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
+#include "cdprep/overlap_through.h"
 #include "cdprep/query_counts.h"
 #include "cdprep/triangles_within.h"
 #include "effects.h"
@@ -19,6 +22,7 @@
 #include "open_for.h"
 #include "poses_file.h"
 #include "query.h"
+#include "query_structure.h"
 
 namespace cdprep::cli {
 namespace {
@@ -34,7 +38,7 @@ struct Arguments {
     std::string pose_a;
     std::string pose_b;
     std::string placement = "relative";
-    std::string structure = "bvh";
+    StructureWords structure;
     std::string format = "text";
     std::string as = "surface";
     std::string contact = "closed";
@@ -84,8 +88,9 @@ Result<std::vector<Placement>> placements_of(const Arguments& arguments) {
 /// Answers one placement after the other with buffers that are kept.
 class Asker {
 public:
-    Asker(const Arguments& arguments, const Model& a, const Model& b)
-        : arguments_(arguments), a_(a), b_(b), errors_(arguments.errors) {
+    Asker(const Arguments& arguments, const StructureOptions& through, const Model& a,
+          const Model& b)
+        : arguments_(arguments), through_(through), a_(a), b_(b), errors_(arguments.errors) {
         options_.as = arguments.as == "solid" ? As::solid : As::surface;
         errors_.as = options_.as;
         options_.contact = arguments.contact == "proper" ? Contact::proper : Contact::closed;
@@ -160,6 +165,7 @@ private:
     report::PairAnswer ask(std::size_t number, const Placement& placement) {
         report::PairAnswer answer;
         answer.pose = number;
+        answer.is_approximate = through_.structure == Structure::hashed_octree_literal;
         if (arguments_.question == Question::overlap) {
             const std::size_t count =
                 arguments_.segments ? find_crossings(placement) : find_pairs(placement);
@@ -172,10 +178,25 @@ private:
             }
             if (options_.as == As::surface) return answer;
         }
-        const Collision collision = collide(a_, b_, placement, workspace_, options_, &cache_);
+        const Collision collision = find_collision(placement);
         answer.hit = collision.hit;
         if (options_.as == As::solid) answer.containment = collision.containment;
         return answer;
+    }
+
+    /// As collide() answers. Whether a solid is inside the other is always found through
+    /// the hierarchy of boxes.
+    Collision find_collision(const Placement& placement) {
+        if (through_.structure == Structure::bvh) {
+            return collide(a_, b_, placement, workspace_, options_, &cache_);
+        }
+        Collision collision;
+        collision.hit = any_overlap_through(through_, a_, b_, placement, workspace_,
+                                            {options_.contact, options_.degenerate});
+        if (collision.hit || options_.as == As::surface) return collision;
+        collision.containment = find_containment(a_, b_, placement, workspace_);
+        collision.hit = collision.containment.answer == Answer::yes;
+        return collision;
     }
 
     /// The answer's pairs stay valid until the next call.
@@ -198,7 +219,10 @@ private:
     std::size_t find_pairs(const Placement& placement) {
         const OverlapOptions options = {options_.contact, options_.degenerate};
         return keep_pairs([&](std::span<TrianglePair> room) {
-            return overlapping_triangles(a_, b_, placement, workspace_, room, options);
+            return through_.structure == Structure::bvh
+                       ? overlapping_triangles(a_, b_, placement, workspace_, room, options)
+                       : overlapping_triangles_through(through_, a_, b_, placement, workspace_,
+                                                       room, options);
         });
     }
 
@@ -229,6 +253,7 @@ private:
     }
 
     const Arguments& arguments_;
+    const StructureOptions through_;
     const Model& a_;
     const Model& b_;
     CollideOptions options_;
@@ -250,20 +275,60 @@ format::SectionSet needed_for(const Arguments& arguments) {
     return needed;
 }
 
-Exit run(const Arguments& arguments) {
-    if (arguments.structure != "bvh") {
-        return fail("query", {ErrorCode::bad_argument, "--structure is '" + arguments.structure +
-                                                           "', but this version has bvh only."});
+const char* name_of(Question question) {
+    switch (question) {
+        case Question::collide:
+            return "collide";
+        case Question::overlap:
+            return "overlap";
+        case Question::distance:
+            return "distance";
+        default:
+            return "within";
     }
+}
+
+/// Through what a question can be asked.
+std::span<const Structure> structures_serving(Question question) {
+    static constexpr std::array<Structure, 6> kAll = {
+        Structure::bvh,           Structure::octree,     Structure::adaptive_octree,
+        Structure::hashed_octree, Structure::tetra_tree, Structure::hashed_octree_literal};
+    const std::span<const Structure> all = kAll;
+    if (question == Question::overlap) return all;
+    // The talk's algorithm misses pairs: it can count, but not say that there are none.
+    return question == Question::collide ? all.first(5) : all.first(1);
+}
+
+/// Fails where a question's other options need what only the hierarchy of boxes does.
+Result<StructureOptions> structure_of(const Arguments& arguments) {
+    const Result<StructureOptions> through = parse_structure(
+        arguments.structure, name_of(arguments.question), structures_serving(arguments.question));
+    if (!through) return through;
+    if (arguments.segments && through.value().structure != Structure::bvh) {
+        return Error{ErrorCode::bad_argument,
+                     "--segments are found through the bvh alone: leave --structure out, or ask "
+                     "for pairs."};
+    }
+    if (arguments.as == "solid" && through.value().structure == Structure::hashed_octree_literal) {
+        return Error{ErrorCode::bad_argument,
+                     "--as solid has to know that no triangles touch, and hashed-octree-literal "
+                     "misses some: ask through hashed-octree."};
+    }
+    return through;
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<StructureOptions> through = structure_of(arguments);
+    if (!through) return fail("query", through.error());
     const format::SectionSet needed = needed_for(arguments);
-    const Result<Model> a = open_for(arguments.a, needed);
+    const Result<Model> a = open_for(arguments.a, needed, through.value().structure);
     if (!a) return fail("query", a.error());
-    const Result<Model> b = open_for(arguments.b, needed);
+    const Result<Model> b = open_for(arguments.b, needed, through.value().structure);
     if (!b) return fail("query", b.error());
     const Result<std::vector<Placement>> placements = placements_of(arguments);
     if (!placements) return fail("query", placements.error());
 
-    Asker asker(arguments, a.value(), b.value());
+    Asker asker(arguments, through.value(), a.value(), b.value());
     report::Answers answers(std::cout, parse_answer_format(arguments.format));
     for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
         asker.answer(i, placements.value()[i], answers);
@@ -343,7 +408,18 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
                      "With two world poses: relative moves B, world moves both")
         ->check(CLI::IsMember({"relative", "world"}))
         ->capture_default_str();
-    command->add_option("--structure", arguments->structure, "bvh")->capture_default_str();
+    if (question == Question::collide || question == Question::overlap) {
+        add_structure(*command, arguments->structure,
+                      question == Question::collide
+                          ? "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or "
+                            "tetra-tree; bake both with --structures. The answers are the same"
+                          : "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or "
+                            "tetra-tree, with the same answers, or hashed-octree-literal, which "
+                            "misses pairs and is for studies; bake both with --structures");
+        add_structure_steps(*command, arguments->structure);
+    } else {
+        add_structure(*command, arguments->structure, "bvh: no other serves this question");
+    }
     add_answer_format(*command, arguments->format);
     command->add_option("--repeat", arguments->repeat, "Ask each pose this often, for --timings")
         ->check(CLI::Range(1, 1'000'000'000))

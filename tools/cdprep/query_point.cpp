@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
-#include "cdprep/containment.h"
+#include "cdprep/includes_through.h"
 #include "effects.h"
 #include "interrupt.h"
 #include "open_for.h"
 #include "points_file.h"
 #include "query.h"
+#include "query_structure.h"
 
 namespace cdprep::cli {
 namespace {
@@ -20,6 +23,7 @@ struct Arguments {
     std::filesystem::path model;
     std::filesystem::path places;  ///< file of points or rays
     std::string format = "text";
+    StructureWords structure;
 };
 
 /// One question about one model, asked at many places.
@@ -30,44 +34,64 @@ struct Question {
     const char* option;  ///< --points or --rays
     const char* option_description;
     Result<std::vector<Place>> (*read)(const std::filesystem::path&);
-    void (*ask)(const Model&, const Place&, Workspace&, std::size_t number, report::Answers&);
+    std::span<const Structure> serving;  ///< through what it can be asked
+    const char* structure_description;
+    void (*ask)(const Model&, const Place&, Structure, Workspace&, std::size_t number,
+                report::Answers&);
 };
 
-void ask_inside(const Model& model, const Double3& point, Workspace& workspace, std::size_t number,
-                report::Answers& answers) {
-    answers.add(report::InsideAnswer{number, includes(model, point, workspace)});
+void ask_inside(const Model& model, const Double3& point, Structure through, Workspace& workspace,
+                std::size_t number, report::Answers& answers) {
+    answers.add(report::InsideAnswer{number, includes_through(through, model, point, workspace)});
 }
 
-void ask_closest(const Model& model, const Double3& point, Workspace& workspace, std::size_t number,
-                 report::Answers& answers) {
+void ask_closest(const Model& model, const Double3& point, Structure /*through*/,
+                 Workspace& workspace, std::size_t number, report::Answers& answers) {
     answers.add(report::ClosestAnswer{number, closest_point(model, point, workspace)});
 }
 
-void ask_ray(const Model& model, const Ray& ray, Workspace& workspace, std::size_t number,
-             report::Answers& answers) {
+void ask_ray(const Model& model, const Ray& ray, Structure /*through*/, Workspace& workspace,
+             std::size_t number, report::Answers& answers) {
     answers.add(report::RayAnswer{number, cast_ray(model, ray, workspace)});
 }
 
-constexpr Question<Double3> kInside = {"inside",    "Which points are inside?",
-                                       "--points",  "File of points, 3 numbers a line",
-                                       read_points, ask_inside};
+constexpr std::array<Structure, 5> kServingInside = {
+    Structure::bvh, Structure::octree, Structure::adaptive_octree, Structure::hashed_octree,
+    Structure::tetra_tree};
+constexpr std::span<const Structure> kBvhAlone = std::span(kServingInside).first(1);
+
+constexpr const char* kThroughInside =
+    "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or tetra-tree; bake it with "
+    "--structures. The answers are the same";
+constexpr const char* kThroughBvh = "bvh: no other serves this question";
+
+constexpr Question<Double3> kInside = {"inside",       "Which points are inside?",
+                                       "--points",     "File of points, 3 numbers a line",
+                                       read_points,    kServingInside,
+                                       kThroughInside, ask_inside};
 constexpr Question<Double3> kClosest = {"closest",   "What is nearest to each point?",
                                         "--points",  "File of points, 3 numbers a line",
-                                        read_points, ask_closest};
-constexpr Question<Ray> kRay = {"ray",     "What does each ray meet first?",
-                                "--rays",  "File of rays, 6 numbers a line: origin, direction",
-                                read_rays, ask_ray};
+                                        read_points, kBvhAlone,
+                                        kThroughBvh, ask_closest};
+constexpr Question<Ray> kRay = {"ray",       "What does each ray meet first?",
+                                "--rays",    "File of rays, 6 numbers a line: origin, direction",
+                                read_rays,   kBvhAlone,
+                                kThroughBvh, ask_ray};
 
 template <class Place>
 Exit run(const Arguments& arguments, const Question<Place>& question) {
-    const Result<Model> model = open_for(arguments.model, sections_for(question.name));
+    const Result<StructureOptions> through =
+        parse_structure(arguments.structure, question.name, question.serving);
+    if (!through) return fail("query", through.error());
+    const Structure structure = through.value().structure;
+    const Result<Model> model = open_for(arguments.model, sections_for(question.name), structure);
     if (!model) return fail("query", model.error());
     const Result<std::vector<Place>> places = question.read(arguments.places);
     if (!places) return fail("query", places.error());
     Workspace workspace;
     report::Answers answers(std::cout, parse_answer_format(arguments.format));
     for (std::size_t i = 0; i < places.value().size() && !is_interrupted(); ++i) {
-        question.ask(model.value(), places.value()[i], workspace, i, answers);
+        question.ask(model.value(), places.value()[i], structure, workspace, i, answers);
     }
     answers.finish();
     return Exit::success;
@@ -80,6 +104,7 @@ void add_question(CLI::App& query, const Question<Place>& question, Exit& exit) 
     command->add_option("model", arguments->model, "A baked file")->required();
     command->add_option(question.option, arguments->places, question.option_description)
         ->required();
+    add_structure(*command, arguments->structure, question.structure_description);
     add_answer_format(*command, arguments->format);
     command->callback([arguments, &question, &exit] { exit = run(*arguments, question); });
 }

@@ -128,6 +128,7 @@ std::string pair_lines(const std::optional<std::span<const TrianglePair>>& pairs
 
 std::string as_json(const PairAnswer& answer) {
     std::string text = "{\"pose\": " + number(answer.pose) + ", \"hit\": " + word(answer.hit);
+    if (answer.is_approximate) text += ", \"approximate\": true";
     text += count_and_pairs_json(answer);
     if (answer.crossings) text += crossings_json(*answer.crossings);
     if (answer.containment) {
@@ -140,6 +141,7 @@ std::string as_json(const PairAnswer& answer) {
 std::string as_text(const PairAnswer& answer) {
     std::string text = "pose " + number(answer.pose) + (answer.hit ? ": hit" : ": free");
     if (answer.count) text += ", " + number(*answer.count) + " pairs";
+    if (answer.is_approximate) text += ", approximate: some may be missing";
     if (answer.containment) {
         text += std::string(", containment ") + word(answer.containment->answer);
     }

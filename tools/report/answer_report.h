@@ -25,6 +25,7 @@ struct PairAnswer {
     std::optional<std::span<const TrianglePair>> pairs;  ///< overlap without --count
     std::optional<std::span<const Crossing>> crossings;  ///< instead, with --segments
     std::optional<Containment> containment;              ///< solid only
+    bool is_approximate = false;                         ///< pairs may be missing
 };
 
 /// How far two models are apart in one pose; nothing when farther than asked for.

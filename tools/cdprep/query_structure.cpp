@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "query_structure.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "report/structure_name.h"
+
+namespace cdprep::cli {
+namespace {
+
+bool is_hashed(Structure structure) {
+    return structure == Structure::hashed_octree || structure == Structure::hashed_octree_literal;
+}
+
+/// Of the structures that serve the question.
+Result<Structure> find_structure(const std::string& name, const char* question,
+                                 std::span<const Structure> serving) {
+    std::string names;
+    for (const Structure structure : serving) {
+        if (name == report::structure_name(structure)) return structure;
+        names += (names.empty() ? "" : ", ") + std::string(report::structure_name(structure));
+    }
+    return Error{ErrorCode::bad_argument, "--structure is '" + name + "', which does not serve " +
+                                              question + " in this version; what does: " + names +
+                                              "."};
+}
+
+/// An option that would change nothing was meant for something.
+std::optional<Error> find_idle_option(const StructureWords& words, Structure structure) {
+    const auto idle = [&](const char* option, const char* user) {
+        return Error{ErrorCode::bad_argument, std::string(option) + " is for " + user +
+                                                  ", but --structure is " +
+                                                  report::structure_name(structure) + "."};
+    };
+    if (!words.leaf_test.empty() && structure == Structure::bvh) {
+        return idle("--leaf-test", "every structure but bvh");
+    }
+    if (!words.descent.empty() && (structure == Structure::bvh || is_hashed(structure))) {
+        return idle("--descent", "octree, octree-adaptive and tetra-tree");
+    }
+    if (!words.search.empty() && !is_hashed(structure)) {
+        return idle("--search", "hashed-octree and hashed-octree-literal");
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Result<StructureOptions> parse_structure(const StructureWords& words, const char* question,
+                                         std::span<const Structure> serving) {
+    const Result<Structure> structure = find_structure(words.structure, question, serving);
+    if (!structure) return structure.error();
+    if (const auto error = find_idle_option(words, structure.value())) return *error;
+    StructureOptions options;
+    options.structure = structure.value();
+    if (words.leaf_test == "feito") options.leaf_test = LeafTest::feito_torres;
+    if (words.descent == "a-first") options.descent = Descent::a_first;
+    if (words.descent == "b-first") options.descent = Descent::b_first;
+    if (words.descent == "both") options.descent = Descent::both;
+    if (words.search == "modulus") options.search = CellSearch::modulus;
+    if (words.search == "mixed") options.search = CellSearch::mixed;
+    return options;
+}
+
+void add_structure(CLI::App& command, StructureWords& words, const char* description) {
+    command.add_option("--structure", words.structure, description)->capture_default_str();
+}
+
+void add_structure_steps(CLI::App& command, StructureWords& words) {
+    command
+        .add_option("--leaf-test", words.leaf_test,
+                    "How two triangles are tested, not for bvh: guigue-devillers, by the signs of "
+                    "planes (default), or feito, six edges against triangles, as in the paper. "
+                    "They agree always")
+        ->check(CLI::IsMember({"guigue-devillers", "feito"}));
+    command
+        .add_option("--descent", words.descent,
+                    "What a pair of cells becomes, for octree, octree-adaptive and tetra-tree: "
+                    "the children of the larger (default), of A's first (a-first), of B's first "
+                    "(b-first), or of both. No answer depends on it")
+        ->check(CLI::IsMember({"larger", "a-first", "b-first", "both"}));
+    command
+        .add_option("--search", words.search,
+                    "How a cell is found, for hashed-octree: among sorted leaves with a top table "
+                    "(default), or in a hash table by the key's modulus or by a mixed key. No "
+                    "answer depends on it")
+        ->check(CLI::IsMember({"sorted", "modulus", "mixed"}));
+}
+
+}  // namespace cdprep::cli
