@@ -170,4 +170,12 @@ Result<Done> OutputFile::commit() {
     return Done{};
 }
 
+Result<Done> write_whole(const std::filesystem::path& path, std::string_view bytes) {
+    Result<OutputFile> file = OutputFile::create(path);
+    if (!file) return file.error();
+    const Result<Done> written = file.value().write_at(0, std::as_bytes(std::span(bytes)));
+    if (!written) return written.error();
+    return file.value().commit();
+}
+
 }  // namespace cdprep::write

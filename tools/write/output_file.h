@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 #include "cdprep/result.h"
 
@@ -44,5 +45,8 @@ private:
     std::filesystem::path temporary_;
     int descriptor_;
 };
+
+/// Creates, writes and commits a file that is at hand whole.
+[[nodiscard]] Result<Done> write_whole(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace cdprep::write

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "write/mesh_file.h"
+
+namespace cdprep::write {
+
+static_assert(std::endian::native == std::endian::little, "binary files are written as they lie");
+
+/// In the fewest digits that read back the same.
+inline void append_number(std::string& text, double value, bool single) {
+    std::array<char, 32> digits;
+    const auto end = single ? std::to_chars(digits.data(), digits.data() + digits.size(),
+                                            static_cast<float>(value))
+                            : std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    text.append(digits.data(), end.ptr);
+}
+
+inline void append_integer(std::string& text, std::uint64_t value) {
+    std::array<char, 24> digits;
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    text.append(digits.data(), end.ptr);
+}
+
+template <class T>
+void append_bytes(std::string& bytes, const T& value) {
+    const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+    bytes.append(raw.data(), raw.size());
+}
+
+/// A point of a binary file.
+inline void append_point(std::string& bytes, const format::Double3& p, bool single) {
+    for (const double value : {p.x, p.y, p.z}) {
+        if (single) {
+            append_bytes(bytes, static_cast<float>(value));
+        } else {
+            append_bytes(bytes, value);
+        }
+    }
+}
+
+/// Three numbers with blanks between.
+inline void append_point_text(std::string& text, const format::Double3& p, bool single) {
+    append_number(text, p.x, single);
+    text += ' ';
+    append_number(text, p.y, single);
+    text += ' ';
+    append_number(text, p.z, single);
+}
+
+/// A line per vertex, behind `lead`.
+inline void append_positions(std::string& text, const MeshArrays& mesh, const char* lead) {
+    for (const format::Double3& p : mesh.positions) {
+        text += lead;
+        append_point_text(text, p, mesh.single_precision);
+        text += '\n';
+    }
+}
+
+/// A line for a triangle; `first` is the number of the first vertex.
+inline void append_triangle(std::string& text, const format::Triangle& t, const char* lead,
+                            std::uint64_t first) {
+    text += lead;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (k > 0) text += ' ';
+        append_integer(text, first + t.vertex[k]);
+    }
+    text += '\n';
+}
+
+/// A line per triangle.
+inline void append_triangles(std::string& text, const MeshArrays& mesh, const char* lead,
+                             std::uint64_t first) {
+    for (const format::Triangle& t : mesh.triangles) append_triangle(text, t, lead, first);
+}
+
+/// Of a binary PLY; properties of vertices and faces beside place and corners, each behind
+/// a line end.
+inline std::string ply_header(std::size_t vertices, bool single, const char* of_vertex,
+                              std::optional<std::size_t> faces, const char* of_face) {
+    const std::string type = single ? "float" : "double";
+    std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex ";
+    append_integer(text, vertices);
+    for (const char* axis : {"x", "y", "z"}) text += "\nproperty " + type + " " + axis;
+    text += of_vertex;
+    if (faces) {
+        text += "\nelement face ";
+        append_integer(text, *faces);
+        text += "\nproperty list uchar int vertex_indices";
+        text += of_face;
+    }
+    return text + "\nend_header\n";
+}
+
+}  // namespace cdprep::write
