@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/build_octree.h"
 
+#include <algorithm>
+
 #include "octree_grid.h"
 #include "octree_levels.h"
 #include "octree_tables.h"
@@ -10,11 +12,7 @@ namespace cdprep::build {
 Octree build_octree(std::span<const format::Double3> positions,
                     std::span<const format::Triangle> triangles, const OctreeOptions& options) {
     Octree octree;
-    if (triangles.empty()) {
-        octree.grid = octree_grid_around({{}, {}, true});
-    } else {
-        octree.grid = octree_grid_around(extent_of(positions, triangles, options.parallel_for));
-    }
+    octree.grid = octree_grid_around(positions, options.parallel_for);
     octree.grid.level = std::min(options.level, format::kOctreeBits);
     octree.grid.threshold = std::max(options.threshold, 1U);
     if (!triangles.empty()) divide_octree(octree, positions, triangles, options.parallel_for);

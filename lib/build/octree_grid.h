@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "frame_map.h"
+#include <span>
+
+#include "cdprep/parallel_for.h"
 #include "octree_cells.h"
 
 namespace cdprep::build {
 
-/// The cube around an extent and its finest planes, as format::OctreeGrid defines them: the
-/// extent's middle in the middle, more than a step beyond on every side, planes that rise
-/// strictly. `level`, `threshold` and what concerns tables are left 0.
-[[nodiscard]] format::OctreeGrid octree_grid_around(const Extent& extent);
+/// The cube around all positions and its finest planes, as format::OctreeGrid defines them:
+/// the middle of their box in the middle, more than a step beyond on every side, planes that
+/// rise strictly. Around the origin where there are none. `level`, `threshold` and what
+/// concerns tables are left 0.
+[[nodiscard]] format::OctreeGrid octree_grid_around(std::span<const Double3> positions,
+                                                    ParallelFor parallel_for);
 
 /// Where a vertex stands among the finest planes of each axis, doubled: 2 i on plane i,
 /// 2 i + 1 strictly between planes i and i + 1. What lies on a plane touches both sides, so

@@ -56,19 +56,26 @@ struct Cell {
     }
 };
 
-/// Children on the lower and on the upper side of each axis's middle plane.
+/// Children on the lower side of each axis's middle plane; the others are on the upper.
 constexpr std::array<unsigned, 3> kLowerChildren = {0x55, 0x33, 0x0f};
-constexpr std::array<unsigned, 3> kUpperChildren = {0xaa, 0xcc, 0xf0};
 
-/// The children whose closed cells a box reaches that reaches the parent's.
+/// The children whose closed cells a box reaches that reaches the parent's. Without a
+/// branch: nothing foretells on which side a triangle is.
 unsigned children_between(const Cell& cell, const Stand& least, const Stand& most) noexcept {
     unsigned children = 0xff;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const std::uint32_t middle = cell.middle(axis);
-        children &= (least[axis] <= middle ? kLowerChildren[axis] : 0) |
-                    (most[axis] >= middle ? kUpperChildren[axis] : 0);
+        const auto below = static_cast<unsigned>(least[axis] <= middle);
+        const auto above = static_cast<unsigned>(most[axis] >= middle);
+        children &= ((0U - below) & kLowerChildren[axis]) | ((0U - above) & ~kLowerChildren[axis]);
     }
     return children;
+}
+
+/// Of a set that is not empty. Processors without an instruction that counts bits are
+/// served too, and a call is made for it otherwise.
+bool is_single(unsigned set) noexcept {
+    return (set & (set - 1)) == 0;
 }
 
 /// What the division looks at.
@@ -111,7 +118,7 @@ unsigned touched_children(const Input& input, const Triangle& t, const Cell& cel
         most[axis] = std::max({a[axis], b[axis], c[axis]});
     }
     const unsigned reached = children_between(cell, least, most);
-    if (std::has_single_bit(reached)) return reached;
+    if (is_single(reached)) return reached;
     unsigned touched = 0;
     for (const Stand* at : {&a, &b, &c}) {
         if (cell.holds(*at)) touched |= children_between(cell, *at, *at);
@@ -200,14 +207,16 @@ private:
 
     void count(Segment& segment) {
         const Cell cell = Cell::of(level_.nodes[segment.node].key);
+        std::array<std::uint32_t, 8> count{};
         for (std::uint32_t i = segment.first; i < segment.last; ++i) {
             const std::uint32_t number = level_.references[i] & ~kSharedReference;
             const unsigned touched = touched_children(input_, input_.triangles[number], cell);
             children_[i] = static_cast<std::uint8_t>(touched);
             for (unsigned left = touched; left != 0; left &= left - 1) {
-                ++segment.child[static_cast<std::size_t>(std::countr_zero(left))];
+                ++count[static_cast<std::size_t>(std::countr_zero(left))];
             }
         }
+        segment.child = count;
     }
 
     /// Of this level's leaves and the next level's nodes.
@@ -244,7 +253,7 @@ private:
     void move(Segment& segment, std::uint32_t* to) {
         for (std::uint32_t i = segment.first; i < segment.last; ++i) {
             const unsigned touched = children_[i];
-            const bool shared = !std::has_single_bit(touched);
+            const bool shared = !is_single(touched);
             const std::uint32_t reference = level_.references[i] | (shared ? kSharedReference : 0);
             for (unsigned left = touched; left != 0; left &= left - 1) {
                 to[segment.child[static_cast<std::size_t>(std::countr_zero(left))]++] = reference;

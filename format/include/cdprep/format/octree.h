@@ -30,9 +30,8 @@ inline constexpr std::uint64_t kKeyMixer = 0x9e3779b97f4a7c15U;
 /// Plane i of an axis, 0 <= i <= 2^21, lies at origin + i * step: the product is exact
 /// (step has at most 32 significant bits), the sum is rounded to double once, and
 /// planes of rising number rise strictly. A cell of level l is the closed box between
-/// two planes 2^(21 - l) apart along each axis; the root, level 0, holds every vertex that a
-/// triangle uses, and more than a step beyond. So cells of every level are exact, whatever
-/// the model's size.
+/// two planes 2^(21 - l) apart along each axis; the root, level 0, holds every vertex
+/// and more than a step beyond. So cells of every level are exact, whatever the model's size.
 struct OctreeGrid {
     Double3 origin;           ///< model units
     double step;              ///< model units, > 0
