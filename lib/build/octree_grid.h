@@ -4,6 +4,7 @@
 #include <span>
 
 #include "cdprep/parallel_for.h"
+#include "lanes.h"
 #include "octree_cells.h"
 
 namespace cdprep::build {
@@ -17,18 +18,21 @@ namespace cdprep::build {
 
 /// Where a vertex stands among the finest planes of each axis, doubled: 2 i on plane i,
 /// 2 i + 1 strictly between planes i and i + 1. What lies on a plane touches both sides, so
-/// this, unlike a number of a cell, tells exactly which closed cells a vertex is in.
-using Stand = std::array<std::uint32_t, 3>;
+/// this, unlike a number of a cell, tells exactly which closed cells a vertex is in. Floats,
+/// which hold 22 bits exactly, and a fourth lane, always 0, so that one instruction compares
+/// all axes.
+using Stand = Lanes<float, 4>;
 
-[[nodiscard]] inline std::uint32_t octree_stand(double origin, double step, double x) noexcept {
+[[nodiscard]] inline float octree_stand(double origin, double step, double x) noexcept {
     const std::uint32_t cell = octree_cell(origin, step, x);
-    return 2 * cell + (x > octree_plane(origin, step, cell) ? 1 : 0);
+    const bool between = x > octree_plane(origin, step, cell);
+    return static_cast<float>(2 * cell + (between ? 1 : 0));
 }
 
 [[nodiscard]] inline Stand octree_stand(const format::OctreeGrid& grid, const Double3& p) noexcept {
     return {octree_stand(grid.origin.x, grid.step, p.x),
             octree_stand(grid.origin.y, grid.step, p.y),
-            octree_stand(grid.origin.z, grid.step, p.z)};
+            octree_stand(grid.origin.z, grid.step, p.z), 0};
 }
 
 }  // namespace cdprep::build

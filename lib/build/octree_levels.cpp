@@ -37,39 +37,44 @@ std::uint64_t most_references(std::uint64_t triangle_count) noexcept {
 
 /// A cell that is to be divided, along each axis in doubled numbers of planes (Stand).
 struct Cell {
-    CellPlace lower;
-    std::uint32_t half;  ///< from the lower plane to the middle one
+    CellPlace first;     ///< its first finest cell
+    std::uint32_t side;  ///< finest cells
+    Stand lower;
+    Stand middle;
+    Stand upper;
 
     static Cell of(std::uint64_t key) noexcept {
-        const CellPlace first = octree_place(key);
-        return {{2 * first[0], 2 * first[1], 2 * first[2]}, kOctreeSteps >> level_of(key)};
-    }
-    [[nodiscard]] std::uint32_t middle(std::size_t axis) const noexcept {
-        return lower[axis] + half;
+        Cell cell{octree_place(key), kOctreeSteps >> level_of(key), {}, {}, {}};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            cell.lower[axis] = static_cast<float>(2 * cell.first[axis]);
+            cell.middle[axis] = static_cast<float>(2 * cell.first[axis] + cell.side);
+            cell.upper[axis] = static_cast<float>(2 * cell.first[axis] + 2 * cell.side);
+        }
+        return cell;
     }
     [[nodiscard]] bool holds(const Stand& at) const noexcept {
+        bool inside = true;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            // Below `lower` the difference wraps around.
-            if (at[axis] - lower[axis] > 2 * half) return false;
+            inside = inside && at[axis] >= lower[axis] && at[axis] <= upper[axis];
         }
-        return true;
+        return inside;
     }
 };
 
 /// Children on the lower side of each axis's middle plane; the others are on the upper.
-constexpr std::array<unsigned, 3> kLowerChildren = {0x55, 0x33, 0x0f};
+constexpr Lanes<std::uint32_t, 4> kLowerChildren = {0x55, 0x33, 0x0f, 0xff};
+constexpr Lanes<std::uint32_t, 4> kUpperChildren = {0xaa, 0xcc, 0xf0, 0xff};
 
 /// The children whose closed cells a box reaches that reaches the parent's. Without a
 /// branch: nothing foretells on which side a triangle is.
 unsigned children_between(const Cell& cell, const Stand& least, const Stand& most) noexcept {
-    unsigned children = 0xff;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::uint32_t middle = cell.middle(axis);
-        const auto below = static_cast<unsigned>(least[axis] <= middle);
-        const auto above = static_cast<unsigned>(most[axis] >= middle);
-        children &= ((0U - below) & kLowerChildren[axis]) | ((0U - above) & ~kLowerChildren[axis]);
-    }
-    return children;
+    Lanes<std::uint32_t, 4> children;
+    for_lanes<4>([&](std::size_t i) {
+        const std::uint32_t below = least[i] <= cell.middle[i] ? kLowerChildren[i] : 0;
+        const std::uint32_t above = most[i] >= cell.middle[i] ? kUpperChildren[i] : 0;
+        children[i] = below | above;
+    });
+    return children[0] & children[1] & children[2];
 }
 
 /// Of a set that is not empty. Processors without an instruction that counts bits are
@@ -91,13 +96,14 @@ unsigned touched_among(const Input& input, const Triangle& t, const Cell& cell,
                        unsigned children) noexcept {
     const Corners corners = {input.positions[t.vertex[0]], input.positions[t.vertex[1]],
                              input.positions[t.vertex[2]]};
-    const auto level = static_cast<std::uint32_t>(std::countl_zero(cell.half)) + kOctreeBits - 30;
+    const std::uint32_t half = cell.side / 2;
+    const auto level = static_cast<std::uint32_t>(std::countl_zero(half)) + kOctreeBits - 31;
     unsigned touched = 0;
     for (unsigned left = children; left != 0; left &= left - 1) {
         const auto child = static_cast<unsigned>(std::countr_zero(left));
         CellPlace first;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            first[axis] = (cell.lower[axis] + ((child >> axis & 1) != 0 ? cell.half : 0)) / 2;
+            first[axis] = cell.first[axis] + ((child >> axis & 1) != 0 ? half : 0);
         }
         if (triangle_touches_box(corners, octree_box(input.grid, first, level))) {
             touched |= 1U << child;
@@ -111,12 +117,12 @@ unsigned touched_children(const Input& input, const Triangle& t, const Cell& cel
     const Stand& a = input.stands[t.vertex[0]];
     const Stand& b = input.stands[t.vertex[1]];
     const Stand& c = input.stands[t.vertex[2]];
-    Stand least;
-    Stand most;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        least[axis] = std::min({a[axis], b[axis], c[axis]});
-        most[axis] = std::max({a[axis], b[axis], c[axis]});
-    }
+    Stand least = a;
+    Stand most = a;
+    take_lower(least, b);
+    take_lower(least, c);
+    take_upper(most, b);
+    take_upper(most, c);
     const unsigned reached = children_between(cell, least, most);
     if (is_single(reached)) return reached;
     unsigned touched = 0;
@@ -274,12 +280,17 @@ std::unique_ptr<Stand[]> stands_of(const format::OctreeGrid& grid,
     return stands;
 }
 
-Level root_level(std::size_t triangle_count) {
+Level root_level(std::size_t triangle_count, ParallelFor parallel_for) {
     Level root;
     root.reference_count = static_cast<std::uint32_t>(triangle_count);
     root.nodes = {{1, 0, root.reference_count}};
     root.references = std::make_unique_for_overwrite<std::uint32_t[]>(triangle_count);
-    for (std::uint32_t i = 0; i < root.reference_count; ++i) root.references[i] = i;
+    for_chunks(triangle_count, kItemsPerTask, parallel_for,
+               [&](std::size_t first, std::size_t last) {
+                   for (std::size_t i = first; i < last; ++i) {
+                       root.references[i] = static_cast<std::uint32_t>(i);
+                   }
+               });
     return root;
 }
 
@@ -305,7 +316,7 @@ void divide_octree(Octree& octree, std::span<const Double3> positions,
                    std::span<const Triangle> triangles, ParallelFor parallel_for) {
     const auto stands = stands_of(octree.grid, positions, parallel_for);
     const Input input{octree.grid, positions, triangles, stands.get()};
-    Level level = root_level(triangles.size());
+    Level level = root_level(triangles.size(), parallel_for);
     for (std::uint32_t depth = 0; !level.nodes.empty(); ++depth) {
         Level next;
         std::vector<OctreeNode> nodes = level.nodes;

@@ -44,7 +44,7 @@ inline constexpr std::uint64_t kMostReferencesPerTriangle = 64;
 /// A level whose division would give the tree more than kMostFreeReferences and
 /// kMostReferencesPerTriangle for each triangle is not divided, nor is any below: level 21
 /// around a triangle that fills the cube has 2^42 cells. O(levels * references). Scratch, at
-/// most: 12 bytes a vertex, and for each reference of the result 13, for each node 68.
+/// most: 16 bytes a vertex, and for each reference of the result 13, for each node 68.
 /// Throws nothing but std::bad_alloc. Coordinates that are NaN are refused long before, by
 /// whoever read them; here they give no answer.
 [[nodiscard]] Octree build_octree(std::span<const format::Double3> positions,
