@@ -20,6 +20,7 @@
 #include "cdprep/containment.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
+#include "cdprep/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/touching_box.h"
 #include "cdprep/touching_capsule.h"
@@ -91,7 +92,10 @@ void ask(const Model& model) {
 
 void judge(const test::AlignedBytes& bytes) {
     const auto opened = Model::open(bytes.span());
-    if (opened && can_answer(opened.value())) ask(opened.value());
+    if (opened && can_answer(opened.value())) {
+        ask(opened.value());
+        (void)find_list_damage(bytes.span(), opened.value());
+    }
     if (opened) (void)format::find_deep_damage(bytes.span());
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "cdprep/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model.h"
 #include "command.h"
@@ -39,7 +40,9 @@ Exit run(const Arguments& arguments) {
         Model::open(bytes, format::SectionSet::all(), arguments.file.string());
     if (!opened) return fail("info", opened.error());
     if (arguments.deep) {
-        if (const auto damage = format::find_deep_damage(bytes)) {
+        auto damage = format::find_deep_damage(bytes);
+        if (!damage) damage = find_list_damage(bytes, opened.value());
+        if (damage) {
             return fail("info",
                         {ErrorCode::unreadable, damage_sentence(arguments.file.string(), *damage)});
         }

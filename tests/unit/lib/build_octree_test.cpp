@@ -200,7 +200,7 @@ std::vector<TestMesh> hard_meshes() {
             on_cell_planes(),
             big_and_small(),
             copies_of_one_triangle(50),
-            coarse_grid_soup(3, 90, 4),
+            coarse_grid_soup(3, 40, 4),
             random_soup(11, 60, 0.5),
             moved_by(icosphere(2), 1e-3, {1e6, -1e6, 1e6}),  // B10
             scaled_along_z(icosphere(2), 1e-30),             // B10

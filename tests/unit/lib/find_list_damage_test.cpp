@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/find_list_damage.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "cdprep/format/octree.h"
+#include "cdprep/format/sections.h"
+#include "support/meshes.h"
+#include "support/more_sections.h"
+#include "support/reseal.h"
+
+namespace cdprep::test {
+namespace {
+
+using format::Damage;
+using format::DamageKind;
+using format::find_section;
+using format::kInnerNode;
+using format::kSharedReference;
+using format::OctreeGrid;
+using format::OctreeNode;
+
+AlignedBytes baked(const TestMesh& mesh, const build::OctreeOptions& options = {}) {
+    return with_octree(bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}),
+                       options);
+}
+
+template <class T>
+std::vector<T> elements(const AlignedBytes& file, SectionId id) {
+    const auto entry = find_section(file.span(), id).value();
+    std::vector<T> all(entry.count);
+    std::memcpy(all.data(), file.span().data() + entry.offset, all.size() * sizeof(T));
+    return all;
+}
+
+/// The file with other elements of a section, which is safe to ask still.
+template <class T>
+AlignedBytes with(const AlignedBytes& file, SectionId id, const std::vector<T>& all) {
+    AlignedBytes changed(file.span());
+    const auto entry = find_section(file.span(), id).value();
+    std::memcpy(changed.span().data() + entry.offset, all.data(), all.size() * sizeof(T));
+    reseal(changed.span());
+    EXPECT_FALSE(format::find_damage(std::as_const(changed).span()));
+    return changed;
+}
+
+std::optional<Damage> check(const AlignedBytes& file) {
+    const auto opened = Model::open(file.span());
+    EXPECT_TRUE(opened);
+    return find_list_damage(file.span(), opened.value());
+}
+
+TEST(FindListDamage, FindsNothingInWhatTheBuilderMakes) {
+    EXPECT_FALSE(check(bake_tiny(unit_cube().positions, unit_cube().triangles)));
+    for (const TestMesh& mesh :
+         {TestMesh{}, unit_cube(), icosphere(3), coarse_grid_soup(4, 300, 4), fan(50),
+          copies_of_one_triangle(30), random_soup(8, 500, 0.3),
+          moved_by(icosphere(2), 1e-3, {1e6, -1e6, 1e6}), moved_by(icosphere(1), 0x1p-1000, {}),
+          moved_by(icosphere(1), 0x1p999, {})}) {
+        EXPECT_FALSE(check(baked(mesh)));
+        EXPECT_FALSE(check(baked(mesh, {.level = 6, .threshold = 20, .hashed = false})));
+    }
+}
+
+// The second triangle of the first leaf of two is taken for the next in number, which that
+// leaf does not touch: the one is missing, the other too many.
+TEST(FindListDamage, SeesAReferenceToTheWrongTriangle) {
+    const AlignedBytes file = baked(icosphere(2), {.level = 2});
+    auto references = elements<std::uint32_t>(file, SectionId::octree_references);
+    int seen = 0;
+    for (const OctreeNode& node : elements<OctreeNode>(file, SectionId::octree_nodes)) {
+        if ((node.count & kInnerNode) != 0) continue;
+        const std::size_t last = node.first + node.count - 1;
+        const std::uint32_t before = references[last];
+        if ((before & ~kSharedReference) + 1 >= 320) continue;
+        ++references[last];
+        const auto damage = check(with(file, SectionId::octree_references, references));
+        ASSERT_TRUE(damage);
+        EXPECT_EQ(damage->kind, DamageKind::bad_fact);
+        references[last] = before;
+        ++seen;
+    }
+    EXPECT_GT(seen, 10);
+}
+
+TEST(FindListDamage, SeesAWrongMark) {
+    const AlignedBytes file = baked(icosphere(2), {.level = 2});
+    auto references = elements<std::uint32_t>(file, SectionId::octree_references);
+    for (std::size_t i = 0; i < references.size(); i += 7) {
+        references[i] ^= kSharedReference;
+        const auto damage = check(with(file, SectionId::octree_references, references));
+        ASSERT_TRUE(damage);
+        EXPECT_EQ(damage->section, SectionId::octree_references);
+        references[i] ^= kSharedReference;
+    }
+}
+
+TEST(FindListDamage, SeesACubeThatWasMoved) {
+    const AlignedBytes file = baked(icosphere(2));
+    auto grid = elements<OctreeGrid>(file, SectionId::octree_grid);
+    for (const double by : {-1e-3, 1e-3, 0.5, 3.0}) {
+        grid[0].origin.y += by;
+        EXPECT_TRUE(check(with(file, SectionId::octree_grid, grid))) << by;
+        grid[0].origin.y -= by;
+    }
+}
+
+// Two nodes of a slot in a chain of three: the last is linked from both, the middle one is
+// lost. Numbers rise, slots are right and there are as many links as before.
+TEST(FindListDamage, SeesANodeThatNoChainHolds) {
+    const AlignedBytes file = baked(icosphere(3), {.level = 5, .threshold = 4});
+    const std::uint32_t bits = elements<OctreeGrid>(file, SectionId::octree_grid)[0].slot_bits;
+    const std::size_t slots = std::size_t{1} << bits;
+    int seen = 0;
+    for (const SectionId id : {SectionId::octree_modulus_table, SectionId::octree_mixed_table}) {
+        auto table = elements<std::uint32_t>(file, id);
+        for (std::size_t slot = 0; slot < slots; ++slot) {
+            const std::uint32_t first = table[slot];
+            const std::uint32_t second = first == 0 ? 0 : table[slots + first - 1];
+            const std::uint32_t third = second == 0 ? 0 : table[slots + second - 1];
+            if (third == 0) continue;
+            table[slots + first - 1] = third;
+            const auto damage = check(with(file, id, table));
+            ASSERT_TRUE(damage);
+            EXPECT_EQ(damage->section, id);
+            table[slots + first - 1] = second;
+            if (++seen % 10 == 0) break;
+        }
+    }
+    EXPECT_GT(seen, 5);
+}
+
+}  // namespace
+}  // namespace cdprep::test
