@@ -13,6 +13,7 @@
 #include "cdprep/format/verdict.h"
 #include "find_adaptive_octree_damage.h"
 #include "find_octree_damage.h"
+#include "find_tetra_damage.h"
 
 // Every read is a copy of a few bytes at an offset that was proved to lie inside
 // the file, so the bytes may have any alignment. No sum or product of untrusted
@@ -499,6 +500,7 @@ Found find_missing(Bytes file) {
     }
     if (const Found damage = find_missing_octree(file)) return damage;
     if (const Found damage = find_missing_adaptive_octree(file)) return damage;
+    if (const Found damage = find_missing_tetra(file)) return damage;
     return std::nullopt;
 }
 
@@ -536,6 +538,7 @@ std::optional<Damage> find_damage(std::span<const std::byte> file, SectionSet wa
     }
     if (const Found damage = find_octree_damage(file, wanted)) return damage;
     if (const Found damage = find_adaptive_octree_damage(file, wanted)) return damage;
+    if (const Found damage = find_tetra_damage(file, wanted)) return damage;
     return std::nullopt;
 }
 

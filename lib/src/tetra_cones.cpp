@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tetra_cones.h"
 
-#include <bit>
 #include <optional>
 
 #include "cone_faces.h"
@@ -255,10 +254,6 @@ Generator twice(const Generator& a) noexcept {
 }
 
 }  // namespace
-
-std::uint32_t tetra_level(std::uint32_t key) noexcept {
-    return (static_cast<std::uint32_t>(std::bit_width(key)) - kOctantKeyBits) / 2;
-}
 
 TetraCone tetra_cone(std::uint32_t key) noexcept {
     const std::uint32_t level = tetra_level(key);

@@ -18,8 +18,7 @@ struct TetraCone {
     std::uint32_t level;
 };
 
-/// Number of splits above a cone.
-[[nodiscard]] std::uint32_t tetra_level(std::uint32_t key) noexcept;
+using format::tetra_level;
 
 /// The cone of a key.
 [[nodiscard]] TetraCone tetra_cone(std::uint32_t key) noexcept;

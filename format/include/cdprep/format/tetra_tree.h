@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -12,6 +13,16 @@ namespace cdprep::format {
 /// Levels of splits that a 32-bit key holds: four bits for the octant, two a split.
 inline constexpr std::uint32_t kMaxTetraLevel = 14;
 
+/// Number of splits above a cone, of its key, which is 8 at least.
+[[nodiscard]] constexpr std::uint32_t tetra_level(std::uint32_t key) noexcept {
+    return (static_cast<std::uint32_t>(std::bit_width(key)) - 4) / 2;
+}
+
+/// Cones of a level, whose keys are this and what follows, as many.
+[[nodiscard]] constexpr std::uint32_t tetra_cones(std::uint32_t level) noexcept {
+    return 8U << (2 * level);
+}
+
 /// What bounds a cone's triangles along its octant's axis.
 enum class TetraBounding : std::uint32_t {
     tetra = 0,  ///< from the centre to the farthest: the paper's tetrahedra, radius_min is 0
@@ -20,7 +31,8 @@ enum class TetraBounding : std::uint32_t {
 
 /// Bits of TetraTree::flags.
 enum TetraTreeFlags : std::uint32_t {
-    tetra_centre_inside = 1,  ///< the centre has a winding number other than 0
+    tetra_centre_inside = 1,  ///< a ray from the centre leaves the surface more often than it
+                              ///< enters, or less: of a closed one, the winding number is not 0
     tetra_centre_on = 2,      ///< a triangle holds the centre
 };
 

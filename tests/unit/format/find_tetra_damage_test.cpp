@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <random>
+
+#include "cdprep/format/content_hash.h"
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/sections.h"
+#include "cdprep/format/tetra_tree.h"
+#include "support/meshes.h"
+#include "support/more_sections.h"
+#include "support/open_tiny.h"
+#include "support/reseal.h"
+
+namespace cdprep::format {
+namespace {
+
+using test::AlignedBytes;
+
+constexpr std::array kIds = {SectionId::tetra_tree, SectionId::tetra_nodes,
+                             SectionId::tetra_references, SectionId::tetra_top};
+
+AlignedBytes baked(const test::TestMesh& mesh, const build::TetraTreeOptions& options) {
+    return test::with_tetra_tree(
+        test::bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}), options);
+}
+
+/// With leaves of several levels, and an octant that nothing touches.
+AlignedBytes small_tree() {
+    test::TestMesh mesh = test::icosphere(1);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+        return std::any_of(t.vertex.begin(), t.vertex.end(), [&](std::uint32_t v) {
+            const Double3& p = mesh.positions[v];
+            return p.x <= 0.3 && p.y <= 0.3 && p.z <= 0.3;
+        });
+    });
+    return baked(mesh, {.level = 3, .threshold = 6});
+}
+
+std::optional<Damage> check(const AlignedBytes& file, SectionSet wanted = SectionSet::all()) {
+    return find_damage(file.span(), wanted);
+}
+
+SectionEntry entry_of(const AlignedBytes& file, SectionId id) {
+    return find_section(file.span(), id).value();
+}
+
+/// The file with other bytes at a place of a section, sealed again.
+template <class T>
+AlignedBytes with(const AlignedBytes& file, SectionId id, std::uint64_t at, const T& value) {
+    AlignedBytes changed(file.span());
+    std::memcpy(changed.span().data() + entry_of(file, id).offset + at, &value, sizeof value);
+    test::reseal(changed.span());
+    return changed;
+}
+
+template <class T>
+T element(const AlignedBytes& file, SectionId id, std::uint64_t index) {
+    T value;
+    std::memcpy(&value, file.span().data() + entry_of(file, id).offset + index * sizeof value,
+                sizeof value);
+    return value;
+}
+
+TEST(FindTetraDamage, AcceptsWhatTheBuilderMakes) {
+    test::TestMesh point = test::copies_of_one_triangle(4);
+    for (Double3& p : point.positions) p = {1, 2, 3};
+    for (const test::TestMesh& mesh :
+         {test::TestMesh{}, point, test::unit_cube(), test::icosphere(2), test::fan(70),
+          test::coarse_grid_soup(3, 200, 3), test::copies_of_one_triangle(20),
+          test::moved_by(test::icosphere(1), 1e-3, {1e6, 0, 1e6}),
+          test::moved_by(test::icosphere(1), 0x1p-1000, {}),
+          test::moved_by(test::icosphere(1), 0x1p999, {})}) {
+        for (const std::uint32_t level : {0U, 3U, 5U}) {
+            for (const TetraBounding bounding : {TetraBounding::tetra, TetraBounding::caps}) {
+                const auto damage =
+                    check(baked(mesh, {.level = level, .threshold = 12, .bounding = bounding}));
+                EXPECT_FALSE(damage) << section_name(damage->section) << " " << damage->at;
+            }
+        }
+    }
+}
+
+TEST(FindTetraDamage, RefusesATreeOfWhichAPartIsMissing) {
+    const AlignedBytes whole = small_tree();
+    for (const SectionId missing : kIds) {
+        std::vector<test::TinySection> sections;
+        for (std::uint32_t id = 1; id < 64; ++id) {
+            const auto entry = find_section(whole.span(), SectionId{id});
+            if (!entry || SectionId{id} == missing) continue;
+            const auto bytes =
+                whole.span().subspan(entry->offset, entry->count * entry->element_size);
+            sections.push_back({entry->id, {bytes.begin(), bytes.end()}});
+        }
+        const auto damage = check(test::assemble(read_header(whole.span()), sections));
+        ASSERT_TRUE(damage) << section_name(missing);
+        EXPECT_EQ(damage->kind, DamageKind::missing_section);
+        EXPECT_EQ(damage->section, missing);
+    }
+}
+
+// Nodes and table hold nothing that the rest does not fix, but radii.
+TEST(FindTetraDamage, RefusesEveryOtherWordInNodesAndTable) {
+    const AlignedBytes file = small_tree();
+    std::mt19937 random(5);
+    for (const SectionId id : {SectionId::tetra_nodes, SectionId::tetra_top}) {
+        const SectionEntry entry = entry_of(file, id);
+        const std::uint64_t words = entry.count * entry.element_size / 4;
+        for (std::uint64_t i = 0; i < words; ++i) {
+            const std::uint64_t member = 4 * i % sizeof(TetraNode);
+            const bool is_radius =
+                id == SectionId::tetra_nodes && (member == offsetof(TetraNode, radius_min) ||
+                                                 member == offsetof(TetraNode, radius_max));
+            if (is_radius) continue;
+            const auto now = element<std::uint32_t>(file, id, i);
+            for (const std::uint32_t value : {0U, 1U, 0x7fffffffU, 0xffffffffU, now - 1, now + 1,
+                                              now ^ (1U << random() % 32)}) {
+                if (value == now) continue;
+                ASSERT_TRUE(check(with(file, id, 4 * i, value)))
+                    << section_name(id) << " word " << i << ": " << value << " for " << now;
+            }
+        }
+    }
+}
+
+TEST(FindTetraDamage, RadiiAreNumbersInOrder) {
+    const AlignedBytes file = small_tree();
+    const auto node = element<TetraNode>(file, SectionId::tetra_nodes, 0);
+    const auto refused = [&](float least, float greatest) {
+        TetraNode changed = node;
+        changed.radius_min = least;
+        changed.radius_max = greatest;
+        return check(with(file, SectionId::tetra_nodes, 0, changed)).has_value();
+    };
+    EXPECT_FALSE(refused(node.radius_min, node.radius_max));
+    EXPECT_FALSE(refused(0, node.radius_max));
+    EXPECT_TRUE(refused(std::nanf(""), 1));
+    EXPECT_TRUE(refused(0, std::nanf("")));
+    EXPECT_TRUE(refused(2, 1));
+    EXPECT_TRUE(refused(-1, 1));
+}
+
+TEST(FindTetraDamage, FactsAreInTheirRanges) {
+    const AlignedBytes file = small_tree();
+    const auto tree = element<TetraTree>(file, SectionId::tetra_tree, 0);
+    const auto refused = [&](auto change) {
+        TetraTree changed = tree;
+        change(changed);
+        return check(with(file, SectionId::tetra_tree, 0, changed)).has_value();
+    };
+    EXPECT_FALSE(refused([](TetraTree&) {}));
+    for (const double x : {HUGE_VAL, std::nan(""), 0x1p1001}) {
+        EXPECT_TRUE(refused([&](TetraTree& t) { t.centre.y = x; }));
+    }
+    EXPECT_TRUE(refused([](TetraTree& t) { t.level = 15; }));
+    EXPECT_TRUE(refused([](TetraTree& t) { t.level = 1; }));  // there are deeper nodes
+    EXPECT_TRUE(refused([](TetraTree& t) { t.top_level = t.level + 1; }));
+    EXPECT_TRUE(refused([](TetraTree& t) { t.top_level = 0; }));  // the table is larger
+    EXPECT_TRUE(refused([](TetraTree& t) { t.bounding = TetraBounding{2}; }));
+    EXPECT_TRUE(refused([](TetraTree& t) { t.centre_count = 1; }));
+    EXPECT_TRUE(refused([](TetraTree& t) { t.centre_count = 0xffffffffU; }));
+    EXPECT_TRUE(refused([](TetraTree& t) { t.flags = 4; }));
+}
+
+TEST(FindTetraDamage, ReferencesAreOfTrianglesAndRise) {
+    const AlignedBytes file = small_tree();
+    const auto triangles = read_header(file.span()).triangle_count;
+    std::uint64_t leaf = 0;  // the first of two triangles or more
+    TetraNode node{};
+    do {
+        node = element<TetraNode>(file, SectionId::tetra_nodes, leaf++);
+    } while (node.flags != 0 || node.count < 2);
+    const auto refused = [&](std::uint32_t triangle) {
+        const auto damage =
+            check(with(file, SectionId::tetra_references, 4 * std::uint64_t{node.first}, triangle));
+        return damage ? damage->kind : DamageKind{0};
+    };
+    EXPECT_EQ(refused(triangles), DamageKind::bad_index);
+    EXPECT_EQ(refused(0xffffffffU), DamageKind::bad_index);
+    const auto second = element<std::uint32_t>(file, SectionId::tetra_references, node.first + 1);
+    EXPECT_EQ(refused(second), DamageKind::bad_order);
+}
+
+// What is not wanted is not read.
+TEST(FindTetraDamage, LooksOnlyAtWhatIsWanted) {
+    const AlignedBytes file = small_tree();
+    const AlignedBytes bad = with(file, SectionId::tetra_nodes, 0, std::uint32_t{7});
+    EXPECT_TRUE(check(bad));
+    EXPECT_FALSE(check(bad, {SectionId::positions_f64, SectionId::triangles}));
+}
+
+}  // namespace
+}  // namespace cdprep::format
