@@ -12,6 +12,7 @@
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/octree.h"
 #include "cdprep/format/sections.h"
+#include "cdprep/format/tetra_tree.h"
 #include "cdprep/format/verdict.h"
 #include "write/hdf5_in_memory.h"
 
@@ -242,6 +243,29 @@ Handle adaptive_octree_node_type() {
                      {"count", offsetof(AdaptiveOctreeNode, count), H5T_STD_U32LE, {}}});
 }
 
+Handle tetra_tree_type() {
+    using format::TetraTree;
+    return compound(sizeof(TetraTree),
+                    {{"centre", offsetof(TetraTree, centre), H5T_IEEE_F64LE, {3}},
+                     {"level", offsetof(TetraTree, level), H5T_STD_U32LE, {}},
+                     {"threshold", offsetof(TetraTree, threshold), H5T_STD_U32LE, {}},
+                     {"top_level", offsetof(TetraTree, top_level), H5T_STD_U32LE, {}},
+                     {"bounding", offsetof(TetraTree, bounding), H5T_STD_U32LE, {}},
+                     {"centre_count", offsetof(TetraTree, centre_count), H5T_STD_U32LE, {}},
+                     {"flags", offsetof(TetraTree, flags), H5T_STD_U32LE, {}}});
+}
+
+Handle tetra_node_type() {
+    using format::TetraNode;
+    return compound(sizeof(TetraNode),
+                    {{"key", offsetof(TetraNode, key), H5T_STD_U32LE, {}},
+                     {"first", offsetof(TetraNode, first), H5T_STD_U32LE, {}},
+                     {"count", offsetof(TetraNode, count), H5T_STD_U32LE, {}},
+                     {"radius_min", offsetof(TetraNode, radius_min), H5T_IEEE_F32LE, {}},
+                     {"radius_max", offsetof(TetraNode, radius_max), H5T_IEEE_F32LE, {}},
+                     {"flags", offsetof(TetraNode, flags), H5T_STD_U32LE, {}}});
+}
+
 Handle scalar(hid_t type) {
     return {H5Tcopy(type), H5Tclose};
 }
@@ -324,6 +348,14 @@ const std::vector<Look>& looks() {
          "cells of the adaptive octree, level by level; count: bit 31 and children, or triangles"},
         {SectionId::adaptive_octree_references, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
          "triangles of the tree order that touch each leaf; bit 31: other leaves too"},
+        {SectionId::tetra_tree, tetra_tree_type, 0, "centre: model units",
+         "cones around a centre: where they meet, and how they were split"},
+        {SectionId::tetra_nodes, tetra_node_type, 0, "radius_min, radius_max: frame units",
+         "cones of the tetra-tree that triangles touch, sorted by key"},
+        {SectionId::tetra_references, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "triangles that hold the centre, then of each leaf; bit 31: other leaves too"},
+        {SectionId::tetra_top, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "for each cone of top_level its node, or the leaf above it, plus one; 0: none"},
     };
     return all;
 }
