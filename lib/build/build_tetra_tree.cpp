@@ -406,40 +406,27 @@ private:
         node.radius_min = float_below(std::clamp(least, 0.0, kMost));
     }
 
-    /// Where a ray from the centre to anywhere leaves, it crosses triangles of one cone
-    /// only: that of its direction, closed, even when it is perturbed.
+    /// A ray from the centre crosses triangles of one cone only: that of its direction,
+    /// closed, even when it is perturbed.
     void find_inside() {
-        if (result_.tree.centre_count > 0) return;
-        const double far = std::ldexp(8.0, -exponent_);
-        // The ray runs away from here.
-        const Double3 from = {centre_.x - far, centre_.y - 0.9 * far, centre_.z - 0.8 * far};
+        if (result_.nodes.empty() || result_.tree.centre_count > 0) return;
+        const TetraNode& leaf = result_.nodes.back();
+        const Double3 from = behind_centre(centre_, tetra_cone(leaf.key));
         int winding = 0;
-        for (const std::uint32_t item : list_of(tetra_key(from, centre_, result_.tree.level))) {
-            winding += winding_term(from, centre_, corners(reference_of(item))).crossings;
+        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+            const std::uint32_t triangle = reference_of(result_.references[i]);
+            winding += winding_term(from, centre_, corners(triangle)).crossings;
         }
         if (winding != 0) result_.tree.flags |= format::tetra_centre_inside;
     }
 
-    /// Of the leaf that is this cone, or above it.
-    [[nodiscard]] std::span<const std::uint32_t> list_of(std::uint32_t key) const {
-        const std::uint32_t level = tetra_level(key);
-        for (const TetraNode& node : result_.nodes) {
-            if ((node.flags & format::tetra_inner) != 0 ||
-                node.key != key >> (2 * (level - tetra_level(node.key))))
-                continue;
-            return std::span(result_.references).subspan(node.first, node.count);
-        }
-        return {};
-    }
-
     void fill_top() {
         format::TetraTree& tree = result_.tree;
-        const auto cones = [](std::uint32_t level) { return std::size_t{8} << (2 * level); };
         while (tree.top_level < tree.level &&
-               cones(tree.top_level + 1) <= 2 * result_.nodes.size()) {
+               format::tetra_cones(tree.top_level + 1) <= 2 * result_.nodes.size()) {
             ++tree.top_level;
         }
-        result_.top.assign(cones(tree.top_level), 0);
+        result_.top.assign(format::tetra_cones(tree.top_level), 0);
         for (std::uint32_t i = 0; i < result_.nodes.size(); ++i) {
             const TetraNode& node = result_.nodes[i];
             const std::uint32_t level = tetra_level(node.key);

@@ -320,4 +320,17 @@ bool triangle_touches_cone(const Corners& t, const Double3& centre,
     return touches_faces(t, centre, faces, face_values(faces, seen));
 }
 
+Double3 behind_centre(const Double3& centre, const TetraCone& cone) noexcept {
+    // As far away as the origin is: so differences lose little, whatever the model's size.
+    const double far =
+        std::max({std::fabs(centre.x), std::fabs(centre.y), std::fabs(centre.z), kLeastSeen});
+    const double unit = std::ldexp(far, -static_cast<int>(cone.level));
+    const auto along = [&](std::size_t axis) {
+        double sum = 0;
+        for (const Generator& g : cone.generator) sum += g[axis];
+        return sum * unit;
+    };
+    return {centre.x - along(0), centre.y - along(1), centre.z - along(2)};
+}
+
 }  // namespace cdprep

@@ -35,4 +35,9 @@ using format::tetra_level;
 [[nodiscard]] bool triangle_touches_cone(const Corners& t, const Double3& centre,
                                          const TetraCone& cone) noexcept;
 
+/// Returns a point from which the centre lies in the direction of the middle of the cone's
+/// generators, up to rounding by a few units in the last place: then the ray that starts at
+/// the centre and runs away from the point is inside the cone (winding.h). Never the centre.
+[[nodiscard]] Double3 behind_centre(const Double3& centre, const TetraCone& cone) noexcept;
+
 }  // namespace cdprep
