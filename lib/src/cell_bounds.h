@@ -16,6 +16,19 @@ struct CellBounds {
     format::OrientedNode oriented;  ///< set by trees that say so
 };
 
+/// The bounds of the children of the cells that a walk came to last.
+struct KeptBounds {
+    static constexpr std::size_t kPlaces = 32;
+
+    struct Place {
+        std::uint64_t holds = 0;  ///< question and node
+        unsigned leaf_lanes;      ///< which of the children are leaves
+        CellBounds bounds;
+    };
+    std::array<Place, kPlaces> place;
+    std::uint64_t question = 0;
+};
+
 /// From model coordinates to a model's frame, rounded outwards.
 class FrameOf {
 public:
@@ -82,9 +95,17 @@ inline void bound_root(std::size_t axis, double lower, double upper,
 /// In place of a node's number: what stands above the roots of a tree.
 inline constexpr std::uint32_t kAboveRoots = 0xffffffff;
 
+/// How many of eight bits are set. Without the instruction, which not every processor has,
+/// std::popcount() is a call.
+inline std::uint32_t bits_in(unsigned lanes) noexcept {
+    lanes -= lanes >> 1 & 0x55;
+    lanes = (lanes & 0x33) + (lanes >> 2 & 0x33);
+    return (lanes + (lanes >> 4)) & 0xf;
+}
+
 /// How many lanes below `lane` are in a bit set: the place of a child among its siblings.
 inline std::uint32_t lanes_before(unsigned lanes, unsigned lane) noexcept {
-    return static_cast<std::uint32_t>(std::popcount(lanes & ((1U << lane) - 1)));
+    return bits_in(lanes & ((1U << lane) - 1));
 }
 
 }  // namespace cdprep

@@ -10,38 +10,6 @@
 
 namespace cdprep {
 
-/// The eight triangles of a BVH leaf that a cell lists, or all of them.
-struct LeafLanes {
-    std::uint32_t leaf;
-    std::uint8_t lanes;  ///< bit set
-};
-
-/// The references of a cell by leaf: triangles that are neighbours in the tree order are
-/// tested eight at a time. References rise.
-class LeavesOf {
-public:
-    explicit LeavesOf(std::span<const std::uint32_t> references) noexcept
-        : references_(references) {}
-
-    /// The next leaf; false past the last.
-    bool next(LeafLanes& leaf) noexcept {
-        if (at_ == references_.size()) return false;
-        leaf = {triangle() / format::kBvhWidth, 0};
-        while (at_ < references_.size() && triangle() / format::kBvhWidth == leaf.leaf) {
-            leaf.lanes |= static_cast<std::uint8_t>(1U << (triangle() % format::kBvhWidth));
-            ++at_;
-        }
-        return true;
-    }
-
-private:
-    [[nodiscard]] std::uint32_t triangle() const noexcept {
-        return references_[at_] & ~format::kSharedReference;
-    }
-    std::span<const std::uint32_t> references_;
-    std::size_t at_ = 0;
-};
-
 /// The decision about one pair of triangles by the paper's six segments.
 inline bool in_contact_by_segments(const Corners& a, const Corners& b, Contact contact) noexcept {
     if (!triangles_touch_by_segments(a, b)) return false;
@@ -77,9 +45,14 @@ public:
     /// Adds what was not tested yet. `place` is whatever `owns` wants to know of. False
     /// when `found` ended the question.
     bool add(const LeafLanes& a, const LeafLanes& b, std::uint64_t place) noexcept {
-        const std::uint64_t tested = scratch_.tested_pairs.tested(a.leaf, b.leaf);
-        if ((pairs_of(a.lanes, b.lanes) & ~tested) == 0) return true;
-        scratch_.batch_places[batch_.size()] = place;
+        const std::uint64_t pairs = pairs_of(a.lanes, b.lanes);
+        TestedPairs::Held held = scratch_.tested_pairs.hold(a.leaf, b.leaf, pairs);
+        if (held.fresh == 0) return true;
+        if (!held.has_room) {
+            if (!flush()) return false;
+            held = scratch_.tested_pairs.hold(a.leaf, b.leaf, pairs);
+        }
+        scratch_.pending_leaves[batch_.size()] = {place, held.fresh, held.has_room};
         batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
         return !batch_.full() || flush();
     }
@@ -90,9 +63,8 @@ public:
         const std::size_t count = batch_.size();
         const bool whole =
             leaf_test_ == LeafTest::feito_torres ? flush_by_segments(count) : flush_by_kernel();
-        if (!whole) return false;
-        note_misses(count);
-        return true;
+        if (whole) settle(count);
+        return whole;
     }
 
 private:
@@ -106,7 +78,7 @@ private:
     }
 
     bool flush_by_kernel() noexcept {
-        begin_answers();
+        answered_ = 0;
         return batch_.flush_numbered(
             [&](std::size_t pair, std::uint32_t at_a, std::uint32_t at_b, bool certain) {
                 return !touch_(at_a, at_b, certain) || answer(pair, at_a, at_b);
@@ -116,34 +88,20 @@ private:
     /// Every pair of triangles by the exact test; nothing in float.
     bool flush_by_segments(std::size_t count) noexcept;
 
-    void begin_answers() noexcept {
-        answered_ = 0;
-        current_ = kernels::kLeafBatch;
-    }
     /// Two triangles of pair `pair` are in contact.
     bool answer(std::size_t pair, std::uint32_t at_a, std::uint32_t at_b) noexcept {
-        if (pair != current_) begin_pair(pair);
-        const unsigned bit =
-            8 * (at_b % format::kBvhWidth) + at_a % static_cast<unsigned>(format::kBvhWidth);
-        if (((fresh_ >> bit) & 1) == 0) return true;
-        if (!remembered_ && !owns_(scratch_.batch_places[pair], at_a, at_b)) return true;
+        const PendingLeaves& leaves = scratch_.pending_leaves[pair];
+        const std::uint32_t bit = 8 * (at_b % format::kBvhWidth) + at_a % format::kBvhWidth;
+        answered_ |= 1U << pair;
+        if (((leaves.fresh >> bit) & 1) == 0) return true;
+        if (!leaves.is_held && !owns_(leaves.place, at_a, at_b)) return true;
         return static_cast<bool>(found_(at_a, at_b));
     }
-    void begin_pair(std::size_t pair) noexcept {
-        const kernels::LeafPair& leaves = batch_.pair(pair);
-        TestedPairs& tested = scratch_.tested_pairs;
-        current_ = pair;
-        answered_ |= 1U << pair;
-        fresh_ = ~tested.tested(leaves.number_a, leaves.number_b);
-        remembered_ = tested.record(leaves.number_a, leaves.number_b,
-                                    pairs_of(leaves.used_a, leaves.used_b), true);
-    }
-    void note_misses(std::size_t count) noexcept {
+    void settle(std::size_t count) noexcept {
         for (std::size_t i = 0; i < count; ++i) {
-            if (((answered_ >> i) & 1) != 0) continue;
+            if (!scratch_.pending_leaves[i].is_held) continue;
             const kernels::LeafPair& pair = batch_.pair(i);
-            scratch_.tested_pairs.record(pair.number_a, pair.number_b,
-                                         pairs_of(pair.used_a, pair.used_b), false);
+            scratch_.tested_pairs.settle(pair.number_a, pair.number_b, ((answered_ >> i) & 1) != 0);
         }
     }
 
@@ -157,16 +115,12 @@ private:
     Found found_;
     Owns owns_;
 
-    // Of the batch that is being answered.
-    std::uint32_t answered_ = 0;  ///< bit set of pairs
-    std::size_t current_ = 0;
-    std::uint64_t fresh_ = 0;  ///< of the current pair: not answered before
-    bool remembered_ = true;
+    std::uint32_t answered_ = 0;  ///< of the batch: bit set of pairs
 };
 
 template <class Found, class Owns>
 bool CellContacts<Found, Owns>::flush_by_segments(std::size_t count) noexcept {
-    begin_answers();
+    answered_ = 0;
     batch_.clear();
     for (std::size_t i = 0; i < count; ++i) {
         const kernels::LeafPair& pair = batch_.pair(i);

@@ -8,9 +8,12 @@
 namespace cdprep {
 
 /// Which triangles of which two BVH leaves a question has held against each other: bit
-/// 8 j + i for triangle i of A's leaf and j of B's. What was found is remembered for
-/// certain or refused; what was found to be nothing may be forgotten, and is then done
-/// again. Where many cells list one triangle, this is what makes each pair one answer.
+/// 8 j + i for triangle i of A's leaf and j of B's. Where many cells list one triangle, this
+/// is what makes each pair one answer, and one test.
+///
+/// Two leaves are held while their test is pending. Settled, they are remembered for
+/// certain when the test found anything, and for as long as there is room when it did not:
+/// to test those again answers nothing twice.
 class TestedPairs {
 public:
     static constexpr std::size_t kWays = 8;
@@ -23,50 +26,64 @@ public:
         for (auto& bucket : key_) bucket.fill(0);
     }
 
-    [[nodiscard]] std::uint64_t tested(std::uint32_t leaf_a, std::uint32_t leaf_b) const noexcept {
-        const std::uint64_t key = key_of(leaf_a, leaf_b);
-        const std::size_t bucket = bucket_of(key);
-        const std::size_t way = way_of(bucket, key);
-        return way < kWays ? bits_[bucket][way] : 0;
-    }
+    struct Held {
+        std::uint64_t fresh;  ///< what of the asked was not tested before
+        bool has_room;        ///< false: nothing is held, and all that is asked is fresh
+    };
 
-    /// Adds `bits` to those of two leaves. False when `found` says that they must not be
-    /// forgotten and there is no room: from then on there never is for these two.
-    bool record(std::uint32_t leaf_a, std::uint32_t leaf_b, std::uint64_t bits,
-                bool found) noexcept {
+    /// Holds some pairs of two leaves. Where there is no room, there is some after what is
+    /// pending was settled, or else never for these two.
+    [[nodiscard]] Held hold(std::uint32_t leaf_a, std::uint32_t leaf_b,
+                            std::uint64_t bits) noexcept {
         const std::uint64_t key = key_of(leaf_a, leaf_b);
         const std::size_t bucket = bucket_of(key);
         std::size_t way = way_of(bucket, key);
-        const bool is_new = way == kWays;
-        if (is_new) way = free_way(bucket, key);
-        if (way == kWays) return false;
-        std::uint64_t& at = key_[bucket][way];
-        const std::uint64_t kept = found || (!is_new && (at & kFound) != 0) ? kFound : 0;
-        bits_[bucket][way] = is_new ? bits : bits_[bucket][way] | bits;
-        at = key | kept;
-        return true;
+        if (way == kWays) {
+            way = free_way(bucket, key);
+            if (way == kWays) return {bits, false};
+            key_[bucket][way] = key;
+            bits_[bucket][way] = 0;
+        }
+        const std::uint64_t fresh = bits & ~bits_[bucket][way];
+        if (fresh == 0) return {0, true};
+        bits_[bucket][way] |= bits;
+        key_[bucket][way] |= kPending;
+        return {fresh, true};
     }
 
-    /// For tests: how many buckets are used, at least one.
+    /// Two leaves that were held have been tested.
+    void settle(std::uint32_t leaf_a, std::uint32_t leaf_b, bool found) noexcept {
+        const std::uint64_t key = key_of(leaf_a, leaf_b);
+        const std::size_t bucket = bucket_of(key);
+        const std::size_t way = way_of(bucket, key);
+        if (way == kWays) return;
+        std::uint64_t& at = key_[bucket][way];
+        at = (at & ~kPending) | (found ? kFound : 0);
+    }
+
+    /// For tests: how many buckets are used, one at least.
     void limit(std::size_t buckets) noexcept {
         limit_ = buckets;
     }
 
 private:
-    // A key: which question in seven bits, whether something was found, and two leaves.
+    // A key: which question in six bits, whether something was found, whether it is
+    // pending, and two leaves.
     static constexpr std::uint64_t kLeafBits = 28;
-    static constexpr std::uint64_t kFound = std::uint64_t{1} << (2 * kLeafBits);
-    static constexpr std::uint64_t kQuestions = 128;
+    static constexpr std::uint64_t kPending = std::uint64_t{1} << (2 * kLeafBits);
+    static constexpr std::uint64_t kFound = kPending << 1;
+    static constexpr std::uint64_t kQuestions = 64;
 
     [[nodiscard]] std::uint64_t key_of(std::uint32_t leaf_a, std::uint32_t leaf_b) const noexcept {
-        return question_ << (2 * kLeafBits + 1) | std::uint64_t{leaf_a} << kLeafBits | leaf_b;
+        return question_ << (2 * kLeafBits + 2) | std::uint64_t{leaf_a} << kLeafBits | leaf_b;
     }
     [[nodiscard]] std::size_t bucket_of(std::uint64_t key) const noexcept {
-        return static_cast<std::size_t>((key * 0x9e3779b97f4a7c15U) >> 40) % limit_;
+        constexpr std::uint64_t kMixer = 0x9e3779b97f4a7c15U;
+        return static_cast<std::size_t>(((key * kMixer) >> 40) * limit_ >> 24);
     }
     [[nodiscard]] std::size_t way_of(std::size_t bucket, std::uint64_t key) const noexcept {
         std::size_t way = 0;
-        while (way < kWays && (key_[bucket][way] & ~kFound) != key) ++way;
+        while (way < kWays && (key_[bucket][way] & ~(kFound | kPending)) != key) ++way;
         return way;
     }
     /// An empty way, or one of which nothing need be remembered.
@@ -76,8 +93,8 @@ private:
         for (std::size_t i = 0; i < kWays; ++i) {
             const std::size_t way = (begin + i) % kWays;
             const std::uint64_t at = key_[bucket][way];
-            if (at >> (2 * kLeafBits + 1) != question_) return way;
-            if (free == kWays && (at & kFound) == 0) free = way;
+            if (at >> (2 * kLeafBits + 2) != question_) return way;
+            if (free == kWays && (at & (kFound | kPending)) == 0) free = way;
         }
         return free;
     }
@@ -86,6 +103,13 @@ private:
     std::array<std::array<std::uint64_t, kWays>, kBuckets> bits_;
     std::uint64_t question_ = 0;
     std::size_t limit_ = kBuckets;
+};
+
+/// Of a pair of leaves that waits for its test.
+struct PendingLeaves {
+    std::uint64_t place;  ///< which cells brought it
+    std::uint64_t fresh;  ///< as TestedPairs::Held
+    bool is_held;
 };
 
 }  // namespace cdprep

@@ -59,8 +59,17 @@ public:
     using Pair = CellPair<CellA, CellB>;
 
     CellWalk(const TreeA& a, const TreeB& b, const PlacedBoxes& placed, Descent descent,
-             const Lanes& lanes, QueryCounts* counts) noexcept
-        : a_(a), b_(b), placed_(placed), descent_(descent), lanes_(lanes), counts_(counts) {}
+             const Lanes& lanes) noexcept
+        : a_(a), b_(b), placed_(placed), descent_(descent), lanes_(lanes) {}
+
+    /// Keeps bounds and counts steps in the workspace, which no walk within this one may.
+    void use(Workspace::Storage& scratch) noexcept {
+        counts_ = scratch.counts;
+        kept_a_ = &scratch.bounds_a;
+        kept_b_ = &scratch.bounds_b;
+        ++kept_a_->question;
+        ++kept_b_->question;
+    }
 
     /// Calls leaf(pair, bounds_a, bounds_b) for each pair of leaf cells that no test
     /// parts, until it returns false; returns false when it did.
@@ -101,26 +110,40 @@ private:
                 oriented ? bounds.oriented.axis[0][0].data() : nullptr};
     }
 
+    /// The bounds of a cell's children, from where they are kept or made at `place`.
+    template <class Tree>
+    static const KeptBounds::Place& bounds_of(const Tree& tree, const typename Tree::Cell& cell,
+                                              KeptBounds* kept, KeptBounds::Place& place) noexcept {
+        KeptBounds::Place& at =
+            kept == nullptr ? place : kept->place[cell.node % KeptBounds::kPlaces];
+        const std::uint64_t wanted = kept == nullptr ? 0 : kept->question << 32 | cell.node;
+        if (wanted != 0 && at.holds == wanted) return at;
+        at.holds = wanted;
+        at.leaf_lanes = tree.leaf_lanes(cell);
+        tree.bound(cell, at.bounds);
+        return at;
+    }
+
     void open(const SomeChildren<CellA>& side_a, const SomeChildren<CellB>& side_b,
               Step& step) noexcept {
         step.a = side_a.parent;
         step.b = side_b.parent;
         step.pairs = 0;
         if (side_a.lanes == 0 || side_b.lanes == 0) return;  // a damaged file's
-        a_.bound(side_a.parent, bounds_a_);
-        b_.bound(side_b.parent, bounds_b_);
+        opened_a_ = &bounds_of(a_, side_a.parent, kept_a_, place_a_);
+        opened_b_ = &bounds_of(b_, side_b.parent, kept_b_, place_b_);
         const kernels::BoxChoice choice = {static_cast<std::uint8_t>(side_a.lanes),
                                            static_cast<std::uint8_t>(side_b.lanes), nullptr};
+        const kernels::NodeBoxes in_a = boxes_of(opened_a_->bounds);
+        const kernels::NodeBoxes in_b = boxes_of(opened_b_->bounds);
         const kernels::Table& kernel = kernels::active();
-        step.pairs = kSearch == Search::first
-                         ? kernel.overlap_depths(placed_.placement, boxes_of(bounds_a_),
-                                                 boxes_of(bounds_b_), choice, step.sizes, depths_)
-                         : kernel.overlapping_boxes(placed_.placement, boxes_of(bounds_a_),
-                                                    boxes_of(bounds_b_), choice, step.sizes);
+        step.pairs =
+            kSearch == Search::first
+                ? kernel.overlap_depths(placed_.placement, in_a, in_b, choice, step.sizes, depths_)
+                : kernel.overlapping_boxes(placed_.placement, in_a, in_b, choice, step.sizes);
         step.pairs &= lanes_.kept(a_, step.a, b_, step.b);
         if (counts_ != nullptr) {
-            counts_->box_pairs +=
-                std::uint64_t(std::popcount(side_a.lanes)) * std::popcount(side_b.lanes);
+            counts_->box_pairs += std::uint64_t{bits_in(side_a.lanes)} * bits_in(side_b.lanes);
         }
     }
 
@@ -133,12 +156,13 @@ private:
     bool take_leaves(Step& step, Leaf& leaf) noexcept {
         if (step.pairs == 0) return true;
         kernels::BoxPairs leaves =
-            step.pairs & lane_pairs(a_.leaf_lanes(step.a), b_.leaf_lanes(step.b));
+            step.pairs & lane_pairs(opened_a_->leaf_lanes, opened_b_->leaf_lanes);
         step.pairs &= ~leaves;
         while (leaves != 0) {
             const unsigned bit = best(leaves);
             leaves &= ~(kernels::BoxPairs{1} << bit);
-            if (!leaf(Pair{step.a, step.b, bit % 8, bit / 8}, bounds_a_, bounds_b_)) return false;
+            if (!leaf(Pair{step.a, step.b, bit % 8, bit / 8}, opened_a_->bounds, opened_b_->bounds))
+                return false;
         }
         return true;
     }
@@ -171,10 +195,14 @@ private:
     const PlacedBoxes& placed_;
     Descent descent_;
     Lanes lanes_;
-    QueryCounts* counts_;
+    QueryCounts* counts_ = nullptr;  ///< or null
+    KeptBounds* kept_a_ = nullptr;   ///< or null
+    KeptBounds* kept_b_ = nullptr;
     std::array<Step, kMostSteps> steps_;
-    CellBounds bounds_a_;  ///< of the step that was opened last
-    CellBounds bounds_b_;
+    KeptBounds::Place place_a_;  ///< where none are kept
+    KeptBounds::Place place_b_;
+    const KeptBounds::Place* opened_a_ = nullptr;  ///< of the last step
+    const KeptBounds::Place* opened_b_ = nullptr;
     kernels::BoxDepths depths_;
 };
 

@@ -123,7 +123,7 @@ struct SizePair {
 /// matters.
 template <class Sizes>
 WaysDown choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
-                       Sizes sizes) noexcept {
+                        Sizes sizes) noexcept {
     constexpr float kSimilar = 2.5F;
     const bool a_can = pair.a.height > 0;
     const bool b_can = pair.b.height > 0;

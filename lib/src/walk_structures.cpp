@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "adaptive_octree_tree.h"
+#include "cell_contacts.h"
 #include "centre_cell.h"
 #include "contacts_through.h"
 #include "meet_cells.h"
@@ -51,17 +52,18 @@ public:
         };
         CellContacts contacts(question_.a, question_.b, question_.placement, placed_,
                               question_.through.leaf_test, question_.options, scratch, found, owns);
-        MeetCells meet(question_.a, question_.b, placed_, question_.through.leaf_test,
-                       scratch.counts);
+        MeetCells meet(question_.a, question_.b, placed_, question_.through.leaf_test, scratch);
         CellWalk<kSearch, TreeA, TreeB, AllLanes> walk(a_, b_, placed_, question_.through.descent,
-                                                       AllLanes{}, scratch.counts);
-        using Pair = CellPair<typename TreeA::Cell, typename TreeB::Cell>;
+                                                       AllLanes{});
+        walk.use(scratch);
         const bool whole =
             walk.run([&](const Pair& pair, const CellBounds& bounds_a, const CellBounds& bounds_b) {
                 const auto leaf_a = a_.child(pair.a, pair.lane_a);
                 const auto leaf_b = b_.child(pair.b, pair.lane_b);
-                const MetCell met_a = {a_.references(leaf_a), &bounds_a.boxes, pair.lane_a};
-                const MetCell met_b = {b_.references(leaf_b), &bounds_b.boxes, pair.lane_b};
+                const MetCell met_a = {leaf_a.node, a_.references(leaf_a), &bounds_a.boxes,
+                                       pair.lane_a};
+                const MetCell met_b = {leaf_b.node, b_.references(leaf_b), &bounds_b.boxes,
+                                       pair.lane_b};
                 return meet(met_a, met_b, place_of(leaf_a.node, leaf_b.node), contacts) &&
                        (kSearch == Search::all || contacts.flush());
             });
@@ -69,6 +71,8 @@ public:
     }
 
 private:
+    using Pair = CellPair<typename TreeA::Cell, typename TreeB::Cell>;
+
     static std::uint64_t place_of(std::uint32_t node_a, std::uint32_t node_b) noexcept {
         return std::uint64_t{node_a} << 32 | node_b;
     }
@@ -77,10 +81,9 @@ private:
     [[nodiscard]] std::uint64_t first_place(std::uint32_t at_a, std::uint32_t at_b) const noexcept {
         const ListingLanes listing = {at_a, at_b, MovedModel(question_.a, nullptr).corners(at_a),
                                       MovedModel(question_.b, nullptr).corners(at_b)};
-        CellWalk<Search::all, TreeA, TreeB, ListingLanes> walk(
-            a_, b_, placed_, question_.through.descent, listing, nullptr);
+        CellWalk<Search::all, TreeA, TreeB, ListingLanes> walk(a_, b_, placed_,
+                                                               question_.through.descent, listing);
         std::uint64_t first = ~std::uint64_t{0};
-        using Pair = CellPair<typename TreeA::Cell, typename TreeB::Cell>;
         walk.run([&](const Pair& pair, const CellBounds& /*a*/, const CellBounds& /*b*/) {
             first =
                 place_of(a_.child(pair.a, pair.lane_a).node, b_.child(pair.b, pair.lane_b).node);

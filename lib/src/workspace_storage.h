@@ -8,7 +8,9 @@
 #include "cdprep/format/limits.h"
 #include "cdprep/query_counts.h"
 #include "cdprep/workspace.h"
+#include "cell_bounds.h"
 #include "kernels.h"
+#include "leaf_lists.h"
 #include "sort_pairs.h"
 #include "tested_pairs.h"
 
@@ -76,8 +78,12 @@ struct Workspace::Storage {
     kernels::LeafScratch leaf_scratch;
     SortScratch sort_scratch;
     TestedPairs tested_pairs;
-    std::array<std::uint64_t, kernels::kLeafBatch> batch_places;  ///< of leaf_pairs: which cells
-    QueryCounts* counts = nullptr;                                ///< or null: nobody asked
+    std::array<PendingLeaves, kernels::kLeafBatch> pending_leaves;  ///< of leaf_pairs
+    LeafLists leaf_lists_a;
+    LeafLists leaf_lists_b;
+    KeptBounds bounds_a;
+    KeptBounds bounds_b;
+    QueryCounts* counts = nullptr;  ///< or null: nobody asked
 };
 
 }  // namespace cdprep
