@@ -10,6 +10,11 @@
 #include <random>
 #include <vector>
 
+#include "octree_codes.h"
+#include "support/meshes.h"
+#include "support/more_sections.h"
+#include "support/open_tiny.h"
+
 namespace cdprep::test {
 namespace {
 
@@ -292,6 +297,36 @@ TEST(OctreeSearch, PointsOnPlanesAtCornersAndOutsideAreFoundAsComparingFindsThem
     }
     EXPECT_GT(found, asked * 3 / 10);
     EXPECT_LT(found, asked * 7 / 10);
+}
+
+// A model's sections and a builder's vectors are the same tree; the oracle: a descent. At
+// level 21 cells end around the corners, where the most triangles meet.
+TEST(OctreeSearch, AModelsOctreeIsSearchedAsTheBuildersIs) {
+    std::mt19937_64 random(5);
+    const TestMesh sphere = icosphere(2);
+    const AlignedBytes bare = bake_tiny(sphere.positions, sphere.triangles);
+    for (const std::uint32_t level : {0U, 3U, 6U, 21U}) {
+        const build::OctreeOptions options{.level = level, .threshold = 6};
+        const OpenModel open = open_tiny(with_octree(bare, options));
+        const BuilderInput input = builder_input(open.model);
+        const Octree octree = build::build_octree(input.positions, input.triangles, options);
+        const OctreeIndex index = octree_index(open.model);
+        std::size_t found = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const Double3& p = input.positions[random() % input.positions.size()];
+            std::uint64_t code = octree_code(octree_cell(octree.grid, p));
+            if (i % 2 == 0) code = random() % kAllCodes;
+            const std::uint32_t expected = descend(octree.nodes, code);
+            for (const CellSearch search : kSearches) {
+                ASSERT_EQ(find_leaf(index, search, code), expected);
+                ASSERT_EQ(find_leaf(octree_index(octree), search, code), expected);
+            }
+            if (expected != kNoNode) ++found;
+        }
+        EXPECT_GE(found, 1000U);
+        // Half of the codes are corners', half anywhere.
+        EXPECT_LT(found, level < 6 ? 2001U : 1700U);
+    }
 }
 
 // By definition.
