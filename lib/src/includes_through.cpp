@@ -143,16 +143,19 @@ const format::TetraNode* find_leaf(const Model& model, std::uint32_t key) noexce
 }
 
 /// Whether q is farther out along its octant's axis than anything in the leaf: then the
-/// ray, which leads farther still, meets none of it. A difference, two sums, the
-/// quotient, its root and the product are each off by u at most: 6 u, and 2^-50 is 8 u.
-/// Scaling may round a number below 2^-1022, which only a leaf of radius 0 would
-/// notice: it has triangles at C alone, and they are in no list.
+/// ray, which leads farther still, meets none of it. A difference, two sums, the quotient,
+/// its root and the product are each off by u at most: 6 u, and 2^-50 is 8 u. Scaling
+/// comes first, so that nothing else is rounded below 2^-1022; it may round there itself,
+/// which only a leaf of radius 0 would notice: one with triangles at C alone, which are in
+/// no list.
 bool is_beyond(const format::TetraNode& leaf, const Model& model, const Double3& q) noexcept {
     constexpr double kRootOfThree = 1.7320508075688772;
     const Double3& c = model.tetra_tree()->centre;
-    const double far =
-        (std::fabs(q.x - c.x) + std::fabs(q.y - c.y) + std::fabs(q.z - c.z)) / kRootOfThree;
-    return std::ldexp(far, model.header().frame_exponent) * (1 - 0x1p-50) > leaf.radius_max;
+    const auto apart = [&](double a, double b) {
+        return std::ldexp(std::fabs(a - b), model.header().frame_exponent);
+    };
+    const double far = (apart(q.x, c.x) + apart(q.y, c.y) + apart(q.z, c.z)) / kRootOfThree;
+    return far * (1 - 0x1p-50) > leaf.radius_max;
 }
 
 Inclusion through_tetra_tree(const Model& model, const Double3& q, QueryCounts* counts) noexcept {
