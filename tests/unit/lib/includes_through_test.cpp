@@ -181,17 +181,30 @@ TEST(IncludesThrough, NothingIsInsideAnEmptyModel) {
     EXPECT_EQ(Asked(TestMesh{}).at({0, 0, 0}).answer, Answer::no);
 }
 
-// Flat and closed: two copies back to back enclose nothing, but hold points.
+/// (x, y, z) with the axes renamed `turn` times.
+Double3 turned(const Double3& p, int turn) {
+    if (turn == 0) return p;
+    return turned({p.z, p.x, p.y}, turn - 1);
+}
+
+// Flat and closed: a sheet whose two sides are triangles of their own encloses nothing,
+// but holds points. Structures leave such an axis whole, whichever it is.
 TEST(IncludesThrough, AFlatModelHoldsItsPointsAlone) {
-    const TestMesh lying{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}, {{2, 1, 0}}}};
-    for (const std::uint32_t level : {0U, 2U, 5U}) {
-        Asked flat(lying, {.level = level});
-        EXPECT_TRUE(flat.at({1, 1, 0}).on_surface);
-        EXPECT_TRUE(flat.at({4, 0, 0}).on_surface);
-        EXPECT_TRUE(flat.at(flat.model().tetra_tree()->centre).on_surface);
-        EXPECT_EQ(flat.at({1, 1, 0.5}).answer, Answer::no);
-        EXPECT_EQ(flat.at({3, 3, 0}).answer, Answer::no);
-        EXPECT_EQ(flat.at({-1, 0, 0}).answer, Answer::no);
+    for (const int turn : {0, 1, 2}) {
+        TestMesh sheet = grid_sheet(4, 4);
+        const TestMesh back = reversed(sheet);
+        sheet.triangles.insert(sheet.triangles.end(), back.triangles.begin(), back.triangles.end());
+        for (Double3& p : sheet.positions) p = turned(p, turn);
+        for (const std::uint32_t level : {0U, 2U, 5U}) {
+            Asked flat(sheet, {.level = level});
+            ASSERT_TRUE(flat.model().is_closed());
+            EXPECT_TRUE(flat.at(turned({1, 1, 0}, turn)).on_surface);
+            EXPECT_TRUE(flat.at(turned({4, 0.25, 0}, turn)).on_surface);
+            EXPECT_TRUE(flat.at(flat.model().tetra_tree()->centre).on_surface);
+            EXPECT_EQ(flat.at(turned({1, 1, 0.5}, turn)).answer, Answer::no);
+            EXPECT_EQ(flat.at(turned({4.5, 3, 0}, turn)).answer, Answer::no);
+            EXPECT_EQ(flat.at(turned({-1, 0, 0}, turn)).answer, Answer::no);
+        }
     }
 }
 
