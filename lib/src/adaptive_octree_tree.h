@@ -64,6 +64,14 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> references(const Cell& cell) const noexcept {
         return references_.subspan(nodes_[cell.node].first, nodes_[cell.node].count);
     }
+    [[nodiscard]] static Box3 box(const Cell& cell) noexcept {
+        return {{cell.lower[0], cell.lower[1], cell.lower[2]},
+                {cell.upper[0], cell.upper[1], cell.upper[2]}};
+    }
+    /// Where the planes between the children are; not of the cell above the root.
+    [[nodiscard]] Double3 split(const Cell& cell) const noexcept {
+        return nodes_[cell.node].split;
+    }
     void bound(const Cell& cell, CellBounds& bounds) const noexcept {
         const bool is_top = cell.node == kAboveRoots;
         const std::array<double, 3> split = is_top ? cell.lower : split_of(cell);
@@ -82,10 +90,7 @@ public:
         unsigned listing = 0;
         for (unsigned rest = lanes(cell); rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-            const Cell below = child(cell, lane);
-            const Box3 box = {{below.lower[0], below.lower[1], below.lower[2]},
-                              {below.upper[0], below.upper[1], below.upper[2]}};
-            if (triangle_touches_box(corners, box)) listing |= 1U << lane;
+            if (triangle_touches_box(corners, box(child(cell, lane)))) listing |= 1U << lane;
         }
         return listing;
     }

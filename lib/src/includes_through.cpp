@@ -8,8 +8,10 @@
 #include <limits>
 #include <span>
 
+#include "adaptive_octree_tree.h"
 #include "moved_model.h"
-#include "octree_cells.h"
+#include "octree_codes.h"
+#include "octree_tree.h"
 #include "predicates.h"
 #include "tetra_cones.h"
 #include "winding.h"
@@ -120,11 +122,6 @@ std::span<const std::uint32_t> listed(std::span<const std::uint32_t> references,
     return references.subspan(leaf.first, leaf.count);
 }
 
-/// The number of a child among those that are there.
-std::uint32_t rank_of(std::uint32_t child, std::uint32_t mask) noexcept {
-    return static_cast<std::uint32_t>(std::popcount(mask & ((1U << child) - 1)));
-}
-
 /// The leaf that holds the cone of a key of the deepest level, or null.
 const format::TetraNode* find_leaf(const Model& model, std::uint32_t key) noexcept {
     const format::TetraTree& tree = *model.tetra_tree();
@@ -137,7 +134,7 @@ const format::TetraNode* find_leaf(const Model& model, std::uint32_t key) noexce
         const std::uint32_t child = (key >> (2 * (tree.level - level - 1))) & 3;
         const std::uint32_t mask = node->flags & format::tetra_children;
         if ((mask >> child & 1) == 0) return nullptr;
-        node = &model.tetra_nodes()[node->first + rank_of(child, mask)];
+        node = &model.tetra_nodes()[node->first + lanes_before(mask, child)];
     }
     return node;
 }
@@ -176,152 +173,46 @@ Inclusion through_tetra_tree(const Model& model, const Double3& q, QueryCounts* 
     return crossings.inclusion();
 }
 
-/// The cells of format::OctreeGrid as a walk sees them.
-class EqualCells {
-public:
-    struct Place {
-        std::uint32_t node;
-        std::uint32_t level;
-        CellPlace first;
-    };
-    using Node = format::OctreeNode;
-
-    explicit EqualCells(const Model& model) noexcept
-        : nodes_(model.octree_nodes()),
-          references_(model.octree_references()),
-          grid_(*model.octree_grid()) {}
-
-    [[nodiscard]] Place root() const noexcept {
-        return {0, 0, {0, 0, 0}};
-    }
-    [[nodiscard]] Box3 box() const noexcept {
-        return octree_box(grid_, {0, 0, 0}, 0);
-    }
-    [[nodiscard]] const Node& node(const Place& place) const noexcept {
-        return nodes_[place.node];
-    }
-    [[nodiscard]] std::span<const std::uint32_t> references(const Place& leaf) const noexcept {
-        return listed(references_, node(leaf));
-    }
-    [[nodiscard]] Double3 split(const Place& place) const noexcept {
-        const std::uint32_t half = half_of(place);
-        return {octree_plane(grid_.origin.x, grid_.step, place.first[0] + half),
-                octree_plane(grid_.origin.y, grid_.step, place.first[1] + half),
-                octree_plane(grid_.origin.z, grid_.step, place.first[2] + half)};
-    }
-    [[nodiscard]] Place child(const Place& place, std::uint32_t number,
-                              std::uint32_t node) const noexcept {
-        const std::uint32_t half = half_of(place);
-        return {node,
-                place.level + 1,
-                {place.first[0] + half * (number & 1), place.first[1] + half * (number >> 1 & 1),
-                 place.first[2] + half * (number >> 2)}};
-    }
-
-private:
-    static std::uint32_t half_of(const Place& place) noexcept {
-        return kOctreeSteps >> 1 >> place.level;
-    }
-
-    std::span<const Node> nodes_;
-    std::span<const std::uint32_t> references_;
-    const format::OctreeGrid& grid_;
-};
-
-/// The cells of format::AdaptiveOctree likewise.
-class AdaptiveCells {
-public:
-    struct Place {
-        std::uint32_t node;
-    };
-    using Node = format::AdaptiveOctreeNode;
-
-    explicit AdaptiveCells(const Model& model) noexcept
-        : nodes_(model.adaptive_octree_nodes()),
-          references_(model.adaptive_octree_references()),
-          tree_(*model.adaptive_octree()) {}
-
-    [[nodiscard]] Place root() const noexcept {
-        return {0};
-    }
-    [[nodiscard]] Box3 box() const noexcept {
-        return {tree_.lower, tree_.upper};
-    }
-    [[nodiscard]] const Node& node(const Place& place) const noexcept {
-        return nodes_[place.node];
-    }
-    [[nodiscard]] std::span<const std::uint32_t> references(const Place& leaf) const noexcept {
-        return listed(references_, node(leaf));
-    }
-    [[nodiscard]] Double3 split(const Place& place) const noexcept {
-        return node(place).split;
-    }
-    [[nodiscard]] Place child(const Place&, std::uint32_t, std::uint32_t node) const noexcept {
-        return {node};
-    }
-
-private:
-    std::span<const Node> nodes_;
-    std::span<const std::uint32_t> references_;
-    const format::AdaptiveOctree& tree_;
-};
-
 /// Adds what lies in the leaves along the ray, nearest first. Of two cells beside each
 /// other in y or z the ray is in the lower one where it runs on the plane between: either
 /// lists what touches that plane, and an axis that is not divided has the lower one alone.
-template <class Cells>
-void walk_row(const Cells& cells, const Double3& q, Crossings& crossings) noexcept {
+template <class Tree>
+void walk_row(const Tree& tree, const Double3& q, Crossings& crossings) noexcept {
     struct OpenCell {
-        typename Cells::Place place;
+        typename Tree::Cell cell;
         Piece piece;
     };
-    std::array<OpenCell, format::kOctreeBits + 1> open;  // one more than a level down
+    std::array<OpenCell, Tree::kMostLevels> open;  // a level down there is one more
     std::size_t depth = 0;
-    open[depth++] = {cells.root(), {}};
+    open[depth++] = {tree.child(tree.top(), 0), {}};
     while (depth > 0) {
-        const auto [place, piece] = open[--depth];
+        const auto [cell, piece] = open[--depth];
         if (piece.x1 < q.x) continue;
-        const auto& node = cells.node(place);
-        if ((node.count & format::kInnerNode) == 0) {
-            if (!crossings.add(cells.references(place), piece)) return;
+        if (tree.is_leaf(cell)) {
+            if (!crossings.add(tree.references(cell), piece)) return;
             continue;
         }
-        const Double3 split = cells.split(place);
-        const std::uint32_t row = (q.y > split.y ? 2U : 0U) | (q.z > split.z ? 4U : 0U);
-        for (const std::uint32_t child : {row | 1U, row}) {
-            if ((node.count >> child & 1) == 0) continue;
-            const std::uint32_t below = node.first + rank_of(child, node.count & 0xff);
-            open[depth++] = {cells.child(place, child, below), (child & 1) != 0
-                                                                   ? Piece{split.x, piece.x1}
-                                                                   : Piece{piece.x0, split.x}};
+        const Double3 split = tree.split(cell);
+        const unsigned row = (q.y > split.y ? 2U : 0U) | (q.z > split.z ? 4U : 0U);
+        const unsigned lanes = tree.lanes(cell);
+        if ((lanes >> row >> 1 & 1) != 0) {
+            open[depth++] = {tree.child(cell, row | 1), {split.x, piece.x1}};
         }
+        if ((lanes >> row & 1) != 0) open[depth++] = {tree.child(cell, row), {piece.x0, split.x}};
     }
 }
 
-template <class Cells>
-Inclusion through_cells(const Cells& cells, const Model& model, const Double3& q,
+template <class Tree>
+Inclusion through_cells(const Tree& tree, const Model& model, const Double3& q,
                         QueryCounts* counts) noexcept {
-    if (!holds(cells.box(), q)) return {};
+    if (!holds(tree.box(tree.top()), q)) return {};
     Crossings crossings(model, before_along_x(q, reach_of(model)), q, counts);
-    walk_row(cells, q, crossings);
+    walk_row(tree, q, crossings);
     return crossings.inclusion();
 }
 
-/// The place of a finest cell along the z curve.
-std::uint64_t octree_code(const CellPlace& place) noexcept {
-    const auto spread = [](std::uint64_t bits) {
-        bits = (bits | bits << 32) & 0x001f00000000ffff;
-        bits = (bits | bits << 16) & 0x001f0000ff0000ff;
-        bits = (bits | bits << 8) & 0x100f00f00f00f00f;
-        bits = (bits | bits << 4) & 0x10c30c30c30c30c3;
-        return (bits | bits << 2) & 0x1249249249249249;
-    };
-    return spread(place[0]) | spread(place[1]) << 1 | spread(place[2]) << 2;
-}
-
-/// The largest cell around a finest cell that no leaf overlaps, where the leaves before
-/// and behind it along the z curve are these: its level.
-std::uint32_t level_of_empty_cell(std::uint64_t code, std::uint64_t other) noexcept {
+/// The level of the largest cell that holds one finest cell and not the other.
+std::uint32_t level_between(std::uint64_t code, std::uint64_t other) noexcept {
     const auto differ = static_cast<std::uint32_t>(std::bit_width(code ^ other) - 1);
     return format::kOctreeBits - differ / 3;
 }
@@ -332,7 +223,8 @@ struct FoundCell {
     std::uint32_t level;
 };
 
-/// The leaf or the empty cell that holds a finest cell, by the sorted codes.
+/// The leaf that holds a finest cell, or the largest cell there that no leaf overlaps:
+/// those before and behind along the z curve are the nearest.
 FoundCell find_cell(const Model& model, std::uint64_t code) noexcept {
     const auto codes = model.octree_leaf_codes();
     const auto top = model.octree_top();
@@ -345,9 +237,9 @@ FoundCell find_cell(const Model& model, std::uint64_t code) noexcept {
         const format::OctreeNode& leaf = model.octree_nodes()[model.octree_leaf_nodes()[index]];
         const std::uint32_t level = level_of(leaf.key);
         if (code - codes[index] < cells_below(level)) return {&leaf, level};
-        empty = level_of_empty_cell(code, codes[index]);
+        empty = level_between(code, codes[index]);
     }
-    if (behind != codes.end()) empty = std::max(empty, level_of_empty_cell(code, *behind));
+    if (behind != codes.end()) empty = std::max(empty, level_between(code, *behind));
     return {nullptr, empty};
 }
 
@@ -381,10 +273,10 @@ Inclusion includes_through(Structure structure, const Model& model, const Double
             return through_tetra_tree(model, p, counts);
         case Structure::octree:
             if (model.octree_nodes().empty()) break;
-            return through_cells(EqualCells(model), model, p, counts);
+            return through_cells(OctreeTree(model), model, p, counts);
         case Structure::adaptive_octree:
             if (model.adaptive_octree_nodes().empty()) break;
-            return through_cells(AdaptiveCells(model), model, p, counts);
+            return through_cells(AdaptiveOctreeTree(model), model, p, counts);
         case Structure::hashed_octree:
         case Structure::hashed_octree_literal:
             if (model.octree_leaf_codes().empty()) break;

@@ -62,6 +62,16 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> references(const Cell& cell) const noexcept {
         return references_.subspan(nodes_[cell.node].first, nodes_[cell.node].count);
     }
+    [[nodiscard]] Box3 box(const Cell& cell) const noexcept {
+        return octree_box(*grid_, cell.first, cell.level);
+    }
+    /// Where the planes between the children are; not of the cell above the root.
+    [[nodiscard]] Double3 split(const Cell& cell) const noexcept {
+        const std::uint32_t half = kOctreeSteps >> 1 >> cell.level;
+        return {octree_plane(grid_->origin.x, grid_->step, cell.first[0] + half),
+                octree_plane(grid_->origin.y, grid_->step, cell.first[1] + half),
+                octree_plane(grid_->origin.z, grid_->step, cell.first[2] + half)};
+    }
     void bound(const Cell& cell, CellBounds& bounds) const noexcept {
         const std::array<double, 3> origin = {grid_->origin.x, grid_->origin.y, grid_->origin.z};
         const std::uint32_t steps = kOctreeSteps >> cell.level;
@@ -84,10 +94,7 @@ public:
         unsigned listing = 0;
         for (unsigned rest = lanes(cell); rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-            const Cell below = child(cell, lane);
-            if (triangle_touches_box(corners, octree_box(*grid_, below.first, below.level))) {
-                listing |= 1U << lane;
-            }
+            if (triangle_touches_box(corners, box(child(cell, lane)))) listing |= 1U << lane;
         }
         return listing;
     }
