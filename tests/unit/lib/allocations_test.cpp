@@ -12,6 +12,7 @@
 #include "cdprep/collide.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
+#include "cdprep/includes_through.h"
 #include "cdprep/refit_bvh.h"
 #include "cdprep/split_overlap.h"
 #include "cdprep/touching_box.h"
@@ -19,6 +20,7 @@
 #include "cdprep/touching_sphere.h"
 #include "cdprep/touching_triangle.h"
 #include "cdprep/triangles_within.h"
+#include "support/every_structure.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
@@ -171,6 +173,22 @@ TEST(Allocations, NoQuestionAllocates) {
     EXPECT_EQ(allocations, before);
     EXPECT_GT(hits, 2u);
     EXPECT_GT(misses, 2u);
+}
+
+// By hand: of these points two are in the tube.
+TEST(Allocations, NoStructureAllocatesToTellWhatIsInside) {
+    const OpenModel ring = open_with_every_structure(torus(1, 0.25, 40, 20), {.level = 5});
+    Workspace workspace;
+    int inside = 0;
+    const std::size_t before = allocations;
+    for (const Structure structure : kStructures) {
+        for (const double x : {0.0, 0.5, 1.0, 1.25, 7.0}) {
+            const Inclusion found = includes_through(structure, ring.model, {x, 0, 0}, workspace);
+            inside += found.answer == Answer::yes ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(allocations, before);
+    EXPECT_EQ(inside, 12);
 }
 
 // Frame, leaves and boxes all move: every array is written anew, none is made.
