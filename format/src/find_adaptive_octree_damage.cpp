@@ -20,6 +20,9 @@ using Found = std::optional<Damage>;
 using Bytes = std::span<const std::byte>;
 using Point = std::array<double, 3>;
 
+constexpr std::array kIds = {SectionId::adaptive_octree, SectionId::adaptive_octree_nodes,
+                             SectionId::adaptive_octree_references};
+
 /// An adaptive octree's sections, as far as they are wanted.
 struct Parts {
     SectionView<AdaptiveOctree> tree;
@@ -207,22 +210,16 @@ private:
 }  // namespace
 
 std::optional<Damage> find_missing_adaptive_octree(std::span<const std::byte> file) noexcept {
-    if (const Found gap =
-            find_gap(file, {SectionId::adaptive_octree, SectionId::adaptive_octree_nodes,
-                            SectionId::adaptive_octree_references})) {
-        return gap;
-    }
-    const bool has_tree = find_section(file, SectionId::adaptive_octree).has_value();
+    if (const Found gap = find_gap(file, kIds)) return gap;
+    const bool has_tree = find_section(file, kIds[0]).has_value();
     if (!has_tree || find_section(file, SectionId::triangles)) return std::nullopt;
-    return Damage{DamageKind::missing_section, SectionId::triangles, kSectionTableOffset, 0, 1};
+    return missing_section(SectionId::triangles);
 }
 
 std::optional<Damage> find_adaptive_octree_damage(std::span<const std::byte> file,
                                                   SectionSet wanted) noexcept {
-    if (!find_section(file, SectionId::adaptive_octree) ||
-        !wanted.contains({SectionId::adaptive_octree, SectionId::adaptive_octree_nodes,
-                          SectionId::adaptive_octree_references})) {
-        return std::nullopt;
+    for (const SectionId id : kIds) {
+        if (!wanted.contains(id) || !find_section(file, id)) return std::nullopt;
     }
     const Parts parts(file, wanted);
     if (const Found damage = find_bad_facts(parts)) return damage;

@@ -7,7 +7,7 @@
 
 #include "cdprep/format/content_hash.h"
 #include "cdprep/format/octree.h"
-#include "section_view.h"
+#include "reference_lists.h"
 
 // Nodes stand level by level, so the children of each follow those of the one before: one
 // pass with one counter proves that every node is reached once. The same holds for the
@@ -24,18 +24,6 @@ constexpr std::array kTreeIds = {SectionId::octree_grid, SectionId::octree_nodes
 constexpr std::array kTableIds = {SectionId::octree_leaf_codes, SectionId::octree_leaf_nodes,
                                   SectionId::octree_top, SectionId::octree_modulus_table,
                                   SectionId::octree_mixed_table};
-
-/// One of the sections that is not there although another one is.
-template <std::size_t N>
-Found find_gap(Bytes file, const std::array<SectionId, N>& ids, bool needed) noexcept {
-    for (const SectionId id : ids) needed = needed || find_section(file, id).has_value();
-    for (const SectionId id : ids) {
-        if (needed && !find_section(file, id)) {
-            return Damage{DamageKind::missing_section, id, kSectionTableOffset, 0, 1};
-        }
-    }
-    return std::nullopt;
-}
 
 bool is_leaf(const OctreeNode& node) noexcept {
     return (node.count & kInnerNode) == 0;
@@ -94,23 +82,6 @@ Found find_bad_grid(const Parts& parts) noexcept {
     return limited(grid.slot_bits, kMostSlotBits);
 }
 
-/// The references of a leaf: of triangles, and rising.
-Found find_bad_references(const Parts& parts, const OctreeNode& leaf) noexcept {
-    std::uint64_t least = 0;
-    for (std::uint64_t i = leaf.first; i < std::uint64_t{leaf.first} + leaf.count; ++i) {
-        const std::uint32_t triangle = parts.references[i] & ~kSharedReference;
-        if (triangle >= parts.triangle_count) {
-            return parts.references.damage(DamageKind::bad_index, i, triangle,
-                                           parts.triangle_count - 1);
-        }
-        if (triangle < least) {
-            return parts.references.damage(DamageKind::bad_order, i, triangle, least);
-        }
-        least = std::uint64_t{triangle} + 1;
-    }
-    return std::nullopt;
-}
-
 /// Where the next node's children and references begin.
 struct Next {
     std::uint64_t child = 1;
@@ -150,7 +121,7 @@ Found find_bad_leaf(const Parts& parts, std::uint64_t i, const OctreeNode& node,
         return parts.nodes.damage(DamageKind::bad_order, i, node.count, room);
     }
     next.reference += node.count;
-    return find_bad_references(parts, node);
+    return find_bad_list(parts.references, node.first, node.count, parts.triangle_count);
 }
 
 Found find_bad_tree(Parts& parts) noexcept {
@@ -273,9 +244,12 @@ Found find_bad_tables(Bytes file, SectionSet wanted, const Parts& parts) noexcep
 }  // namespace
 
 std::optional<Damage> find_missing_octree(std::span<const std::byte> file) noexcept {
-    if (const Found damage = find_gap(file, kTableIds, false)) return damage;
-    const bool has_tables = find_section(file, kTableIds[0]).has_value();
-    return find_gap(file, kTreeIds, has_tables);
+    if (const Found damage = find_gap(file, kTableIds)) return damage;
+    if (!find_section(file, kTableIds[0])) return find_gap(file, kTreeIds);
+    for (const SectionId id : kTreeIds) {
+        if (!find_section(file, id)) return missing_section(id);
+    }
+    return std::nullopt;
 }
 
 std::optional<Damage> find_octree_damage(std::span<const std::byte> file,

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <initializer_list>
-
 #include "cdprep/format/octree.h"
 #include "section_view.h"
 
 namespace cdprep::format {
 
+inline Damage missing_section(SectionId id) noexcept {
+    return {DamageKind::missing_section, id, kSectionTableOffset, 0, 1};
+}
+
 /// Of sections that a file has all of or none: the first that is missing beside others.
 inline std::optional<Damage> find_gap(std::span<const std::byte> file,
-                                      std::initializer_list<SectionId> sections) noexcept {
+                                      std::span<const SectionId> sections) noexcept {
     std::optional<Damage> gap;
     bool has_some = false;
     for (const SectionId id : sections) {
         if (find_section(file, id)) {
             has_some = true;
         } else if (!gap) {
-            gap = Damage{DamageKind::missing_section, id, kSectionTableOffset, 0, 1};
+            gap = missing_section(id);
         }
     }
     return has_some ? gap : std::nullopt;

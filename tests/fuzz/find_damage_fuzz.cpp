@@ -125,6 +125,7 @@ std::vector<test::AlignedBytes> make_seeds() {
         seeds.push_back(
             test::bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}));
         seeds.push_back(test::with_octree(seeds.back(), {.threshold = 4}));
+        seeds.push_back(test::with_adaptive_octree(seeds.back(), {.threshold = 4}));
         seeds.push_back(test::with_tetra_tree(seeds.back(), {.threshold = 4}));
     }
     return seeds;
