@@ -13,6 +13,7 @@
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model.h"
 #include "support/meshes.h"
+#include "support/more_sections.h"
 #include "support/scratch_folder.h"
 #include "unit/tools/image_sections.h"
 
@@ -40,7 +41,8 @@ std::span<const std::byte> bytes_of(const std::string& content) {
 TEST(WriteFile, AWrittenFileHoldsTheSameSections) {
     const ScratchFolder folder;
     for (const test::TestMesh& mesh : {test::unit_cube(), test::grid_sheet(80, 80)}) {
-        const test::AlignedBytes image = image_of(mesh);
+        const test::AlignedBytes image =
+            test::with_adaptive_octree(test::with_octree(image_of(mesh), {.threshold = 4}));
         const Result<Done> done = write_image(folder.file("m.cdp.h5"), image);
         ASSERT_TRUE(done) << done.error().message;
         const std::string file = content_of(folder.file("m.cdp.h5"));
