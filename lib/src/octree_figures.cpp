@@ -4,27 +4,38 @@
 #include <algorithm>
 #include <bit>
 
-#include "octree_cells.h"
-
 namespace cdprep {
 namespace {
 
+using format::AdaptiveOctreeNode;
 using format::kInnerNode;
 using format::OctreeNode;
 
 /// What both a model and a builder's tree have.
+template <class Node>
 struct Parts {
     std::uint64_t triangle_count;
-    std::span<const OctreeNode> nodes;
+    std::span<const Node> nodes;
     std::span<const std::uint32_t> references;
+    std::uint64_t other_bytes;  ///< of the tree's section of one element
     std::uint64_t table_bytes;
 };
 
-void count_nodes(std::span<const OctreeNode> nodes, OctreeFigures& figures) noexcept {
-    for (const OctreeNode& node : nodes) {
+/// Nodes stand level by level: children of a level's nodes are the next level.
+template <class Node>
+void count_nodes(std::span<const Node> nodes, OctreeFigures& figures) noexcept {
+    std::uint64_t next_child = 1;
+    std::uint64_t level_end = 1;
+    for (std::uint64_t i = 0; i < nodes.size(); ++i) {
+        if (i == level_end) {
+            level_end = next_child;
+            ++figures.deepest;
+        }
+        const Node& node = nodes[i];
         if ((node.count & kInnerNode) != 0) {
-            const int children = std::popcount(node.count & 0xff);
-            figures.empty_children += 8 - static_cast<std::uint64_t>(children);
+            const auto children = static_cast<std::uint64_t>(std::popcount(node.count & 0xff));
+            figures.empty_children += 8 - children;
+            next_child += children;
         } else {
             ++figures.leaves;
             figures.largest_leaf = std::max<std::uint64_t>(figures.largest_leaf, node.count);
@@ -32,13 +43,13 @@ void count_nodes(std::span<const OctreeNode> nodes, OctreeFigures& figures) noex
     }
 }
 
-OctreeFigures figures_of(const Parts& parts) noexcept {
+template <class Node>
+OctreeFigures figures_of(const Parts<Node>& parts) noexcept {
     OctreeFigures figures;
     figures.triangles = parts.triangle_count;
     figures.nodes = parts.nodes.size();
     if (parts.nodes.empty()) return figures;
     figures.references = parts.references.size();
-    figures.deepest = level_of(parts.nodes.back().key);
     count_nodes(parts.nodes, figures);
     // A triangle is listed once at least, and then without the mark.
     const auto alone = std::count_if(
@@ -46,8 +57,8 @@ OctreeFigures figures_of(const Parts& parts) noexcept {
         [](std::uint32_t reference) { return (reference & format::kSharedReference) == 0; });
     figures.shared = parts.triangle_count - static_cast<std::uint64_t>(alone);
     figures.table_bytes = parts.table_bytes;
-    figures.bytes = sizeof(format::OctreeGrid) + parts.nodes.size_bytes() +
-                    parts.references.size_bytes() + parts.table_bytes;
+    figures.bytes = parts.other_bytes + parts.nodes.size_bytes() + parts.references.size_bytes() +
+                    parts.table_bytes;
     return figures;
 }
 
@@ -59,17 +70,31 @@ std::uint64_t bytes_of(std::span<const Elements>... tables) noexcept {
 }  // namespace
 
 OctreeFigures octree_figures(const Model& model) noexcept {
-    return figures_of(
+    return figures_of<OctreeNode>(
         {model.triangle_count(), model.octree_nodes(), model.octree_references(),
+         sizeof(format::OctreeGrid),
          bytes_of(model.octree_leaf_codes(), model.octree_leaf_nodes(), model.octree_top(),
                   model.octree_modulus_table(), model.octree_mixed_table())});
 }
 
 OctreeFigures octree_figures(const build::Octree& octree, std::uint64_t triangle_count) noexcept {
     const auto view = [](const auto& elements) { return std::span(elements); };
-    return figures_of({triangle_count, octree.nodes, octree.references,
-                       bytes_of(view(octree.leaf_codes), view(octree.leaf_nodes), view(octree.top),
-                                view(octree.modulus_table), view(octree.mixed_table))});
+    return figures_of<OctreeNode>(
+        {triangle_count, octree.nodes, octree.references, sizeof(format::OctreeGrid),
+         bytes_of(view(octree.leaf_codes), view(octree.leaf_nodes), view(octree.top),
+                  view(octree.modulus_table), view(octree.mixed_table))});
+}
+
+OctreeFigures adaptive_octree_figures(const Model& model) noexcept {
+    return figures_of<AdaptiveOctreeNode>({model.triangle_count(), model.adaptive_octree_nodes(),
+                                           model.adaptive_octree_references(),
+                                           sizeof(format::AdaptiveOctree), 0});
+}
+
+OctreeFigures adaptive_octree_figures(const build::AdaptiveOctree& octree,
+                                      std::uint64_t triangle_count) noexcept {
+    return figures_of<AdaptiveOctreeNode>(
+        {triangle_count, octree.nodes, octree.references, sizeof(format::AdaptiveOctree), 0});
 }
 
 std::uint64_t seed_formula_bytes(const OctreeFigures& figures, EmptyChildren empty) noexcept {

@@ -36,7 +36,7 @@ void normalise(TestMesh& mesh) {
 
 }  // namespace
 
-std::optional<TestMesh> seed_mesh(const std::string& name) {
+std::optional<TestMesh> seed_mesh_as_read(const std::string& name) {
     std::ifstream file(shared_folder() / "models/seed" / (name + ".ply"), std::ios::binary);
     std::size_t vertices = 0, faces = 0;
     for (std::string line; std::getline(file, line) && line != "end_header";) {
@@ -56,7 +56,12 @@ std::optional<TestMesh> seed_mesh(const std::string& name) {
         mesh.triangles.push_back(t);
     }
     if (!file || mesh.triangles.empty()) return std::nullopt;
-    normalise(mesh);
+    return mesh;
+}
+
+std::optional<TestMesh> seed_mesh(const std::string& name) {
+    std::optional<TestMesh> mesh = seed_mesh_as_read(name);
+    if (mesh) normalise(*mesh);
     return mesh;
 }
 

@@ -13,4 +13,7 @@ namespace cdprep::test {
 /// $CDPREP_SHARED). Reads what those files are: binary PLY, float x, y, z, triangles.
 [[nodiscard]] std::optional<TestMesh> seed_mesh(const std::string& name);
 
+/// The same with the file's own coordinates.
+[[nodiscard]] std::optional<TestMesh> seed_mesh_as_read(const std::string& name);
+
 }  // namespace cdprep::test

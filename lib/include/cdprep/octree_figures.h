@@ -3,17 +3,19 @@
 
 #include <cstdint>
 
+#include "cdprep/build_adaptive_octree.h"
 #include "cdprep/build_octree.h"
 #include "cdprep/model.h"
 
 namespace cdprep {
 
-/// Figures that describe an octree (format/octree.h): its size, and how well it divides.
+/// Figures that describe an octree of either kind (format/octree.h): its size, and how well
+/// it divides.
 struct OctreeFigures {
     std::uint64_t triangles = 0;       ///< of the model
     std::uint64_t nodes = 0;           ///< cells that some triangle touches: those stored
     std::uint64_t leaves = 0;          ///< of them, those that are not divided
-    std::uint64_t empty_children = 0;  ///< children of nodes that no triangle touches
+    std::uint64_t empty_children = 0;  ///< of the eight of each divided node, those not there
     std::uint64_t references = 0;      ///< of all leaves
     std::uint64_t shared = 0;          ///< triangles that more than one leaf lists
     std::uint64_t largest_leaf = 0;    ///< references
@@ -31,6 +33,11 @@ struct OctreeFigures {
 /// The same of a tree over so many triangles that stands in no file.
 [[nodiscard]] OctreeFigures octree_figures(const build::Octree& octree,
                                            std::uint64_t triangle_count) noexcept;
+
+/// The same of an octree with split points of its own.
+[[nodiscard]] OctreeFigures adaptive_octree_figures(const Model& model) noexcept;
+[[nodiscard]] OctreeFigures adaptive_octree_figures(const build::AdaptiveOctree& octree,
+                                                    std::uint64_t triangle_count) noexcept;
 
 /// Whether a node has a record for every child, or for those alone that triangles touch.
 enum class EmptyChildren : std::uint8_t { counted, left_out };

@@ -71,6 +71,43 @@ TEST(OctreeFigures, AreZeroWithoutAnOctree) {
     EXPECT_EQ(seed_formula_bytes(none, EmptyChildren::counted), 0U);
 }
 
+// Two triangles in opposite corners of a square. Their middles along x and along y are 1/16
+// and 15/16, of two the median is the second: four cells meet in the middle of the second
+// triangle's long side, where it touches the one that has the first triangle.
+TEST(OctreeFigures, OfAnAdaptiveOctreeAreThoseThatAPersonCounts) {
+    const TestMesh mesh = {
+        {{0, 0, 0}, {0.125, 0, 0}, {0, 0.125, 0}, {1, 1, 0}, {0.875, 1, 0}, {1, 0.875, 0}},
+        {{{0, 1, 2}}, {{3, 4, 5}}}};
+    const build::AdaptiveOctree octree =
+        build::build_adaptive_octree(mesh.positions, mesh.triangles, {.level = 1});
+    const OctreeFigures figures = adaptive_octree_figures(octree, 2);
+    const OctreeFigures expected = {.triangles = 2,
+                                    .nodes = 5,
+                                    .leaves = 4,
+                                    .empty_children = 4,
+                                    .references = 5,
+                                    .shared = 1,
+                                    .largest_leaf = 2,
+                                    .deepest = 1,
+                                    .bytes = 64 + 5 * 32 + 5 * 4,
+                                    .table_bytes = 0};
+    EXPECT_EQ(figures, expected);
+}
+
+TEST(OctreeFigures, OfAModelsAdaptiveOctreeAreThoseOfItsSections) {
+    const TestMesh mesh = icosphere(2);
+    const AlignedBytes plain = bake_tiny(mesh.positions, mesh.triangles);
+    const OpenModel model = open_tiny(with_adaptive_octree(plain, {.level = 2, .threshold = 8}));
+    const BuilderInput input = builder_input(model.model);
+    const build::AdaptiveOctree octree = build::build_adaptive_octree(
+        input.positions, input.triangles, {.level = 2, .threshold = 8});
+    const OctreeFigures figures = adaptive_octree_figures(model.model);
+    EXPECT_EQ(figures, adaptive_octree_figures(octree, mesh.triangles.size()));
+    EXPECT_EQ(figures.deepest, 2U);
+    EXPECT_EQ(adaptive_octree_figures(open_tiny(mesh).model),
+              OctreeFigures{.triangles = mesh.triangles.size()});
+}
+
 // 0.3254 MiB in the paper. Its node records cannot be counted any more; either way of
 // counting lies within 0.32 and 0.35.
 TEST(OctreeFigures, TheBunnyTakesAsManyBytesAsInThePaper) {
