@@ -117,8 +117,9 @@ void bound_oriented(const Vector& centre, const SixCorners& corners, const Gener
 
 }  // namespace
 
-TetraTreeCells::TetraTreeCells(const Model& model) noexcept
-    : tree_(model.tetra_tree()),
+TetraTreeCells::TetraTreeCells(const Model& model, const TetraDetail& detail) noexcept
+    : detail_(detail),
+      tree_(model.tetra_tree()),
       nodes_(model.tetra_nodes().data()),
       references_(model.tetra_references()),
       centre_{} {
@@ -138,7 +139,8 @@ void TetraTreeCells::bound(const Cell& cell, CellBounds& bounds) const noexcept 
     if (!is_top) below = split(generators_of(tetra_cone(nodes_[cell.node].key)));
     for (unsigned rest = lanes(cell); rest != 0; rest &= rest - 1) {
         const auto lane = static_cast<unsigned>(std::countr_zero(rest));
-        const format::TetraNode& node = nodes_[child(cell, lane).node];
+        format::TetraNode node = nodes_[child(cell, lane).node];
+        if (detail_.solid) node.radius_min = 0;
         const Generators v = is_top ? generators_of(tetra_cone(node.key)) : below[lane % 4];
         const SixCorners corners = corners_of(v, node);
         bound_aligned(centre_, corners, lane, bounds.boxes);

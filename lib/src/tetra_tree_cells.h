@@ -9,6 +9,17 @@
 
 namespace cdprep {
 
+/// The least key of a level.
+inline std::uint32_t first_key_of(std::uint32_t level) noexcept {
+    return 8U << (2 * level);
+}
+
+/// How much of a tetra-tree a walk is to see.
+struct TetraDetail {
+    std::uint32_t level = format::kMaxTetraLevel;  ///< cones of this level are leaves
+    bool solid = false;                            ///< cones reach from the centre outwards
+};
+
 /// A model's tetra-tree as walk_cells() sees it, without the triangles that hold its
 /// centre: no cone lists those.
 class TetraTreeCells {
@@ -20,7 +31,7 @@ public:
         std::uint32_t node;
     };
 
-    explicit TetraTreeCells(const Model& model) noexcept;
+    explicit TetraTreeCells(const Model& model, const TetraDetail& detail = {}) noexcept;
 
     [[nodiscard]] bool is_empty() const noexcept {
         return tree_ == nullptr || octants_ == 0;
@@ -37,7 +48,8 @@ public:
         return {first + lanes_before(lanes(cell), lane)};
     }
     [[nodiscard]] bool is_leaf(const Cell& cell) const noexcept {
-        return (nodes_[cell.node].flags & format::tetra_inner) == 0;
+        const format::TetraNode& node = nodes_[cell.node];
+        return (node.flags & format::tetra_inner) == 0 || node.key >= first_key_of(detail_.level);
     }
     [[nodiscard]] unsigned leaf_lanes(const Cell& cell) const noexcept {
         unsigned leaves = 0;
@@ -66,6 +78,7 @@ public:
     }
 
 private:
+    TetraDetail detail_;
     const format::TetraTree* tree_;
     const format::TetraNode* nodes_;
     std::span<const std::uint32_t> references_;
