@@ -21,6 +21,7 @@ void add_query(CLI::App& app, Exit& exit) {
     query->require_subcommand(1);
     add_pair_questions(*query, exit);
     add_point_questions(*query, exit);
+    add_inaccessible(*query, exit);
 }
 
 }  // namespace cdprep::cli

@@ -14,6 +14,9 @@ void add_pair_questions(CLI::App& query, Exit& exit);
 /// Adds the questions about one model: inside, closest, ray.
 void add_point_questions(CLI::App& query, Exit& exit);
 
+/// Adds the question which triangles of a model are inaccessible.
+void add_inaccessible(CLI::App& query, Exit& exit);
+
 /// Adds --format, which every question has.
 void add_answer_format(CLI::App& command, std::string& word);
 [[nodiscard]] report::AnswerFormat parse_answer_format(const std::string& word);

@@ -100,6 +100,10 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
         parse_list(arguments.list.empty() ? unless_said : arguments.list);
     if (!names) return names.error();
     StructureChoice choice;
+    // An effect may need one.
+    if (effects.sections.contains(sections_of(Structure::tetra_tree))) {
+        choice.sections.insert(sections_of(Structure::tetra_tree));
+    }
     for (const std::string& name : names.value()) {
         choice.sections.insert(sections_of(find_baked(name)->structure));
     }
