@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "find_tetra_damage.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -173,13 +174,13 @@ Found find_bad_top(const Parts& parts) noexcept {
     return parts.top.damage(DamageKind::bad_count, 0, 0 - named, 0);
 }
 
+constexpr std::array<SectionId, 4> kIds = {SectionId::tetra_tree, SectionId::tetra_nodes,
+                                           SectionId::tetra_references, SectionId::tetra_top};
+
 }  // namespace
 
 std::optional<Damage> find_missing_tetra(std::span<const std::byte> file) noexcept {
-    if (const Found gap = find_gap(file, {SectionId::tetra_tree, SectionId::tetra_nodes,
-                                          SectionId::tetra_references, SectionId::tetra_top})) {
-        return gap;
-    }
+    if (const Found gap = find_gap(file, kIds)) return gap;
     const bool has_tree = find_section(file, SectionId::tetra_tree).has_value();
     if (!has_tree || find_section(file, SectionId::triangles)) return std::nullopt;
     return Damage{DamageKind::missing_section, SectionId::triangles, kSectionTableOffset, 0, 1};

@@ -182,7 +182,7 @@ private:
 
 /// Whether the cones of a level, cut off at their outer facets, may meet.
 bool may_meet(const Model& a, const Model& b, const Placement& placement, std::uint32_t level,
-              QueryCounts* counts) noexcept {
+              Workspace::Storage& scratch) noexcept {
     const PlacedBoxes placed = place_boxes(a, b, placement);
     if (placed.apart) return false;
     // A triangle at a centre is below no facet.
@@ -191,7 +191,8 @@ bool may_meet(const Model& a, const Model& b, const Placement& placement, std::u
     const TetraTreeCells in_b(b, {level, true});
     if (in_a.is_empty() || in_b.is_empty()) return false;
     CellWalk<Search::first, TetraTreeCells, TetraTreeCells, AllLanes> walk(
-        in_a, in_b, placed, Descent::larger, AllLanes{}, counts);
+        in_a, in_b, placed, Descent::larger, AllLanes{});
+    walk.use(scratch);
     return !walk.run([](const auto& /*pair*/, const CellBounds& /*a*/, const CellBounds& /*b*/) {
         return false;
     });
@@ -216,7 +217,7 @@ CoarseCollision collide_at_level(const Model& a, const Model& b, const Placement
     if (a.triangle_count() == 0 || b.triangle_count() == 0) return {Answer::no, 0, 0};
     if (!has_tree(a) || !has_tree(b)) return {};
     CoarseCollision result{Answer::unknown, level_error(a, level), level_error(b, level)};
-    if (!may_meet(a, b, placement, level, workspace.storage().counts)) {
+    if (!may_meet(a, b, placement, level, workspace.storage())) {
         result.answer = Answer::no;
         return result;
     }
