@@ -456,8 +456,7 @@ Found find_bad_content(const Content& content) {
             return find_bad_verdict(content);
         case SectionId::provenance:
         case SectionId::findings:
-            return nothing_more();
-        // Sections that only make sense together are checked together.
+        // Sections that only make sense together are checked together, at the end.
         case SectionId::octree_grid:
         case SectionId::octree_nodes:
         case SectionId::octree_references:

@@ -79,7 +79,7 @@ format::OctreeGrid grid_around(const Extent& extent) {
     constexpr double kLeastStep = 0x1p-1072;  // the numbers are 2^-1074 apart there
     const double step = rounded_up(
         std::max({widest / (kOctreeSteps - 8), 0x1p-50 * (farthest + 2 * widest), kLeastStep}));
-    const double half = step * (kOctreeSteps / 2);
+    const double half = step * (0.5 * kOctreeSteps);
     format::OctreeGrid grid{};
     grid.origin = {middle[0] - half, middle[1] - half, middle[2] - half};
     grid.step = step;

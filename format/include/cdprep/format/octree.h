@@ -54,9 +54,9 @@ struct OctreeNode {
     std::uint32_t count;  ///< kInnerNode | mask of children, or number of references
 };
 
-/// Level of a key with a leading one.
+/// Level of a key with a leading one; 0 of 0, which is no key.
 constexpr std::uint32_t level_of(std::uint64_t key) noexcept {
-    return static_cast<std::uint32_t>(std::bit_width(key) - 1) / 3;
+    return static_cast<std::uint32_t>(std::bit_width(key | 1) - 1) / 3;
 }
 
 /// A key without its leading one, shifted up to kOctreeBits levels: where the cell's
