@@ -184,6 +184,7 @@ private:
 
     void cut_segments(std::uint32_t threshold) {
         std::uint64_t task_ends = 0;
+        segments_.reserve(level_.nodes.size() + level_.reference_count / kItemsPerTask + 1);
         for (std::uint32_t i = 0; i < level_.nodes.size(); ++i) {
             const OctreeNode& node = level_.nodes[i];
             if (node.count < threshold) continue;
@@ -298,6 +299,10 @@ Level root_level(std::size_t triangle_count, ParallelFor parallel_for) {
 /// all of this level.
 void append(const Level& level, std::vector<OctreeNode> nodes, Octree& octree) {
     const auto next = static_cast<std::uint32_t>(octree.nodes.size() + nodes.size());
+    std::size_t listed = octree.references.size();
+    for (const OctreeNode& node : nodes) listed += (node.count & kInnerNode) != 0 ? 0 : node.count;
+    octree.references.reserve(listed);  // else vectors take twice of what they need
+    octree.nodes.reserve(next);
     for (OctreeNode& node : nodes) {
         if ((node.count & kInnerNode) != 0) {
             node.first += next;

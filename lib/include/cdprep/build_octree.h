@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -35,6 +36,11 @@ struct OctreeOptions {
 inline constexpr std::uint64_t kMostFreeReferences = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t kMostReferencesPerTriangle = 64;
 
+/// Bytes that building takes for each vertex, reference and node of the result.
+inline constexpr std::size_t kScratchPerVertex = 16;
+inline constexpr std::size_t kScratchPerReference = 10;
+inline constexpr std::size_t kScratchPerNode = 96;
+
 /// Builds the octree over triangles of finite positions of at most
 /// format::kMaxCoordinate; references are their numbers in `triangles` (a model's: tree
 /// order). A triangle is listed in every leaf whose closed cell it touches, exactly;
@@ -43,10 +49,10 @@ inline constexpr std::uint64_t kMostReferencesPerTriangle = 64;
 ///
 /// A level whose division would give the tree more than kMostFreeReferences and
 /// kMostReferencesPerTriangle for each triangle is not divided, nor is any below: level 21
-/// around a triangle that fills the cube has 2^42 cells. O(levels * references). Scratch, at
-/// most: 16 bytes a vertex, and for each reference of the result 13, for each node 68.
-/// Throws nothing but std::bad_alloc. Coordinates that are NaN are refused long before, by
-/// whoever read them; here they give no answer.
+/// around a triangle that fills the cube has 2^42 cells. O(levels * references). Memory beside
+/// the result: at most the sum of the three constants below. Throws nothing but
+/// std::bad_alloc. Coordinates that are NaN are refused long before, by whoever read them;
+/// here they give no answer.
 [[nodiscard]] Octree build_octree(std::span<const format::Double3> positions,
                                   std::span<const format::Triangle> triangles,
                                   const OctreeOptions& options = {});
