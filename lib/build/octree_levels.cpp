@@ -52,13 +52,6 @@ struct Cell {
         }
         return cell;
     }
-    [[nodiscard]] bool holds(const Stand& at) const noexcept {
-        bool inside = true;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            inside = inside && at[axis] >= lower[axis] && at[axis] <= upper[axis];
-        }
-        return inside;
-    }
 };
 
 /// Children on the lower side of each axis's middle plane; the others are on the upper.
@@ -73,6 +66,17 @@ unsigned children_between(const Cell& cell, const Stand& least, const Stand& mos
         const std::uint32_t below = least[i] <= cell.middle[i] ? kLowerChildren[i] : 0;
         const std::uint32_t above = most[i] >= cell.middle[i] ? kUpperChildren[i] : 0;
         children[i] = below | above;
+    });
+    return children[0] & children[1] & children[2];
+}
+
+/// The children whose closed cells hold a vertex; none when the parent's does not.
+unsigned children_at(const Cell& cell, const Stand& at) noexcept {
+    Lanes<std::uint32_t, 4> children;
+    for_lanes<4>([&](std::size_t i) {
+        const std::uint32_t below = at[i] >= cell.lower[i] ? kLowerChildren[i] : 0;
+        const std::uint32_t above = at[i] <= cell.upper[i] ? kUpperChildren[i] : 0;
+        children[i] = (at[i] <= cell.middle[i] ? below : 0) | (at[i] >= cell.middle[i] ? above : 0);
     });
     return children[0] & children[1] & children[2];
 }
@@ -125,10 +129,7 @@ unsigned touched_children(const Input& input, const Triangle& t, const Cell& cel
     take_upper(most, c);
     const unsigned reached = children_between(cell, least, most);
     if (is_single(reached)) return reached;
-    unsigned touched = 0;
-    for (const Stand* at : {&a, &b, &c}) {
-        if (cell.holds(*at)) touched |= children_between(cell, *at, *at);
-    }
+    const unsigned touched = children_at(cell, a) | children_at(cell, b) | children_at(cell, c);
     if (touched == reached) return touched;
     return touched | touched_among(input, t, cell, reached & ~touched);
 }
