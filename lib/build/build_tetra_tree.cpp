@@ -69,20 +69,10 @@ std::uint32_t common_cone(std::uint32_t a, std::uint32_t b) {
     return std::bit_width(a) < static_cast<int>(kOctantKeyBits) ? 0 : a;
 }
 
-/// How far out the triangles of a list are, in the units of the builder.
-struct Reach {
-    double least = std::numeric_limits<double>::infinity();
-    double greatest = 0;
-
-    void add(double lower, double upper) {
-        least = std::min(least, lower);
-        greatest = std::max(greatest, upper);
-    }
-};
-
+/// Of a part of a leaf's list, in the units of the builder.
 struct LeafReach {
     std::size_t node;
-    Reach reach;
+    RadialRange reach;
 };
 
 class TreeBuilder {
@@ -251,7 +241,7 @@ private:
                 const std::uint32_t child = home >> (static_cast<std::uint32_t>(below) - bits);
                 mask = 1U << (child & ((1U << bits) - 1));
             } else {
-                mask = children.touched_by(placed(triangle), centre_);
+                mask = touched_children(children, triangle);
             }
             mask_[i] = static_cast<std::uint8_t>(mask);
             for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
@@ -260,12 +250,13 @@ private:
         }
     }
 
-    [[nodiscard]] PlacedTriangle placed(std::uint32_t triangle) const {
-        const Corners t = corners(triangle);
+    [[nodiscard]] std::uint32_t touched_children(ConeChildren& children,
+                                                 std::uint32_t triangle) const {
         const auto& v = triangles_[triangle].vertex;
-        return {t,
-                seen_triangle(centre_, t, scale_),
-                {inner_cone_[v[0]], inner_cone_[v[1]], inner_cone_[v[2]]}};
+        const InnerCones cones = {inner_cone_[v[0]], inner_cone_[v[1]], inner_cone_[v[2]]};
+        if (const std::uint32_t told = children.told_by(cones); told != 0) return told;
+        const Corners t = corners(triangle);
+        return children.touched_by({t, seen_triangle(centre_, t, scale_), cones}, centre_);
     }
 
     /// Turns counts into places, and makes the children that have something.
@@ -316,15 +307,15 @@ private:
     /// Of leaves from their triangles, of the others from their children: these cover them.
     void find_radii() {
         std::vector<TetraNode>& nodes = result_.nodes;
-        std::vector<Reach> reach(nodes.size());
+        std::vector<RadialRange> reach(nodes.size());
         for (const LeafReach& part : reach_of_leaves()) {
-            reach[part.node].add(part.reach.least, part.reach.greatest);
+            reach[part.node].add(part.reach);
         }
         for (std::size_t i = nodes.size(); i-- > 0;) {
             TetraNode& node = nodes[i];
             if ((node.flags & format::tetra_inner) != 0) {
                 for (std::size_t k = node.first; k < node.first + node.count; ++k) {
-                    reach[i].add(reach[k].least, reach[k].greatest);
+                    reach[i].add(reach[k]);
                 }
             }
             set_radii(reach[i], node);
@@ -366,32 +357,41 @@ private:
         }
     }
 
-    /// A triangle that is listed in one leaf lies in it, whole.
-    [[nodiscard]] Reach reach_of_part(std::uint32_t key, std::size_t begin, std::size_t end) const {
+    /// A triangle that is listed in one leaf lies in it, whole: these come first.
+    [[nodiscard]] RadialRange reach_of_part(std::uint32_t key, std::size_t begin,
+                                            std::size_t end) const {
+        RadialRange range = reach_of_unshared(begin, end);
         const ConeFaces faces = cone_faces(tetra_cone(key));
-        Reach whole;
-        Reach part;
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t item = result_.references[i];
-            const std::uint32_t triangle = reference_of(item);
-            if (item == triangle) {
-                for (const std::uint32_t v : triangles_[triangle].vertex) {
-                    whole.add(reach_[v], reach_[v]);
-                }
-            } else {
-                const RadialRange range =
-                    radial_range(faces, seen_triangle(centre_, corners(triangle), scale_));
-                part.add(range.least, range.greatest);
-            }
+            if ((item & kSharedReference) == 0) continue;
+            const Corners t = corners(reference_of(item));
+            add_part(faces, seen_triangle(centre_, t, scale_), range);
         }
-        // Rounded to double by 8 u and to float by 2^-24; tiny ones to some 2^-149.
-        constexpr double kRounding = 0x1p-22;
-        constexpr double kTiny = 0x1p-140;
-        part.add(whole.least * (1 - kRounding) - kTiny, whole.greatest * (1 + kRounding) + kTiny);
-        return part;
+        return range;
     }
 
-    void set_radii(const Reach& reach, TetraNode& node) const {
+    [[nodiscard]] RadialRange reach_of_unshared(std::size_t begin, std::size_t end) const {
+        constexpr float kFar = std::numeric_limits<float>::infinity();
+        float least = kFar;
+        float greatest = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t item = result_.references[i];
+            if ((item & kSharedReference) != 0) continue;
+            for (const std::uint32_t v : triangles_[item].vertex) {
+                least = std::min(least, reach_[v]);
+                greatest = std::max(greatest, reach_[v]);
+            }
+        }
+        if (least == kFar) return {};
+        // Rounded to double by 8 u and to float by 2^-24; tiny ones by some 2^-149.
+        constexpr double kRounding = 0x1p-22;
+        constexpr double kTiny = 0x1p-140;
+        return {std::max(0.0, double{least} * (1 - kRounding) - kTiny),
+                double{greatest} * (1 + kRounding) + kTiny};
+    }
+
+    void set_radii(const RadialRange& reach, TetraNode& node) const {
         // The factor and two products round; then lengths below every float.
         constexpr double kRounding = 0x1p-50;
         constexpr double kTiny = 0x1p-1000;

@@ -23,17 +23,31 @@ std::uint32_t possible_octants(const SeenTriangle& t) noexcept {
 
 }  // namespace
 
-/// The children that corners certainly lie in.
-std::uint32_t ConeChildren::sure_children(const PlacedTriangle& t) const noexcept {
+ConeChildren::SureChildren ConeChildren::sure_children(const InnerCones& cones) const noexcept {
     const std::uint32_t bits = key_ == kRootKey ? 3 : 2;
     const auto width = static_cast<std::uint32_t>(std::bit_width(key_));
-    std::uint32_t mask = 0;
-    for (const std::uint32_t cone : t.inner_cone) {
+    SureChildren sure{0, 0};
+    for (const std::uint32_t cone : cones) {
         const auto deeper = static_cast<std::uint32_t>(std::bit_width(cone));
         if (deeper < width + bits || cone >> (deeper - width) != key_) continue;
-        mask |= 1U << (cone >> (deeper - width - bits) & ((1U << bits) - 1));
+        sure.mask |= 1U << (cone >> (deeper - width - bits) & ((1U << bits) - 1));
+        ++sure.corners;
     }
-    return mask;
+    return sure;
+}
+
+// With all corners in two children that one plane parts, or in one, nothing of the triangle
+// is elsewhere: both together are convex. So are the middle child and some of the others.
+std::uint32_t ConeChildren::told_by(const InnerCones& cones) const noexcept {
+    const SureChildren sure = sure_children(cones);
+    if (sure.corners < 3) return 0;
+    if (key_ != kRootKey) {
+        return (sure.mask >> kMiddle & 1U) != 0 || std::has_single_bit(sure.mask) ? sure.mask : 0;
+    }
+    const auto lowest = static_cast<std::uint32_t>(std::countr_zero(sure.mask));
+    const auto highest = static_cast<std::uint32_t>(std::bit_width(sure.mask)) - 1;
+    const bool is_pair = sure.mask == (1U << lowest | 1U << highest);
+    return is_pair && std::popcount(lowest ^ highest) <= 1 ? sure.mask : 0;
 }
 
 /// The children that the planes of the middle one do not keep the triangle from.
@@ -66,7 +80,7 @@ std::uint32_t ConeChildren::touched_by(const PlacedTriangle& t, const Double3& c
     const std::uint32_t possible = possible_children(t);
     // What is on one side of a plane through the centre does not hold it.
     if (possible == 0xff && triangles_touch(t.corners, {centre, centre, centre})) return 0;
-    std::uint32_t mask = sure_children(t) & possible;
+    std::uint32_t mask = sure_children(t.inner_cones).mask & possible;
     std::uint32_t open = possible & ~mask;
     // It touches one of them.
     if (mask == 0 && std::has_single_bit(open)) return open;

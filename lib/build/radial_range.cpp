@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "radial_range.h"
 
-#include <limits>
-
 // The part of a triangle in a cone is that of the weights w >= 0, sum 1, with
 // sum(w_i f_k(i)) >= 0 for the three faces k, and v, a linear function with values v_i at
 // the corners, is to be bounded there. For any y >= 0
@@ -24,6 +22,8 @@
 namespace cdprep::build {
 namespace {
 
+constexpr double kSlacks = 2;  ///< 1.75, and what adding them up rounds
+
 class UpperBound {
 public:
     UpperBound(const FaceValues& f, const std::array<double, 3>& v) noexcept
@@ -42,7 +42,7 @@ public:
 private:
     [[nodiscard]] double of(const std::array<double, 3>& y) const noexcept {
         double most = -std::numeric_limits<double>::infinity();
-        const double share = 2 * (1 + y[0] + y[1] + y[2]);
+        const double share = kSlacks * (1 + y[0] + y[1] + y[2]);
         for (std::size_t i = 0; i < 3; ++i) {
             const double at =
                 v_[i] + (y[0] * f_.at[0][i] + y[1] * f_.at[1][i] + y[2] * f_.at[2][i]);
@@ -92,15 +92,24 @@ private:
 
 }  // namespace
 
-RadialRange radial_range(const ConeFaces& faces, const SeenTriangle& t) noexcept {
-    const FaceValues f = face_values(faces, t);
+void add_part(const ConeFaces& faces, const SeenTriangle& t, RadialRange& range) noexcept {
     std::array<double, 3> sum{};
-    std::array<double, 3> negated{};
+    RadialRange whole;
     for (std::size_t i = 0; i < 3; ++i) {
         sum[i] = sum_in(faces.sign, t[i]);
-        negated[i] = -sum[i];
+        const double slack = kSlacks * slack_of(t[i]);
+        whole.add({sum[i] - slack, sum[i] + slack});
     }
-    return {std::max(0.0, -UpperBound(f, negated).best()), UpperBound(f, sum).best()};
+    const bool lowers = whole.least < range.least && range.least > 0;
+    const bool raises = whole.greatest > range.greatest;
+    // Nearly always the whole triangle is within what others reach.
+    if (!lowers && !raises) return;
+    const FaceValues f = face_values(faces, t);
+    if (raises) range.greatest = std::max(range.greatest, UpperBound(f, sum).best());
+    if (lowers) {
+        const double least = -UpperBound(f, {-sum[0], -sum[1], -sum[2]}).best();
+        range.least = std::min(range.least, std::max(0.0, least));
+    }
 }
 
 }  // namespace cdprep::build
