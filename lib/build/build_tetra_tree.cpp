@@ -231,7 +231,7 @@ private:
     }
 
     void count_piece(const Level& from, const Run& run, std::uint32_t bits, Piece& piece) {
-        ConeChildren children(run.key);
+        ConeChildren children(run.key, result_.tree.level);
         for (std::size_t i = piece.first; i < piece.last; ++i) {
             const std::uint32_t triangle = reference_of(from.items[i]);
             const std::uint32_t home = home_[triangle];

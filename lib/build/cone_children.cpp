@@ -23,14 +23,18 @@ std::uint32_t possible_octants(const SeenTriangle& t) noexcept {
 
 }  // namespace
 
+ConeChildren::ConeChildren(std::uint32_t key, std::uint32_t level) noexcept
+    : key_(key),
+      bits_(key == kRootKey ? 3 : 2),
+      below_(key == kRootKey ? 2 * level : 2 * (level - tetra_level(key) - 1)) {}
+
 ConeChildren::SureChildren ConeChildren::sure_children(const InnerCones& cones) const noexcept {
-    const std::uint32_t bits = key_ == kRootKey ? 3 : 2;
-    const auto width = static_cast<std::uint32_t>(std::bit_width(key_));
     SureChildren sure{0, 0};
     for (const std::uint32_t cone : cones) {
-        const auto deeper = static_cast<std::uint32_t>(std::bit_width(cone));
-        if (deeper < width + bits || cone >> (deeper - width) != key_) continue;
-        sure.mask |= 1U << (cone >> (deeper - width - bits) & ((1U << bits) - 1));
+        // One that is not a finest cone is too short to match.
+        const std::uint32_t child = cone >> below_;
+        if (child >> bits_ != key_) continue;
+        sure.mask |= 1U << (child & ((1U << bits_) - 1));
         ++sure.corners;
     }
     return sure;
@@ -70,8 +74,7 @@ std::uint32_t ConeChildren::possible_children(const PlacedTriangle& t) {
 
 const ConeFaces& ConeChildren::faces_of(std::uint32_t child) {
     if (!faces_[child]) {
-        const std::uint32_t bits = key_ == kRootKey ? 3 : 2;
-        faces_[child] = cone_faces(tetra_cone(key_ << bits | child));
+        faces_[child] = cone_faces(tetra_cone(key_ << bits_ | child));
     }
     return *faces_[child];
 }

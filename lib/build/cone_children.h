@@ -24,8 +24,8 @@ struct PlacedTriangle {
 /// needs when it is first asked for.
 class ConeChildren {
 public:
-    /// `key` is a cone's, or kRootKey.
-    explicit ConeChildren(std::uint32_t key) noexcept : key_(key) {}
+    /// `key` is a cone's above `level`, or kRootKey; inner cones are sought down to `level`.
+    ConeChildren(std::uint32_t key, std::uint32_t level) noexcept;
 
     /// Returns the same as touched_by(), or 0 where cones of the corners do not tell.
     [[nodiscard]] std::uint32_t told_by(const InnerCones& cones) const noexcept;
@@ -45,6 +45,8 @@ private:
     [[nodiscard]] const ConeFaces& faces_of(std::uint32_t child);
 
     std::uint32_t key_;
+    std::uint32_t bits_;   ///< of a child's key behind the cone's
+    std::uint32_t below_;  ///< bits of a finest cone's key behind the child's
     std::array<std::optional<ConeFaces>, 8> faces_;
 };
 
