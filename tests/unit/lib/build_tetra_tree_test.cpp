@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -13,7 +14,6 @@
 #include "cdprep/format/octree.h"
 #include "support/exact_cone.h"
 #include "support/meshes.h"
-#include "support/run_threads.h"
 
 namespace cdprep::test {
 namespace {
@@ -252,6 +252,192 @@ TEST(BuildTetraTree, RadiiHoldTheClippedTrianglesInExactArithmetic) {
             }
         }
     }
+}
+
+// Nothing is lost but the rounding to float where edges cross planes at no grazing angle.
+TEST(BuildTetraTree, RadiiAreTight) {
+    const TestMesh mesh = in_floats(moved_by(icosphere(2), 1.1, {0.01, 0.02, 0.03}));
+    const TetraTree tree = tree_of(mesh, {.level = 2});
+    const double frame = std::ldexp(1.0, -std::ilogb(longest_side(mesh)) - 2) / std::sqrt(3.0);
+    for (const TetraNode& node : tree.nodes) {
+        if (!is_leaf(node)) continue;
+        const std::uint32_t octant = node.key >> (2 * tetra_level(node.key));
+        double least = INFINITY;
+        double greatest = 0;
+        for (const std::uint32_t triangle : list_of(tree, node)) {
+            for (const ExactPoint& p :
+                 cut_by_cone(corners_of(mesh, triangle), tree.tree.centre, tetra_cone(node.key))) {
+                double sum = 0;
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    const auto x = static_cast<double>(p[axis].approximation());
+                    sum += (octant >> axis & 1U) != 0 ? -x : x;
+                }
+                least = std::min(least, sum * frame);
+                greatest = std::max(greatest, sum * frame);
+            }
+        }
+        EXPECT_NEAR(node.radius_min, least, 0x1p-20 * least);
+        EXPECT_NEAR(node.radius_max, greatest, 0x1p-20 * greatest);
+    }
+}
+
+TEST(BuildTetraTree, RadiusMinIsZeroOfThePapersTetrahedra) {
+    const TestMesh mesh = icosphere(2);
+    const TetraTree caps = tree_of(mesh, {});
+    TetraTree tetra = tree_of(mesh, {.bounding = format::TetraBounding::tetra});
+    ASSERT_EQ(tetra.nodes.size(), caps.nodes.size());
+    for (std::size_t i = 0; i < caps.nodes.size(); ++i) {
+        EXPECT_EQ(tetra.nodes[i].radius_min, 0);
+        EXPECT_EQ(tetra.nodes[i].radius_max, caps.nodes[i].radius_max);
+        EXPECT_GT(caps.nodes[i].radius_min, 0);
+    }
+}
+
+// By hand.
+TEST(BuildTetraTree, TheCentreIsTheMeanOfTheVerticesThatTrianglesUse) {
+    TestMesh mesh = {{{0, 0, 0.1}, {1, 0, 0.1}, {0, 1, 0.1}, {1e300, NAN, -7}, {3, 3, 0.1}},
+                     {{{0, 1, 2}}, {{0, 1, 4}}, {{1, 0, 2}}}};
+    const TetraTree tree = build_tetra_tree(mesh.positions, mesh.triangles);
+    EXPECT_EQ(tree.tree.centre, (Double3{1, 1, 0.1}));  // a flat mesh stays in its plane
+    mesh.positions[4] = {3, 3.1, 0.1};
+    EXPECT_NEAR(build_tetra_tree(mesh.positions, mesh.triangles).tree.centre.y, 1.025, 1e-15);
+    mesh = in_floats(moved_by(icosphere(2), 1, {0.123, 0, 0}));
+    const double x = build_tetra_tree(mesh.positions, mesh.triangles).tree.centre.x;
+    EXPECT_EQ(x, double{static_cast<float>(x)});
+    EXPECT_NEAR(x, 0.123, 1e-7);
+}
+
+TEST(BuildTetraTree, SaysWhetherTheCentreIsInside) {
+    const auto flags = [](const TestMesh& mesh) {
+        return build_tetra_tree(mesh.positions, mesh.triangles, {.level = 2}).tree.flags;
+    };
+    const TestMesh sphere = moved_by(icosphere(2), 1, {1e6, 0.3, -2});
+    EXPECT_EQ(flags(sphere), format::tetra_centre_inside);
+    EXPECT_EQ(flags(reversed(sphere)), format::tetra_centre_inside);
+    EXPECT_EQ(flags(moved_by(icosphere(2), 0x1p-1000, {})), format::tetra_centre_inside);
+    EXPECT_EQ(flags(torus(1, 0.3, 20, 9)), 0U);
+    // Hollow.
+    EXPECT_EQ(flags(joined(icosphere(2), reversed(moved_by(icosphere(2), 0.5, {})))), 0U);
+    EXPECT_EQ(flags(plate()), format::tetra_centre_on);
+}
+
+/// A parallel_for of so many threads, which take tasks from the last.
+class Threads {
+public:
+    explicit Threads(std::size_t count) : count_(count) {}
+    void operator()(std::size_t tasks, Task task) const {
+        std::atomic<std::size_t> left = tasks;
+        const auto work = [&] {
+            for (std::size_t i = left--; i - 1 < tasks; i = left--) task(i - 1);
+        };
+        std::vector<std::thread> threads;
+        for (std::size_t i = 0; i < count_; ++i) threads.emplace_back(work);
+        for (std::thread& thread : threads) thread.join();
+    }
+
+private:
+    std::size_t count_;
+};
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+bool same_bytes(const TetraTree& a, const TetraTree& b) {
+    return std::memcmp(&a.tree, &b.tree, sizeof a.tree) == 0 && same_bytes(a.nodes, b.nodes) &&
+           same_bytes(a.references, b.references) && same_bytes(a.top, b.top);
+}
+
+TEST(BuildTetraTree, IsTheSameOnAnyNumberOfThreads) {
+    for (const TestMesh& mesh : {icosphere(5), moved_by(grid_sheet(60, 60), 1, {-30, -30, 0}),
+                                 random_soup(1, 9000, 0.3), fan(2000)}) {
+        for (const TetraTreeOptions& setting :
+             {TetraTreeOptions{}, TetraTreeOptions{.level = 4, .threshold = 100}}) {
+            const TetraTree alone = tree_of(mesh, setting);
+            for (const std::size_t count : {1U, 2U, 3U, 4U, 6U, 8U}) {
+                const Threads threads(count);
+                TetraTreeOptions options = setting;
+                options.parallel_for = threads;
+                EXPECT_TRUE(same_bytes(tree_of(mesh, options), alone)) << count;
+            }
+        }
+    }
+}
+
+/// Axes permuted, then reversed: 48 of them.
+Double3 turned(const Double3& p, std::size_t number) {
+    std::array<double, 3> x = {p.x, p.y, p.z};
+    for (std::size_t i = 0; i < number / 16; ++i) x = {x[1], x[2], x[0]};
+    if (number / 8 % 2 != 0) std::swap(x[0], x[1]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if ((number >> i & 1U) != 0) x[i] = -x[i];
+    }
+    return {x[0], x[1], x[2]};
+}
+
+// Whole coordinates, and as many on the other side: their mean is 0, exactly.
+TEST(BuildTetraTree, TurningAMeshAboutItsCentreChangesNothingButLabels) {
+    std::mt19937 random(9);
+    std::uniform_int_distribution<int> whole(-40, 40);
+    TestMesh mesh;
+    for (std::uint32_t i = 0; i < 80; ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const Double3 p = {double(whole(random)), double(whole(random)), double(whole(random))};
+            mesh.positions.push_back(p);
+            mesh.positions.push_back({-p.x, -p.y, -p.z});
+        }
+        mesh.triangles.push_back({{6 * i, 6 * i + 2, 6 * i + 5}});
+        mesh.triangles.push_back({{6 * i + 1, 6 * i + 4, 6 * i + 3}});
+    }
+    const TetraTreeOptions options = {.level = 3, .threshold = 12};
+    const TetraTree tree = tree_of(mesh, options);
+    ASSERT_EQ(tree.tree.centre, (Double3{0, 0, 0}));
+    for (std::size_t number = 0; number < 48; ++number) {
+        TestMesh other = mesh;
+        for (Double3& p : other.positions) p = turned(p, number);
+        const TetraTree of_other = tree_of(other, options);
+        ASSERT_EQ(of_other.nodes.size(), tree.nodes.size());
+        EXPECT_EQ(of_other.references.size(), tree.references.size());
+        for (const TetraNode& node : tree.nodes) {
+            Double3 middle{};
+            for (const Generator& g : tetra_cone(node.key).generator) {
+                middle = {middle.x + g[0], middle.y + g[1], middle.z + g[2]};
+            }
+            const std::uint32_t key =
+                tetra_key({0, 0, 0}, turned(middle, number), tetra_level(node.key));
+            const auto same = std::find_if(of_other.nodes.begin(), of_other.nodes.end(),
+                                           [&](const TetraNode& n) { return n.key == key; });
+            ASSERT_TRUE(same != of_other.nodes.end());
+            ASSERT_EQ(same->flags == 0, is_leaf(node));
+            EXPECT_EQ(same->count, node.count);
+            if (is_leaf(node)) {
+                EXPECT_EQ(list_of(of_other, *same), list_of(tree, node));
+            }
+            EXPECT_NEAR(same->radius_min, node.radius_min, 0x1p-20F);
+            EXPECT_NEAR(same->radius_max, node.radius_max, 0x1p-20F);
+        }
+    }
+}
+
+// Of each cone of the top level: the node, or the leaf above it.
+TEST(BuildTetraTree, TheTopTableNamesWhereToGoOn) {
+    for_trees([](const TestMesh&, const TetraTree& tree) {
+        const std::uint32_t first = format::tetra_cones(tree.tree.top_level);
+        ASSERT_EQ(tree.top.size(), first);
+        for (std::uint32_t i = 0; i < first; ++i) {
+            std::uint32_t expected = 0;
+            for (std::uint32_t key = first + i; key >= 8 && expected == 0; key >>= 2) {
+                for (std::uint32_t k = 0; k < tree.nodes.size(); ++k) {
+                    const TetraNode& node = tree.nodes[k];
+                    const bool ends = key == first + i || is_leaf(node);
+                    if (node.key == key && ends) expected = k + 1;
+                }
+            }
+            EXPECT_EQ(tree.top[i], expected);
+        }
+    });
 }
 
 }  // namespace
