@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <limits>
+#include <memory>
 
 #include "cdprep/format/octree.h"
 #include "chunks.h"
@@ -18,7 +19,7 @@
 // cut into pieces of kItemsPerTask: counted first, then moved to places that are known,
 // so that every list rises and no thread waits for another.
 //
-// Scratch, in bytes: 8 a vertex (and 1 while the centre is sought), 4 a triangle; and 9
+// Scratch, in bytes: 20 a vertex (and 1 while the centre is sought), 4 a triangle; and 9
 // a reference of the longest two levels that follow each other, which are no more than
 // those of the result when every cone is split, and the triangles times the octants
 // that they touch.
@@ -79,7 +80,7 @@ class TreeBuilder {
 public:
     TreeBuilder(std::span<const Double3> positions, std::span<const Triangle> triangles,
                 const TetraTreeOptions& options)
-        : positions_(positions), triangles_(triangles), options_(options) {
+        : input_{positions, triangles, {}, {}, 1, 0}, options_(options) {
         TetraTree& result = result_;
         result.tree.level = std::min(options.level, format::kMaxTetraLevel);
         result.tree.threshold = std::max(options.threshold, 1U);
@@ -87,7 +88,7 @@ public:
     }
 
     TetraTree build() {
-        if (!triangles_.empty()) {
+        if (!input_.triangles.empty()) {
             find_centre();
             place_vertices();
             place_triangles();
@@ -100,45 +101,50 @@ public:
     }
 
 private:
-    [[nodiscard]] Corners corners(std::uint32_t triangle) const {
-        const auto& v = triangles_[triangle].vertex;
-        return {positions_[v[0]], positions_[v[1]], positions_[v[2]]};
-    }
-
     void find_centre() {
-        const TetraCentre centre = tetra_centre(positions_, triangles_, options_.parallel_for);
-        centre_ = centre.at;
+        const TetraCentre centre =
+            tetra_centre(input_.positions, input_.triangles, options_.parallel_for);
+        result_.tree.centre = centre.at;
         exponent_ = centre.exponent;
-        scale_ = std::ldexp(1.0, exponent_);
-        result_.tree.centre = centre_;
+        input_.centre = centre.at;
+        input_.scale = std::ldexp(1.0, exponent_);
+        input_.level = result_.tree.level;
     }
 
     void place_vertices() {
-        inner_cone_.resize(positions_.size());
-        reach_.resize(positions_.size());
-        for_chunks(positions_.size(), kItemsPerTask, options_.parallel_for,
+        const std::size_t count = input_.positions.size();
+        places_ = std::make_unique_for_overwrite<PlacedVertex[]>(count);
+        reach_ = std::make_unique_for_overwrite<float[]>(count);
+        input_.places = {places_.get(), count};
+        for_chunks(count, kItemsPerTask, options_.parallel_for,
                    [&](std::size_t first, std::size_t last) {
-                       for (std::size_t i = first; i < last; ++i) {
-                           const SeenPoint p = seen_point(centre_, positions_[i], scale_);
-                           inner_cone_[i] = inner_cone(p, result_.tree.level);
-                           reach_[i] = static_cast<float>(p.size);
-                       }
+                       for (std::size_t i = first; i < last; ++i) place_vertex(i);
                    });
+    }
+    void place_vertex(std::size_t i) {
+        const SeenPoint p = seen_point(input_.centre, input_.positions[i], input_.scale);
+        PlacedVertex& place = places_[i];
+        place.inner_cone = inner_cone(p, input_.level);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            place.at[axis] = static_cast<float>(std::fabs(p.at[axis]) / p.size);
+        }
+        reach_[i] = static_cast<float>(p.size);
     }
 
     void place_triangles() {
-        home_.resize(triangles_.size());
-        for_chunks(triangles_.size(), kItemsPerTask, options_.parallel_for,
+        const std::size_t count = input_.triangles.size();
+        home_ = std::make_unique_for_overwrite<std::uint32_t[]>(count);
+        for_chunks(count, kItemsPerTask, options_.parallel_for,
                    [&](std::size_t first, std::size_t last) {
                        for (std::size_t i = first; i < last; ++i) home_[i] = home_of(i);
                    });
     }
     /// The deepest cone that certainly holds all of the triangle inside; 0 when none does.
     [[nodiscard]] std::uint32_t home_of(std::size_t triangle) const {
-        const auto& v = triangles_[triangle].vertex;
-        const std::uint32_t a = inner_cone_[v[0]];
-        const std::uint32_t b = inner_cone_[v[1]];
-        const std::uint32_t c = inner_cone_[v[2]];
+        const auto& v = input_.triangles[triangle].vertex;
+        const std::uint32_t a = places_[v[0]].inner_cone;
+        const std::uint32_t b = places_[v[1]].inner_cone;
+        const std::uint32_t c = places_[v[2]].inner_cone;
         if (a == b && b == c) return a;
         return a == 0 || b == 0 || c == 0 ? 0 : common_cone_of_three(a, b, c);
     }
@@ -157,7 +163,7 @@ private:
 
     Level octants() {
         Level all;
-        all.items.resize(triangles_.size());
+        all.items.resize(input_.triangles.size());
         for (std::uint32_t i = 0; i < all.items.size(); ++i) all.items[i] = i;
         Level level = split(all, {{kRootKey, 0, all.items.size(), 0}}, 3);
         for (std::size_t i = 0; i < all.items.size(); ++i) {
@@ -231,7 +237,7 @@ private:
     }
 
     void count_piece(const Level& from, const Run& run, std::uint32_t bits, Piece& piece) {
-        ConeChildren children(run.key, result_.tree.level);
+        ConeChildren children(input_, run.key);
         for (std::size_t i = piece.first; i < piece.last; ++i) {
             const std::uint32_t triangle = reference_of(from.items[i]);
             const std::uint32_t home = home_[triangle];
@@ -241,22 +247,13 @@ private:
                 const std::uint32_t child = home >> (static_cast<std::uint32_t>(below) - bits);
                 mask = 1U << (child & ((1U << bits) - 1));
             } else {
-                mask = touched_children(children, triangle);
+                mask = children.touched_by(triangle, home != 0);
             }
             mask_[i] = static_cast<std::uint8_t>(mask);
             for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
                 ++piece.place[static_cast<std::size_t>(std::countr_zero(rest))];
             }
         }
-    }
-
-    [[nodiscard]] std::uint32_t touched_children(ConeChildren& children,
-                                                 std::uint32_t triangle) const {
-        const auto& v = triangles_[triangle].vertex;
-        const InnerCones cones = {inner_cone_[v[0]], inner_cone_[v[1]], inner_cone_[v[2]]};
-        if (const std::uint32_t told = children.told_by(cones); told != 0) return told;
-        const Corners t = corners(triangle);
-        return children.touched_by({t, seen_triangle(centre_, t, scale_), cones}, centre_);
     }
 
     /// Turns counts into places, and makes the children that have something.
@@ -365,8 +362,7 @@ private:
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t item = result_.references[i];
             if ((item & kSharedReference) == 0) continue;
-            const Corners t = corners(reference_of(item));
-            add_part(faces, seen_triangle(centre_, t, scale_), range);
+            add_part(faces, input_.seen(reference_of(item)), range);
         }
         return range;
     }
@@ -378,7 +374,7 @@ private:
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t item = result_.references[i];
             if ((item & kSharedReference) != 0) continue;
-            for (const std::uint32_t v : triangles_[item].vertex) {
+            for (const std::uint32_t v : input_.triangles[item].vertex) {
                 least = std::min(least, reach_[v]);
                 greatest = std::max(greatest, reach_[v]);
             }
@@ -411,11 +407,11 @@ private:
     void find_inside() {
         if (result_.nodes.empty() || result_.tree.centre_count > 0) return;
         const TetraNode& leaf = result_.nodes.back();
-        const Double3 from = behind_centre(centre_, tetra_cone(leaf.key));
+        const Double3 from = behind_centre(input_.centre, tetra_cone(leaf.key));
         int winding = 0;
         for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
             const std::uint32_t triangle = reference_of(result_.references[i]);
-            winding += winding_term(from, centre_, corners(triangle)).crossings;
+            winding += winding_term(from, input_.centre, input_.corners(triangle)).crossings;
         }
         if (winding != 0) result_.tree.flags |= format::tetra_centre_inside;
     }
@@ -439,17 +435,14 @@ private:
         }
     }
 
-    std::span<const Double3> positions_;
-    std::span<const Triangle> triangles_;
+    TetraInput input_;
     TetraTreeOptions options_;
     TetraTree result_;
-    Double3 centre_{};
-    std::int32_t exponent_ = 0;
-    double scale_ = 1;
-    std::vector<std::uint32_t> inner_cone_;  ///< per vertex; 0 when not even an octant is sure
-    std::vector<float> reach_;               ///< per vertex: sum of the sizes, scaled
-    std::vector<std::uint32_t> home_;        ///< per triangle
-    std::vector<std::uint8_t> mask_;         ///< per reference of a level
+    std::int32_t exponent_ = 0;               ///< of input_.scale
+    std::unique_ptr<PlacedVertex[]> places_;  ///< per vertex
+    std::unique_ptr<float[]> reach_;          ///< per vertex: sum of the sizes, scaled
+    std::unique_ptr<std::uint32_t[]> home_;   ///< per triangle
+    std::vector<std::uint8_t> mask_;          ///< per reference of a level
 };
 
 }  // namespace

@@ -7,12 +7,19 @@ namespace cdprep::build {
 namespace {
 
 constexpr std::uint32_t kMiddle = 3;  ///< the child between the other three
+/// Generators of the middle child are m12, m23, m31: across from m12 is the child of v3.
+constexpr std::array<std::uint32_t, 3> kBehind = {2, 0, 1};
+constexpr std::uint32_t kAllChildren = 0xf;
+constexpr std::uint32_t kAllOctants = 0xff;
+
+/// Places are off by 7 u, then rounded to float, at most 1: less than half of this.
+constexpr float kPlaceSlack = 0x1p-23F;
 
 /// The octants that corners of these signs may reach, when all are on one side of some
 /// coordinate planes. Signs of differences are exact.
 std::uint32_t possible_octants(const SeenTriangle& t) noexcept {
     constexpr std::array<std::uint32_t, 3> kPositive = {0x55, 0x33, 0x0f};
-    std::uint32_t mask = 0xff;
+    std::uint32_t mask = kAllOctants;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double a = t[0].at[axis], b = t[1].at[axis], c = t[2].at[axis];
         if (a > 0 && b > 0 && c > 0) mask &= kPositive[axis];
@@ -21,46 +28,71 @@ std::uint32_t possible_octants(const SeenTriangle& t) noexcept {
     return mask;
 }
 
+/// The octants that the corners lie strictly in, when that are two side by side: then the
+/// triangle is nowhere else. 0 when not.
+std::uint32_t neighbours_of(const std::array<const PlacedVertex*, 3>& at) noexcept {
+    std::uint32_t differing = 0;
+    std::uint32_t mask = 0;
+    const auto octant_of = [](std::uint32_t cone) {
+        return cone >> (static_cast<std::uint32_t>(std::bit_width(cone)) - kOctantKeyBits) & 7U;
+    };
+    for (const PlacedVertex* p : at) {
+        if (p->inner_cone == 0) return 0;
+        mask |= 1U << octant_of(p->inner_cone);
+        differing |= octant_of(p->inner_cone) ^ octant_of(at[0]->inner_cone);
+    }
+    return (differing & (differing - 1)) == 0 ? mask : 0;
+}
+
 }  // namespace
 
-ConeChildren::ConeChildren(std::uint32_t key, std::uint32_t level) noexcept
-    : key_(key),
+ConeChildren::ConeChildren(const TetraInput& input, std::uint32_t key) noexcept
+    : input_(input),
+      key_(key),
       bits_(key == kRootKey ? 3 : 2),
-      below_(key == kRootKey ? 2 * level : 2 * (level - tetra_level(key) - 1)) {}
-
-ConeChildren::SureChildren ConeChildren::sure_children(const InnerCones& cones) const noexcept {
-    SureChildren sure{0, 0};
-    for (const std::uint32_t cone : cones) {
-        // One that is not a finest cone is too short to match.
-        const std::uint32_t child = cone >> below_;
-        if (child >> bits_ != key_) continue;
-        sure.mask |= 1U << (child & ((1U << bits_) - 1));
-        ++sure.corners;
+      below_(key == kRootKey ? 2 * input.level : 2 * (input.level - tetra_level(key) - 1)) {
+    if (key == kRootKey) return;
+    middle_ = cone_faces(tetra_cone(key << 2 | kMiddle));
+    for (std::size_t k = 0; k < 3; ++k) {
+        const ConeFace& face = middle_.face[k];
+        const auto weight = static_cast<float>(face.weight);  // exact
+        borders_[face.axis] = {weight - kPlaceSlack, weight + kPlaceSlack, 1U << kBehind[k]};
     }
-    return sure;
 }
 
-// With all corners in two children that one plane parts, or in one, nothing of the triangle
-// is elsewhere: both together are convex. So are the middle child and some of the others.
-std::uint32_t ConeChildren::told_by(const InnerCones& cones) const noexcept {
-    const SureChildren sure = sure_children(cones);
-    if (sure.corners < 3) return 0;
-    if (key_ != kRootKey) {
-        return (sure.mask >> kMiddle & 1U) != 0 || std::has_single_bit(sure.mask) ? sure.mask : 0;
+/// The children that corners certainly lie in.
+std::uint32_t ConeChildren::sure_children(const Places& at) const noexcept {
+    std::uint32_t mask = 0;
+    for (const PlacedVertex* p : at) {
+        // An inner cone that is not a finest one is too short to match.
+        const std::uint32_t child = p->inner_cone >> below_;
+        if (child >> bits_ == key_) mask |= 1U << (child & ((1U << bits_) - 1));
     }
-    const auto lowest = static_cast<std::uint32_t>(std::countr_zero(sure.mask));
-    const auto highest = static_cast<std::uint32_t>(std::bit_width(sure.mask)) - 1;
-    const bool is_pair = sure.mask == (1U << lowest | 1U << highest);
-    return is_pair && std::popcount(lowest ^ highest) <= 1 ? sure.mask : 0;
+    return mask;
 }
 
-/// The children that the planes of the middle one do not keep the triangle from.
-std::uint32_t ConeChildren::possible_children(const PlacedTriangle& t) {
-    if (key_ == kRootKey) return possible_octants(t.seen);
-    // Generators m12, m23, m31: across from m12 is the child of v3, and so on.
-    constexpr std::array<std::uint32_t, 3> kBehind = {2, 0, 1};
-    const FaceValues f = face_values(faces_of(kMiddle), t.seen);
-    std::uint32_t mask = 0xf;
+// What has all corners on one side of a plane through the centre is there. In one octant
+// planes are lines of its face.
+std::uint32_t ConeChildren::possible_by_places(const Places& at) const noexcept {
+    const bool is_upright = middle_.face[0].side > 0;  // as are all three
+    std::uint32_t mask = kAllChildren;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float a = at[0]->at[axis], b = at[1]->at[axis], c = at[2]->at[axis];
+        const float least = std::min(std::min(a, b), c);
+        const float most = std::max(std::max(a, b), c);
+        const Border& border = borders_[axis];
+        const bool all_above = least > border.below;
+        const bool all_below = most < border.above;
+        const std::uint32_t not_behind = is_upright ? all_above : all_below;
+        const std::uint32_t behind = is_upright ? all_below : all_above;
+        mask &= ~(border.child & (0 - not_behind)) & (border.child | (behind - 1));
+    }
+    return mask;
+}
+
+std::uint32_t ConeChildren::possible_by_values(const SeenTriangle& t) const noexcept {
+    const FaceValues f = face_values(middle_, t);
+    std::uint32_t mask = kAllChildren;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto& at = f.at[k];
         const auto& slack = f.slack;
@@ -72,29 +104,42 @@ std::uint32_t ConeChildren::possible_children(const PlacedTriangle& t) {
     return mask;
 }
 
-const ConeFaces& ConeChildren::faces_of(std::uint32_t child) {
-    if (!faces_[child]) {
-        faces_[child] = cone_faces(tetra_cone(key_ << bits_ | child));
-    }
-    return *faces_[child];
-}
-
-std::uint32_t ConeChildren::touched_by(const PlacedTriangle& t, const Double3& centre) {
-    const std::uint32_t possible = possible_children(t);
-    // What is on one side of a plane through the centre does not hold it.
-    if (possible == 0xff && triangles_touch(t.corners, {centre, centre, centre})) return 0;
-    std::uint32_t mask = sure_children(t.inner_cones).mask & possible;
-    std::uint32_t open = possible & ~mask;
-    // It touches one of them.
-    if (mask == 0 && std::has_single_bit(open)) return open;
-    for (; open != 0; open &= open - 1) {
-        const auto child = static_cast<std::uint32_t>(std::countr_zero(open));
-        const ConeFaces& faces = faces_of(child);
-        if (touches_faces(t.corners, centre, faces, face_values(faces, t.seen))) {
+/// Of these children those that the triangle touches, by exact tests.
+std::uint32_t ConeChildren::touched_among(std::uint32_t triangle, std::uint32_t children) {
+    const Corners t = input_.corners(triangle);
+    const SeenTriangle seen = seen_triangle(input_.centre, t, input_.scale);
+    std::uint32_t mask = 0;
+    for (; children != 0; children &= children - 1) {
+        const auto child = static_cast<std::uint32_t>(std::countr_zero(children));
+        std::optional<ConeFaces>& faces = faces_[child];
+        if (!faces) faces = cone_faces(tetra_cone(key_ << bits_ | child));
+        if (touches_faces(t, input_.centre, *faces, face_values(*faces, seen))) {
             mask |= 1U << child;
         }
     }
     return mask;
+}
+
+std::uint32_t ConeChildren::touched_by(std::uint32_t triangle, bool in_octant) {
+    const auto& v = input_.triangles[triangle].vertex;
+    const Places at = {&input_.places[v[0]], &input_.places[v[1]], &input_.places[v[2]]};
+    const std::uint32_t sure = sure_children(at);
+    std::uint32_t possible = 0;
+    if (key_ == kRootKey) {
+        if (const std::uint32_t octants = neighbours_of(at); octants != 0) return octants;
+        possible = possible_octants(input_.seen(triangle));
+        // What is on one side of a plane through the centre does not hold it.
+        const Double3& c = input_.centre;
+        if (possible == kAllOctants && triangles_touch(input_.corners(triangle), {c, c, c})) {
+            return 0;
+        }
+    } else {
+        possible = in_octant ? possible_by_places(at) : possible_by_values(input_.seen(triangle));
+    }
+    // It touches one of them.
+    if ((possible & (possible - 1)) == 0) return possible;
+    const std::uint32_t open = possible & ~sure;
+    return open == 0 ? sure & possible : (sure & possible) | touched_among(triangle, open);
 }
 
 }  // namespace cdprep::build
