@@ -5,11 +5,13 @@
 #include <limits>
 #include <memory>
 
+#include "cdprep/build_octree.h"
 #include "cdprep/format/octree.h"
 #include "chunks.h"
 #include "cone_children.h"
 #include "frame_map.h"
 #include "radial_range.h"
+#include "split_at_once.h"
 #include "tetra_centre.h"
 #include "winding.h"
 
@@ -17,12 +19,12 @@
 // down to its children. Most triangles lie inside one finest cone, which is known from
 // their corners alone (inner_cone); for the others the exact test is asked. Lists are
 // cut into pieces of kItemsPerTask: counted first, then moved to places that are known,
-// so that every list rises and no thread waits for another.
+// so that every list rises and no thread waits for another. The first levels, whose cones
+// are split anyway, are done in one step.
 //
-// Scratch, in bytes: 20 a vertex (and 1 while the centre is sought), 4 a triangle; and 9
-// a reference of the longest two levels that follow each other, which are no more than
-// those of the result when every cone is split, and the triangles times the octants
-// that they touch.
+// Scratch, in bytes: 20 a vertex, and 1 while the centre is sought; 4 a triangle, and 3 in
+// the first step; 9 a reference of the two levels that follow each other, either of them no
+// more than the result has: a triangle that touches a cone touches a child.
 
 namespace cdprep::build {
 namespace {
@@ -47,12 +49,13 @@ struct Piece {
     std::size_t run;
     std::size_t first;
     std::size_t last;
-    std::array<std::size_t, 8> place;  ///< for each child: first references there, then where to
+    std::array<std::size_t, 4> place;  ///< for each child: how many, then where the next goes
 };
 
 /// One level: who is where.
 struct Level {
-    std::vector<std::uint32_t> items;
+    std::unique_ptr<std::uint32_t[]> items;
+    std::size_t count;
     std::vector<Run> runs;
 };
 
@@ -153,48 +156,136 @@ private:
         return ab == 0 ? 0 : common_cone(ab, c);
     }
 
-    /// The part of a level that is split, of which the caller keeps the rest.
     void split_levels() {
-        Level level = octants();
-        for (std::uint32_t depth = 0; !level.runs.empty(); ++depth) {
-            level = split(level, take_leaves(level, depth), 2);
+        std::uint32_t depth = level_at_once();
+        Level level = first_level(depth);
+        for (; !level.runs.empty(); ++depth) {
+            std::vector<Run> inner = runs_to_split(level, depth);
+            std::vector<Piece> pieces = count_children(level, inner);
+            if (!has_room(level, inner, pieces)) {
+                inner.clear();
+                pieces.clear();
+            }
+            take_nodes(level, inner);
+            level = move_down(level, inner, pieces);
         }
     }
 
-    Level octants() {
-        Level all;
-        all.items.resize(input_.triangles.size());
-        for (std::uint32_t i = 0; i < all.items.size(); ++i) all.items[i] = i;
-        Level level = split(all, {{kRootKey, 0, all.items.size(), 0}}, 3);
-        for (std::size_t i = 0; i < all.items.size(); ++i) {
-            if (mask_[i] == 0) result_.references.push_back(static_cast<std::uint32_t>(i));
+    /// The level that triangles are sorted into first: where cones above it are split anyway,
+    /// their lists are not asked for. Where triangles are few for it, that is not likely.
+    [[nodiscard]] std::uint32_t level_at_once() const {
+        constexpr std::size_t kTimes = 8;
+        const format::TetraTree& tree = result_.tree;
+        const std::uint32_t level = std::min(tree.level, kMostLevelAtOnce);
+        const std::size_t enough =
+            kTimes * std::size_t{tree.threshold} * format::tetra_cones(level);
+        return tree.threshold == 1 || input_.triangles.size() >= enough ? level : 0;
+    }
+
+    /// The cones of level `depth`, below those of the levels above; or the octants, and then
+    /// `depth` is 0.
+    Level first_level(std::uint32_t& depth) {
+        ConeLists lists = split_at_once(input_, home_.get(), depth, options_.parallel_for);
+        if (!may_be_first(lists, depth)) {
+            depth = 0;
+            lists = split_at_once(input_, home_.get(), 0, options_.parallel_for);
         }
+        result_.references = std::move(lists.centre);
         result_.tree.centre_count = static_cast<std::uint32_t>(result_.references.size());
         if (result_.tree.centre_count > 0) result_.tree.flags |= format::tetra_centre_on;
-        return level;
+        for (std::uint32_t above = 0; above < depth; ++above) take_inner(lists, depth, above);
+        return {std::move(lists.items), lists.first.back(), runs_of(lists, depth, depth)};
     }
 
-    /// Adds a level's cones to the tree, with the lists of its leaves. Returns the others.
-    std::vector<Run> take_leaves(const Level& level, std::uint32_t depth) {
+    /// The cones of level `above` that something in the lists of level `level` lies in.
+    static std::vector<Run> runs_of(const ConeLists& lists, std::uint32_t level,
+                                    std::uint32_t above) {
+        std::vector<Run> runs;
+        const std::uint32_t below = 2 * (level - above);
+        for (std::uint32_t i = 0; i < format::tetra_cones(above); ++i) {
+            const std::size_t first = lists.first[std::size_t{i} << below];
+            const std::size_t last = lists.first[(std::size_t{i} + 1) << below];
+            if (last > first) runs.push_back({format::tetra_cones(above) + i, first, last, 0});
+        }
+        return runs;
+    }
+
+    /// Whether all cones above would be split: they hold what any cone below holds.
+    [[nodiscard]] bool may_be_first(const ConeLists& lists, std::uint32_t level) const {
+        if (level == 0) return true;
+        if (lists.first.back() > most_references()) return false;
+        std::vector<std::size_t> most(format::tetra_cones(level));
+        for (std::size_t i = 0; i < most.size(); ++i) most[i] = lists.first[i + 1] - lists.first[i];
+        while (most.size() > format::tetra_cones(0)) {
+            for (std::size_t i = 0; 4 * i < most.size(); ++i) {
+                const auto children = most.begin() + static_cast<std::ptrdiff_t>(4 * i);
+                most[i] = *std::max_element(children, children + 4);
+                if (most[i] > 0 && most[i] < result_.tree.threshold) return false;
+            }
+            most.resize(most.size() / 4);
+        }
+        return true;
+    }
+
+    /// Adds the cones of level `above`, all of which are split.
+    void take_inner(const ConeLists& lists, std::uint32_t level, std::uint32_t above) {
+        const std::vector<Run> runs = runs_of(lists, level, above);
+        const std::vector<Run> children = runs_of(lists, level, above + 1);
+        const std::size_t end = result_.nodes.size() + runs.size();
+        std::size_t child = 0;
+        for (const Run& run : runs) {
+            const std::size_t first = child;
+            while (child < children.size() && children[child].key >> 2 == run.key) ++child;
+            result_.nodes.push_back({run.key, 0, 0, 0, 0, format::tetra_inner});
+            link_children(result_.nodes.back(), end + first,
+                          std::span(children).subspan(first, child - first));
+        }
+    }
+
+    [[nodiscard]] std::uint64_t most_references() const {
+        constexpr std::uint64_t kMost = std::uint64_t{1} << 31;
+        const std::uint64_t share = kMostReferencesPerTriangle * input_.triangles.size();
+        return std::min(kMostFreeReferences + share, kMost);
+    }
+
+    [[nodiscard]] std::vector<Run> runs_to_split(const Level& level, std::uint32_t depth) const {
         std::vector<Run> inner;
+        if (depth == result_.tree.level) return inner;
         for (const Run& run : level.runs) {
-            const std::size_t count = run.last - run.first;
-            const bool is_leaf = depth == result_.tree.level || count < result_.tree.threshold;
+            if (run.last - run.first >= result_.tree.threshold) inner.push_back(run);
+        }
+        return inner;
+    }
+
+    /// Whether the references of the level, with these cones split, are not too many.
+    [[nodiscard]] bool has_room(const Level& level, const std::vector<Run>& inner,
+                                const std::vector<Piece>& pieces) const {
+        std::uint64_t count = result_.references.size() + level.count;
+        for (const Run& run : inner) count -= run.last - run.first;
+        for (const Piece& piece : pieces) {
+            for (const std::size_t child : piece.place) count += child;
+        }
+        return count <= most_references();
+    }
+
+    /// Adds a level's cones to the tree, with the lists of those that are not split.
+    void take_nodes(const Level& level, std::vector<Run>& inner) {
+        std::vector<std::uint32_t>& references = result_.references;
+        std::size_t next = 0;
+        for (const Run& run : level.runs) {
             TetraNode node{};
             node.key = run.key;
-            if (is_leaf) {
-                node.first = static_cast<std::uint32_t>(result_.references.size());
-                node.count = static_cast<std::uint32_t>(count);
-                const auto first = level.items.begin() + static_cast<std::ptrdiff_t>(run.first);
-                result_.references.insert(result_.references.end(), first,
-                                          first + static_cast<std::ptrdiff_t>(count));
-            } else {
+            if (next < inner.size() && inner[next].key == run.key) {
                 node.flags = format::tetra_inner;
-                inner.push_back({run.key, run.first, run.last, result_.nodes.size()});
+                inner[next++].node = result_.nodes.size();
+            } else {
+                node.first = static_cast<std::uint32_t>(references.size());
+                node.count = static_cast<std::uint32_t>(run.last - run.first);
+                references.insert(references.end(), level.items.get() + run.first,
+                                  level.items.get() + run.last);
             }
             result_.nodes.push_back(node);
         }
-        return inner;
     }
 
     static std::vector<Piece> pieces_of(const std::vector<Run>& runs) {
@@ -225,69 +316,67 @@ private:
         });
     }
 
-    /// The children, 2^bits each, of cones that are split; and in mask_ who went where.
-    Level split(const Level& from, const std::vector<Run>& runs, std::uint32_t bits) {
+    /// How many of each piece go to each child; and in mask_ who goes where.
+    std::vector<Piece> count_children(const Level& level, const std::vector<Run>& runs) {
         std::vector<Piece> pieces = pieces_of(runs);
-        mask_.resize(from.items.size());
-        for_pieces(pieces, [&](Piece& piece) { count_piece(from, runs[piece.run], bits, piece); });
-        Level level;
-        place_pieces(runs, bits, pieces, level);
-        for_pieces(pieces, [&](Piece& piece) { move_piece(from, piece, level); });
-        return level;
+        if (pieces.empty()) return pieces;
+        mask_ = std::make_unique_for_overwrite<std::uint8_t[]>(level.count);
+        for_pieces(pieces, [&](Piece& piece) { count_piece(level, runs[piece.run].key, piece); });
+        return pieces;
     }
 
-    void count_piece(const Level& from, const Run& run, std::uint32_t bits, Piece& piece) {
-        ConeChildren children(input_, run.key);
+    void count_piece(const Level& level, std::uint32_t key, Piece& piece) {
+        ConeChildren children(input_, key);
+        const int width = std::bit_width(key);
         for (std::size_t i = piece.first; i < piece.last; ++i) {
-            const std::uint32_t triangle = reference_of(from.items[i]);
+            const std::uint32_t triangle = reference_of(level.items[i]);
             const std::uint32_t home = home_[triangle];
-            const int below = std::bit_width(home) - std::bit_width(run.key);
-            std::uint32_t mask = 0;
-            if (below > 0) {
-                const std::uint32_t child = home >> (static_cast<std::uint32_t>(below) - bits);
-                mask = 1U << (child & ((1U << bits) - 1));
-            } else {
-                mask = children.touched_by(triangle, home != 0);
-            }
+            const int below = std::bit_width(home) - width;
+            const std::uint32_t mask = below > 0 ? 1U << (home >> (below - 2) & 3U)
+                                                 : children.touched_by(triangle, home != 0);
             mask_[i] = static_cast<std::uint8_t>(mask);
-            for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
-                ++piece.place[static_cast<std::size_t>(std::countr_zero(rest))];
+            for (std::size_t child = 0; child < 4; ++child) {
+                piece.place[child] += mask >> child & 1U;
             }
         }
     }
 
-    /// Turns counts into places, and makes the children that have something.
-    void place_pieces(const std::vector<Run>& runs, std::uint32_t bits, std::vector<Piece>& pieces,
-                      Level& level) {
-        std::size_t end = 0;
+    /// The children that have something, each list in the order of its parent's.
+    Level move_down(const Level& from, const std::vector<Run>& runs, std::vector<Piece>& pieces) {
+        Level level{};
         std::size_t piece = 0;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             const std::size_t first_piece = piece;
             while (piece < pieces.size() && pieces[piece].run == i) ++piece;
             const std::size_t first_child = level.runs.size();
-            for (std::uint32_t child = 0; child < 1U << bits; ++child) {
-                const std::size_t begin = end;
-                for (std::size_t k = first_piece; k < piece; ++k) {
-                    const std::size_t count = pieces[k].place[child];
-                    pieces[k].place[child] = end;
-                    end += count;
-                }
-                if (end == begin) continue;
-                level.runs.push_back({runs[i].key << bits | child, begin, end, 0});
-            }
-            if (runs[i].key != kRootKey) link_children(runs[i].node, level.runs, first_child);
+            place_pieces(runs[i].key, std::span(pieces).subspan(first_piece, piece - first_piece),
+                         level);
+            link_children(result_.nodes[runs[i].node], result_.nodes.size() + first_child,
+                          std::span(level.runs).subspan(first_child));
         }
-        level.items.resize(end);
+        level.items = std::make_unique_for_overwrite<std::uint32_t[]>(level.count);
+        for_pieces(pieces, [&](Piece& part) { move_piece(from, part, level); });
+        return level;
     }
 
-    /// The children will be the next nodes, in the order of their runs.
-    void link_children(std::size_t node, const std::vector<Run>& runs, std::size_t first_child) {
-        TetraNode& parent = result_.nodes[node];
-        parent.first = static_cast<std::uint32_t>(result_.nodes.size() + first_child);
-        parent.count = static_cast<std::uint32_t>(runs.size() - first_child);
-        for (std::size_t i = first_child; i < runs.size(); ++i) {
-            parent.flags |= 1U << (runs[i].key & 3U);
+    /// Turns counts of one cone's pieces into places, and adds its children to the level.
+    static void place_pieces(std::uint32_t key, std::span<Piece> pieces, Level& level) {
+        for (std::uint32_t child = 0; child < 4; ++child) {
+            const std::size_t begin = level.count;
+            for (Piece& piece : pieces) {
+                const std::size_t count = piece.place[child];
+                piece.place[child] = level.count;
+                level.count += count;
+            }
+            if (level.count > begin)
+                level.runs.push_back({key << 2 | child, begin, level.count, 0});
         }
+    }
+
+    static void link_children(TetraNode& parent, std::size_t first, std::span<const Run> children) {
+        parent.first = static_cast<std::uint32_t>(first);
+        parent.count = static_cast<std::uint32_t>(children.size());
+        for (const Run& child : children) parent.flags |= 1U << (child.key & 3U);
     }
 
     void move_piece(const Level& from, Piece& piece, Level& level) const {
@@ -442,7 +531,7 @@ private:
     std::unique_ptr<PlacedVertex[]> places_;  ///< per vertex
     std::unique_ptr<float[]> reach_;          ///< per vertex: sum of the sizes, scaled
     std::unique_ptr<std::uint32_t[]> home_;   ///< per triangle
-    std::vector<std::uint8_t> mask_;          ///< per reference of a level
+    std::unique_ptr<std::uint8_t[]> mask_;    ///< per reference of a level
 };
 
 }  // namespace

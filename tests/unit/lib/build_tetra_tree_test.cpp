@@ -7,10 +7,12 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <random>
 #include <set>
 #include <thread>
 
+#include "cdprep/build_octree.h"
 #include "cdprep/format/octree.h"
 #include "support/exact_cone.h"
 #include "support/meshes.h"
@@ -438,6 +440,67 @@ TEST(BuildTetraTree, TheTopTableNamesWhereToGoOn) {
             EXPECT_EQ(tree.top[i], expected);
         }
     });
+}
+
+/// Keys of leaves and what they list: of a tree with a threshold, from the lists of one that
+/// was split everywhere.
+std::map<std::uint32_t, std::set<std::uint32_t>> expected_leaves(const TetraTree& finest,
+                                                                 std::uint32_t threshold) {
+    std::map<std::uint32_t, std::set<std::uint32_t>> lists;
+    for (const TetraNode& node : finest.nodes) {
+        if (!is_leaf(node)) continue;
+        const std::set<std::uint32_t> list = list_of(finest, node);
+        for (std::uint32_t key = node.key; key >= 8; key >>= 2) {
+            lists[key].insert(list.begin(), list.end());
+        }
+    }
+    for (auto it = lists.begin(); it != lists.end();) {
+        const auto parent = lists.find(it->first >> 2);
+        const bool has_split_parent =
+            it->first < 16 || (parent != lists.end() && parent->second.size() >= threshold);
+        it = has_split_parent ? std::next(it) : lists.erase(it);
+    }
+    std::erase_if(lists, [&](const auto& entry) {
+        return tetra_level(entry.first) < finest.tree.level && entry.second.size() >= threshold;
+    });
+    return lists;
+}
+
+// However lists come about: those of several levels at once, or level by level.
+TEST(BuildTetraTree, AThresholdMergesWhatIsNotSplit) {
+    for (const TestMesh& mesh : {moved_by(icosphere(4), 1, {0.1, 0, 0}), torus(1, 0.4, 90, 40),
+                                 random_soup(8, 9000, 0.2)}) {
+        const TetraTree finest = tree_of(mesh, {.level = 4});
+        for (const std::uint32_t threshold : {2U, 3U, 30U, 200U, 100000U}) {
+            const TetraTree tree = tree_of(mesh, {.level = 4, .threshold = threshold});
+            std::map<std::uint32_t, std::set<std::uint32_t>> leaves;
+            for (const TetraNode& node : tree.nodes) {
+                if (is_leaf(node)) leaves[node.key] = list_of(tree, node);
+            }
+            EXPECT_EQ(leaves, expected_leaves(finest, threshold)) << threshold;
+        }
+    }
+}
+
+// Level 14 of an octahedron would have 2^31 leaves.
+TEST(BuildTetraTree, DoesNotOutgrowItsLimit) {
+    const TestMesh mesh = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}},
+                           {{{0, 1, 2}},
+                            {{1, 3, 2}},
+                            {{3, 4, 2}},
+                            {{4, 0, 2}},
+                            {{1, 0, 5}},
+                            {{3, 1, 5}},
+                            {{4, 3, 5}},
+                            {{0, 4, 5}}}};
+    const TetraTree tree = tree_of(mesh, {.level = 14});
+    EXPECT_LE(tree.references.size(), build::kMostFreeReferences + 8 * 64);
+    EXPECT_GT(tree.references.size(), build::kMostFreeReferences / 8);
+    EXPECT_EQ(tree.tree.level, 14U);
+    const std::uint32_t deepest = tetra_level(tree.nodes.back().key);
+    for (const TetraNode& node : tree.nodes) {
+        ASSERT_EQ(is_leaf(node), tetra_level(node.key) == deepest);
+    }
 }
 
 }  // namespace
