@@ -128,8 +128,9 @@ private:
         const SeenPoint p = seen_point(input_.centre, input_.positions[i], input_.scale);
         PlacedVertex& place = places_[i];
         place.inner_cone = inner_cone(p, input_.level);
+        const double one = 1 / p.size;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            place.at[axis] = static_cast<float>(std::fabs(p.at[axis]) / p.size);
+            place.at[axis] = static_cast<float>(std::fabs(p.at[axis]) * one);
         }
         reach_[i] = static_cast<float>(p.size);
     }
@@ -443,37 +444,57 @@ private:
         }
     }
 
-    /// A triangle that is listed in one leaf lies in it, whole: these come first.
+    /// How far its corners are, as far as the sum of sizes is that within the octant.
+    struct Sizes {
+        float least;
+        float greatest;
+    };
+    [[nodiscard]] Sizes sizes_of(std::uint32_t triangle) const {
+        const auto& v = input_.triangles[triangle].vertex;
+        const float a = reach_[v[0]], b = reach_[v[1]], c = reach_[v[2]];
+        return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
+    }
+    /// Rounded to double by 8 u and to float by 2^-24; tiny ones by some 2^-149.
+    static RadialRange range_of(const Sizes& sizes) {
+        constexpr double kRounding = 0x1p-22;
+        constexpr double kTiny = 0x1p-140;
+        return {std::max(0.0, double{sizes.least} * (1 - kRounding) - kTiny),
+                double{sizes.greatest} * (1 + kRounding) + kTiny};
+    }
+
+    /// A triangle that is listed in one leaf lies in it, whole: these come first, the others
+    /// are kept for later. Without a branch: nothing foretells which is which.
     [[nodiscard]] RadialRange reach_of_part(std::uint32_t key, std::size_t begin,
                                             std::size_t end) const {
-        RadialRange range = reach_of_unshared(begin, end);
-        const ConeFaces faces = cone_faces(tetra_cone(key));
+        constexpr float kFar = std::numeric_limits<float>::infinity();
+        std::array<std::uint32_t, kItemsPerTask> shared;
+        std::size_t shared_count = 0;
+        Sizes all = {kFar, 0};
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t item = result_.references[i];
-            if ((item & kSharedReference) == 0) continue;
-            add_part(faces, input_.seen(reference_of(item)), range);
+            const bool is_shared = (item & kSharedReference) != 0;
+            const Sizes sizes = sizes_of(reference_of(item));
+            all.least = std::min(all.least, is_shared ? kFar : sizes.least);
+            all.greatest = std::max(all.greatest, is_shared ? 0 : sizes.greatest);
+            shared[shared_count] = reference_of(item);
+            shared_count += is_shared ? 1 : 0;
         }
+        RadialRange range = all.least == kFar ? RadialRange{} : range_of(all);
+        add_parts(key, std::span(shared.data(), shared_count), range);
         return range;
     }
 
-    [[nodiscard]] RadialRange reach_of_unshared(std::size_t begin, std::size_t end) const {
-        constexpr float kFar = std::numeric_limits<float>::infinity();
-        float least = kFar;
-        float greatest = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t item = result_.references[i];
-            if ((item & kSharedReference) != 0) continue;
-            for (const std::uint32_t v : input_.triangles[item].vertex) {
-                least = std::min(least, reach_[v]);
-                greatest = std::max(greatest, reach_[v]);
-            }
+    /// Of triangles that are in this leaf and in others.
+    void add_parts(std::uint32_t key, std::span<const std::uint32_t> triangles,
+                   RadialRange& range) const {
+        const ConeFaces faces = cone_faces(tetra_cone(key));
+        for (const std::uint32_t triangle : triangles) {
+            const RadialRange whole = range_of(sizes_of(triangle));
+            // Its corners are in one octant, and others reach as far: its part adds nothing.
+            const bool is_within = home_[triangle] != 0 && whole.least >= range.least &&
+                                   whole.greatest <= range.greatest;
+            if (!is_within) add_part(faces, input_.seen(triangle), range);
         }
-        if (least == kFar) return {};
-        // Rounded to double by 8 u and to float by 2^-24; tiny ones by some 2^-149.
-        constexpr double kRounding = 0x1p-22;
-        constexpr double kTiny = 0x1p-140;
-        return {std::max(0.0, double{least} * (1 - kRounding) - kTiny),
-                double{greatest} * (1 + kRounding) + kTiny};
     }
 
     void set_radii(const RadialRange& reach, TetraNode& node) const {

@@ -12,7 +12,7 @@ constexpr std::array<std::uint32_t, 3> kBehind = {2, 0, 1};
 constexpr std::uint32_t kAllChildren = 0xf;
 constexpr std::uint32_t kAllOctants = 0xff;
 
-/// Places are off by 7 u, then rounded to float, at most 1: less than half of this.
+/// Places are off by 8 u, then rounded to float, at most 1: less than half of this.
 constexpr float kPlaceSlack = 0x1p-23F;
 
 /// The octants that corners of these signs may reach, when all are on one side of some
