@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "predicates.h"
+#include "triangle_box_filter.h"
 
 // A box and a triangle are disjoint exactly when one of 13 directions separates them:
 // the box's faces, the triangle's face, and the products of an edge of each (Gottschalk,
@@ -76,6 +77,8 @@ bool triangle_touches_box(const Corners& t, const Box3& box) noexcept {
     const auto& [a, b, c] = t;
     if (!overlap(box_around(t), box) || !overlap(box, box)) return false;
     if (holds(box, a) || holds(box, b) || holds(box, c)) return true;
+    const TouchesBox filtered = TriangleBoxFilter(t, box).touches();
+    if (filtered != TouchesBox::unknown) return filtered == TouchesBox::yes;
     std::array<int, 3> normal{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const Seen view = seen_along(axis, t, box);

@@ -7,6 +7,7 @@
 #include "support/exact_box.h"
 
 #include "triangle_box.h"
+#include "triangle_box_filter.h"
 
 namespace cdprep::test {
 namespace {
@@ -85,6 +86,70 @@ TEST(TriangleBoxLaws, AgreesWithCuttingOnFineNumbers) {
         hits += truth ? 1 : 0;
     }
     expect_two_sided(hits, kCases);
+}
+
+/// A fine case of which one coordinate of the box lies within a few last bits of where
+/// the triangle begins or ends in the others' range.
+Case close_case(std::mt19937& random) {
+    Case c = fine_case(random);
+    const double step = std::ldexp(1.0, -40 - static_cast<int>(random() % 10));
+    // Shrink towards the nearest box that the triangle does not touch.
+    double touching = c.box.upper.x;
+    double apart = c.box.lower.x;
+    while (touching - apart > step) {
+        const double middle = apart + (touching - apart) / 2;
+        c.box.upper.x = middle;
+        (triangle_touches_box(c.t, c.box) ? touching : apart) = middle;
+    }
+    c.box.upper.x = random() % 2 == 0 ? touching : apart;
+    return c;
+}
+
+// Of each pair of boxes that differ in the last bits, one touches: by bisection.
+TEST(TriangleBoxLaws, AgreesWithCuttingWhereTheLastBitsDecide) {
+    std::mt19937 random(74);
+    int hits = 0;
+    constexpr int kCases = 1500;
+    for (int i = 0; i < kCases; ++i) {
+        Case c = close_case(random);
+        if (i % 3 == 1) c = c.scaled(-900);
+        if (i % 3 == 2) c = c.scaled(900);
+        const bool truth = touches_box_by_cutting(c.t, c.box);
+        ASSERT_EQ(triangle_touches_box(c.t, c.box), truth) << "seed 74, case " << i;
+        hits += truth ? 1 : 0;
+    }
+    expect_two_sided(hits, kCases);
+}
+
+using FilterCase = Case (*)(std::mt19937&);
+
+// What doubles say is so; and they seldom leave anything open, but near a change.
+TEST(TriangleBoxLaws, TheFilterIsRightWhenItAnswers) {
+    std::mt19937 random(75);
+    const std::array<FilterCase, 3> kinds = {&fine_case, &close_case,
+                                             [](std::mt19937& r) { return coarse_case(r, 3); }};
+    std::array<int, 3> open{};
+    constexpr int kCases = 700;
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+        for (int i = 0; i < kCases; ++i) {
+            const Case c = kinds[kind](random);
+            if (!overlap(box_around(c.t), c.box)) continue;
+            for (const int exponent : {-1070, -500, 0, 500, 998}) {
+                const Case s = c.scaled(exponent);
+                if (kind != 2 && exponent < -900) continue;  // no longer the same
+                const TouchesBox seen = TriangleBoxFilter(s.t, s.box).touches();
+                if (seen == TouchesBox::unknown) {
+                    open[kind] += exponent == 0 ? 1 : 0;
+                    continue;
+                }
+                ASSERT_EQ(seen == TouchesBox::yes, touches_box_by_cutting(c.t, c.box))
+                    << "seed 75, kind " << kind << ", case " << i << ", exponent " << exponent;
+            }
+        }
+    }
+    EXPECT_LT(open[0], kCases / 100);
+    EXPECT_GT(open[1], kCases / 20);
+    EXPECT_GT(open[2], kCases / 10);
 }
 
 // By symmetry: sizes change nothing.
