@@ -9,6 +9,7 @@
 #include "choose_split.h"
 #include "chunks.h"
 #include "frame_map.h"
+#include "split_box.h"
 #include "triangle_box.h"
 
 // Level by level. The cells of a level have their lists one behind the other in one
@@ -52,11 +53,7 @@ struct Piece {
 };
 
 Box3 child_box(const Cell& cell, std::size_t child) {
-    const auto& [lower, upper] = cell.box;
-    const auto& s = cell.split;
-    const bool x = (child & 1) != 0, y = (child & 2) != 0, z = (child & 4) != 0;
-    return {{x ? s.x : lower.x, y ? s.y : lower.y, z ? s.z : lower.z},
-            {x ? upper.x : s.x, y ? upper.y : s.y, z ? upper.z : s.z}};
+    return split_box(cell.box, cell.split, child);
 }
 
 bool holds(const Box3& outer, const Box3& inner) {

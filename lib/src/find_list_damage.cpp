@@ -8,6 +8,7 @@
 
 #include "cdprep/format/sections.h"
 #include "octree_codes.h"
+#include "split_box.h"
 #include "triangle_box.h"
 
 // Every triangle goes down the tree by itself, into each child whose closed cell it touches,
@@ -33,80 +34,152 @@ Damage wrong_fact(std::span<const std::byte> file, SectionId id, std::uint64_t i
     return {DamageKind::bad_fact, id, at, found, expected};
 }
 
-class OctreeCheck {
+/// A model's octree, as the check sees it.
+class OctreeCells {
 public:
-    OctreeCheck(std::span<const std::byte> file, const Model& model)
-        : file_(file), model_(model), grid_(*model.octree_grid()), moved_(model, nullptr) {}
+    using Node = OctreeNode;
+    static constexpr SectionId kTree = SectionId::octree_grid;
+    static constexpr SectionId kNodes = SectionId::octree_nodes;
+    static constexpr SectionId kReferences = SectionId::octree_references;
+
+    explicit OctreeCells(const Model& model) : grid_(*model.octree_grid()), model_(model) {}
+
+    [[nodiscard]] std::span<const Node> nodes() const {
+        return model_.octree_nodes();
+    }
+    [[nodiscard]] std::span<const std::uint32_t> references() const {
+        return model_.octree_references();
+    }
+    [[nodiscard]] Box3 root() const {
+        return octree_box(grid_, {0, 0, 0}, 0);
+    }
+    /// More than a step inside the cube.
+    [[nodiscard]] bool is_inside(const Double3& p) const {
+        const std::uint32_t last = kOctreeSteps - 1;
+        const auto inside = [&](double origin, double x) {
+            return octree_plane(origin, grid_.step, 1) < x &&
+                   x < octree_plane(origin, grid_.step, last);
+        };
+        return inside(grid_.origin.x, p.x) && inside(grid_.origin.y, p.y) &&
+               inside(grid_.origin.z, p.z);
+    }
+    [[nodiscard]] std::optional<Box3> child(const Node& node, const Box3& /*box*/,
+                                            std::uint32_t child) const {
+        const CellPlace first = octree_place(node.key << 3 | child);
+        return octree_box(grid_, first, level_of(node.key) + 1);
+    }
+
+private:
+    const format::OctreeGrid& grid_;
+    const Model& model_;
+};
+
+/// The same of an octree with split points of its own.
+class AdaptiveOctreeCells {
+public:
+    using Node = format::AdaptiveOctreeNode;
+    static constexpr SectionId kTree = SectionId::adaptive_octree;
+    static constexpr SectionId kNodes = SectionId::adaptive_octree_nodes;
+    static constexpr SectionId kReferences = SectionId::adaptive_octree_references;
+
+    explicit AdaptiveOctreeCells(const Model& model) : model_(model) {}
+
+    [[nodiscard]] std::span<const Node> nodes() const {
+        return model_.adaptive_octree_nodes();
+    }
+    [[nodiscard]] std::span<const std::uint32_t> references() const {
+        return model_.adaptive_octree_references();
+    }
+    [[nodiscard]] Box3 root() const {
+        return {model_.adaptive_octree()->lower, model_.adaptive_octree()->upper};
+    }
+    [[nodiscard]] bool is_inside(const Double3& p) const {
+        return overlap(root(), {p, p});
+    }
+    /// Nothing above an axis that is not divided.
+    [[nodiscard]] std::optional<Box3> child(const Node& node, const Box3& box,
+                                            std::uint32_t child) const {
+        const Double3& s = node.split;
+        const Double3& upper = box.upper;
+        const bool x = (child & 1) != 0, y = (child & 2) != 0, z = (child & 4) != 0;
+        if ((x && s.x == upper.x) || (y && s.y == upper.y) || (z && s.z == upper.z)) {
+            return std::nullopt;
+        }
+        return split_box(box, s, child);
+    }
+
+private:
+    const Model& model_;
+};
+
+template <class Cells>
+class ListCheck {
+public:
+    ListCheck(std::span<const std::byte> file, const Model& model)
+        : file_(file), model_(model), cells_(model), moved_(model, nullptr) {}
 
     Found find_damage() {
         if (const Found damage = find_outside()) return damage;
         std::uint64_t places = 0;
         for (std::uint32_t i = 0; i < model_.triangle_count(); ++i) {
             places_.clear();
-            if (const Found damage = send_down(moved_.corners(i), i, 0)) return damage;
+            if (const Found damage = send_down(moved_.corners(i), i, 0, cells_.root())) {
+                return damage;
+            }
             if (const Found damage = find_wrong_mark()) return damage;
             places += places_.size();
         }
-        if (places == model_.octree_references().size()) return std::nullopt;
-        return wrong_fact(file_, SectionId::octree_references, 0, model_.octree_references().size(),
-                          places);
+        if (places == cells_.references().size()) return std::nullopt;
+        return wrong_fact(file_, Cells::kReferences, 0, cells_.references().size(), places);
     }
 
 private:
+    using Node = typename Cells::Node;
+
     std::span<const std::byte> file_;
     const Model& model_;
-    const format::OctreeGrid& grid_;
+    Cells cells_;
     MovedModel moved_;
     std::vector<std::uint32_t> places_;  ///< references to the triangle that is on its way
 
-    /// A triangle that is not more than a step inside the cube.
     [[nodiscard]] Found find_outside() const {
-        const std::uint32_t last = kOctreeSteps - 1;
-        const auto inside = [](double origin, double step, double x) {
-            return octree_plane(origin, step, 1) < x && x < octree_plane(origin, step, last);
-        };
         for (std::uint32_t i = 0; i < model_.triangle_count(); ++i) {
             for (const Double3& p : moved_.corners(i)) {
-                if (!inside(grid_.origin.x, grid_.step, p.x) ||
-                    !inside(grid_.origin.y, grid_.step, p.y) ||
-                    !inside(grid_.origin.z, grid_.step, p.z)) {
-                    return wrong_fact(file_, SectionId::octree_grid, 0, i, 0);
-                }
+                if (!cells_.is_inside(p)) return wrong_fact(file_, Cells::kTree, 0, i, 0);
             }
         }
         return std::nullopt;
     }
 
     /// From a node whose cell the triangle touches.
-    Found send_down(const Corners& t, std::uint32_t triangle, std::uint32_t number) {
-        const OctreeNode& node = model_.octree_nodes()[number];
+    Found send_down(const Corners& t, std::uint32_t triangle, std::uint32_t number,
+                    const Box3& box) {
+        const Node& node = cells_.nodes()[number];
         if ((node.count & kInnerNode) == 0) return look_up(triangle, number);
-        const std::uint32_t level = level_of(node.key) + 1;
         for (std::uint32_t child = 0; child < 8; ++child) {
-            const CellPlace first = octree_place(node.key << 3 | child);
-            if (!triangle_touches_box(t, octree_box(grid_, first, level))) continue;
+            const std::optional<Box3> below = cells_.child(node, box, child);
+            if (!below || !triangle_touches_box(t, *below)) continue;
             const std::uint32_t children = node.count & 0xff;
             if ((children >> child & 1) == 0) {
-                return wrong_fact(file_, SectionId::octree_nodes, number, children,
-                                  children | 1U << child);
+                return wrong_fact(file_, Cells::kNodes, number, children, children | 1U << child);
             }
             const int before = std::popcount(children & ((1U << child) - 1));
             const std::uint32_t next = node.first + static_cast<std::uint32_t>(before);
-            if (const Found damage = send_down(t, triangle, next)) return damage;
+            if (const Found damage = send_down(t, triangle, next, *below)) return damage;
         }
         return std::nullopt;
     }
 
     /// In a leaf that it touches.
     Found look_up(std::uint32_t triangle, std::uint32_t number) {
-        const OctreeNode& leaf = model_.octree_nodes()[number];
-        const auto list = model_.octree_references().subspan(leaf.first, leaf.count);
+        const Node& leaf = cells_.nodes()[number];
+        const auto list = cells_.references().subspan(leaf.first, leaf.count);
         const auto at = std::lower_bound(list.begin(), list.end(), triangle,
                                          [](std::uint32_t reference, std::uint32_t wanted) {
                                              return (reference & ~kSharedReference) < wanted;
                                          });
         if (at == list.end() || (*at & ~kSharedReference) != triangle) {
-            return wrong_fact(file_, SectionId::octree_nodes, number, leaf.count, triangle);
+            return wrong_fact(file_, Cells::kNodes, number, leaf.count, triangle);
         }
         places_.push_back(leaf.first + static_cast<std::uint32_t>(at - list.begin()));
         return std::nullopt;
@@ -114,10 +187,10 @@ private:
 
     [[nodiscard]] Found find_wrong_mark() const {
         for (const std::uint32_t place : places_) {
-            const std::uint32_t reference = model_.octree_references()[place];
+            const std::uint32_t reference = cells_.references()[place];
             const bool marked = (reference & kSharedReference) != 0;
             if (marked != (places_.size() > 1)) {
-                return wrong_fact(file_, SectionId::octree_references, place, reference,
+                return wrong_fact(file_, Cells::kReferences, place, reference,
                                   reference ^ kSharedReference);
             }
         }
@@ -145,8 +218,13 @@ Found find_lost_node(std::span<const std::byte> file, const Model& model, Sectio
 
 std::optional<format::Damage> find_list_damage(std::span<const std::byte> file,
                                                const Model& model) {
+    if (model.adaptive_octree() != nullptr) {
+        if (const Found damage = ListCheck<AdaptiveOctreeCells>(file, model).find_damage()) {
+            return damage;
+        }
+    }
     if (model.octree_grid() == nullptr) return std::nullopt;
-    if (const Found damage = OctreeCheck(file, model).find_damage()) return damage;
+    if (const Found damage = ListCheck<OctreeCells>(file, model).find_damage()) return damage;
     if (model.octree_modulus_table().empty()) return std::nullopt;
     if (const Found damage = find_lost_node(file, model, SectionId::octree_modulus_table,
                                             model.octree_modulus_table(), &format::modulus_slot)) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "cdprep/format/octree.h"
@@ -130,6 +131,66 @@ TEST(FindListDamage, SeesANodeThatNoChainHolds) {
         }
     }
     EXPECT_GT(seen, 5);
+}
+
+AlignedBytes baked_adaptive(const TestMesh& mesh, const build::AdaptiveOctreeOptions& options) {
+    return with_adaptive_octree(
+        bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}), options);
+}
+
+TEST(FindListDamage, FindsNothingInAdaptiveOctrees) {
+    for (const auto rule : {format::SplitRule::median, format::SplitRule::surface_area}) {
+        for (const TestMesh& mesh :
+             {TestMesh{}, unit_cube(), icosphere(3), coarse_grid_soup(4, 300, 4), fan(50),
+              grid_sheet(9, 9), copies_of_one_triangle(30), random_soup(8, 500, 0.3),
+              moved_by(icosphere(2), 1e-3, {1e6, -1e6, 1e6}), moved_by(icosphere(1), 0x1p-1000, {}),
+              moved_by(icosphere(1), 0x1p999, {})}) {
+            EXPECT_FALSE(check(baked_adaptive(mesh, {.rule = rule})));
+            EXPECT_FALSE(check(baked_adaptive(mesh, {.level = 6, .threshold = 20, .rule = rule})));
+        }
+    }
+}
+
+// As of the octree.
+TEST(FindListDamage, SeesAReferenceToTheWrongTriangleInAnAdaptiveOctree) {
+    const AlignedBytes file = baked_adaptive(icosphere(2), {.level = 2});
+    const SectionId id = SectionId::adaptive_octree_references;
+    auto references = elements<std::uint32_t>(file, id);
+    int seen = 0;
+    for (const auto& node :
+         elements<format::AdaptiveOctreeNode>(file, SectionId::adaptive_octree_nodes)) {
+        if ((node.count & kInnerNode) != 0) continue;
+        const std::size_t last = node.first + node.count - 1;
+        const std::uint32_t before = references[last];
+        if ((before & ~kSharedReference) + 1 >= 320) continue;
+        ++references[last];
+        const auto damage = check(with(file, id, references));
+        ASSERT_TRUE(damage);
+        EXPECT_EQ(damage->kind, DamageKind::bad_fact);
+        references[last] = before;
+        ++seen;
+    }
+    EXPECT_GT(seen, 10);
+    for (std::size_t i = 0; i < references.size(); i += 7) {
+        references[i] ^= kSharedReference;
+        const auto damage = check(with(file, id, references));
+        ASSERT_TRUE(damage);
+        EXPECT_EQ(damage->section, id);
+        references[i] ^= kSharedReference;
+    }
+}
+
+// A split that is moved by a bit through a vertex; and a root that lost a corner.
+TEST(FindListDamage, SeesASplitThatWasMoved) {
+    const AlignedBytes file = baked_adaptive(icosphere(2), {.level = 2});
+    auto nodes = elements<format::AdaptiveOctreeNode>(file, SectionId::adaptive_octree_nodes);
+    nodes[0].split.x += 0.05;
+    EXPECT_TRUE(check(with(file, SectionId::adaptive_octree_nodes, nodes)));
+    auto tree = elements<format::AdaptiveOctree>(file, SectionId::adaptive_octree);
+    tree[0].upper.y = std::nextafter(tree[0].upper.y, 0.0);
+    const auto damage = check(with(file, SectionId::adaptive_octree, tree));
+    ASSERT_TRUE(damage);
+    EXPECT_EQ(damage->section, SectionId::adaptive_octree);
 }
 
 }  // namespace
