@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 
+#include "cdprep/build_octree.h"
 #include "choose_split.h"
 #include "chunks.h"
 #include "frame_map.h"
@@ -18,10 +18,10 @@
 // its part of the children's lists goes. So lists rise as the first one did, and nothing
 // depends on who did which piece.
 //
-// Scratch: a box of 48 bytes per triangle; 8 bytes per triangle and axis for the medians of
-// the cells in work; per reference of two neighbouring levels 4 bytes, of one level a byte
-// more; and at most 256 bytes per cell of a level. No level has more references than the
-// result, which grows as vectors do, to at most twice its size.
+// Scratch: a box of 48 bytes per triangle; for the medians 24 bytes per reference of the level
+// in work, and for its lists 9; 4 per reference of the next level; 500 per node of a
+// level, cells and pieces together, and of the next. No level has more references or nodes
+// than the result, which grows as vectors do, to at most twice its size.
 
 namespace cdprep::build {
 namespace {
@@ -32,7 +32,12 @@ using format::kSharedReference;
 using format::Triangle;
 
 constexpr std::size_t kChildren = 8;
-constexpr std::size_t kMostReferences = std::numeric_limits<std::uint32_t>::max();
+
+/// Trees do not get larger; see build_adaptive_octree().
+std::uint64_t most_references(std::uint64_t triangle_count) {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 31;
+    return std::min(kMostFreeReferences + kMostReferencesPerTriangle * triangle_count, kMost);
+}
 
 /// A cell of the level in work: its triangles are list[first, first + count).
 struct Cell {
@@ -41,6 +46,7 @@ struct Cell {
     std::size_t first;
     std::size_t count;
     std::array<std::size_t, kChildren> children;  ///< triangles of each
+    std::array<bool, 3> separates;                ///< see AxisSplit
     bool divided;
 };
 
@@ -86,6 +92,16 @@ Candidates candidates_of(const Cell& cell, const Box3& box) {
     return found;
 }
 
+/// Leaves axes whole along which every triangle's box would be cut, unless that is so of all.
+void leave_whole(Cell& cell) {
+    const auto& [x, y, z] = cell.separates;
+    if (!x && !y && !z) return;
+    const auto& end = cell.box.upper;
+    if (!x) cell.split.x = end.x;
+    if (!y) cell.split.y = end.y;
+    if (!z) cell.split.z = end.z;
+}
+
 bool can_be_divided(const Cell& cell) {
     const auto& end = cell.box.upper;
     return cell.split.x < end.x || cell.split.y < end.y || cell.split.z < end.z;
@@ -129,7 +145,7 @@ private:
                            list_[i] = static_cast<std::uint32_t>(i);
                        }
                    });
-        cells_.push_back({{result_.tree.lower, result_.tree.upper}, {}, 0, count, {}, false});
+        cells_.push_back({{result_.tree.lower, result_.tree.upper}, {}, 0, count, {}, {}, false});
         result_.nodes.push_back({});
     }
 
@@ -178,8 +194,10 @@ private:
 
     void choose_plane(Cell& cell, std::size_t axis, std::vector<double>& scratch) const {
         const std::span<const std::uint32_t> list(list_.data() + cell.first, cell.count);
-        const double plane = choose_split({cell.box, list, boxes_}, axis, options_.rule, scratch);
-        (axis == 0 ? cell.split.x : axis == 1 ? cell.split.y : cell.split.z) = plane;
+        const AxisSplit chosen =
+            choose_split({cell.box, list, boxes_}, axis, options_.rule, scratch);
+        (axis == 0 ? cell.split.x : axis == 1 ? cell.split.y : cell.split.z) = chosen.plane;
+        cell.separates[axis] = chosen.separates;
     }
 
     void sort_into_children() {
@@ -197,8 +215,10 @@ private:
     void cut_in_pieces() {
         pieces_.clear();
         for (std::size_t i = 0; i < cells_.size(); ++i) {
-            const Cell& cell = cells_[i];
-            if (cell.count < options_.threshold || !can_be_divided(cell)) continue;
+            Cell& cell = cells_[i];
+            if (cell.count < options_.threshold) continue;
+            leave_whole(cell);
+            if (!can_be_divided(cell)) continue;
             const std::size_t end = cell.first + cell.count;
             for (std::size_t at = cell.first; at < end; at += kItemsPerTask) {
                 pieces_.push_back({i, at, std::min(at + kItemsPerTask, end), {}});
@@ -233,30 +253,29 @@ private:
     }
 
     /// A cell is divided when some child has fewer triangles; none of the level is when the
-    /// references could no longer be counted.
+    /// tree would get too large.
     void decide() {
-        std::size_t references = result_.references.size();
-        std::size_t nodes = result_.nodes.size();
-        const auto is_there = [](std::size_t count) { return count > 0; };
+        std::uint64_t references = result_.references.size();
+        std::size_t children = 0;
         for (Cell& cell : cells_) {
-            cell.divided =
-                std::any_of(cell.children.begin(), cell.children.end(),
-                            [&](std::size_t count) { return count > 0 && count < cell.count; });
-            references += cell.count;
-            if (!cell.divided) continue;
-            for (const std::size_t count : cell.children) references += count;
-            references -= cell.count;
-            nodes += static_cast<std::size_t>(
-                std::count_if(cell.children.begin(), cell.children.end(), is_there));
+            std::size_t in_children = 0;
+            std::size_t there = 0;
+            for (const std::size_t count : cell.children) {
+                in_children += count;
+                there += count > 0 ? 1 : 0;
+                cell.divided = cell.divided || (count > 0 && count < cell.count);
+            }
+            references += cell.divided ? in_children : cell.count;
+            children += cell.divided ? there : 0;
         }
-        if (references <= kMostReferences && nodes <= kMostReferences) return;
+        next_cells_.clear();
+        if (references <= most_references(triangles_.size())) return next_cells_.reserve(children);
         for (Cell& cell : cells_) cell.divided = false;
     }
 
     /// Writes the nodes of this level, the lists of its leaves and the cells of the next.
     void end_level() {
         const std::size_t first_node = result_.nodes.size() - cells_.size();
-        next_cells_.clear();
         std::size_t next = 0;
         for (std::size_t i = 0; i < cells_.size(); ++i) {
             if (cells_[i].divided) {
@@ -267,6 +286,7 @@ private:
         }
         if (next > 0) write_lists(next);
         cells_.swap(next_cells_);
+        next_cells_.clear();
         list_.swap(next_list_);
     }
 
@@ -290,7 +310,7 @@ private:
             cell.children[child] = next;
             if (count == 0) continue;
             mask |= 1U << child;
-            next_cells_.push_back({child_box(cell, child), {}, next, count, {}, false});
+            next_cells_.push_back({child_box(cell, child), {}, next, count, {}, {}, false});
             next += count;
         }
         node.count |= mask;

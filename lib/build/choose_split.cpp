@@ -54,11 +54,12 @@ double median_middle(const CellContent& cell, std::size_t axis, std::vector<doub
     return *half;
 }
 
-double by_median(const CellContent& cell, std::size_t axis, std::vector<double>& scratch) {
+AxisSplit by_median(const CellContent& cell, std::size_t axis, std::vector<double>& scratch) {
     const Reach all = reach_of(cell.box, axis);
     double plane = median_middle(cell, axis, scratch);
     if (!is_inside(plane, all)) plane = middle(all);
-    return is_inside(plane, all) && leaves_one_whole(cell, axis, plane) ? plane : all.upper;
+    if (!is_inside(plane, all)) return {all.upper, false};
+    return {plane, leaves_one_whole(cell, axis, plane)};
 }
 
 constexpr std::size_t kSlices = 16;
@@ -124,25 +125,24 @@ struct HalfArea {
     }
 };
 
-double by_surface_area(const CellContent& cell, std::size_t axis) {
+AxisSplit by_surface_area(const CellContent& cell, std::size_t axis) {
     const Reach all = reach_of(cell.box, axis);
     const std::size_t count = cell.list.size();
-    if (!(all.lower < all.upper)) return all.upper;
+    AxisSplit best{all.upper, false};
+    if (!(all.lower < all.upper)) return best;
     const Slices slices = slices_of(cell, axis);
     const HalfArea area(cell.box, axis);
-    double best = all.upper;
     double least = 0;
     for (std::size_t i = 0; i + 1 < kSlices; ++i) {
         // From the middle one outwards.
         const std::size_t middle_one = kSlices / 2 - 1;
         const std::size_t k = i % 2 == 0 ? middle_one + i / 2 : middle_one - (i + 1) / 2;
         if (!is_inside(slices.plane[k], all)) continue;
-        if (slices.below[k] == count && slices.above[k] == count) continue;
         const double share = static_cast<double>(k + 1) / double{kSlices};
         const double cost = area.of(share) * static_cast<double>(slices.below[k]) +
                             area.of(1 - share) * static_cast<double>(slices.above[k]);
-        if (best != all.upper && cost >= least) continue;
-        best = slices.plane[k];
+        if (best.plane != all.upper && cost >= least) continue;
+        best = {slices.plane[k], slices.below[k] < count || slices.above[k] < count};
         least = cost;
     }
     return best;
@@ -150,8 +150,8 @@ double by_surface_area(const CellContent& cell, std::size_t axis) {
 
 }  // namespace
 
-double choose_split(const CellContent& cell, std::size_t axis, format::SplitRule rule,
-                    std::vector<double>& scratch) {
+AxisSplit choose_split(const CellContent& cell, std::size_t axis, format::SplitRule rule,
+                       std::vector<double>& scratch) {
     if (rule == format::SplitRule::surface_area) return by_surface_area(cell, axis);
     return by_median(cell, axis, scratch);
 }

@@ -19,16 +19,20 @@ struct CellContent {
     std::span<const Box3> boxes;  ///< around each triangle
 };
 
-/// Returns where a cell is divided along an axis: strictly inside its box and so that
-/// some triangle's box lies strictly to one side; or the upper bound, where no such
-/// plane is to be had: the cell stays whole along this axis.
+/// Where a cell may be divided along one axis.
+struct AxisSplit {
+    double plane;    ///< strictly inside the cell's box; its upper bound where nothing is
+    bool separates;  ///< some triangle's box lies strictly to one side
+};
+
+/// Chooses it.
 ///
 /// Median: of the middles of the triangles' boxes, each cut to the cell; where that is on
 /// the cell's border, because most lie flat on it, the middle of the cell. Surface area:
 /// of the 15 planes between 16 slices of equal width the one with the least sum, over
 /// both sides, of area times triangles; of equal ones the nearest to the middle.
 /// `scratch` is for the median: a double per triangle of the list.
-[[nodiscard]] double choose_split(const CellContent& cell, std::size_t axis, format::SplitRule rule,
-                                  std::vector<double>& scratch);
+[[nodiscard]] AxisSplit choose_split(const CellContent& cell, std::size_t axis,
+                                     format::SplitRule rule, std::vector<double>& scratch);
 
 }  // namespace cdprep::build
