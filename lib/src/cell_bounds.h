@@ -21,11 +21,13 @@ struct KeptBounds {
     static constexpr std::size_t kPlaces = 32;
 
     struct Place {
-        std::uint64_t holds = 0;  ///< question and node
+        std::uint64_t holds;  ///< question and node
         unsigned leaf_lanes;      ///< which of the children are leaves
         CellBounds bounds;
     };
-    std::array<Place, kPlaces> place;
+    // Lanes that no child has hold what was there before, or zeros: numbers too small for
+    // float would slow the kernels down.
+    std::array<Place, kPlaces> place{};
     std::uint64_t question = 0;
 };
 

@@ -199,8 +199,8 @@ private:
     KeptBounds* kept_a_ = nullptr;   ///< or null
     KeptBounds* kept_b_ = nullptr;
     std::array<Step, kMostSteps> steps_;
-    KeptBounds::Place place_a_;  ///< where none are kept
-    KeptBounds::Place place_b_;
+    KeptBounds::Place place_a_{};  ///< where none are kept
+    KeptBounds::Place place_b_{};
     const KeptBounds::Place* opened_a_ = nullptr;  ///< of the last step
     const KeptBounds::Place* opened_b_ = nullptr;
     kernels::BoxDepths depths_;
