@@ -37,7 +37,8 @@ struct LeafList {
 };
 
 /// What leaf cells of one model list, by BVH leaves, with the boxes around those. A walk
-/// comes to a cell many times in short succession: the last lists are kept.
+/// comes to a cell many times in short succession: the last kSlots lists are kept.
+template <std::size_t kSlots>
 class LeafLists {
 public:
     /// For other models, or another tree of them. `boxes` are of level 0 of the BVH.
@@ -66,9 +67,9 @@ public:
     }
 
 private:
-    static constexpr std::size_t kSlots = 64;
-    static constexpr std::size_t kBlocks = 128;
     static constexpr std::size_t kMostBlocks = format::kBvhWidth;  ///< of a list
+    // Most lists are of two blocks or fewer.
+    static constexpr std::size_t kBlocks = kSlots == 1 ? kMostBlocks : 2 * kSlots;
 
     struct Slot {
         std::uint64_t question = 0;

@@ -73,17 +73,17 @@ private:
 
 /// Holds what two leaf cells list against each other: the boxes of BVH leaves first, eight
 /// by eight.
+template <class Lists>
 class MeetCells {
 public:
     MeetCells(const Model& a, const Model& b, const PlacedBoxes& placed, LeafTest leaf_test,
-              Workspace::Storage& scratch) noexcept
-        : lists_a_(scratch.leaf_lists_a),
-          lists_b_(scratch.leaf_lists_b),
+              Lists& lists_a, Lists& lists_b) noexcept
+        : lists_a_(lists_a),
+          lists_b_(lists_b),
           placed_(placed),
           // The kernels take all eight triangles of a leaf in the time of one: what another
           // cell lists is settled on the way.
-          every_lane_(leaf_test == LeafTest::guigue_devillers),
-          counts_(scratch.counts) {
+          every_lane_(leaf_test == LeafTest::guigue_devillers) {
         lists_a_.begin(a.nodes().data() + a.shape().first[0]);
         lists_b_.begin(b.nodes().data() + b.shape().first[0]);
     }
@@ -92,7 +92,6 @@ public:
     template <class Contacts>
     bool operator()(const MetCell& a, const MetCell& b, std::uint64_t place,
                     Contacts& contacts) noexcept {
-        if (counts_ != nullptr) ++counts_->cell_pairs;
         const CommonBox common(a, b, placed_);
         for (std::uint32_t at_a = 0; at_a < a.references.size();) {
             const LeafList list_a = lists_a_.list(a.node, at_a, a.references);
@@ -155,11 +154,10 @@ private:
         return true;
     }
 
-    LeafLists& lists_a_;
-    LeafLists& lists_b_;
+    Lists& lists_a_;
+    Lists& lists_b_;
     const PlacedBoxes& placed_;
     bool every_lane_;
-    QueryCounts* counts_;
 };
 
 }  // namespace cdprep

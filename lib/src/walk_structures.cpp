@@ -10,9 +10,10 @@
 
 // Each pair once. A triangle is listed in all the cells that it touches, so two in contact
 // meet in several pairs of leaf cells. TestedPairs remembers which were answered; where it
-// has no room, the first pair of leaf cells answers that the same walk reaches when it is
-// confined to cells that list the two: the walk of all reaches it too, since each step
-// tests the same boxes by the same kernel.
+// has no room, that pair of leaf cells answers which is the first to bring the two in the
+// same walk confined to cells that list them. The walk of all comes to it too, and brings
+// them there: each step tests the same boxes by the same kernel. And there is one: the
+// cells that hold a common point of the two.
 
 namespace cdprep {
 namespace {
@@ -30,6 +31,19 @@ struct ListingLanes {
                                          const typename TreeB::Cell& cell_b) const noexcept {
         const unsigned of_a = tree_a.lanes_listing(cell_a, at_a, a);
         return of_a == 0 ? 0 : lane_pairs(of_a, tree_b.lanes_listing(cell_b, at_b, b));
+    }
+};
+
+/// Waits for two BVH leaves, in place of CellContacts.
+struct FirstPlace {
+    std::uint32_t leaf_a;
+    std::uint32_t leaf_b;
+    std::uint64_t place = ~std::uint64_t{0};  ///< which brought them
+
+    bool add(const LeafLanes& a, const LeafLanes& b, std::uint64_t at) noexcept {
+        if (a.leaf != leaf_a || b.leaf != leaf_b) return true;
+        place = at;
+        return false;
     }
 };
 
@@ -52,19 +66,15 @@ public:
         };
         CellContacts contacts(question_.a, question_.b, question_.placement, placed_,
                               question_.through.leaf_test, question_.options, scratch, found, owns);
-        MeetCells meet(question_.a, question_.b, placed_, question_.through.leaf_test, scratch);
+        MeetCells meet(question_.a, question_.b, placed_, question_.through.leaf_test,
+                       scratch.leaf_lists_a, scratch.leaf_lists_b);
         CellWalk<kSearch, TreeA, TreeB, AllLanes> walk(a_, b_, placed_, question_.through.descent,
                                                        AllLanes{});
         walk.use(scratch);
         const bool whole =
             walk.run([&](const Pair& pair, const CellBounds& bounds_a, const CellBounds& bounds_b) {
-                const auto leaf_a = a_.child(pair.a, pair.lane_a);
-                const auto leaf_b = b_.child(pair.b, pair.lane_b);
-                const MetCell met_a = {leaf_a.node, a_.references(leaf_a), &bounds_a.boxes,
-                                       pair.lane_a};
-                const MetCell met_b = {leaf_b.node, b_.references(leaf_b), &bounds_b.boxes,
-                                       pair.lane_b};
-                return meet(met_a, met_b, place_of(leaf_a.node, leaf_b.node), contacts) &&
+                if (scratch.counts != nullptr) ++scratch.counts->cell_pairs;
+                return meet_at(pair, bounds_a, bounds_b, meet, contacts) &&
                        (kSearch == Search::all || contacts.flush());
             });
         return whole && contacts.flush();
@@ -77,19 +87,31 @@ private:
         return std::uint64_t{node_a} << 32 | node_b;
     }
 
-    /// The first pair of leaf cells with both triangles.
+    template <class Meet, class Contacts>
+    bool meet_at(const Pair& pair, const CellBounds& bounds_a, const CellBounds& bounds_b,
+                 Meet& meet, Contacts& contacts) const noexcept {
+        const auto leaf_a = a_.child(pair.a, pair.lane_a);
+        const auto leaf_b = b_.child(pair.b, pair.lane_b);
+        const MetCell met_a = {leaf_a.node, a_.references(leaf_a), &bounds_a.boxes, pair.lane_a};
+        const MetCell met_b = {leaf_b.node, b_.references(leaf_b), &bounds_b.boxes, pair.lane_b};
+        return meet(met_a, met_b, place_of(leaf_a.node, leaf_b.node), contacts);
+    }
+
+    /// The first pair of leaf cells that brings two triangles.
     [[nodiscard]] std::uint64_t first_place(std::uint32_t at_a, std::uint32_t at_b) const noexcept {
         const ListingLanes listing = {at_a, at_b, MovedModel(question_.a, nullptr).corners(at_a),
                                       MovedModel(question_.b, nullptr).corners(at_b)};
         CellWalk<Search::all, TreeA, TreeB, ListingLanes> walk(a_, b_, placed_,
                                                                question_.through.descent, listing);
-        std::uint64_t first = ~std::uint64_t{0};
-        walk.run([&](const Pair& pair, const CellBounds& /*a*/, const CellBounds& /*b*/) {
-            first =
-                place_of(a_.child(pair.a, pair.lane_a).node, b_.child(pair.b, pair.lane_b).node);
-            return false;
+        LeafLists<1> lists_a;
+        LeafLists<1> lists_b;
+        MeetCells meet(question_.a, question_.b, placed_, question_.through.leaf_test, lists_a,
+                       lists_b);
+        FirstPlace first = {at_a / format::kBvhWidth, at_b / format::kBvhWidth};
+        walk.run([&](const Pair& pair, const CellBounds& bounds_a, const CellBounds& bounds_b) {
+            return meet_at(pair, bounds_a, bounds_b, meet, first);
         });
-        return first;
+        return first.place;
     }
 
     const QuestionThrough& question_;

@@ -79,8 +79,8 @@ struct Workspace::Storage {
     SortScratch sort_scratch;
     TestedPairs tested_pairs;
     std::array<PendingLeaves, kernels::kLeafBatch> pending_leaves;  ///< of leaf_pairs
-    LeafLists leaf_lists_a;
-    LeafLists leaf_lists_b;
+    LeafLists<64> leaf_lists_a;
+    LeafLists<64> leaf_lists_b;
     KeptBounds bounds_a;
     KeptBounds bounds_b;
     QueryCounts* counts = nullptr;  ///< or null: nobody asked

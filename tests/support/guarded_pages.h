@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+
+#include "cdprep/format/file_header.h"
+#include "cdprep/format/section_set.h"
+#include "cdprep/format/sections.h"
+
+namespace cdprep::test {
+
+/// A file, sections of which begin pages of their own, on read-only pages; those that are
+/// not `wanted` are closed to every access.
+class GuardedPages {
+public:
+    GuardedPages(std::span<const std::byte> file, format::SectionSet wanted) {
+        const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+        size_ = (file.size() + page - 1) / page * page;
+        start_ = static_cast<std::byte*>(
+            ::mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0));
+        std::memcpy(start_, file.data(), file.size());
+        ::mprotect(start_, size_, PROT_READ);
+        bytes_ = {start_, file.size()};
+        const format::FileHeader header = format::read_header(file);
+        for (std::uint32_t i = 0; i < header.section_count; ++i) {
+            format::SectionEntry entry;
+            std::memcpy(&entry, file.data() + format::kSectionTableOffset + i * sizeof entry,
+                        sizeof entry);
+            if (wanted.contains(entry.id) || entry.count == 0) continue;
+            EXPECT_EQ(entry.offset % page, 0u);
+            ::mprotect(start_ + entry.offset, entry.count * entry.element_size, PROT_NONE);
+            ++guarded_;
+        }
+    }
+    ~GuardedPages() {
+        ::munmap(start_, size_);
+    }
+    GuardedPages(const GuardedPages&) = delete;
+    GuardedPages& operator=(const GuardedPages&) = delete;
+    [[nodiscard]] std::span<const std::byte> bytes() const {
+        return bytes_;
+    }
+    [[nodiscard]] int guarded() const {
+        return guarded_;
+    }
+
+private:
+    std::byte* start_ = nullptr;
+    std::size_t size_ = 0;
+    std::span<const std::byte> bytes_;
+    int guarded_ = 0;
+};
+
+}  // namespace cdprep::test

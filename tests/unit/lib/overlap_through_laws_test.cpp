@@ -1,0 +1,413 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/overlap_through.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "support/brute_force.h"
+#include "support/guarded_pages.h"
+#include "support/hard_placements.h"
+#include "support/more_sections.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+
+#include "workspace_storage.h"
+
+namespace cdprep::test {
+namespace {
+
+constexpr std::array kStructures = {Structure::octree, Structure::adaptive_octree,
+                                    Structure::tetra_tree};
+constexpr std::array kDescents = {Descent::larger, Descent::a_first, Descent::b_first,
+                                  Descent::both};
+constexpr std::array kLeafTests = {LeafTest::guigue_devillers, LeafTest::feito_torres};
+
+struct Limits {
+    std::uint32_t level = 3;
+    std::uint32_t threshold = 1;
+    format::SplitRule rule = format::SplitRule::median;
+    format::TetraBounding bounding = format::TetraBounding::caps;
+};
+
+/// With an octree, an adaptive octree and a tetra-tree.
+AlignedBytes with_all(const AlignedBytes& file, const Limits& limits) {
+    const AlignedBytes octree =
+        with_octree(file, {.level = limits.level, .threshold = limits.threshold});
+    const AlignedBytes adaptive = with_adaptive_octree(
+        octree, {.level = limits.level, .threshold = limits.threshold, .rule = limits.rule});
+    return with_tetra_tree(adaptive, {.level = std::min(limits.level, format::kMaxTetraLevel),
+                                      .threshold = limits.threshold,
+                                      .bounding = limits.bounding});
+}
+
+OpenModel open_all(const TestMesh& mesh, const Limits& limits, const TinyOptions& options = {}) {
+    return open_tiny(with_all(bake_tiny(mesh.positions, mesh.triangles, options), limits));
+}
+
+using Pairs = std::vector<TrianglePair>;
+
+Pairs pairs_through(const StructureOptions& through, const Model& a, const Model& b,
+                    const Placement& placement, Workspace& workspace,
+                    const OverlapOptions& options = {}) {
+    Pairs pairs(overlapping_triangles_through(through, a, b, placement, workspace, {}, options));
+    pairs.resize(
+        overlapping_triangles_through(through, a, b, placement, workspace, pairs, options));
+    return pairs;
+}
+
+std::string name_of(const StructureOptions& through) {
+    return "structure " + std::to_string(static_cast<int>(through.structure)) + ", descent " +
+           std::to_string(static_cast<int>(through.descent)) + ", test " +
+           std::to_string(static_cast<int>(through.leaf_test));
+}
+
+/// In which the two differ first.
+std::string first_difference(const Pairs& pairs, const Pairs& expected) {
+    const auto [at, wanted] =
+        std::mismatch(pairs.begin(), pairs.end(), expected.begin(), expected.end());
+    const auto shown = [](const Pairs& list, Pairs::const_iterator pair) {
+        if (pair == list.end()) return std::string("nothing");
+        return std::to_string(pair->a) + "-" + std::to_string(pair->b);
+    };
+    return ", found " + shown(pairs, at) + ", expected " + shown(expected, wanted);
+}
+
+/// Every structure, descent and leaf test says what is expected; not each with each.
+void expect_pairs(const Pairs& expected, const Model& a, const Model& b, const Placement& placement,
+                  Workspace& workspace, const OverlapOptions& options = {}) {
+    for (const Structure structure : kStructures) {
+        for (const Descent descent : kDescents) {
+            for (const LeafTest leaf_test : kLeafTests) {
+                if (leaf_test == LeafTest::feito_torres && descent != Descent::both) continue;
+                const StructureOptions through = {structure, leaf_test, descent};
+                const Pairs pairs = pairs_through(through, a, b, placement, workspace, options);
+                ASSERT_EQ(pairs.size(), expected.size())
+                    << name_of(through) << first_difference(pairs, expected);
+                ASSERT_TRUE(pairs == expected)
+                    << name_of(through) << first_difference(pairs, expected);
+                ASSERT_EQ(any_overlap_through(through, a, b, placement, workspace, options),
+                          !expected.empty())
+                    << name_of(through);
+            }
+        }
+    }
+}
+
+Pairs exchanged(Pairs pairs) {
+    for (TrianglePair& pair : pairs) std::swap(pair.a, pair.b);
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+// The oracle: brute force by the six-segment test. Unequal depths; all ways to place.
+TEST(OverlapThroughLaws, AgreesWithBruteForce) {
+    constexpr std::uint32_t kSeed = 5;
+    constexpr int kRounds = 24;
+    std::mt19937 random(kSeed);
+    std::size_t touching = 0, asked = 0, none = 0, placed = 0;
+    Workspace workspace;
+    for (int round = 0; round < kRounds; ++round) {
+        SCOPED_TRACE("seed " + std::to_string(kSeed) + ", round " + std::to_string(round));
+        const bool coarse = round % 2 == 0;
+        const auto mesh = [&] {
+            return coarse ? coarse_grid_soup(random(), 40, 2) : random_soup(random(), 60, 0.2);
+        };
+        const TestMesh a = mesh(), b = mesh();
+        const Limits limits_a = {static_cast<std::uint32_t>(round % 4), 1U + round % 7,
+                                 format::SplitRule{static_cast<std::uint32_t>(round / 2 % 2)},
+                                 format::TetraBounding{static_cast<std::uint32_t>(round / 4 % 2)}};
+        const Limits limits_b = {static_cast<std::uint32_t>(round % 3), 3};
+        const OpenModel model_a = open_all(a, limits_a, {.double_precision = round % 3 == 0});
+        const OpenModel model_b = open_all(b, limits_b);
+        const Pose p = round % 4 == 0 ? Pose() : random_pose(random, coarse ? 3 : 1.5);
+        const Pose q = random_pose(random, 1);
+        for (const Placement& placement : {Placement::b_moves(p), Placement::a_moves(p),
+                                           Placement::world(p, q), Placement::world(q, q)}) {
+            const Pairs expected = brute_force_pairs(a, b, placement);
+            expect_pairs(expected, model_a.model, model_b.model, placement, workspace);
+            touching += expected.size();
+            asked += a.triangles.size() * b.triangles.size();
+            none += expected.empty() ? 1 : 0;
+            ++placed;
+        }
+    }
+    // Neither answer may be rare, or this test would prove nothing.
+    EXPECT_GT(touching, asked / 200);
+    EXPECT_LT(touching, asked / 2);
+    EXPECT_LT(none, placed / 2);
+}
+
+// The same pairs as the hierarchy's, for two surfaces in 200 poses; some touch nothing.
+TEST(OverlapThroughLaws, AgreesWithTheHierarchyInRandomPoses) {
+    std::mt19937 random(9);
+    const OpenModel a = open_all(icosphere(4), {.level = 4, .threshold = 8});
+    const OpenModel b =
+        open_all(torus(1, 0.3, 48, 24), {.level = 5, .threshold = 16}, {.double_precision = true});
+    Workspace workspace;
+    int hits = 0;
+    for (int round = 0; round < 200; ++round) {
+        const Placement placement = Placement::b_moves(random_pose(random, 2.2));
+        const Pairs expected = all_pairs(a.model, b.model, placement, workspace);
+        hits += expected.empty() ? 0 : 1;
+        for (const Structure structure : kStructures) {
+            const StructureOptions through = {structure, LeafTest::guigue_devillers,
+                                              kDescents[static_cast<std::size_t>(round % 4)]};
+            ASSERT_EQ(pairs_through(through, a.model, b.model, placement, workspace), expected)
+                << name_of(through) << ", round " << round;
+            ASSERT_EQ(any_overlap_through(through, a.model, b.model, placement, workspace),
+                      !expected.empty())
+                << name_of(through) << ", round " << round;
+        }
+    }
+    EXPECT_GT(hits, 60);
+    EXPECT_LT(hits, 140);
+}
+
+// Where libraries in use lose pairs; the hierarchy is held against exact numbers there.
+TEST(OverlapThroughLaws, HardPlacementsHaveTheirPairs) {
+    Workspace workspace;
+    for (const HardPlacement& p : hard_placements()) {
+        SCOPED_TRACE(p.name);
+        const OpenModel a = open_all(p.a, {.level = 3}, {.double_precision = true});
+        const OpenModel b = open_all(p.b, {.level = 4, .threshold = 4}, {.double_precision = true});
+        const Pairs expected = all_pairs(a.model, b.model, p.placement, workspace);
+        ASSERT_EQ(expected.size(), p.pairs);
+        const Placement back = p.placement.a_is_moved()
+                                   ? Placement::world(p.placement.pose_b(), p.placement.pose_a())
+                                   : Placement::a_moves(p.placement.pose_b());
+        if (p.a.triangles.size() * p.b.triangles.size() < 200'000) {
+            expect_pairs(expected, a.model, b.model, p.placement, workspace);
+        }
+        for (const Structure structure : kStructures) {
+            const StructureOptions through = {.structure = structure};
+            ASSERT_EQ(pairs_through(through, a.model, b.model, p.placement, workspace), expected)
+                << name_of(through);
+            ASSERT_EQ(pairs_through(through, b.model, a.model, back, workspace),
+                      exchanged(expected))
+                << name_of(through);
+        }
+    }
+}
+
+// A pair is one answer when there is next to no room to remember answers: the first pair
+// of cells that list both owns it. The oracle is the same question with room.
+TEST(OverlapThroughLaws, EachPairIsOneAnswerWithoutRoom) {
+    std::mt19937 random(77);
+    Workspace workspace;
+    Workspace narrow;
+    narrow.storage().tested_pairs.limit(1);
+    std::size_t pairs = 0;
+    for (int round = 0; round < 6; ++round) {
+        const bool soup = round % 2 == 0;
+        const TestMesh a = soup ? coarse_grid_soup(random(), 60, 3) : icosphere(2);
+        const TestMesh b = soup ? coarse_grid_soup(random(), 50, 3) : torus(1, 0.25, 16, 8);
+        const OpenModel model_a = open_all(a, {.level = 1});
+        const OpenModel model_b = open_all(b, {.level = 2, .threshold = 5});
+        const Placement placement =
+            Placement::b_moves(round < 4 ? Pose() : random_pose(random, 0.5));
+        const Pairs expected = all_pairs(model_a.model, model_b.model, placement, workspace);
+        expect_pairs(expected, model_a.model, model_b.model, placement, narrow);
+        pairs += expected.size();
+    }
+    EXPECT_GT(pairs, 1'000u);
+}
+
+TEST(OverlapThroughLaws, OptionsMeanWhatTheyMeanForTheHierarchy) {
+    std::mt19937 random(3);
+    Workspace workspace;
+    std::size_t closed = 0, others = 0;
+    for (int round = 0; round < 10; ++round) {
+        const OpenModel a = open_all(coarse_grid_soup(random(), 60, 2), {.level = 3});
+        const OpenModel b = open_all(coarse_grid_soup(random(), 60, 2), {.level = 2});
+        const Placement placement = Placement::b_moves(Pose());
+        for (const Contact contact : {Contact::closed, Contact::proper}) {
+            for (const Degenerate degenerate : {Degenerate::keep, Degenerate::skip}) {
+                const OverlapOptions options = {contact, degenerate};
+                const Pairs expected = all_pairs(a.model, b.model, placement, workspace, options);
+                expect_pairs(expected, a.model, b.model, placement, workspace, options);
+                (contact == Contact::closed && degenerate == Degenerate::keep ? closed : others) +=
+                    expected.size();
+            }
+        }
+    }
+    EXPECT_LT(others, 3 * closed);
+    EXPECT_GT(others, closed);
+}
+
+TEST(OverlapThroughLaws, ShortSpansKeepTheSmallest) {
+    const OpenModel a = open_all(icosphere(2), {.level = 2});
+    const OpenModel b = open_all(torus(1, 0.25, 16, 8), {.level = 3});
+    Workspace workspace;
+    const Placement placement = Placement::b_moves(Pose());
+    const Pairs all = all_pairs(a.model, b.model, placement, workspace);
+    ASSERT_GT(all.size(), 20u);
+    for (const Structure structure : kStructures) {
+        const StructureOptions through = {.structure = structure};
+        Pairs some(7);
+        EXPECT_EQ(
+            overlapping_triangles_through(through, a.model, b.model, placement, workspace, some),
+            all.size());
+        EXPECT_TRUE(std::equal(some.begin(), some.end(), all.begin()));
+    }
+}
+
+// B12: a triangle with corners far outside passes through cells in which it has none.
+TEST(OverlapThroughLaws, LargeTrianglesMeetSmallCells) {
+    const TestMesh small = icosphere(3);
+    const TestMesh large = {{{-10, -8, 0.1}, {10, -9, 0.2}, {0.5, 10, -0.1}}, {{{0, 1, 2}}}};
+    const OpenModel a = open_all(small, {.level = 5});
+    const OpenModel b = open_all(large, {.level = 5});
+    Workspace workspace;
+    const Placement still = Placement::b_moves(Pose());
+    const Pairs expected = brute_force_pairs(small, large, still);
+    ASSERT_GT(expected.size(), 50u);
+    expect_pairs(expected, a.model, b.model, still, workspace);
+    expect_pairs(exchanged(expected), b.model, a.model, still, workspace);
+}
+
+// B13: planes of cells, faces of cones, the centre itself. Corners are whole numbers, so
+// are the planes of the first levels; by symmetry the centre is 0, which fans hold.
+TEST(OverlapThroughLaws, TrianglesOnCellBoundariesAreOneAnswerEach) {
+    TestMesh planes;
+    const auto add = [&](const Double3& p, const Double3& q, const Double3& r) {
+        const auto first = static_cast<std::uint32_t>(planes.positions.size());
+        for (const Double3& corner : {p, q, r}) planes.positions.push_back(corner);
+        for (const Double3& corner : {p, q, r}) {
+            planes.positions.push_back({-corner.x, -corner.y, -corner.z});
+        }
+        planes.triangles.push_back({{first, first + 1, first + 2}});
+        planes.triangles.push_back({{first + 3, first + 4, first + 5}});
+    };
+    add({2, 0, 0}, {0, 2, 0}, {0, 0, 2});
+    add({1, 1, 0}, {1, -1, 0}, {-1, 0, 0});  // holds the centre
+    add({1, 0, 0}, {0, 1, 0}, {0, 0, 0});    // has a corner there
+    add({1, 0, 0}, {2, 0, 0}, {3, 0, 0});    // a segment towards it
+    add({1, 1, 1}, {1, 1, 1}, {1, 1, 1});
+    add({0, 2, 1}, {0, -2, 1}, {0, 0, -2});  // in a plane of an axis, around it
+    add({4, 4, 0}, {4, -4, 0}, {-4, 4, 0});
+    const TestMesh around = joined(planes, in_floats(fan(12)));
+    Workspace workspace;
+    for (const std::uint32_t level : {1U, 3U}) {
+        const OpenModel a = open_all(around, {.level = level});
+        const OpenModel b = open_all(planes, {.level = 2, .threshold = 2});
+        for (const Placement& placement :
+             {Placement::b_moves(Pose()),
+              Placement::b_moves(Pose::from_quaternion(1, 0, 0, 1, {0, 1, 0}).value())}) {
+            const Pairs expected = brute_force_pairs(around, planes, placement);
+            ASSERT_GT(expected.size(), 20u);
+            expect_pairs(expected, a.model, b.model, placement, workspace);
+            expect_pairs(brute_force_pairs(around, around, placement), a.model, a.model, placement,
+                         workspace);
+        }
+    }
+}
+
+// B11: trivial meshes.
+TEST(OverlapThroughLaws, TrivialMeshesHaveAnswers) {
+    const std::array<TestMesh, 5> meshes = {
+        TestMesh{}, TestMesh{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{{0, 1, 2}}, {{0, 0, 0}}}},
+        TestMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}}, grid_sheet(6, 6),
+        copies_of_one_triangle(40)};
+    Workspace workspace;
+    for (const TestMesh& a : meshes) {
+        for (const TestMesh& b : meshes) {
+            const OpenModel model_a = open_all(a, {.level = 4});
+            const OpenModel model_b = open_all(b, {.level = 2});
+            const Placement still = Placement::b_moves(Pose());
+            expect_pairs(brute_force_pairs(a, b, still), model_a.model, model_b.model, still,
+                         workspace);
+        }
+    }
+}
+
+// Scale and place change nothing, by powers of two exactly: from 2^-900 to 2^900, and
+// where a model of extent 1e-3 lies 1e6 away.
+TEST(OverlapThroughLaws, AnyScaleAndPlaceAnswersAlike) {
+    Workspace workspace;
+    const TestMesh a = icosphere(2), b = torus(1, 0.25, 16, 8);
+    const Placement still = Placement::b_moves(Pose());
+    const Pairs expected = brute_force_pairs(a, b, still);
+    ASSERT_GT(expected.size(), 50u);
+    for (const int exponent : {-900, -40, 0, 60, 900}) {
+        const double scale = std::ldexp(1.0, exponent);
+        const OpenModel model_a =
+            open_all(moved_by(a, scale, {0, 0, 0}), {.level = 4}, {.double_precision = true});
+        const OpenModel model_b =
+            open_all(moved_by(b, scale, {0, 0, 0}), {.level = 3}, {.double_precision = true});
+        SCOPED_TRACE(exponent);
+        expect_pairs(expected, model_a.model, model_b.model, still, workspace);
+    }
+    const TestMesh far_a = moved_by(a, 1e-3, {1e6, -1e6, 1e6});
+    const TestMesh far_b = moved_by(b, 1e-3, {1e6, -1e6, 1e6});
+    const OpenModel model_a = open_all(far_a, {.level = 6}, {.double_precision = true});
+    const OpenModel model_b = open_all(far_b, {.level = 5}, {.double_precision = true});
+    expect_pairs(brute_force_pairs(far_a, far_b, still), model_a.model, model_b.model, still,
+                 workspace);
+    // One of them 2^80 times as large as the other.
+    const TestMesh tiny = moved_by(b, 0x1p-80, {0, 0, 1});
+    const OpenModel model_tiny = open_all(tiny, {.level = 3}, {.double_precision = true});
+    const OpenModel sphere = open_all(a, {.level = 4}, {.double_precision = true});
+    expect_pairs(brute_force_pairs(a, tiny, still), sphere.model, model_tiny.model, still,
+                 workspace);
+}
+
+TEST(OverlapThroughLaws, FilesWithoutTheStructureOverlapNothing) {
+    const OpenModel with = open_all(icosphere(2), {});
+    const OpenModel without = open_tiny(icosphere(2));
+    Workspace workspace;
+    const Placement still = Placement::b_moves(Pose());
+    for (const Structure structure : kStructures) {
+        const StructureOptions through = {.structure = structure};
+        EXPECT_FALSE(any_overlap_through(through, with.model, without.model, still, workspace));
+        EXPECT_TRUE(pairs_through(through, without.model, with.model, still, workspace).empty());
+    }
+    EXPECT_EQ(pairs_through({}, with.model, without.model, still, workspace),
+              all_pairs(with.model, without.model, still, workspace));
+}
+
+/// The file again, its sections on pages of their own.
+AlignedBytes on_pages(const AlignedBytes& file) {
+    const std::span<const std::byte> bytes = file.span();
+    std::vector<TinySection> all;
+    for (std::uint32_t id = 1; id < 64; ++id) {
+        const auto entry = format::find_section(bytes, SectionId{id});
+        if (!entry) continue;
+        const auto content = bytes.subspan(entry->offset, entry->count * entry->element_size);
+        all.push_back({entry->id, {content.begin(), content.end()}});
+    }
+    return assemble(format::read_header(bytes), all, 4096);
+}
+
+// The mapped file is what is asked: on read-only pages, with every section that
+// sections_of() does not name closed.
+TEST(OverlapThroughLaws, ReadOnlyTheSectionsThatTheyName) {
+    const TestMesh mesh = icosphere(3);
+    const AlignedBytes file =
+        on_pages(with_all(bake_tiny(mesh.positions, mesh.triangles), {.level = 4, .threshold = 8}));
+    const OpenModel whole = open_tiny(AlignedBytes(file.span()));
+    Workspace workspace;
+    const Placement placement =
+        Placement::b_moves(Pose::from_quaternion(1, 0.5, 0.25, 0.125, {0.5, 0.25, 0.125}).value());
+    const Pairs expected = all_pairs(whole.model, whole.model, placement, workspace);
+    ASSERT_FALSE(expected.empty());
+    for (const Structure structure : kStructures) {
+        format::SectionSet wanted = {SectionId::bvh_nodes, SectionId::bvh_leaves,
+                                     SectionId::source_triangle, SectionId::positions_f32,
+                                     SectionId::triangles};
+        wanted.insert(sections_of(structure));
+        const GuardedPages pages(file.span(), wanted);
+        EXPECT_GE(pages.guarded(), 5);
+        const auto opened = Model::open(pages.bytes(), wanted);
+        ASSERT_TRUE(opened) << opened.error().message;
+        const Model& model = opened.value();
+        const StructureOptions through = {.structure = structure};
+        EXPECT_EQ(pairs_through(through, model, model, placement, workspace), expected);
+        EXPECT_TRUE(any_overlap_through(through, model, model, placement, workspace));
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::test
