@@ -105,6 +105,23 @@ private:
     std::size_t limit_ = kBuckets;
 };
 
+/// Where two triangles belong that there was no room to remember: the last ones looked up.
+struct FirstPlaces {
+    static constexpr std::size_t kSlots = 512;
+
+    struct Slot {
+        std::uint64_t walk;  ///< 0: empty
+        std::uint32_t at_a;
+        std::uint32_t at_b;
+        std::uint64_t place;
+    };
+    std::array<Slot, kSlots> slot{};
+
+    [[nodiscard]] Slot& of(std::uint32_t at_a, std::uint32_t at_b) noexcept {
+        return slot[(at_a * 31 + at_b) % kSlots];
+    }
+};
+
 /// Of a pair of leaves that waits for its test.
 struct PendingLeaves {
     std::uint64_t place;  ///< which cells brought it

@@ -62,7 +62,7 @@ public:
             return visit({at_a, at_b});
         };
         const auto owns = [&](std::uint64_t place, std::uint32_t at_a, std::uint32_t at_b) {
-            return first_place(at_a, at_b) == place;
+            return remembered_first_place(at_a, at_b) == place;
         };
         CellContacts contacts(question_.a, question_.b, question_.placement, placed_,
                               question_.through.leaf_test, question_.options, scratch, found, owns);
@@ -95,6 +95,17 @@ private:
         const MetCell met_a = {leaf_a.node, a_.references(leaf_a), &bounds_a.boxes, pair.lane_a};
         const MetCell met_b = {leaf_b.node, b_.references(leaf_b), &bounds_b.boxes, pair.lane_b};
         return meet(met_a, met_b, place_of(leaf_a.node, leaf_b.node), contacts);
+    }
+
+    [[nodiscard]] std::uint64_t remembered_first_place(std::uint32_t at_a,
+                                                       std::uint32_t at_b) const noexcept {
+        Workspace::Storage& scratch = question_.workspace.storage();
+        const std::uint64_t walk = scratch.bounds_a.question;
+        FirstPlaces::Slot& slot = scratch.first_places.of(at_a, at_b);
+        if (slot.walk != walk || slot.at_a != at_a || slot.at_b != at_b) {
+            slot = {walk, at_a, at_b, first_place(at_a, at_b)};
+        }
+        return slot.place;
     }
 
     /// The first pair of leaf cells that brings two triangles.

@@ -78,6 +78,7 @@ struct Workspace::Storage {
     kernels::LeafScratch leaf_scratch;
     SortScratch sort_scratch;
     TestedPairs tested_pairs;
+    FirstPlaces first_places;
     std::array<PendingLeaves, kernels::kLeafBatch> pending_leaves;  ///< of leaf_pairs
     LeafLists<64> leaf_lists_a;
     LeafLists<64> leaf_lists_b;
