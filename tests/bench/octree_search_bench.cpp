@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// Does hashing reduce the search for an octree's cell "by up to 80 %"? Each contender finds
+// the leaf that holds a point, from its coordinates on, in the same leaves: for every point
+// all must find the same, or the program ends.
+//
+//   H0  descends recursively, testing the children's boxes      pointers
+//   H1  descends, comparing the point with each node's centre   pointers
+//   H2  descends by the bits of the point's code                pointers
+//   H3  the same in the product's nodes                         numbers and masks
+//   K0  looks its key up, from the deepest level up: the talk's chained table by modulus
+//   K1  the same with mixed keys
+//   K2  bisects the levels, by K1's table: all ancestors of a leaf are in it
+//   L1  bisects the sorted leaves, without branches
+//   L2  the same from a top table on: the product's default
+//
+// Points: uniform in the root; at random on the surface; along a walk on it. Octrees of four
+// depths, cells with fewer than 8 triangles not divided. States: warm (searches overlap in
+// the processor), in_turn (each point is known only when the search before is done), cold
+// (bursts of 64 searches after all that the contender reads was flushed from the caches).
+// Contenders take turns, and that several times. One thread.
+//
+// Usage: octree_search_bench [BAKES [ROUNDS [NAME...]]]
+// BAKES holds NAME.cdp.h5; without NAME bunny, armadillo and dragon; without BAKES a sphere.
+//
+// Prints a CSV table: nanoseconds a search, the median of the timings, the spread of their
+// middle half, and what a tenth of them stayed below, which tells more where others load the
+// machine; the bytes of all that a search reads; the median by those of H0 and H2. Then,
+// after #, what that says about the 80 %, computed from the table.
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
+#include "octree_study.h"
+#include "pointer_octrees.h"
+
+namespace cdprep {
+namespace {
+
+constexpr std::array<std::uint32_t, 4> kDepths = {6, 8, 10, 12};
+constexpr std::uint32_t kThreshold = 8;
+
+/// The deepest level whose cell is stored is where the leaf is, if any.
+std::uint32_t find_by_levels(const OctreeIndex& index, std::uint64_t code) {
+    std::uint32_t found = 0;
+    std::uint32_t least = 0;
+    std::uint32_t most = index.deepest;
+    while (least < most && !is_leaf(index.nodes[found])) {
+        const std::uint32_t level = (least + most + 1) / 2;
+        const std::uint64_t key = key_at(code, level);
+        const std::uint32_t node =
+            find_chained(index, index.mixed_table, format::mixed_slot(key, index.slot_bits), key);
+        if (node == kNoNode) {
+            most = level - 1;
+        } else {
+            least = level;
+            found = node;
+        }
+    }
+    return is_leaf(index.nodes[found]) ? found : kNoNode;
+}
+
+/// All forms of one octree; the contenders refer to it.
+struct Forms {
+    explicit Forms(build::Octree made) : octree(std::move(made)) {}
+
+    build::Octree octree;
+    PointerOctree<BoxNode> boxes = box_octree(octree.grid, octree.nodes);
+    PointerOctree<CentreNode> centres = centre_octree(octree.grid, octree.nodes);
+    PointerOctree<PlainNode> plain = plain_octree(octree.nodes);
+};
+
+void add_hierarchical(const Forms& forms, std::vector<Contender>& to) {
+    const format::OctreeGrid& grid = forms.octree.grid;
+    const auto& nodes = forms.octree.nodes;
+    to.push_back(contender("H0", memory_of(forms.boxes.pool()),
+                           [&](const Double3& p) { return find_by_boxes(forms.boxes.root(), p); }));
+    to.push_back(contender("H1", memory_of(forms.centres.pool()), [&](const Double3& p) {
+        return find_by_centres(forms.centres.root(), p);
+    }));
+    to.push_back(contender("H2", memory_of(forms.plain.pool()), [&](const Double3& p) {
+        return find_by_bits(forms.plain.root(), code_at(grid, p));
+    }));
+    to.push_back(contender("H3", memory_of(nodes), [&](const Double3& p) {
+        return find_by_masks(nodes, code_at(grid, p));
+    }));
+}
+
+void add_by_key(const Forms& forms, std::vector<Contender>& to) {
+    const build::Octree& octree = forms.octree;
+    const format::OctreeGrid& grid = octree.grid;
+    const OctreeIndex index = octree_index(octree);
+    const Memory modulus = memory_of(octree.nodes, octree.modulus_table);
+    const Memory mixed = memory_of(octree.nodes, octree.mixed_table);
+    to.push_back(contender("K0", modulus, [=, &grid](const Double3& p) {
+        return find_leaf(index, CellSearch::modulus, code_at(grid, p));
+    }));
+    to.push_back(contender("K1", mixed, [=, &grid](const Double3& p) {
+        return find_leaf(index, CellSearch::mixed, code_at(grid, p));
+    }));
+    to.push_back(contender("K2", mixed, [=, &grid](const Double3& p) {
+        return find_by_levels(index, code_at(grid, p));
+    }));
+    to.push_back(contender("L1", memory_of(octree.nodes, octree.leaf_nodes, octree.leaf_codes),
+                           [=, &grid](const Double3& p) {
+                               const std::uint64_t code = code_at(grid, p);
+                               return last_leaf(index, count_without_branch(index.leaf_codes, code),
+                                                code);
+                           }));
+    to.push_back(
+        contender("L2", memory_of(octree.nodes, octree.leaf_nodes, octree.leaf_codes, octree.top),
+                  [=, &grid](const Double3& p) {
+                      return find_leaf(index, CellSearch::sorted, code_at(grid, p));
+                  }));
+}
+
+/// What each contender takes in one case of the experiment: a mesh, a depth, a set, a state.
+struct Case {
+    State state;
+    std::map<std::string, double> ns;
+};
+
+/// By the median of the timings, and by what a tenth of them stayed below.
+struct Cases {
+    std::vector<Case> medians;
+    std::vector<Case> tenths;
+};
+
+void measure(const StudyMesh& mesh, std::uint32_t depth, std::size_t rounds, Cases& cases) {
+    const Forms forms(build::build_octree(mesh.mesh.positions, mesh.mesh.triangles,
+                                          {.level = depth, .threshold = kThreshold}));
+    std::vector<Contender> contenders;
+    add_hierarchical(forms, contenders);
+    add_by_key(forms, contenders);
+    Random random(7);
+    for (const QuerySet& set :
+         {uniform_set(forms.octree.grid, kQueries, random),
+          surface_set(mesh.mesh, kQueries, random), walk_set(mesh.mesh, kQueries, random)}) {
+        const double found = compare_leaves(contenders, set.points);
+        for (const State state : {warm, in_turn, cold}) {
+            const auto ns = time_all(contenders, set.points, state, rounds);
+            Case& made = cases.medians.emplace_back(Case{state, {}});
+            Case& least = cases.tenths.emplace_back(Case{state, {}});
+            for (std::size_t c = 0; c < ns.size(); ++c) {
+                made.ns[contenders[c].name] = median(ns[c]);
+                least.ns[contenders[c].name] = median(ns[c], 0.1);
+            }
+            for (std::size_t c = 0; c < ns.size(); ++c) {
+                const double taken = median(ns[c]);
+                std::printf("%s,%zu,%u,%zu,%zu,%u,%s,%.3f,%s,%s,%.1f,%.1f,%.1f,%zu,%zu,%.2f,%.2f\n",
+                            mesh.name.c_str(), mesh.mesh.triangles.size(), depth,
+                            forms.octree.nodes.size(), forms.octree.leaf_codes.size(),
+                            octree_index(forms.octree).deepest, set.name, found, kStates[state],
+                            contenders[c].name.c_str(), taken, spread(ns[c]), median(ns[c], 0.1),
+                            ns[c].size(), bytes_of(contenders[c].memory), taken / made.ns["H0"],
+                            taken / made.ns["H2"]);
+            }
+            std::fflush(stdout);
+        }
+    }
+}
+
+constexpr double kClaim = 0.8;
+
+/// What a contender saves of a baseline's time, of each case of a state.
+std::vector<double> savings(const std::vector<Case>& cases, State state, const char* contender,
+                            const char* baseline) {
+    std::vector<double> saved;
+    for (const Case& c : cases) {
+        if (c.state == state) saved.push_back(1 - c.ns.at(contender) / c.ns.at(baseline));
+    }
+    return saved;
+}
+
+void print_savings(const std::vector<Case>& cases, State state, const char* contender,
+                   const char* baseline) {
+    const std::vector<double> saved = savings(cases, state, contender, baseline);
+    const auto reached = std::count_if(saved.begin(), saved.end(),
+                                       [](double share_saved) { return share_saved >= kClaim; });
+    std::printf(
+        "# %s, %s against %s: saves %.0f %% of the time in the median of %zu cases, "
+        "least %.0f %%, most %.0f %%; %.0f %% or more in %td.\n",
+        kStates[state], contender, baseline, 100 * median(saved), saved.size(),
+        100 * median(saved, 0), 100 * median(saved, 1), 100 * kClaim, reached);
+}
+
+/// A sentence about the talk's claim: "reduces the time of a query by up to 80 %".
+void print_verdict(const std::vector<Case>& cases, const char* baseline, const char* meaning) {
+    double most = -1;
+    std::vector<double> all;
+    std::string best;
+    for (const char* hashed : {"K0", "K1", "K2"}) {
+        for (const State state : {warm, in_turn, cold}) {
+            const std::vector<double> saved = savings(cases, state, hashed, baseline);
+            all.insert(all.end(), saved.begin(), saved.end());
+            if (median(saved, 1) <= most) continue;
+            most = median(saved, 1);
+            best = std::string(hashed) + ", " + kStates[state];
+        }
+    }
+    const auto slower = std::count_if(all.begin(), all.end(), [](double s) { return s < 0; });
+    std::printf(
+        "# Verdict: against %s (%s) \"up to 80 %%\" %s: the most that hashing saves is %.0f %% "
+        "(%s), the median %.0f %%, and in %td of %zu cases it is slower.\n",
+        baseline, meaning, most >= kClaim ? "holds" : "does not hold", 100 * most, best.c_str(),
+        100 * median(all), slower, all.size());
+}
+
+void print_verdicts(const std::vector<Case>& cases) {
+    print_verdict(cases, "H0", "recursion that tests the children's boxes");
+    print_verdict(cases, "H1", "descent by comparing with centres");
+    print_verdict(cases, "H2", "descent by the bits of one key");
+    print_verdict(cases, "H3", "the same without pointers");
+}
+
+void print_winners(const std::vector<Case>& cases) {
+    for (const State state : {warm, in_turn, cold}) {
+        std::map<std::string, int> wins;
+        for (const Case& c : cases) {
+            if (c.state != state) continue;
+            ++wins[std::min_element(c.ns.begin(), c.ns.end(), [](const auto& a, const auto& b) {
+                       return a.second < b.second;
+                   })->first];
+        }
+        std::printf("# %s, fastest:", kStates[state]);
+        for (const auto& [name, count] : wins) std::printf(" %s in %d", name.c_str(), count);
+        std::printf(" cases.\n");
+    }
+}
+
+void run(const std::vector<StudyMesh>& meshes, std::size_t rounds) {
+    std::printf(
+        "mesh,triangles,depth,nodes,leaves,deepest,points,found,state,contender,median_ns,"
+        "spread_ns,tenth_ns,timings,bytes,of_h0,of_h2\n");
+    Cases cases;
+    for (const StudyMesh& mesh : meshes) {
+        for (const std::uint32_t depth : kDepths) measure(mesh, depth, rounds, cases);
+    }
+    for (const State state : {warm, in_turn, cold}) {
+        for (const char* baseline : {"H0", "H1", "H2", "H3"}) {
+            for (const char* name : {"K0", "K1", "K2", "L1", "L2"}) {
+                print_savings(cases.medians, state, name, baseline);
+            }
+        }
+    }
+    print_winners(cases.medians);
+    std::printf("# By the medians:\n");
+    print_verdicts(cases.medians);
+    std::printf("# By what a tenth of the timings stayed below:\n");
+    print_verdicts(cases.tenths);
+}
+
+}  // namespace
+}  // namespace cdprep
+
+int main(int count, char** arguments) {
+    const std::size_t rounds =
+        count > 2 ? static_cast<std::size_t>(std::max(1, std::atoi(arguments[2]))) : 9;
+    std::vector<std::string> names(arguments + std::min(count, 3), arguments + count);
+    if (names.empty()) names = {"bunny", "armadillo", "dragon"};
+    cdprep::run(cdprep::study_meshes(count > 1 ? arguments[1] : "", names), rounds);
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "octree_search.h"
+
+namespace cdprep {
+
+/// Where a node's cell begins, and its level.
+struct NodeCell {
+    CellPlace first{};
+    std::uint32_t level = 0;
+};
+
+inline NodeCell cell_of(std::uint64_t key) {
+    NodeCell cell{.level = level_of(key)};
+    const std::uint64_t code = code_of(key);
+    for (std::uint32_t bit = 0; bit < format::kOctreeBits; ++bit) {
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+            cell.first[axis] |= static_cast<std::uint32_t>((code >> (3 * bit + axis)) & 1U) << bit;
+        }
+    }
+    return cell;
+}
+
+/// What ends a search in a tree of pointers: the product's number of the node.
+struct Ending {
+    std::uint32_t number = 0;
+    bool is_leaf = false;
+};
+
+/// An octree as textbooks draw it, made from the product's, so that leaves are the same:
+/// nodes that point to their children, null where a child is empty. In one piece of memory,
+/// depth first, which a descent likes best. Node has `children` and `ending`.
+template <class Node>
+class PointerOctree {
+public:
+    /// fill(node, cell) sets what else a node has.
+    template <class Fill>
+    PointerOctree(const std::vector<format::OctreeNode>& nodes, Fill fill) : pool_(nodes.size()) {
+        add(nodes, 0, fill);
+    }
+
+    [[nodiscard]] const Node& root() const {
+        return pool_.front();
+    }
+    [[nodiscard]] const std::vector<Node>& pool() const {
+        return pool_;
+    }
+
+private:
+    template <class Fill>
+    Node* add(const std::vector<format::OctreeNode>& nodes, std::uint32_t number, Fill& fill) {
+        Node* const made = &pool_[used_++];
+        fill(*made, cell_of(nodes[number].key));
+        made->ending = {number, is_leaf(nodes[number])};
+        if (made->ending.is_leaf) return made;
+        std::uint32_t child = nodes[number].first;
+        for (std::size_t i = 0; i < 8; ++i) {
+            if ((nodes[number].count >> i) & 1U) made->children[i] = add(nodes, child++, fill);
+        }
+        return made;
+    }
+
+    std::vector<Node> pool_;
+    std::size_t used_ = 0;
+};
+
+/// H0: a node has its box, and a search tests its children's, one after the other.
+struct BoxNode {
+    Box3 box{};
+    std::array<BoxNode*, 8> children{};
+    Ending ending;
+};
+
+inline bool holds(const Box3& box, const Double3& p) {
+    return p.x >= box.lower.x && p.x < box.upper.x && p.y >= box.lower.y && p.y < box.upper.y &&
+           p.z >= box.lower.z && p.z < box.upper.z;
+}
+
+inline PointerOctree<BoxNode> box_octree(const format::OctreeGrid& grid,
+                                         const std::vector<format::OctreeNode>& nodes) {
+    return {nodes, [&](BoxNode& node, const NodeCell& cell) {
+                node.box = octree_box(grid, cell.first, cell.level);
+            }};
+}
+
+inline std::uint32_t find_by_boxes(const BoxNode& node, const Double3& p) {
+    if (node.ending.is_leaf) return node.ending.number;
+    for (const BoxNode* child : node.children) {
+        if (child != nullptr && holds(child->box, p)) return find_by_boxes(*child, p);
+    }
+    return kNoNode;
+}
+
+/// H1: a node has the point where its children meet, and a search compares with it.
+struct CentreNode {
+    Double3 centre{};
+    std::array<CentreNode*, 8> children{};
+    Ending ending;
+};
+
+inline PointerOctree<CentreNode> centre_octree(const format::OctreeGrid& grid,
+                                               const std::vector<format::OctreeNode>& nodes) {
+    return {nodes, [&](CentreNode& node, const NodeCell& cell) {
+                const std::uint32_t half = kOctreeSteps >> cell.level >> 1;
+                node.centre = {octree_plane(grid.origin.x, grid.step, cell.first[0] + half),
+                               octree_plane(grid.origin.y, grid.step, cell.first[1] + half),
+                               octree_plane(grid.origin.z, grid.step, cell.first[2] + half)};
+            }};
+}
+
+inline std::uint32_t find_by_centres(const CentreNode& root, const Double3& p) {
+    const CentreNode* node = &root;
+    while (!node->ending.is_leaf) {
+        const std::size_t child = static_cast<std::size_t>(p.x >= node->centre.x) |
+                                  static_cast<std::size_t>(p.y >= node->centre.y) << 1 |
+                                  static_cast<std::size_t>(p.z >= node->centre.z) << 2;
+        node = node->children[child];
+        if (node == nullptr) return kNoNode;
+    }
+    return node->ending.number;
+}
+
+/// H2: a node has nothing but its children; a search takes them by the bits of a code.
+struct PlainNode {
+    std::array<PlainNode*, 8> children{};
+    Ending ending;
+};
+
+inline PointerOctree<PlainNode> plain_octree(const std::vector<format::OctreeNode>& nodes) {
+    return {nodes, [](PlainNode&, const NodeCell&) {}};
+}
+
+inline std::uint32_t find_by_bits(const PlainNode& root, std::uint64_t code) {
+    const PlainNode* node = &root;
+    for (code <<= 1; !node->ending.is_leaf; code <<= 3) {
+        node = node->children[code >> 61];
+        if (node == nullptr) return kNoNode;
+    }
+    return node->ending.number;
+}
+
+/// Bits set among eight: std::popcount is a call where processors without an instruction
+/// for it are supported.
+inline std::uint32_t count_of_eight(std::uint32_t bits) {
+    bits -= (bits >> 1) & 0x55U;
+    bits = (bits & 0x33U) + ((bits >> 2) & 0x33U);
+    return (bits + (bits >> 4)) & 0xfU;
+}
+
+/// H3: the product's own nodes, which have the number of their first child and which there
+/// are: the same descent without pointers.
+inline std::uint32_t find_by_masks(const std::vector<format::OctreeNode>& nodes,
+                                   std::uint64_t code) {
+    std::uint32_t node = 0;
+    for (code <<= 1; !is_leaf(nodes[node]); code <<= 3) {
+        const std::uint32_t bit = 1U << (code >> 61);
+        const std::uint32_t mask = nodes[node].count & 0xffU;
+        if ((mask & bit) == 0) return kNoNode;
+        node = nodes[node].first + count_of_eight(mask & (bit - 1));
+    }
+    return node;
+}
+
+}  // namespace cdprep
