@@ -183,33 +183,32 @@ void print_savings(const std::vector<Case>& cases, State state, const char* cont
         100 * median(saved, 0), 100 * median(saved, 1), 100 * kClaim, reached);
 }
 
-/// A sentence about the talk's claim: "reduces the time of a query by up to 80 %".
-void print_verdict(const std::vector<Case>& cases, const char* baseline, const char* meaning) {
-    double most = -1;
+/// A sentence about the talk's claim: "reduces the time of a query by up to 80 %". A case
+/// counts for it by its median and by its fast timings, so that no chance of the machine's does.
+void print_verdict(const Cases& cases, const char* baseline, const char* meaning) {
     std::vector<double> all;
+    std::size_t reached = 0;
     std::string best;
     for (const char* hashed : {"K0", "K1", "K2"}) {
         for (const State state : {warm, in_turn, cold}) {
-            const std::vector<double> saved = savings(cases, state, hashed, baseline);
-            all.insert(all.end(), saved.begin(), saved.end());
-            if (median(saved, 1) <= most) continue;
-            most = median(saved, 1);
-            best = std::string(hashed) + ", " + kStates[state];
+            const auto saved = savings(cases.medians, state, hashed, baseline);
+            const auto fast = savings(cases.tenths, state, hashed, baseline);
+            for (std::size_t i = 0; i < saved.size(); ++i) {
+                const double proved = std::min(saved[i], fast[i]);
+                if (proved >= kClaim) ++reached;
+                if (all.empty() || proved > median(all, 1)) {
+                    best = std::string(hashed) + ", " + kStates[state];
+                }
+                all.push_back(proved);
+            }
         }
     }
     const auto slower = std::count_if(all.begin(), all.end(), [](double s) { return s < 0; });
     std::printf(
-        "# Verdict: against %s (%s) \"up to 80 %%\" %s: the most that hashing saves is %.0f %% "
-        "(%s), the median %.0f %%, and in %td of %zu cases it is slower.\n",
-        baseline, meaning, most >= kClaim ? "holds" : "does not hold", 100 * most, best.c_str(),
-        100 * median(all), slower, all.size());
-}
-
-void print_verdicts(const std::vector<Case>& cases) {
-    print_verdict(cases, "H0", "recursion that tests the children's boxes");
-    print_verdict(cases, "H1", "descent by comparing with centres");
-    print_verdict(cases, "H2", "descent by the bits of one key");
-    print_verdict(cases, "H3", "the same without pointers");
+        "# Verdict: against %s (%s) \"up to 80 %%\" %s: reached in %zu of %zu cases; the most "
+        "that hashing saves is %.0f %% (%s), the median %.0f %%, and in %td it is slower.\n",
+        baseline, meaning, reached > 0 ? "holds" : "does not hold", reached, all.size(),
+        100 * median(all, 1), best.c_str(), 100 * median(all), slower);
 }
 
 void print_winners(const std::vector<Case>& cases) {
@@ -243,10 +242,10 @@ void run(const std::vector<StudyMesh>& meshes, std::size_t rounds) {
         }
     }
     print_winners(cases.medians);
-    std::printf("# By the medians:\n");
-    print_verdicts(cases.medians);
-    std::printf("# By what a tenth of the timings stayed below:\n");
-    print_verdicts(cases.tenths);
+    print_verdict(cases, "H0", "recursion that tests the children's boxes");
+    print_verdict(cases, "H1", "descent by comparing with centres");
+    print_verdict(cases, "H2", "descent by the bits of one key");
+    print_verdict(cases, "H3", "the same without pointers");
 }
 
 }  // namespace
