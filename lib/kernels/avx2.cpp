@@ -200,6 +200,7 @@ inline F8 select(Mask8 where, F8 a, F8 b) noexcept {
 }  // namespace
 }  // namespace cdprep::kernels
 
+#include "cells_met.h"
 #include "swept_spheres.h"
 
 namespace cdprep::kernels {
@@ -212,6 +213,8 @@ const Table kAvx2 = {"avx2",
                      triangles_within_of<F8, F8, F8>,
                      find_contacts_of<F8, F8, F8>,
                      find_own_contacts_of<F8, F8, F8>,
+                     place_among_cells_of<F8>,
+                     cells_met_of<F8>,
                      {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>}};
 
 }  // namespace cdprep::kernels

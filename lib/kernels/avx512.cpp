@@ -256,6 +256,7 @@ inline F16 select(F16::Mask where, F16 a, F16 b) noexcept {
 }  // namespace
 }  // namespace cdprep::kernels
 
+#include "cells_met.h"
 #include "swept_spheres.h"
 
 namespace cdprep::kernels {
@@ -268,6 +269,8 @@ const Table kAvx512 = {"avx512",
                        triangles_within_of<F8, F16, F16>,
                        find_contacts_of<F8, F16, F16>,
                        find_own_contacts_of<F8, F16, F16>,
+                       place_among_cells_of<F8>,
+                       cells_met_of<F8>,
                        {kSweptTests<0, F8, F16>, kSweptTests<1, F8, F16>, kSweptTests<2, F8, F16>}};
 
 }  // namespace cdprep::kernels

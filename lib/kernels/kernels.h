@@ -13,7 +13,7 @@
 /// proven margin: the answers of the queries are the same for every table.
 ///
 /// A kernel source includes this header, the vendor's intrinsics, and the bodies
-/// that all share (box_overlap.h, leaf_contacts.h, distances.h, swept_spheres.h). Those stand in an
+/// that all share (box_overlap.h, cells_met.h, leaf_contacts.h, ...). Those stand in an
 /// unnamed namespace: an inline function with a name that the linker sees could be
 /// emitted with AVX2 inside and then be the copy it keeps for everyone.
 namespace cdprep::kernels {
@@ -192,6 +192,23 @@ struct LeafScratch {
     }
 };
 
+/// The boxes of a node of B along A's axes, pair units, as many cells of A want them: eight
+/// a row.
+struct BoxesAmongCells {
+    alignas(64) float lower[3][kLanes];  ///< along A's axes, with the slack
+    alignas(64) float upper[3][kLanes];
+    alignas(64) float axis[3][3][kLanes];  ///< of the oriented boxes; [axis][component]
+    alignas(64) float middle[3][kLanes];   ///< their centres along those axes
+    alignas(64) float half[3][kLanes];     ///< and half extents, with the slack
+};
+
+/// The planes that bound eight cells of A, two along each axis, pair units. Cell i is above
+/// the middle plane along x where bit 0 of i is set, along y bit 1, along z bit 2.
+struct OctantPlanes {
+    float plane[3][3];  ///< [axis], rising
+    float half;         ///< half the edge of a cell
+};
+
 /// The tests of two nodes' boxes by what bounds their children.
 struct BoundTests {
     /// As Table::overlapping_boxes: of swept spheres, what neither six face directions of
@@ -258,6 +275,16 @@ struct Table {
     std::size_t (*find_own_contacts)(const LeafPlacement& placement, const LeafPair* pairs,
                                      std::size_t count, const std::uint32_t* corners,
                                      LeafScratch& scratch) noexcept;
+
+    /// Works out for a node of B what cells_met() wants of it. The slack is to cover the
+    /// rounding of both.
+    void (*place_among_cells)(const BoxPlacement& placement, const NodeBoxes& b,
+                              BoxesAmongCells& placed) noexcept;
+
+    /// Finds for each of eight cells which of B's boxes among `of_b`, a bit set, neither A's
+    /// axes nor the box's own separate from it.
+    void (*cells_met)(const BoxesAmongCells& b, const OctantPlanes& cells, unsigned of_b,
+                      std::uint8_t* met) noexcept;
 
     /// The tests of nodes that both have swept spheres, by format::SweptKind.
     BoundTests swept[3];

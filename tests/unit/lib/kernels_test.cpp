@@ -316,6 +316,69 @@ TEST(Kernels, OrientedBoxesWithACommonPointAreNeverSeparated) {
     EXPECT_GT(separated, 100'000u);  // boxes around another point are told apart
 }
 
+/// Eight cells with an edge of 2^-5 to 1, one of which, `holds`, holds `point`, often on a
+/// face.
+OctantPlanes cells_with(std::mt19937& random, const Double3& point, unsigned holds) {
+    const float edge = std::ldexp(1.0F, -static_cast<int>(random() % 6));
+    OctantPlanes cells{};
+    cells.half = 0.5F * edge;
+    const std::array<double, 3> p = {point.x, point.y, point.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto eighth = static_cast<float>(random() % 9) * 0.125F;  // of the way through
+        const auto at = static_cast<float>(p[axis]);
+        const float lower = at - (eighth + static_cast<float>(holds >> axis & 1)) * edge;
+        for (std::size_t k = 0; k < 3; ++k) {
+            cells.plane[axis][k] = lower + static_cast<float>(k) * edge;
+        }
+    }
+    return cells;
+}
+
+// By construction: a cell and a box that share a point meet, whether the box is oriented or
+// not; and lanes that were not asked for do not.
+TEST(Kernels, CellsAndBoxesWithACommonPointAlwaysMeet) {
+    constexpr float kSlack = 1.2e-5F;  // of twice the roundings
+    std::mt19937 random(6);
+    std::size_t met_elsewhere = 0, asked_elsewhere = 0;
+    for (int round = 0; round < 3000; ++round) {
+        const Pose pose = test::random_pose(random, 0.5);
+        const Double3 point = {0.2, -0.3, 0.1};
+        const OrientedNode oriented = boxes_with(random, moved_back(pose, point));
+        // Around each oriented box, along B's axes.
+        Node aligned{};
+        for (std::size_t box = 0; box < kLanes; ++box) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const float half =
+                    oriented[72 + box] + oriented[80 + box] + oriented[88 + box] + 1e-6F;
+                aligned[8 * i + box] = oriented[48 + 8 * i + box] - half;
+                aligned[24 + 8 * i + box] = oriented[48 + 8 * i + box] + half;
+            }
+        }
+        const unsigned holds = random() % 8;
+        const OctantPlanes cells = cells_with(random, point, holds);
+        const unsigned some = random() % 256;
+        for_each_table([&](const Table& table) {
+            for (const float* turned : {oriented.data(), static_cast<const float*>(nullptr)}) {
+                BoxesAmongCells boxes{};
+                std::array<std::uint8_t, kLanes> met{};
+                table.place_among_cells(placement_of(pose, kSlack), {aligned.data(), turned},
+                                        boxes);
+                table.cells_met(boxes, cells, 0xff, met.data());
+                ASSERT_EQ(met[holds], 0xff) << round;
+                const std::array<std::uint8_t, kLanes> all = met;
+                table.cells_met(boxes, cells, some, met.data());
+                for (std::size_t i = 0; i < kLanes; ++i) {
+                    ASSERT_EQ(met[i], all[i] & some) << round;
+                    met_elsewhere += i == holds ? 0U : static_cast<unsigned>(std::popcount(all[i]));
+                    asked_elsewhere += i == holds ? 0 : 8;
+                }
+            }
+        });
+    }
+    EXPECT_GT(met_elsewhere, asked_elsewhere / 10);
+    EXPECT_LT(met_elsewhere, asked_elsewhere * 7 / 10);
+}
+
 using Leaf = std::array<float, 78>;
 
 Corners corners_of(const Leaf& leaf, std::size_t lane, const Pose& pose) {
