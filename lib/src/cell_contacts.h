@@ -57,6 +57,14 @@ public:
         return !batch_.full() || flush();
     }
 
+    /// The same for who brings no two leaves twice: nothing is remembered, and `owns` is
+    /// asked about all answers.
+    bool add_once(const LeafLanes& a, const LeafLanes& b) noexcept {
+        scratch_.pending_leaves[batch_.size()] = {0, ~std::uint64_t{0}, false};
+        batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
+        return !batch_.full() || flush();
+    }
+
     /// Tests all that was added. False when `found` ended the question.
     bool flush() noexcept {
         if (batch_.size() == 0) return true;
