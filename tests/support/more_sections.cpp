@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/more_sections.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "support/open_tiny.h"
@@ -19,6 +20,8 @@ AlignedBytes with_sections(const AlignedBytes& file, std::vector<TinySection> se
         all.push_back({entry->id, {content.begin(), content.end()}});
     }
     for (TinySection& section : sections) all.push_back(std::move(section));
+    std::sort(all.begin(), all.end(),
+              [](const TinySection& a, const TinySection& b) { return a.id < b.id; });
     return assemble(format::read_header(bytes), all);
 }
 

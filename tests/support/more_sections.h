@@ -20,7 +20,7 @@ TinySection as_section(SectionId id, std::span<const T> elements) {
     return {id, {bytes.begin(), bytes.end()}};
 }
 
-/// The same file with these sections too, which have higher ids than it has.
+/// The same file with these sections too, which it does not have.
 [[nodiscard]] AlignedBytes with_sections(const AlignedBytes& file,
                                          std::vector<TinySection> sections);
 
