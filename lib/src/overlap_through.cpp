@@ -2,6 +2,7 @@
 #include "cdprep/overlap_through.h"
 
 #include "contacts_through.h"
+#include "hashed_overlap.h"
 #include "smallest_pairs.h"
 
 namespace cdprep {
@@ -14,6 +15,9 @@ bool visit_contacts_through(const QuestionThrough& question, ContactVisitor visi
         case Structure::adaptive_octree:
         case Structure::tetra_tree:
             return visit_contacts_through_trees(question, visit);
+        case Structure::hashed_octree:
+        case Structure::hashed_octree_literal:
+            return visit_contacts_through_keys(question, visit);
         default:
             return true;
     }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "candidate_nodes.h"
 #include "cdprep/format/limits.h"
 #include "cdprep/query_counts.h"
 #include "cdprep/workspace.h"
@@ -84,6 +85,7 @@ struct Workspace::Storage {
     LeafLists<64> leaf_lists_b;
     KeptBounds bounds_a;
     KeptBounds bounds_b;
+    CandidateNodes candidate_nodes;
     QueryCounts* counts = nullptr;  ///< or null: nobody asked
 };
 

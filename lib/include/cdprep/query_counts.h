@@ -24,6 +24,11 @@ struct QueryCounts {
 
     std::uint64_t cell_pairs = 0;  ///< leaf cells of octrees or tetra-trees, A's against B's
 
+    // Of the hashed octree.
+    std::uint64_t potential = 0;     ///< triangles of the one model that may touch the other
+    std::uint64_t cells_sought = 0;  ///< cells looked up by their key
+    std::uint64_t references = 0;    ///< triangles that the leaf cells list, each time they do
+
     std::uint64_t measured = 0;        ///< distances of two triangles taken in double
     std::uint64_t measured_again = 0;  ///< again, for the last digits
 

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "cell_bounds.h"
+#include "octree_search.h"
+
+namespace cdprep {
+
+/// What an octree has in one cell: a run of its sorted leaves, or, from a table, one node.
+/// Empty where no triangle touches the cell.
+struct OctreePart {
+    std::uint32_t first = 0;
+    std::uint32_t last = 0;  ///< one past
+
+    [[nodiscard]] bool empty() const noexcept {
+        return first == last;
+    }
+    friend bool operator==(const OctreePart&, const OctreePart&) = default;
+};
+
+/// Goes straight to the part of any cell by its key, and down from there.
+class OctreeParts {
+public:
+    OctreeParts(const OctreeIndex& index, std::span<const std::uint32_t> references,
+                CellSearch search) noexcept
+        : index_(index), references_(references), search_(search) {}
+
+    /// No cell below this level has a part of its own.
+    [[nodiscard]] std::uint32_t deepest() const noexcept {
+        return index_.deepest;
+    }
+
+    /// The part of the cell of `level`, at most deepest(), that begins with the finest cell
+    /// `code`: what is in it, or the leaf that holds it. There are nodes.
+    [[nodiscard]] OctreePart at(std::uint64_t code, std::uint32_t level) const noexcept {
+        switch (search_) {
+            case CellSearch::modulus:
+                return chained(index_.modulus_table, code, level, modulus_slot);
+            case CellSearch::mixed:
+                return chained(index_.mixed_table, code, level, mixed_slot);
+            case CellSearch::sorted:
+                break;
+        }
+        return run(code, level);
+    }
+
+    /// Whether a part that is not empty is as far down as is worth going: a leaf or, of
+    /// sorted leaves, a few.
+    [[nodiscard]] bool is_low(const OctreePart& part) const noexcept {
+        if (search_ == CellSearch::sorted) return part.last - part.first <= kFewLeaves;
+        return is_leaf(index_.nodes[part.first]);
+    }
+
+    /// The triangles of the i-th leaf of a low part, i below part.last - part.first.
+    [[nodiscard]] std::span<const std::uint32_t> references(const OctreePart& part,
+                                                            std::uint32_t i) const noexcept {
+        const std::uint32_t at = part.first + i;
+        const format::OctreeNode& node =
+            index_.nodes[search_ == CellSearch::sorted ? index_.leaf_nodes[at] : at];
+        return references_.subspan(node.first, node.count);
+    }
+
+    /// Which children of what is not low may have parts: a bit each.
+    [[nodiscard]] unsigned children(const OctreePart& part) const noexcept {
+        return search_ == CellSearch::sorted ? 0xff : index_.nodes[part.first].count & 0xff;
+    }
+    /// The part of the i-th child, one of children(), a cell of `level` that begins with
+    /// the finest cell `code`.
+    [[nodiscard]] OctreePart child(const OctreePart& part, unsigned i, std::uint64_t code,
+                                   std::uint32_t level) const noexcept {
+        if (search_ != CellSearch::sorted) {
+            const format::OctreeNode& node = index_.nodes[part.first];
+            const std::uint32_t at = node.first + lanes_before(node.count & 0xff, i);
+            return {at, at + 1};
+        }
+        const std::uint32_t first =
+            i == 0 ? part.first : leaves_up_to(part.first, part.last, code - 1);
+        const std::uint32_t last =
+            i == 7 ? part.last : leaves_up_to(first, part.last, code + (cells_below(level) - 1));
+        return {first, last};
+    }
+
+private:
+    /// Measured: the boxes of the hierarchy part what they list as well as more cells do.
+    static constexpr std::uint32_t kFewLeaves = 4;
+
+    [[nodiscard]] std::uint32_t leaves_up_to(std::uint32_t first, std::uint32_t last,
+                                             std::uint64_t code) const noexcept {
+        const auto count = count_up_to(index_.leaf_codes.data() + first, last - first, code,
+                                       [](std::uint64_t leaf_code) { return leaf_code; });
+        return first + static_cast<std::uint32_t>(count);
+    }
+
+    /// Leaves that begin in the cell, or else the leaf before them when it holds the cell.
+    [[nodiscard]] OctreePart run(std::uint64_t code, std::uint32_t level) const noexcept {
+        const std::uint32_t shift = 3 * (format::kOctreeBits - index_.top_level);
+        const std::uint64_t last_code = code + (cells_below(level) - 1);
+        OctreePart part{index_.top[code >> shift], index_.top[(last_code >> shift) + 1]};
+        if (level > index_.top_level && !part.empty()) {
+            const std::uint32_t end = leaves_up_to(part.first, part.last, last_code);
+            part = {code == 0 ? 0 : leaves_up_to(part.first, end, code - 1), end};
+        }
+        if (!part.empty() || part.first == 0) return part;
+        const std::uint64_t key = index_.nodes[index_.leaf_nodes[part.first - 1]].key;
+        const bool holds = key_at(code, level_of(key)) == key;
+        return holds ? OctreePart{part.first - 1, part.first} : OctreePart{};
+    }
+
+    template <class SlotOf>
+    [[nodiscard]] OctreePart chained(std::span<const std::uint32_t> table, std::uint64_t code,
+                                     std::uint32_t level, SlotOf slot_of) const noexcept {
+        const std::uint64_t own = key_at(code, level);
+        for (std::uint64_t key = own; key != 0; key >>= 3) {
+            const std::uint32_t node =
+                find_chained(index_, table, slot_of(key, index_.slot_bits), key);
+            if (node == kNoNode) continue;
+            // Above the cell an inner node says that its child there is empty.
+            const bool holds = key == own || is_leaf(index_.nodes[node]);
+            return holds ? OctreePart{node, node + 1} : OctreePart{};
+        }
+        return {};
+    }
+
+    OctreeIndex index_;
+    std::span<const std::uint32_t> references_;
+    CellSearch search_;
+};
+
+}  // namespace cdprep
