@@ -47,6 +47,9 @@ struct CellBlock {
     }
 };
 
+/// How many cells each of eight boxes meets.
+using MeetingCounts = std::array<std::uint8_t, format::kBvhWidth>;
+
 /// Bit j goes to the lowest of byte j: times a set of A's boxes, all pairs with those.
 kernels::BoxPairs spread_to_rows(unsigned of_b) noexcept {
     // Byte j keeps bit j alone, and then 1 where that is set.
@@ -107,15 +110,16 @@ private:
 template <class Contacts>
 class KeyedWalk {
 public:
-    KeyedWalk(const Model& a, const Model& b, CellSearch search, const PlacedBoxes& placed,
-              Workspace::Storage& scratch, Contacts& contacts) noexcept
-        : tree_a_(a),
-          tree_b_(b),
-          parts_(octree_index(a), a.octree_references(), search),
-          planes_(a, placed),
+    KeyedWalk(const QuestionThrough& question, const PlacedBoxes& placed,
+              Contacts& contacts) noexcept
+        : search_(question.search),
+          tree_a_(question.a),
+          tree_b_(question.b),
+          parts_(octree_index(question.a), question.a.octree_references(), question.through.search),
+          planes_(question.a, placed),
           placed_(placed),
           cell_placement_(placed.placement),
-          scratch_(scratch),
+          scratch_(question.workspace.storage()),
           contacts_(contacts),
           kernel_(kernels::active()) {
         cell_placement_.slack =
@@ -132,16 +136,11 @@ public:
             std::array<KeyedCell, 8> cells;
             const std::size_t count = find_cells(below, cells);
             if (count == 0) continue;
-            if (place.height == 1) {
-                if (!look_at(below, std::span(cells).first(count))) return false;
-                continue;
-            }
-            const unsigned met = boxes_met(std::span(cells).first(count));
-            prefetch_children(tree_b_, below.first_below, met);
-            for (unsigned rest = met; rest != 0; rest &= rest - 1) {
-                const auto box = static_cast<std::uint32_t>(std::countr_zero(rest));
-                const TreePlace child{below.first_below.height, below.first_below.index + box};
-                scratch_.pending[depth++] = PendingPair{child, {0, 0}}.packed();
+            const auto met = std::span(cells).first(count);
+            if (place.height > 1) {
+                depth = push_met(met, below.first_below, depth);
+            } else if (!(search_ == Search::all ? look_at(below, met) : try_each(below, met))) {
+                return false;
             }
         }
         return contacts_.flush();
@@ -155,14 +154,32 @@ private:
     /// The deepest cells of which two along each axis hold the boxes.
     [[nodiscard]] CellBlock block_around(unsigned boxes) const noexcept;
 
-    /// Those of B's boxes that meet one of the cells, or of their children.
-    unsigned boxes_met(std::span<const KeyedCell> cells) noexcept;
+    /// Adds to the pending places those of B's boxes, the first of which stands for
+    /// `first_below`, that meet one of the cells' children; returns the new depth. Those
+    /// that meet most of them come first.
+    std::size_t push_met(std::span<const KeyedCell> cells, const TreePlace& first_below,
+                         std::size_t depth) noexcept;
+    /// By box, how many of the cells' children with triangles it meets.
+    [[nodiscard]] MeetingCounts count_met(std::span<const KeyedCell> cells) noexcept;
+
+    /// Of one block of cells.
+    void count_boxes(unsigned boxes) const noexcept {
+        if (scratch_.counts == nullptr) return;
+        scratch_.counts->box_pairs += 8U * static_cast<unsigned>(std::popcount(boxes));
+    }
 
     /// Adds to `met` the children of a cell that boxes meet; returns the new count.
     std::size_t open(const KeyedCell& cell, KeyedCell* met, std::size_t count) noexcept;
 
     /// Tests what the leaf cells below list against the triangles below B's lowest node.
     bool look_at(const TestedBoxes& side, std::span<const KeyedCell> cells) noexcept;
+    /// The same cell by cell, so that a hit comes early; pairs of leaves may come again.
+    bool try_each(const TestedBoxes& side, std::span<const KeyedCell> cells) noexcept {
+        for (const KeyedCell& cell : cells) {
+            if (!look_at(side, std::span(&cell, 1)) || !contacts_.flush()) return false;
+        }
+        return true;
+    }
     /// Notes the nodes of A's hierarchy with what the leaf cells below list.
     void gather(std::span<const KeyedCell> cells) noexcept;
     void add_listed(std::span<const std::uint32_t> references, unsigned boxes) noexcept;
@@ -170,6 +187,7 @@ private:
     [[nodiscard]] kernels::BoxPairs meeting(const CandidateNode& candidate,
                                             const TestedBoxes& side) const noexcept;
 
+    Search search_;
     Tree tree_a_;
     Tree tree_b_;
     OctreeParts parts_;
@@ -238,9 +256,7 @@ std::size_t KeyedWalk<Contacts>::open(const KeyedCell& cell, KeyedCell* met,
     std::array<std::uint8_t, 8> boxes;
     const unsigned children = parts_.children(cell.part);
     kernel_.cells_met(boxes_, planes_.planes(block), cell.boxes, boxes.data());
-    if (scratch_.counts != nullptr) {
-        scratch_.counts->box_pairs += 8U * static_cast<unsigned>(std::popcount(cell.boxes));
-    }
+    count_boxes(cell.boxes);
     for (unsigned i = 0; i < 8; ++i) {
         if (boxes[i] == 0 || ((children >> i) & 1) == 0) continue;
         const CellPlace first = block.cell(i);
@@ -251,19 +267,53 @@ std::size_t KeyedWalk<Contacts>::open(const KeyedCell& cell, KeyedCell* met,
 }
 
 template <class Contacts>
-unsigned KeyedWalk<Contacts>::boxes_met(std::span<const KeyedCell> cells) noexcept {
-    unsigned met = 0;
+MeetingCounts KeyedWalk<Contacts>::count_met(std::span<const KeyedCell> cells) noexcept {
+    MeetingCounts counts{};
+    const auto add = [&](unsigned boxes) {
+        for (unsigned rest = boxes; rest != 0; rest &= rest - 1) {
+            ++counts[static_cast<unsigned>(std::countr_zero(rest))];
+        }
+    };
     for (const KeyedCell& cell : cells) {
-        if ((cell.boxes & ~met) == 0) continue;
         if (parts_.is_low(cell.part)) {
-            met |= cell.boxes;
+            add(cell.boxes);
             continue;
         }
-        std::array<KeyedCell, 8> children;
-        const std::size_t count = open(cell, children.data(), 0);
-        for (std::size_t i = 0; i < count; ++i) met |= children[i].boxes;
+        const CellBlock block = {cell.first, cell.level + 1};
+        std::array<std::uint8_t, 8> boxes;
+        kernel_.cells_met(boxes_, planes_.planes(block), cell.boxes, boxes.data());
+        count_boxes(cell.boxes);
+        for (unsigned i = 0; i < 8; ++i) {
+            if (boxes[i] != 0 &&
+                parts_.has_child(cell.part, i, octree_code(block.cell(i)), block.level))
+                add(boxes[i]);
+        }
     }
-    return met;
+    return counts;
+}
+
+template <class Contacts>
+std::size_t KeyedWalk<Contacts>::push_met(std::span<const KeyedCell> cells,
+                                          const TreePlace& first_below,
+                                          std::size_t depth) noexcept {
+    const MeetingCounts counts = count_met(cells);
+    const std::size_t begin = depth;
+    unsigned met = 0;
+    for (std::uint32_t box = 0; box < format::kBvhWidth; ++box) {
+        if (counts[box] == 0) continue;
+        met |= 1U << box;
+        const TreePlace child{first_below.height, first_below.index + box};
+        std::size_t at = depth++;
+        for (; at > begin &&
+               counts[PendingPair::unpacked(scratch_.pending[at - 1]).a.index - first_below.index] >
+                   counts[box];
+             --at) {
+            scratch_.pending[at] = scratch_.pending[at - 1];
+        }
+        scratch_.pending[at] = PendingPair{child, {0, 0}}.packed();
+    }
+    prefetch_children(tree_b_, first_below, met);
+    return depth;
 }
 
 template <class Contacts>
@@ -376,8 +426,7 @@ bool visit_repaired(const QuestionThrough& question, ContactVisitor visit) noexc
     };
     CellContacts contacts(question.a, question.b, question.placement, placed,
                           question.through.leaf_test, question.options, scratch, found, owns);
-    KeyedWalk walk(question.a, question.b, question.through.search, placed, scratch, contacts);
-    return walk.walk();
+    return KeyedWalk(question, placed, contacts).walk();
 }
 
 bool visit_swapped(const QuestionThrough& question, ContactVisitor visit) noexcept {

@@ -67,6 +67,16 @@ public:
     [[nodiscard]] unsigned children(const OctreePart& part) const noexcept {
         return search_ == CellSearch::sorted ? 0xff : index_.nodes[part.first].count & 0xff;
     }
+    /// Whether the i-th child's part, as child() has it, is not empty.
+    [[nodiscard]] bool has_child(const OctreePart& part, unsigned i, std::uint64_t code,
+                                 std::uint32_t level) const noexcept {
+        if (search_ != CellSearch::sorted) {
+            return (index_.nodes[part.first].count >> i & 1) != 0;
+        }
+        const std::uint32_t first =
+            i == 0 ? part.first : leaves_up_to(part.first, part.last, code - 1);
+        return first < part.last && index_.leaf_codes[first] - code < cells_below(level);
+    }
     /// The part of the i-th child, one of children(), a cell of `level` that begins with
     /// the finest cell `code`.
     [[nodiscard]] OctreePart child(const OctreePart& part, unsigned i, std::uint64_t code,
