@@ -165,7 +165,7 @@ private:
     /// Of one block of cells.
     void count_boxes(unsigned boxes) const noexcept {
         if (scratch_.counts == nullptr) return;
-        scratch_.counts->box_pairs += 8U * static_cast<unsigned>(std::popcount(boxes));
+        scratch_.counts->box_pairs += 8 * static_cast<std::uint64_t>(std::popcount(boxes));
     }
 
     /// Adds to `met` the children of a cell that boxes meet; returns the new count.
@@ -396,7 +396,7 @@ bool KeyedWalk<Contacts>::test_candidates(const TestedBoxes& side) noexcept {
     }
     if (scratch_.counts != nullptr) {
         scratch_.counts->potential +=
-            format::kBvhWidth * static_cast<unsigned>(std::popcount(kernels::boxes_of_b(all)));
+            8 * static_cast<std::uint64_t>(std::popcount(kernels::boxes_of_b(all)));
     }
     return true;
 }
