@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: MIT
+// The talk's algorithm on pairs of models: how many of the overlapping pairs it finds when it
+// is taken to the letter, how small its potentially colliding sets are, and how long it takes,
+// literal and repaired, beside the hierarchy of boxes. All three ask each pose in turns, and
+// that several times; the time of a pose is the median of its rounds, that of a set the
+// median of its poses. One thread.
+//
+// Usage: hashed_recall_bench BAKES POSES LEVEL THRESHOLD ROUNDS [SEARCH [MISSED [PAIR...]]]
+// BAKES holds NAME.cdp.h5, baked with --normalize; POSES holds A-B.pose files of 12 numbers a
+// line, line i of kind i mod 3 (light, deep, near). Octrees of that level and threshold are
+// built here. SEARCH is sorted, modulus or mixed. MISSED is where the pair that the literal
+// form misses by most is written as JSON, for missed_pair.py, or "-". PAIR is A-B; without,
+// all files of POSES are taken.
+//
+// Prints a CSV table, means over a set's poses. pairs: that overlap; found: of them by the
+// literal form; recall: the share, or nan. cs_a, cs_b: triangles of A and of B in those pairs;
+// literal_cs_a, literal_cs_b: in those found. Triangles of B: all_b; box_b: that touch A's
+// axis-aligned box; leaf_b: in leaves of the hierarchy that A's oriented box does not clip;
+// pcs_b: triangles that it does not clip; held_b: of the model with fewer triangles, in
+// leaves with boxes that meet cells of the other (repaired). listed: triangles of A that the
+// literal form's cells list (its PCS_A, added up), and the repaired form's. Microseconds.
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "bench_input.h"
+#include "contact_pairs.h"
+#include "octree_codes.h"
+#include "octree_search.h"
+#include "potential_set.h"
+#include "support/more_sections.h"
+#include "support/open_tiny.h"
+
+#include "cdprep/overlap_through.h"
+#include "cdprep/query_counts.h"
+#include "cdprep/touching_box.h"
+
+namespace cdprep {
+namespace {
+
+constexpr std::array<const char*, 3> kKinds = {"light", "deep", "near"};
+constexpr std::array<Structure, 3> kContenders = {Structure::bvh, Structure::hashed_octree,
+                                                  Structure::hashed_octree_literal};
+
+test::OpenModel open_with_octree(const std::filesystem::path& path,
+                                 const build::OctreeOptions& options) {
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file) stop(path.string() + " cannot be read.");
+    test::AlignedBytes bytes(static_cast<std::size_t>(file.tellg()));
+    file.seekg(0);
+    file.read(reinterpret_cast<char*>(bytes.span().data()),
+              static_cast<std::streamsize>(bytes.span().size()));
+    return test::open_tiny(test::with_octree(bytes, options));
+}
+
+/// Means over the poses of a set.
+struct Row {
+    std::map<std::string, double> sum;
+    std::array<std::vector<double>, 3> us;  ///< of the contenders, by pose
+};
+
+/// A pair that the literal form misses.
+struct Missed {
+    double size = 0;  ///< the longest edge of B's triangle
+    std::string pair;
+    Pose a_from_b;
+    std::uint32_t at_a = 0;  ///< tree order
+    std::uint32_t at_b = 0;
+};
+
+class Study {
+public:
+    Study(const Model& a, const Model& b, CellSearch search) : a_(a), b_(b), search_(search) {}
+
+    void ask(const Pose& pose, int rounds, Row& row);
+
+    /// The pairs that the last question's literal form missed.
+    [[nodiscard]] const std::vector<TrianglePair>& missed() const {
+        return missed_;
+    }
+
+private:
+    [[nodiscard]] StructureOptions through(Structure structure) const {
+        return {.structure = structure, .search = search_};
+    }
+    std::vector<TrianglePair> pairs_through(Structure structure, const Placement& placement) {
+        const StructureOptions options = through(structure);
+        std::vector<TrianglePair> pairs(
+            overlapping_triangles_through(options, a_, b_, placement, workspace_, {}));
+        pairs.resize(overlapping_triangles_through(options, a_, b_, placement, workspace_, pairs));
+        return pairs;
+    }
+    QueryCounts counts_of(Structure structure, const Placement& placement) {
+        QueryCounts counts;
+        workspace_.count_into(&counts);
+        count(structure, placement);
+        workspace_.count_into(nullptr);
+        return counts;
+    }
+    std::size_t count(Structure structure, const Placement& placement) {
+        return overlapping_triangles_through(through(structure), a_, b_, placement, workspace_, {});
+    }
+    void time(const Placement& placement, int rounds, Row& row);
+    [[nodiscard]] double leaves_left(const Placement& placement);
+
+    const Model& a_;
+    const Model& b_;
+    CellSearch search_;
+    Workspace workspace_;
+    std::vector<TrianglePair> missed_;
+};
+
+double distinct(const std::vector<TrianglePair>& pairs, std::uint32_t TrianglePair::*side) {
+    std::vector<std::uint32_t> numbers;
+    for (const TrianglePair& pair : pairs) numbers.push_back(pair.*side);
+    std::sort(numbers.begin(), numbers.end());
+    return static_cast<double>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
+}
+
+double Study::leaves_left(const Placement& placement) {
+    const PotentialSet set(a_, b_, placement);
+    double triangles = 0;
+    if (set.is_empty()) return 0;
+    walk_nodes(
+        b_, workspace_.storage(), [&](const format::BvhNode& node) { return set.judge(node); },
+        [&](const TriangleRun& run) {
+            triangles += run.last - run.first;
+            return true;
+        },
+        [](const TriangleRun&) { return true; });
+    return triangles;
+}
+
+void Study::time(const Placement& placement, int rounds, Row& row) {
+    std::array<std::vector<double>, kContenders.size()> us;
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t c = 0; c < kContenders.size(); ++c) {
+            const auto begun = std::chrono::steady_clock::now();
+            count(kContenders[c], placement);
+            const std::chrono::duration<double, std::micro> taken =
+                std::chrono::steady_clock::now() - begun;
+            us[c].push_back(taken.count());
+        }
+    }
+    for (std::size_t c = 0; c < kContenders.size(); ++c) row.us[c].push_back(median(us[c]));
+}
+
+void Study::ask(const Pose& pose, int rounds, Row& row) {
+    const Placement placement = Placement::b_moves(pose);
+    const auto all = pairs_through(Structure::bvh, placement);
+    if (pairs_through(Structure::hashed_octree, placement) != all) stop("The pairs differ.");
+    const auto found = pairs_through(Structure::hashed_octree_literal, placement);
+    missed_.clear();
+    std::set_difference(all.begin(), all.end(), found.begin(), found.end(),
+                        std::back_inserter(missed_));
+    auto& sum = row.sum;
+    sum["pairs"] += static_cast<double>(all.size());
+    sum["found"] += static_cast<double>(found.size());
+    sum["cs_a"] += distinct(all, &TrianglePair::a);
+    sum["cs_b"] += distinct(all, &TrianglePair::b);
+    sum["literal_cs_a"] += distinct(found, &TrianglePair::a);
+    sum["literal_cs_b"] += distinct(found, &TrianglePair::b);
+    sum["all_b"] += b_.triangle_count();
+    const Box box = {a_.bounds()->lower, a_.bounds()->upper};
+    sum["box_b"] += static_cast<double>(
+        touching_triangles(b_, box, workspace_, {}, {.world_from_model = pose}));
+    sum["leaf_b"] += leaves_left(placement);
+    const QueryCounts literal = counts_of(Structure::hashed_octree_literal, placement);
+    const QueryCounts repaired = counts_of(Structure::hashed_octree, placement);
+    sum["pcs_b"] += static_cast<double>(literal.potential);
+    sum["held_b"] += static_cast<double>(repaired.potential);
+    sum["listed_literal"] += static_cast<double>(literal.references);
+    sum["listed_repaired"] += static_cast<double>(repaired.references);
+    time(placement, rounds, row);
+}
+
+constexpr std::array<const char*, 12> kMeans = {
+    "pairs", "found", "cs_a",   "cs_b",  "literal_cs_a", "literal_cs_b",
+    "all_b", "box_b", "leaf_b", "pcs_b", "held_b",       "listed_literal"};
+
+void print(const std::string& pair, const char* kind, std::size_t poses, Row& row) {
+    std::printf("%s,%s,%zu", pair.c_str(), kind, poses);
+    for (const char* name : kMeans) {
+        std::printf(",%.1f", row.sum[name] / static_cast<double>(poses));
+    }
+    // Not a number where nothing overlaps.
+    const double recall = row.sum["found"] / row.sum["pairs"];
+    const double bvh = median(row.us[0]), repaired = median(row.us[1]), literal = median(row.us[2]);
+    std::printf(",%.1f,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f\n",
+                row.sum["listed_repaired"] / static_cast<double>(poses), recall, bvh, repaired,
+                literal, repaired / bvh, literal / bvh);
+    std::fflush(stdout);
+}
+
+double longest_edge(const Corners& t) {
+    double longest = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Double3& p = t[i];
+        const Double3& q = t[(i + 1) % 3];
+        longest = std::max(longest, std::hypot(p.x - q.x, p.y - q.y, p.z - q.z));
+    }
+    return longest;
+}
+
+/// From numbers of the imported file to the tree order.
+std::vector<std::uint32_t> tree_numbers(const Model& model) {
+    std::vector<std::uint32_t> numbers(model.triangle_count());
+    for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[source_number(model, i)] = i;
+    return numbers;
+}
+
+void keep_larger(const Study& study, const std::string& name, const Model& a, const Model& b,
+                 const Pose& pose, Missed& kept) {
+    if (study.missed().empty()) return;
+    const auto tree_a = tree_numbers(a), tree_b = tree_numbers(b);
+    const MovedModel moved(b, &pose);
+    for (const TrianglePair& pair : study.missed()) {
+        const double size = longest_edge(moved.corners(tree_b[pair.b]));
+        if (size <= kept.size) continue;
+        kept = {size, name, pose, tree_a[pair.a], tree_b[pair.b]};
+    }
+}
+
+void write_point(std::FILE* file, const Double3& p, const char* after) {
+    std::fprintf(file, "[%.17g, %.17g, %.17g]%s", p.x, p.y, p.z, after);
+}
+void write_corners(std::FILE* file, const char* name, const Corners& t, const char* after) {
+    std::fprintf(file, "%s[", name);
+    write_point(file, t[0], ", ");
+    write_point(file, t[1], ", ");
+    write_point(file, t[2], "]");
+    std::fputs(after, file);
+}
+void write_box(std::FILE* file, const Box3& box, const char* after) {
+    std::fputs("    [", file);
+    write_point(file, box.lower, ", ");
+    write_point(file, box.upper, "]");
+    std::fputs(after, file);
+}
+
+/// The triangles of the pair, the cell around each corner of B's, the leaf cells that list
+/// A's, and what of A's surface touches B's triangle or lies near.
+void write_missed(const std::filesystem::path& path, const Missed& missed, const Model& a,
+                  const Model& b, CellSearch search) {
+    std::FILE* file = std::fopen(path.c_str(), "w");
+    if (file == nullptr) stop(path.string() + " cannot be written.");
+    const MovedModel still(a, nullptr), moved(b, &missed.a_from_b);
+    const Corners in_a = still.corners(missed.at_a), in_b = moved.corners(missed.at_b);
+    std::fprintf(file, "{\"pair\": \"%s\",\n \"a\": %u, \"b\": %u,\n", missed.pair.c_str(),
+                 source_number(a, missed.at_a), source_number(b, missed.at_b));
+    write_corners(file, " \"triangle_a\": ", in_a, ",\n");
+    write_corners(file, " \"triangle_b\": ", in_b, ",\n \"corner_cells\": [\n");
+    const OctreeIndex index = octree_index(a);
+    const format::OctreeGrid& grid = *a.octree_grid();
+    for (std::size_t i = 0; i < 3; ++i) {
+        // The leaf where there is one; an empty cell is shown as deep as the tree goes.
+        const CellPlace cell = octree_cell(grid, in_b[i]);
+        const std::uint32_t leaf = find_leaf(index, search, octree_code(cell));
+        const std::uint32_t level =
+            leaf == kNoNode ? index.deepest : level_of(index.nodes[leaf].key);
+        const std::uint32_t shift = format::kOctreeBits - level;
+        const CellPlace first = {cell[0] >> shift << shift, cell[1] >> shift << shift,
+                                 cell[2] >> shift << shift};
+        write_box(file, octree_box(grid, first, level), i == 2 ? "\n" : ",\n");
+    }
+    std::fputs(" ],\n \"listing_cells\": [\n", file);
+    bool any = false;
+    for (const std::uint32_t node : index.leaf_nodes) {
+        const auto listed =
+            a.octree_references().subspan(index.nodes[node].first, index.nodes[node].count);
+        const bool lists = std::any_of(listed.begin(), listed.end(), [&](std::uint32_t r) {
+            return (r & ~format::kSharedReference) == missed.at_a;
+        });
+        if (!lists) continue;
+        if (any) std::fputs(",\n", file);
+        any = true;
+        const std::uint64_t key = index.nodes[node].key;
+        write_box(file, octree_box(grid, octree_place(key), level_of(key)), "");
+    }
+    std::fputs("\n ],\n \"surface_a\": [\n", file);
+    any = false;
+    const double reach = 0.75 * missed.size;
+    for (std::uint32_t i = 0; i < a.triangle_count(); ++i) {
+        const Corners t = still.corners(i);
+        if (std::hypot(t[0].x - in_a[0].x, t[0].y - in_a[0].y, t[0].z - in_a[0].z) > reach) {
+            continue;
+        }
+        if (any) std::fputs(",\n", file);
+        any = true;
+        write_corners(file, "    ", t, "");
+    }
+    std::fputs("\n ]}\n", file);
+    std::fclose(file);
+}
+
+struct Arguments {
+    std::filesystem::path bakes, poses;
+    build::OctreeOptions octree;
+    int rounds;
+    CellSearch search = CellSearch::sorted;
+    std::filesystem::path missed = "-";
+    std::vector<std::string> pairs = {};
+};
+
+CellSearch search_named(const char* name) {
+    if (std::strcmp(name, "modulus") == 0) return CellSearch::modulus;
+    if (std::strcmp(name, "mixed") == 0) return CellSearch::mixed;
+    if (std::strcmp(name, "sorted") != 0) stop(std::string(name) + " is no way to find a cell.");
+    return CellSearch::sorted;
+}
+
+void run(const Arguments& arguments) {
+    std::printf("pair,set,poses");
+    for (const char* name : kMeans) std::printf(",%s", name);
+    std::printf(
+        ",listed_repaired,recall,bvh_us,repaired_us,literal_us,repaired_times,literal_times\n");
+    std::map<std::string, test::OpenModel> models;
+    const auto model = [&](const std::string& name) -> const Model& {
+        auto at = models.find(name);
+        if (at == models.end()) {
+            const auto path = arguments.bakes / (name + ".cdp.h5");
+            at = models.emplace(name, open_with_octree(path, arguments.octree)).first;
+        }
+        return at->second.model;
+    };
+    Missed missed;
+    for (const std::string& pair : arguments.pairs) {
+        const std::size_t dash = pair.find('-');
+        if (dash == std::string::npos) stop("'" + pair + "' is not two names with a dash between");
+        const Model& a = model(pair.substr(0, dash));
+        const Model& b = model(pair.substr(dash + 1));
+        const std::vector<Pose> all = read_poses(arguments.poses / (pair + ".pose"));
+        Study study(a, b, arguments.search);
+        for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+            const std::vector<Pose> poses = poses_of_kind(all, kind, kKinds.size());
+            Row row;
+            for (const Pose& pose : poses) {
+                study.ask(pose, arguments.rounds, row);
+                keep_larger(study, pair, a, b, pose, missed);
+            }
+            print(pair, kKinds[kind], poses.size(), row);
+        }
+    }
+    if (arguments.missed == "-" || missed.size == 0) return;
+    const std::size_t dash = missed.pair.find('-');
+    write_missed(arguments.missed, missed, model(missed.pair.substr(0, dash)),
+                 model(missed.pair.substr(dash + 1)), arguments.search);
+}
+
+}  // namespace
+}  // namespace cdprep
+
+int main(int count, char** arguments) {
+    if (count < 6) {
+        std::fprintf(stderr,
+                     "usage: %s BAKES POSES LEVEL THRESHOLD ROUNDS [SEARCH [MISSED [PAIR...]]]\n",
+                     arguments[0]);
+        return 2;
+    }
+    cdprep::Arguments asked{arguments[1], arguments[2], {}, std::max(1, std::atoi(arguments[5]))};
+    asked.octree.level = static_cast<std::uint32_t>(std::atoi(arguments[3]));
+    asked.octree.threshold = static_cast<std::uint32_t>(std::atoi(arguments[4]));
+    if (count > 6) asked.search = cdprep::search_named(arguments[6]);
+    if (count > 7) asked.missed = arguments[7];
+    asked.pairs =
+        cdprep::pairs_or_all({arguments + std::min(count, 8), arguments + count}, asked.poses);
+    cdprep::run(asked);
+}
