@@ -13,7 +13,7 @@
 // all files of POSES are taken.
 //
 // Prints a CSV table, means over a set's poses. pairs: that overlap; found: of them by the
-// literal form; recall: the share, or nan. cs_a, cs_b: triangles of A and of B in those pairs;
+// literal form; recall: the share. cs_a, cs_b: triangles of A and of B in those pairs;
 // literal_cs_a, literal_cs_b: in those found. Triangles of B: all_b; box_b: that touch A's
 // axis-aligned box; leaf_b: in leaves of the hierarchy that A's oriented box does not clip;
 // pcs_b: triangles that it does not clip; held_b: of the model with fewer triangles, in
@@ -184,12 +184,14 @@ void print(const std::string& pair, const char* kind, std::size_t poses, Row& ro
     for (const char* name : kMeans) {
         std::printf(",%.1f", row.sum[name] / static_cast<double>(poses));
     }
-    // Not a number where nothing overlaps.
-    const double recall = row.sum["found"] / row.sum["pairs"];
+    std::array<char, 16> recall = {'-'};
+    if (row.sum["pairs"] > 0) {
+        std::snprintf(recall.data(), recall.size(), "%.4f", row.sum["found"] / row.sum["pairs"]);
+    }
     const double bvh = median(row.us[0]), repaired = median(row.us[1]), literal = median(row.us[2]);
-    std::printf(",%.1f,%.4f,%.2f,%.2f,%.2f,%.2f,%.2f\n",
-                row.sum["listed_repaired"] / static_cast<double>(poses), recall, bvh, repaired,
-                literal, repaired / bvh, literal / bvh);
+    std::printf(",%.1f,%s,%.2f,%.2f,%.2f,%.2f,%.2f\n",
+                row.sum["listed_repaired"] / static_cast<double>(poses), recall.data(), bvh,
+                repaired, literal, repaired / bvh, literal / bvh);
     std::fflush(stdout);
 }
 
