@@ -13,8 +13,8 @@ enum class Structure : std::uint8_t {
     bvh,              ///< the hierarchy of boxes: the fastest, and the default everywhere
     octree,           ///< both models' octrees, side by side
     adaptive_octree,  ///< both models' octrees with split points of their own
-    /// A's octree by its keys, for those triangles of B that may collide: the talk's
-    /// algorithm, repaired. Finds cells that a triangle overlaps.
+    /// One model's octree by its keys, for those triangles of the other that may collide: the
+    /// talk's algorithm, repaired. Finds cells that boxes around triangles overlap.
     hashed_octree,
     /// The talk's algorithm to the letter: finds cells that a triangle's corners lie in,
     /// so it misses pairs. For studies.
