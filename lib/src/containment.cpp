@@ -88,7 +88,9 @@ Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
             std::min(first + format::kBvhWidth, model.model->triangle_count());
         if (scratch.counts != nullptr) scratch.counts->ray_triangles += last - first;
         for (std::uint32_t i = first; i < last; ++i) {
-            const WindingTerm term = winding_term(o, q, model.corners(i));
+            const Corners corners = model.corners(i);
+            if (!ray_meets(q, box_around(corners))) continue;
+            const WindingTerm term = winding_term(o, q, corners);
             if (term.on_surface) return false;
             winding += term.crossings;
         }

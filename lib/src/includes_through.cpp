@@ -23,7 +23,8 @@
 // is met by rays from q that come as near to R as one likes, at points that are bounded
 // since the triangle is; where these points pile up there is a point of R, and the
 // triangle, being closed, holds it. So a list will do that has once all triangles that
-// touch R. The symbolic perturbation of o asks for no neighbours beside.
+// touch R, and of these only those whose box meets that of R need a closer look. The
+// symbolic perturbation of o asks for no neighbours beside.
 //
 // Tetra-tree: o is the centre C, so R = {C + s (q - C), s >= 1} lies in one cone, borders
 // or not: all its points have one direction from C. A triangle that touches R touches
@@ -51,6 +52,15 @@ double reach_of(const Model& model) noexcept {
            std::ldexp(1.0, -header.frame_exponent);
 }
 
+/// The box around the ray from q away from o: along each axis it stays where it is or
+/// goes on for ever.
+Box3 box_of_ray(const Double3& o, const Double3& q) noexcept {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return {
+        {q.x < o.x ? -kInfinity : q.x, q.y < o.y ? -kInfinity : q.y, q.z < o.z ? -kInfinity : q.z},
+        {q.x > o.x ? kInfinity : q.x, q.y > o.y ? kInfinity : q.y, q.z > o.z ? kInfinity : q.z}};
+}
+
 /// A piece of a ray along x: x0 < x <= x1; either may be infinite.
 struct Piece {
     double x0 = -std::numeric_limits<double>::infinity();
@@ -61,7 +71,7 @@ struct Piece {
 class Crossings {
 public:
     Crossings(const Model& model, const Double3& o, const Double3& q, QueryCounts* counts) noexcept
-        : model_(model, nullptr), o_(o), q_(q), counts_(counts) {}
+        : model_(model, nullptr), o_(o), q_(q), ray_(box_of_ray(o, q)), counts_(counts) {}
 
     /// All crossings with a triangle; false when q lies on it, which ends the search.
     bool add(std::uint32_t triangle) noexcept {
@@ -91,6 +101,7 @@ private:
     bool add(std::uint32_t triangle, CountsHere&& counts_here) noexcept {
         if (counts_ != nullptr) ++counts_->ray_triangles;
         const Corners t = model_.corners(triangle);
+        if (!overlap(box_around(t), ray_)) return true;  // it does not touch R: see above
         const WindingTerm term = winding_term(o_, q_, t);
         on_surface_ = term.on_surface;
         if (term.crossings != 0 && counts_here(t, term.crossings)) winding_ += term.crossings;
@@ -110,6 +121,7 @@ private:
     MovedModel model_;
     Double3 o_;
     Double3 q_;
+    Box3 ray_;
     QueryCounts* counts_;  ///< or null
     long winding_ = 0;
     bool on_surface_ = false;
