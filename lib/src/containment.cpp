@@ -48,9 +48,8 @@ public:
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double lower = node.lower[axis][index];
             const double upper = node.upper[axis][index];
-            centre[axis] =
-                std::ldexp(0.5 * (lower + upper), -header_.frame_exponent) + origin[axis];
-            half[axis] = std::ldexp(0.5 * (upper - lower), -header_.frame_exponent);
+            centre[axis] = scaled(0.5 * (lower + upper), -header_.frame_exponent) + origin[axis];
+            half[axis] = scaled(0.5 * (upper - lower), -header_.frame_exponent);
         }
         const Double3 c = moved(pose_, {centre[0], centre[1], centre[2]});
         const std::array<double, 9>& r = pose_.rotation();
