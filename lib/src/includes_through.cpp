@@ -9,6 +9,7 @@
 #include <span>
 
 #include "adaptive_octree_tree.h"
+#include "box_placement.h"
 #include "moved_model.h"
 #include "octree_codes.h"
 #include "octree_tree.h"
@@ -161,7 +162,7 @@ bool is_beyond(const format::TetraNode& leaf, const Model& model, const Double3&
     constexpr double kRootOfThree = 1.7320508075688772;
     const Double3& c = model.tetra_tree()->centre;
     const auto apart = [&](double a, double b) {
-        return std::ldexp(std::fabs(a - b), model.header().frame_exponent);
+        return scaled(std::fabs(a - b), model.header().frame_exponent);
     };
     const double far = (apart(q.x, c.x) + apart(q.y, c.y) + apart(q.z, c.z)) / kRootOfThree;
     return far * (1 - 0x1p-50) > leaf.radius_max;
@@ -247,7 +248,7 @@ FoundCell find_cell(const Model& model, std::uint64_t code) noexcept {
     if (behind != codes.begin()) {
         const auto index = static_cast<std::size_t>(behind - codes.begin()) - 1;
         const format::OctreeNode& leaf = model.octree_nodes()[model.octree_leaf_nodes()[index]];
-        const std::uint32_t level = level_of(leaf.key);
+        const std::uint32_t level = std::min(level_of(leaf.key), format::kOctreeBits);
         if (code - codes[index] < cells_below(level)) return {&leaf, level};
         empty = level_between(code, codes[index]);
     }
