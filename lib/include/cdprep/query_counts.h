@@ -6,10 +6,10 @@
 namespace cdprep {
 
 /// What queries about two models, and whether a point is inside one, did to find their
-/// answers: for tuning, and for judging a change on a machine too noisy for a clock. Ask for it with
-/// Workspace::count_into(). No part of any answer: instruction sets round differently
-/// and leave different near misses to the next stage, and another version of the
-/// library may need more or less of anything.
+/// answers: for tuning, and for judging a change on a machine too noisy for a clock. Ask
+/// for it with Workspace::count_into(). No part of any answer: instruction sets round
+/// differently and leave different near misses to the next stage, and another version of
+/// the library may need more or less of anything.
 struct QueryCounts {
     std::uint64_t box_pairs = 0;       ///< boxes of A's hierarchy against boxes of B's
     std::uint64_t leaf_pairs = 0;      ///< pairs of leaves whose triangles were looked at
