@@ -5,6 +5,8 @@
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "mesh/vectors.h"
@@ -27,6 +29,9 @@ namespace {
 
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Exact_rational;
+
+using mesh::cross;
+using mesh::dot;
 
 template <class Number>
 using Vector = std::array<Number, 3>;
@@ -73,6 +78,68 @@ bool are_of_one_edge(const HalfSpace& a, const HalfSpace& b) {
     return !a.is_beyond && !b.is_beyond && is_on(b, a.on[0]) && is_on(b, a.on[1]);
 }
 
+/// What bounds a triangle as seen from the centre: a circle of directions, and distances.
+/// Rounded: off by far less than kCapSlack, of one or of themselves.
+struct Cap {
+    Double3 middle;  ///< unit length
+    double cosine;   ///< of the circle's radius; below -1: all directions
+    double sine;
+    double nearest;
+    double farthest;
+};
+
+constexpr double kCapSlack = 0x1p-40;
+
+double length(const Double3& v) {
+    return std::hypot(v.x, v.y, v.z);
+}
+
+/// Scaled to unit length; whatever the scale, no square leaves the range.
+Double3 direction(const Double3& v) {
+    const double size = length(v);
+    return {v.x / size, v.y / size, v.z / size};
+}
+
+/// Of the triangle's plane, which no point of it is nearer than, less what rounding may
+/// do: the edges' ends are off by 2^-52 of how far they are, and a thin triangle's normal
+/// by as much more as it is thin. 0 where that is all there is.
+double least_distance(const Double3& a, const Double3& b, const Double3& c, double farthest) {
+    const Double3 ab = minus(b, a);
+    const Double3 ac = minus(c, a);
+    const Double3 normal = cross(direction(ab), direction(ac));
+    const double error = (0x1p-48 + 0x1p-48 * farthest / std::min(length(ab), length(ac))) /
+                         std::min(1.0, length(normal));
+    const double height = std::fabs(dot(direction(normal), a)) - farthest * error;
+    return height > 0 ? height * (1 - kCapSlack) : 0;  // 0 too for what is no number
+}
+
+Cap cap_of(const Double3& a, const Double3& b, const Double3& c) {
+    const std::array<Double3, 3> corners = {a, b, c};
+    constexpr Cap kEverything = {{0, 0, 0}, -2, 0, 0, std::numeric_limits<double>::infinity()};
+    Double3 sum = {0, 0, 0};
+    for (const Double3& p : corners) {
+        const Double3 d = direction(p);
+        sum = {sum.x + d.x, sum.y + d.y, sum.z + d.z};
+    }
+    Cap cap{direction(sum), 1, 0, 0, 0};
+    for (const Double3& p : corners) {
+        cap.cosine = std::min(cap.cosine, dot(cap.middle, direction(p)));
+        cap.farthest = std::max(cap.farthest, length(p));
+    }
+    // Half a turn and more, or corners at the centre, or too large to tell.
+    if (!(cap.cosine > 0.1) || !std::isfinite(cap.farthest)) return kEverything;
+    cap.sine = std::sqrt(1 - cap.cosine * cap.cosine);
+    cap.nearest = least_distance(a, b, c, cap.farthest);
+    return cap;
+}
+
+/// Whether some point of `s` may lie beyond one of `t` in a direction of both.
+bool may_hide(const Cap& s, const Cap& t) {
+    if (s.farthest * (1 + kCapSlack) < t.nearest) return false;
+    if (s.cosine < -1 || t.cosine < -1) return true;
+    return dot(s.middle, t.middle) >= s.cosine * t.cosine - s.sine * t.sine - kCapSlack;
+}
+
 /// A convex cone: numbers of half-spaces, in the order in which their borders go round it.
 using Cone = std::vector<std::uint32_t>;
 
@@ -83,6 +150,7 @@ struct RadialCover::Data {
     std::span<const Double3> positions;
     std::span<const Triangle> triangles;
     std::vector<std::int8_t> turn;  ///< by triangle: 1 outwards, -1 inwards, 0 edge-on
+    std::vector<Cap> cap;           ///< by triangle
 
     template <class Number>
     [[nodiscard]] Vector<Number> corner(std::uint32_t vertex) const {
@@ -149,16 +217,16 @@ struct RadialCover::Data {
         return {positions[v[0]], positions[v[1]], positions[v[2]]};
     }
 
-    /// Those of `others` that cover directions and lie in another plane.
-    [[nodiscard]] std::vector<std::uint32_t> possible_hiders(
+    /// Those of `others` that cover directions, by what bounds them perhaps its own.
+    [[nodiscard]] std::vector<std::uint32_t> neighbours(
         std::uint32_t triangle, std::span<const std::uint32_t> others) const {
-        std::vector<std::uint32_t> hiders;
+        std::vector<std::uint32_t> result;
         for (const std::uint32_t other : others) {
-            const bool hides =
-                other != triangle && turn[other] != 0 && !are_coplanar(other, triangle);
-            if (hides) hiders.push_back(other);
+            const bool is_one =
+                other != triangle && turn[other] != 0 && may_hide(cap[other], cap[triangle]);
+            if (is_one) result.push_back(other);
         }
-        return hiders;
+        return result;
     }
 
     /// One plane holds both, which then are nowhere farther out than one another.
@@ -322,7 +390,6 @@ bool is_bare_at(const Data& data, std::uint32_t triangle, std::span<const std::u
         for (std::size_t axis = 0; axis < 3; ++axis) direction[axis] += weights[i] * corner[axis];
     }
     return std::all_of(others.begin(), others.end(), [&](std::uint32_t s) {
-        if (s == triangle || data.turn[s] == 0) return true;
         const auto w = data.outwards(s);
         for (std::size_t i = 0; i < 3; ++i) {
             const auto normal = data.edge_normal<Interval>(w[i], w[(i + 1) % 3]);
@@ -343,11 +410,13 @@ bool is_bare(const Data& data, std::uint32_t triangle, std::span<const std::uint
 
 RadialCover::RadialCover(const Double3& centre, std::span<const Double3> positions,
                          std::span<const Triangle> triangles)
-    : data_(std::make_unique<Data>(Data{centre, positions, triangles, {}})) {
+    : data_(std::make_unique<Data>(Data{centre, positions, triangles, {}, {}})) {
     data_->turn.reserve(triangles.size());
+    data_->cap.reserve(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const Corners t = data_->corners(i);
         data_->turn.push_back(static_cast<std::int8_t>(orient3d(t[0], t[1], t[2], centre)));
+        data_->cap.push_back(cap_of(minus(t[0], centre), minus(t[1], centre), minus(t[2], centre)));
     }
 }
 
@@ -361,9 +430,10 @@ bool RadialCover::is_edge_on(std::uint32_t triangle) const {
 
 bool RadialCover::is_hidden(std::uint32_t triangle, std::span<const std::uint32_t> others) const {
     if (is_edge_on(triangle)) return false;
-    if (is_bare(*data_, triangle, others)) return false;
+    std::vector<std::uint32_t> hiders = data_->neighbours(triangle, others);
+    if (is_bare(*data_, triangle, hiders)) return false;
     // Before intervals round upwards: orient3d() wants to round to the nearest.
-    const std::vector<std::uint32_t> hiders = data_->possible_hiders(triangle, others);
+    std::erase_if(hiders, [&](std::uint32_t s) { return data_->are_coplanar(s, triangle); });
     const Interval::Protector upwards;
     Region left(*data_, triangle);
     for (const std::uint32_t other : hiders) {
