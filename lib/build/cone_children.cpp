@@ -33,9 +33,7 @@ std::uint32_t possible_octants(const SeenTriangle& t) noexcept {
 std::uint32_t neighbours_of(const std::array<const PlacedVertex*, 3>& at) noexcept {
     std::uint32_t differing = 0;
     std::uint32_t mask = 0;
-    const auto octant_of = [](std::uint32_t cone) {
-        return cone >> (static_cast<std::uint32_t>(std::bit_width(cone)) - kOctantKeyBits) & 7U;
-    };
+    const auto octant_of = [](std::uint32_t cone) { return cone >> 2 * tetra_level(cone) & 7U; };
     for (const PlacedVertex* p : at) {
         if (p->inner_cone == 0) return 0;
         mask |= 1U << octant_of(p->inner_cone);

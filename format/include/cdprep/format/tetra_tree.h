@@ -13,9 +13,9 @@ namespace cdprep::format {
 /// Levels of splits that a 32-bit key holds: four bits for the octant, two a split.
 inline constexpr std::uint32_t kMaxTetraLevel = 14;
 
-/// Number of splits above a cone, of its key, which is 8 at least.
+/// Number of splits above a cone, of its key, which is 8 at least: else 0.
 [[nodiscard]] constexpr std::uint32_t tetra_level(std::uint32_t key) noexcept {
-    return (static_cast<std::uint32_t>(std::bit_width(key)) - 4) / 2;
+    return (static_cast<std::uint32_t>(std::bit_width(key | 8)) - 4) / 2;
 }
 
 /// Cones of a level, whose keys are this and what follows, as many.
