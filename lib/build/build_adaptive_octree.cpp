@@ -18,10 +18,10 @@
 // its part of the children's lists goes. So lists rise as the first one did, and nothing
 // depends on who did which piece.
 //
-// Scratch: a box of 48 bytes per triangle; for the medians 24 bytes per reference of the level
-// in work, and for its lists 9; 4 per reference of the next level; 500 per node of a
-// level, cells and pieces together, and of the next. No level has more references or nodes
-// than the result, which grows as vectors do, to at most twice its size.
+// Scratch: a box of 48 bytes per triangle; 8 bytes per triangle of each median in work; for the
+// lists of a level and of the next 4 bytes per reference, and of the one a byte more; cells
+// and pieces of a level, and cells of the next. No level has more references or nodes than the
+// result.
 
 namespace cdprep::build {
 namespace {

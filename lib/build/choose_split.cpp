@@ -45,6 +45,7 @@ bool leaves_one_whole(const CellContent& cell, std::size_t axis, double plane) {
 double median_middle(const CellContent& cell, std::size_t axis, std::vector<double>& middles) {
     const Reach all = reach_of(cell.box, axis);
     middles.clear();
+    middles.reserve(cell.list.size());
     for_reaches(cell, axis, [&](const Reach& reach) {
         middles.push_back(
             middle({std::max(reach.lower, all.lower), std::min(reach.upper, all.upper)}));

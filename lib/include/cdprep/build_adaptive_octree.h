@@ -25,6 +25,11 @@ struct AdaptiveOctreeOptions {
     format::SplitRule rule = format::SplitRule::median;
 };
 
+/// Bytes that a build takes beside its result, at most.
+inline constexpr std::uint64_t kAdaptiveScratchPerTriangle = 56;  ///< of the input
+inline constexpr std::uint64_t kAdaptiveScratchPerReference = 16;
+inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
+
 /// Builds it, as build_octree() does: closed cells, exact membership, degenerate triangles
 /// as the segment or point they are, the same bytes for any parallel_for and any processor.
 /// The root is the box of all corners.
@@ -40,8 +45,10 @@ struct AdaptiveOctreeOptions {
 /// division early. A level whose division would give the tree more references than
 /// build_octree() allows is not divided, nor is any below.
 ///
-/// O(levels * references). Scratch, at most: 48 bytes a triangle, for each reference of the
-/// result 37, for each node 500. Throws nothing but std::bad_alloc.
+/// O(levels * references). Memory beside the result, on one thread, is at most
+/// kAdaptiveScratchPerTriangle, PerReference and PerNode times what the result has of each;
+/// on several, medians in work at once take up to 24 bytes a reference. Throws nothing but
+/// std::bad_alloc.
 [[nodiscard]] AdaptiveOctree build_adaptive_octree(std::span<const format::Double3> positions,
                                                    std::span<const format::Triangle> triangles,
                                                    const AdaptiveOctreeOptions& options = {});

@@ -2,61 +2,9 @@
 // In a program of its own, whose memory is all counted.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdlib>
-#include <cstring>
-#include <new>
-
 #include "cdprep/build_octree.h"
+#include "support/counted_memory.h"
 #include "support/meshes.h"
-
-namespace {
-
-std::size_t used = 0;
-std::size_t most = 0;
-
-/// In front of each block: its size. As large as any alignment that is needed.
-constexpr std::size_t kFront = alignof(std::max_align_t);
-
-void* counted(std::size_t size) {
-    auto* block = static_cast<std::byte*>(std::malloc(kFront + size));
-    if (block == nullptr) std::abort();
-    std::memcpy(block, &size, sizeof size);
-    used += size;
-    most = std::max(most, used);
-    return block + kFront;
-}
-
-void forget(void* memory) noexcept {
-    if (memory == nullptr) return;
-    std::byte* block = static_cast<std::byte*>(memory) - kFront;
-    std::size_t size = 0;
-    std::memcpy(&size, block, sizeof size);
-    used -= size;
-    std::free(block);
-}
-
-}  // namespace
-
-void* operator new(std::size_t size) {
-    return counted(size);
-}
-void* operator new[](std::size_t size) {
-    return counted(size);
-}
-void operator delete(void* memory) noexcept {
-    forget(memory);
-}
-void operator delete[](void* memory) noexcept {
-    forget(memory);
-}
-void operator delete(void* memory, std::size_t /*size*/) noexcept {
-    forget(memory);
-}
-void operator delete[](void* memory, std::size_t /*size*/) noexcept {
-    forget(memory);
-}
 
 namespace cdprep::test {
 namespace {

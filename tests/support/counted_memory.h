@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+// Counts what a program allocates. For the only source of a program: it replaces its
+// operators new and delete.
+
+namespace cdprep::test {
+
+inline std::size_t used = 0;  ///< bytes that are allocated now
+inline std::size_t most = 0;  ///< that were so at one time
+
+/// In front of each block: its size. As large as any alignment that is needed.
+inline constexpr std::size_t kFront = alignof(std::max_align_t);
+
+inline void* counted(std::size_t size) {
+    auto* block = static_cast<std::byte*>(std::malloc(kFront + size));
+    if (block == nullptr) std::abort();
+    std::memcpy(block, &size, sizeof size);
+    used += size;
+    most = std::max(most, used);
+    return block + kFront;
+}
+
+inline void forget(void* memory) noexcept {
+    if (memory == nullptr) return;
+    std::byte* block = static_cast<std::byte*>(memory) - kFront;
+    std::size_t size = 0;
+    std::memcpy(&size, block, sizeof size);
+    used -= size;
+    std::free(block);
+}
+
+}  // namespace cdprep::test
+
+// NOLINTBEGIN(misc-definitions-in-headers)
+
+void* operator new(std::size_t size) {
+    return cdprep::test::counted(size);
+}
+void* operator new[](std::size_t size) {
+    return cdprep::test::counted(size);
+}
+void operator delete(void* memory) noexcept {
+    cdprep::test::forget(memory);
+}
+void operator delete[](void* memory) noexcept {
+    cdprep::test::forget(memory);
+}
+void operator delete(void* memory, std::size_t /*size*/) noexcept {
+    cdprep::test::forget(memory);
+}
+void operator delete[](void* memory, std::size_t /*size*/) noexcept {
+    cdprep::test::forget(memory);
+}
+// NOLINTEND(misc-definitions-in-headers)
