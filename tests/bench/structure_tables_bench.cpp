@@ -276,7 +276,11 @@ TreeLimits limits_of(const build::StructurePreset& preset, Kind kind) {
                                                                : preset.adaptive_octree;
 }
 
-const Published* published_of(const PublishedModel& model, Kind kind) {
+/// What was published of it; nothing where there is too little to compare: of a model whose
+/// triangles are not about as many.
+const Published* published_of(const PublishedModel& model, std::size_t triangles, Kind kind) {
+    const double less = static_cast<double>(triangles) / model.triangles;
+    if (less < 0.99 || less > 1.01) return nullptr;
     if (kind == Kind::tetra_tree) return &model.tetra_tree;
     return kind == Kind::octree ? &model.octree : nullptr;
 }
@@ -319,9 +323,10 @@ std::vector<Row> rows_of(const Input& input, const PublishedModel& published,
         rows.push_back({"paper", kind, limits_of(build::kPaperPreset, kind)});
     }
     for (const Kind kind : {Kind::tetra_tree, Kind::octree}) {
-        const Published& figures = *published_of(published, kind);
-        if (*figures.erratum != '\0') continue;  // nothing is tuned to it
-        rows.push_back({"nearest", kind, nearest_limits(input, kind, figures, parallel_for)});
+        const Published* figures = published_of(published, input.triangles.size(), kind);
+        // Nothing is tuned to an erratum.
+        if (figures == nullptr || *figures->erratum != '\0') continue;
+        rows.push_back({"nearest", kind, nearest_limits(input, kind, *figures, parallel_for)});
     }
     for (const Kind kind : {Kind::tetra_tree, Kind::octree, Kind::hashed_octree,
                             Kind::adaptive_median, Kind::adaptive_area}) {
@@ -402,7 +407,7 @@ void print_text(const Measured& m) {
                     static_cast<double>(f.references) / count,
                     static_cast<unsigned long long>(f.largest_leaf), mebibytes(f.formula_all),
                     mebibytes(f.formula), mebibytes(f.bytes));
-        const Published* paper = published_of(published, row.kind);
+        const Published* paper = published_of(published, m.triangles, row.kind);
         if (paper != nullptr && row.setting != "tuned") {
             std::printf("  %.3f s, %.4f MiB; here 1/%.0f and %.2f times%s%s", paper->seconds,
                         paper->mebibytes, paper->seconds / seconds,
@@ -431,6 +436,7 @@ void print_relations(const std::vector<Measured>& all) {
         "twice; ours, and at the settings nearest to its size\n");
     for (const Measured& m : all) {
         const PublishedModel& published = kPublished[m.source.published];
+        if (published_of(published, m.triangles, Kind::tetra_tree) == nullptr) continue;
         const double bound = node_bound(published);
         const auto nodes = [&](const char* setting) {
             return row_of(m, setting, Kind::tetra_tree).figures.nodes_all;
@@ -512,7 +518,7 @@ void write_csv(const std::string& path, const std::vector<Measured>& all, std::s
                 static_cast<double>(f.references) / count,
                 static_cast<unsigned long long>(f.largest_leaf), mebibytes(f.formula_all),
                 mebibytes(f.formula), static_cast<unsigned long long>(f.bytes));
-            const Published* paper = published_of(model, row.kind);
+            const Published* paper = published_of(model, m.triangles, row.kind);
             if (paper == nullptr || row.setting == "tuned") {
                 std::fprintf(file, ",,,,\n");
                 continue;
