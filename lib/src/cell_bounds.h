@@ -22,7 +22,7 @@ struct KeptBounds {
 
     struct Place {
         std::uint64_t holds;  ///< question and node
-        unsigned leaf_lanes;      ///< which of the children are leaves
+        unsigned leaf_lanes;  ///< which of the children are leaves
         CellBounds bounds;
     };
     // Lanes that no child has hold what was there before, or zeros: numbers too small for
@@ -108,6 +108,15 @@ inline std::uint32_t bits_in(unsigned lanes) noexcept {
 /// How many lanes below `lane` are in a bit set: the place of a child among its siblings.
 inline std::uint32_t lanes_before(unsigned lanes, unsigned lane) noexcept {
     return bits_in(lanes & ((1U << lane) - 1));
+}
+
+/// All pairs of some lanes of A and some of B.
+inline kernels::BoxPairs lane_pairs(unsigned of_a, unsigned of_b) noexcept {
+    kernels::BoxPairs pairs = 0;
+    for (; of_b != 0; of_b &= of_b - 1) {
+        pairs |= kernels::BoxPairs{of_a} << (8 * std::countr_zero(of_b));
+    }
+    return pairs;
 }
 
 }  // namespace cdprep

@@ -51,6 +51,7 @@ public:
         if (!held.has_room) {
             if (!flush()) return false;
             held = scratch_.tested_pairs.hold(a.leaf, b.leaf, pairs);
+            forgets_ |= !held.has_room;
         }
         scratch_.pending_leaves[batch_.size()] = {place, held.fresh, held.has_room};
         batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
@@ -63,6 +64,12 @@ public:
         scratch_.pending_leaves[batch_.size()] = {0, ~std::uint64_t{0}, false};
         batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
         return !batch_.full() || flush();
+    }
+
+    /// Whether there was no room to remember some answers: from then on every place has to
+    /// bring what it lists, tested before or not.
+    [[nodiscard]] bool forgets() const noexcept {
+        return forgets_;
     }
 
     /// Tests all that was added. False when `found` ended the question.
@@ -123,6 +130,7 @@ private:
     Found found_;
     Owns owns_;
 
+    bool forgets_ = false;
     std::uint32_t answered_ = 0;  ///< of the batch: bit set of pairs
 };
 

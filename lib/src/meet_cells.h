@@ -4,9 +4,8 @@
 #include <array>
 #include <span>
 
-#include "cdprep/structure.h"
 #include "cell_bounds.h"
-#include "leaf_lists.h"
+#include "node_lists.h"
 #include "workspace_storage.h"
 
 namespace cdprep {
@@ -71,21 +70,27 @@ private:
     std::array<std::array<float, format::kBvhWidth>, 6> row_;  ///< lane 0 is used
 };
 
-/// Holds what two leaf cells list against each other: the boxes of BVH leaves first, eight
-/// by eight.
+/// Holds what two leaf cells list against each other, by nodes and leaves of the BVHs: the
+/// kernels take all eight triangles of a leaf in the time of one, so what other cells list
+/// of them is settled on the way.
 template <class Lists>
 class MeetCells {
 public:
-    MeetCells(const Model& a, const Model& b, const PlacedBoxes& placed, LeafTest leaf_test,
-              Lists& lists_a, Lists& lists_b) noexcept
+    /// `met` may be null: then everything is met each time.
+    MeetCells(const Model& a, const Model& b, const PlacedBoxes& placed, Lists& lists_a,
+              Lists& lists_b, MetNodes* met) noexcept
         : lists_a_(lists_a),
           lists_b_(lists_b),
           placed_(placed),
-          // The kernels take all eight triangles of a leaf in the time of one: what another
-          // cell lists is settled on the way.
-          every_lane_(leaf_test == LeafTest::guigue_devillers) {
-        lists_a_.begin(a.nodes().data() + a.shape().first[0]);
-        lists_b_.begin(b.nodes().data() + b.shape().first[0]);
+          nodes_a_(a.nodes().data() + a.shape().first[0]),
+          nodes_b_(b.nodes().data() + b.shape().first[0]),
+          met_(met) {
+        if (!a.oriented_nodes().empty() && !b.oriented_nodes().empty()) {
+            oriented_a_ = a.oriented_nodes().data() + a.shape().first[0];
+            oriented_b_ = b.oriented_nodes().data() + b.shape().first[0];
+        }
+        lists_a_.begin(a);
+        lists_b_.begin(b);
     }
 
     /// False when `contacts` ended the question.
@@ -94,10 +99,10 @@ public:
                     Contacts& contacts) noexcept {
         const CommonBox common(a, b, placed_);
         for (std::uint32_t at_a = 0; at_a < a.references.size();) {
-            const LeafList list_a = lists_a_.list(a.node, at_a, a.references);
+            const NodeList list_a = lists_a_.list(a.node, at_a, a.references);
             at_a = list_a.end;
             for (std::uint32_t at_b = 0; at_b < b.references.size();) {
-                const LeafList list_b = lists_b_.list(b.node, at_b, b.references);
+                const NodeList list_b = lists_b_.list(b.node, at_b, b.references);
                 at_b = list_b.end;
                 if (!meet(common, list_a, list_b, place, contacts)) return false;
             }
@@ -118,13 +123,9 @@ private:
             {static_cast<std::uint8_t>(lanes_a), static_cast<std::uint8_t>(lanes_b), common.rows()},
             sizes);
     }
-    [[nodiscard]] LeafLanes widened(LeafLanes leaf) const noexcept {
-        if (every_lane_) leaf.lanes = 0xff;
-        return leaf;
-    }
 
     template <class Contacts>
-    bool meet(const CommonBox& common, const LeafList& list_a, const LeafList& list_b,
+    bool meet(const CommonBox& common, const NodeList& list_a, const NodeList& list_b,
               std::uint64_t place, Contacts& contacts) const noexcept {
         kernels::BoxPairs blocks = 1;
         if (list_a.blocks + list_b.blocks > 2) {
@@ -133,31 +134,61 @@ private:
         }
         for (; blocks != 0; blocks &= blocks - 1) {
             const auto bit = static_cast<unsigned>(std::countr_zero(blocks));
-            const LeafBlock& block_a = list_a.block[bit % 8];
-            const LeafBlock& block_b = list_b.block[bit / 8];
-            const kernels::BoxPairs leaves =
-                overlapping(common, block_a.boxes, block_a.lanes(), block_b.boxes, block_b.lanes());
-            if (!add_all(block_a, block_b, leaves, place, contacts)) return false;
-        }
-        return true;
-    }
-
-    template <class Contacts>
-    bool add_all(const LeafBlock& a, const LeafBlock& b, kernels::BoxPairs pairs,
-                 std::uint64_t place, Contacts& contacts) const noexcept {
-        for (; pairs != 0; pairs &= pairs - 1) {
-            const auto bit = static_cast<unsigned>(std::countr_zero(pairs));
-            if (!contacts.add(widened(a.leaf[bit % 8]), widened(b.leaf[bit / 8]), place)) {
+            if (!meet(common, list_a.block[bit % 8], list_b.block[bit / 8], place, contacts)) {
                 return false;
             }
         }
         return true;
     }
 
+    template <class Contacts>
+    bool meet(const CommonBox& common, const NodeBlock& a, const NodeBlock& b, std::uint64_t place,
+              Contacts& contacts) const noexcept {
+        kernels::BoxPairs nodes = overlapping(common, a.boxes, a.lanes(), b.boxes, b.lanes());
+        for (; nodes != 0; nodes &= nodes - 1) {
+            const auto bit = static_cast<unsigned>(std::countr_zero(nodes));
+            if (!meet(a.node[bit % 8], b.node[bit / 8], place, contacts)) return false;
+        }
+        return true;
+    }
+
+    /// The leaves of two nodes, as far as they are listed, by all that bounds them. What
+    /// the cells have in common is no matter here: the answer holds for all cells.
+    template <class Contacts>
+    bool meet(const NodeLanes& a, const NodeLanes& b, std::uint64_t place,
+              Contacts& contacts) const noexcept {
+        // Where answers cannot be remembered, each place has to bring what it lists.
+        MetNodes* met = contacts.forgets() ? nullptr : met_;
+        const kernels::BoxPairs listed = lane_pairs(a.lanes, b.lanes);
+        if (met != nullptr && (listed & ~met->met(a.node, b.node)) == 0) return true;
+        kernels::BoxSizes sizes;
+        kernels::BoxPairs leaves = kernels::active().overlapping_boxes(
+            placed_.placement, node_boxes(nodes_a_, oriented_a_, a.node),
+            node_boxes(nodes_b_, oriented_b_, b.node), {a.lanes, b.lanes, nullptr}, sizes);
+        for (; leaves != 0; leaves &= leaves - 1) {
+            const auto bit = static_cast<unsigned>(std::countr_zero(leaves));
+            const LeafLanes leaf_a = {a.node * format::kBvhWidth + bit % 8, 0xff};
+            const LeafLanes leaf_b = {b.node * format::kBvhWidth + bit / 8, 0xff};
+            if (!contacts.add(leaf_a, leaf_b, place)) return false;
+        }
+        if (met != nullptr && !contacts.forgets()) met->add(a.node, b.node, listed);
+        return true;
+    }
+    static kernels::NodeBoxes node_boxes(const format::BvhNode* nodes,
+                                         const format::OrientedNode* oriented,
+                                         std::uint32_t node) noexcept {
+        return {nodes[node].lower[0].data(),
+                oriented == nullptr ? nullptr : oriented[node].axis[0][0].data()};
+    }
+
     Lists& lists_a_;
     Lists& lists_b_;
     const PlacedBoxes& placed_;
-    bool every_lane_;
+    const format::BvhNode* nodes_a_;  ///< of level 0
+    const format::BvhNode* nodes_b_;
+    const format::OrientedNode* oriented_a_ = nullptr;  ///< or null, both
+    const format::OrientedNode* oriented_b_ = nullptr;
+    MetNodes* met_;  ///< or null
 };
 
 }  // namespace cdprep

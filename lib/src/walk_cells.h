@@ -36,15 +36,6 @@ struct AllLanes {
     }
 };
 
-/// All pairs of some lanes of A and some of B.
-inline kernels::BoxPairs lane_pairs(unsigned of_a, unsigned of_b) noexcept {
-    kernels::BoxPairs pairs = 0;
-    for (; of_b != 0; of_b &= of_b - 1) {
-        pairs |= kernels::BoxPairs{of_a} << (8 * std::countr_zero(of_b));
-    }
-    return pairs;
-}
-
 /// A walk of two trees of cells side by side, from above their roots down.
 ///
 /// A tree has Cell, a node and whatever tells where it is; top(), which stands above the

@@ -45,6 +45,9 @@ struct FirstPlace {
         place = at;
         return false;
     }
+    static bool forgets() noexcept {
+        return true;
+    }
 };
 
 /// One walk of two trees of one question.
@@ -66,8 +69,8 @@ public:
         };
         CellContacts contacts(question_.a, question_.b, question_.placement, placed_,
                               question_.through.leaf_test, question_.options, scratch, found, owns);
-        MeetCells meet(question_.a, question_.b, placed_, question_.through.leaf_test,
-                       scratch.leaf_lists_a, scratch.leaf_lists_b);
+        MeetCells meet(question_.a, question_.b, placed_, scratch.node_lists_a,
+                       scratch.node_lists_b, &scratch.met_nodes);
         CellWalk<kSearch, TreeA, TreeB, AllLanes> walk(a_, b_, placed_, question_.through.descent,
                                                        AllLanes{});
         walk.use(scratch);
@@ -114,10 +117,9 @@ private:
                                       MovedModel(question_.b, nullptr).corners(at_b)};
         CellWalk<Search::all, TreeA, TreeB, ListingLanes> walk(a_, b_, placed_,
                                                                question_.through.descent, listing);
-        LeafLists<1> lists_a;
-        LeafLists<1> lists_b;
-        MeetCells meet(question_.a, question_.b, placed_, question_.through.leaf_test, lists_a,
-                       lists_b);
+        NodeLists<1> lists_a;
+        NodeLists<1> lists_b;
+        MeetCells meet(question_.a, question_.b, placed_, lists_a, lists_b, nullptr);
         FirstPlace first = {at_a / format::kBvhWidth, at_b / format::kBvhWidth};
         walk.run([&](const Pair& pair, const CellBounds& bounds_a, const CellBounds& bounds_b) {
             return meet_at(pair, bounds_a, bounds_b, meet, first);
@@ -172,6 +174,7 @@ bool visit_contacts_through_trees(const QuestionThrough& question, ContactVisito
     const PlacedBoxes placed = place_boxes(question.a, question.b, question.placement);
     if (placed.apart) return true;
     question.workspace.storage().tested_pairs.begin();
+    question.workspace.storage().met_nodes.begin();
     return question.search == Search::first ? walk_structure<Search::first>(question, placed, visit)
                                             : walk_structure<Search::all>(question, placed, visit);
 }

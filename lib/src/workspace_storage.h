@@ -11,7 +11,7 @@
 #include "cdprep/workspace.h"
 #include "cell_bounds.h"
 #include "kernels.h"
-#include "leaf_lists.h"
+#include "node_lists.h"
 #include "sort_pairs.h"
 #include "tested_pairs.h"
 
@@ -81,8 +81,9 @@ struct Workspace::Storage {
     TestedPairs tested_pairs;
     FirstPlaces first_places;
     std::array<PendingLeaves, kernels::kLeafBatch> pending_leaves;  ///< of leaf_pairs
-    LeafLists<64> leaf_lists_a;
-    LeafLists<64> leaf_lists_b;
+    NodeLists<64> node_lists_a;
+    NodeLists<64> node_lists_b;
+    MetNodes met_nodes;
     KeptBounds bounds_a;
     KeptBounds bounds_b;
     CandidateNodes candidate_nodes;

@@ -8,6 +8,8 @@
 
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/octree.h"
+#include "cdprep/model.h"
+#include "kernels.h"
 
 namespace cdprep {
 
@@ -17,10 +19,16 @@ struct LeafLanes {
     std::uint8_t lanes;  ///< bit set
 };
 
-/// Eight BVH leaves and the boxes around them.
-struct alignas(64) LeafBlock {
+/// Some leaves of a node of the BVH's lowest level.
+struct NodeLanes {
+    std::uint32_t node;  ///< of level 0
+    std::uint8_t lanes;  ///< bit set
+};
+
+/// Eight such nodes and the boxes around them.
+struct alignas(64) NodeBlock {
     format::BvhNode boxes;
-    std::array<LeafLanes, format::kBvhWidth> leaf;
+    std::array<NodeLanes, format::kBvhWidth> node;
     std::uint32_t count;
 
     [[nodiscard]] unsigned lanes() const noexcept {
@@ -29,27 +37,29 @@ struct alignas(64) LeafBlock {
 };
 
 /// A part of what a cell lists: at most eight blocks, and the boxes around those.
-struct LeafList {
-    const LeafBlock* block;
+struct NodeList {
+    const NodeBlock* block;
     const format::BvhNode* around;
     std::uint32_t blocks;
     std::uint32_t end;  ///< one past its last reference
 };
 
-/// What leaf cells of one model list, by BVH leaves, with the boxes around those. A walk
+/// What leaf cells of one model list, by the lowest nodes of its BVH, with the boxes around
+/// those: triangles that follow each other in the tree order are neighbours. A walk
 /// comes to a cell many times in short succession: the last kSlots lists are kept.
 template <std::size_t kSlots>
-class LeafLists {
+class NodeLists {
 public:
-    /// For other models, or another tree of them. `boxes` are of level 0 of the BVH.
-    void begin(const format::BvhNode* boxes) noexcept {
-        boxes_ = boxes;
+    /// For other models, or another tree of them.
+    void begin(const Model& model) noexcept {
+        const format::BvhShape& shape = model.shape();
+        boxes_ = shape.levels > 1 ? model.nodes().data() + shape.first[1] : nullptr;
         ++question_;
     }
 
     /// As many of the references of cell `node` as one list takes, from `begin` on; they
     /// rise. Valid until the next call.
-    [[nodiscard]] LeafList list(std::uint32_t node, std::uint32_t begin,
+    [[nodiscard]] NodeList list(std::uint32_t node, std::uint32_t begin,
                                 std::span<const std::uint32_t> references) noexcept {
         Slot& slot = slots_[(node + begin) % kSlots];
         const bool is_same = slot.question == question_ && slot.node == node && slot.begin == begin;
@@ -82,7 +92,7 @@ private:
     };
 
     void fill(Slot& slot, std::span<const std::uint32_t> references) noexcept {
-        LeafBlock* block = &block_[slot.written % kBlocks];
+        NodeBlock* block = &block_[slot.written % kBlocks];
         slot.blocks = 0;
         std::size_t at = slot.begin;
         while (at < references.size() && slot.blocks < kMostBlocks) {
@@ -94,30 +104,38 @@ private:
     }
 
     /// Fills a block from references[at] on; returns one past the last that it holds.
-    std::size_t fill(LeafBlock& block, std::span<const std::uint32_t> references,
+    std::size_t fill(NodeBlock& block, std::span<const std::uint32_t> references,
                      std::size_t at) const noexcept {
         block.count = 0;
+        constexpr std::uint32_t kOfNode = format::kBvhWidth * format::kBvhWidth;
         const auto triangle = [&] { return references[at] & ~format::kSharedReference; };
         while (at < references.size() && block.count < format::kBvhWidth) {
-            const std::uint32_t leaf = triangle() / format::kBvhWidth;
+            const std::uint32_t node = triangle() / kOfNode;
             unsigned lanes = 0;
-            for (; at < references.size() && triangle() / format::kBvhWidth == leaf; ++at) {
-                lanes |= 1U << (triangle() % format::kBvhWidth);
+            for (; at < references.size() && triangle() / kOfNode == node; ++at) {
+                lanes |= 1U << (triangle() / format::kBvhWidth % format::kBvhWidth);
             }
-            const format::BvhNode& node = boxes_[leaf / format::kBvhWidth];
-            const std::uint32_t box = leaf % format::kBvhWidth;
             const std::uint32_t lane = block.count++;
-            block.leaf[lane] = {leaf, static_cast<std::uint8_t>(lanes)};
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                block.boxes.lower[axis][lane] = node.lower[axis][box];
-                block.boxes.upper[axis][lane] = node.upper[axis][box];
-            }
+            block.node[lane] = {node, static_cast<std::uint8_t>(lanes)};
+            put_box(node, block.boxes, lane);
         }
         return at;
     }
 
+    /// The box around a node, as its parent has it; a root's is the frame.
+    void put_box(std::uint32_t node, format::BvhNode& boxes, std::uint32_t lane) const noexcept {
+        const std::uint32_t box = node % format::kBvhWidth;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const bool is_root = boxes_ == nullptr;
+            boxes.lower[axis][lane] =
+                is_root ? -1.0F : boxes_[node / format::kBvhWidth].lower[axis][box];
+            boxes.upper[axis][lane] =
+                is_root ? 1.0F : boxes_[node / format::kBvhWidth].upper[axis][box];
+        }
+    }
+
     /// Sets lane `lane` to the box around a block.
-    static void surround(const LeafBlock& block, format::BvhNode& around,
+    static void surround(const NodeBlock& block, format::BvhNode& around,
                          std::uint32_t lane) noexcept {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             float lower = block.boxes.lower[axis][0];
@@ -131,11 +149,46 @@ private:
         }
     }
 
-    std::array<LeafBlock, kBlocks> block_;
+    std::array<NodeBlock, kBlocks> block_;
     std::array<Slot, kSlots> slots_;
-    const format::BvhNode* boxes_ = nullptr;
+    const format::BvhNode* boxes_ = nullptr;  ///< of level 1, or null: the root is of level 0
     std::uint64_t question_ = 0;
     std::uint64_t written_ = 0;
+};
+
+/// Which pairs of leaves of two nodes were held against each other in a question; some
+/// are forgotten, and then met again.
+class MetNodes {
+public:
+    void begin() noexcept {
+        ++question_;
+    }
+    [[nodiscard]] kernels::BoxPairs met(std::uint32_t a, std::uint32_t b) const noexcept {
+        const Slot& slot = slots_[slot_of(a, b)];
+        return is(slot, a, b) ? slot.pairs : 0;
+    }
+    void add(std::uint32_t a, std::uint32_t b, kernels::BoxPairs pairs) noexcept {
+        Slot& slot = slots_[slot_of(a, b)];
+        slot = {question_, a, b, is(slot, a, b) ? slot.pairs | pairs : pairs};
+    }
+
+private:
+    static constexpr std::size_t kSlots = 2048;
+
+    struct Slot {
+        std::uint64_t question;
+        std::uint32_t a;
+        std::uint32_t b;
+        kernels::BoxPairs pairs;
+    };
+    static std::size_t slot_of(std::uint32_t a, std::uint32_t b) noexcept {
+        return (a * 37 + b) % kSlots;
+    }
+    [[nodiscard]] bool is(const Slot& slot, std::uint32_t a, std::uint32_t b) const noexcept {
+        return slot.question == question_ && slot.a == a && slot.b == b;
+    }
+    std::array<Slot, kSlots> slots_{};
+    std::uint64_t question_ = 0;
 };
 
 }  // namespace cdprep
