@@ -70,9 +70,9 @@ private:
     std::array<std::array<float, format::kBvhWidth>, 6> row_;  ///< lane 0 is used
 };
 
-/// Holds what two leaf cells list against each other, by nodes and leaves of the BVHs: the
-/// kernels take all eight triangles of a leaf in the time of one, so what other cells list
-/// of them is settled on the way.
+/// Holds what two leaf cells list against each other, by low nodes of the BVHs: the kernels
+/// take all of a node and of a leaf in the time of one, so what other cells list of them is
+/// settled on the way, once.
 template <class Lists>
 class MeetCells {
 public:
@@ -111,6 +111,8 @@ public:
     }
 
 private:
+    static constexpr std::uint32_t kFewNodes = 8;
+
     /// The pairs of boxes that may touch in what the cells have in common.
     [[nodiscard]] kernels::BoxPairs overlapping(const CommonBox& common, const format::BvhNode& a,
                                                 unsigned lanes_a, const format::BvhNode& b,
@@ -144,7 +146,10 @@ private:
     template <class Contacts>
     bool meet(const CommonBox& common, const NodeBlock& a, const NodeBlock& b, std::uint64_t place,
               Contacts& contacts) const noexcept {
-        kernels::BoxPairs nodes = overlapping(common, a.boxes, a.lanes(), b.boxes, b.lanes());
+        // A few are met once and for all sooner than parted in each pair of cells.
+        const bool few = a.count * b.count <= kFewNodes;
+        kernels::BoxPairs nodes = few ? lane_pairs(a.lanes(), b.lanes())
+                                      : overlapping(common, a.boxes, a.lanes(), b.boxes, b.lanes());
         for (; nodes != 0; nodes &= nodes - 1) {
             const auto bit = static_cast<unsigned>(std::countr_zero(nodes));
             if (!meet(a.node[bit % 8], b.node[bit / 8], place, contacts)) return false;
@@ -152,26 +157,25 @@ private:
         return true;
     }
 
-    /// The leaves of two nodes, as far as they are listed, by all that bounds them. What
-    /// the cells have in common is no matter here: the answer holds for all cells.
+    /// The leaves of two nodes, by all that bounds them. What the cells have in common is
+    /// no matter here: the answer holds for all cells.
     template <class Contacts>
-    bool meet(const NodeLanes& a, const NodeLanes& b, std::uint64_t place,
+    bool meet(const LowNode& a, const LowNode& b, std::uint64_t place,
               Contacts& contacts) const noexcept {
         // Where answers cannot be remembered, each place has to bring what it lists.
         MetNodes* met = contacts.forgets() ? nullptr : met_;
-        const kernels::BoxPairs listed = lane_pairs(a.lanes, b.lanes);
-        if (met != nullptr && (listed & ~met->met(a.node, b.node)) == 0) return true;
+        if (met != nullptr && met->holds(a.number, b.number)) return true;
         kernels::BoxSizes sizes;
         kernels::BoxPairs leaves = kernels::active().overlapping_boxes(
-            placed_.placement, node_boxes(nodes_a_, oriented_a_, a.node),
-            node_boxes(nodes_b_, oriented_b_, b.node), {a.lanes, b.lanes, nullptr}, sizes);
+            placed_.placement, node_boxes(nodes_a_, oriented_a_, a.number),
+            node_boxes(nodes_b_, oriented_b_, b.number), {a.leaves, b.leaves, nullptr}, sizes);
         for (; leaves != 0; leaves &= leaves - 1) {
             const auto bit = static_cast<unsigned>(std::countr_zero(leaves));
-            const LeafLanes leaf_a = {a.node * format::kBvhWidth + bit % 8, 0xff};
-            const LeafLanes leaf_b = {b.node * format::kBvhWidth + bit / 8, 0xff};
+            const LeafLanes leaf_a = {a.number * format::kBvhWidth + bit % 8, 0xff};
+            const LeafLanes leaf_b = {b.number * format::kBvhWidth + bit / 8, 0xff};
             if (!contacts.add(leaf_a, leaf_b, place)) return false;
         }
-        if (met != nullptr && !contacts.forgets()) met->add(a.node, b.node, listed);
+        if (met != nullptr && !contacts.forgets()) met->add(a.number, b.number);
         return true;
     }
     static kernels::NodeBoxes node_boxes(const format::BvhNode* nodes,

@@ -19,16 +19,16 @@ struct LeafLanes {
     std::uint8_t lanes;  ///< bit set
 };
 
-/// Some leaves of a node of the BVH's lowest level.
-struct NodeLanes {
-    std::uint32_t node;  ///< of level 0
-    std::uint8_t lanes;  ///< bit set
+/// A node of the BVH's lowest level.
+struct LowNode {
+    std::uint32_t number;  ///< of level 0
+    std::uint8_t leaves;   ///< which it has: bit set
 };
 
 /// Eight such nodes and the boxes around them.
 struct alignas(64) NodeBlock {
     format::BvhNode boxes;
-    std::array<NodeLanes, format::kBvhWidth> node;
+    std::array<LowNode, format::kBvhWidth> node;
     std::uint32_t count;
 
     [[nodiscard]] unsigned lanes() const noexcept {
@@ -53,6 +53,7 @@ public:
     /// For other models, or another tree of them.
     void begin(const Model& model) noexcept {
         const format::BvhShape& shape = model.shape();
+        shape_ = &shape;
         boxes_ = shape.levels > 1 ? model.nodes().data() + shape.first[1] : nullptr;
         ++question_;
     }
@@ -111,12 +112,10 @@ private:
         const auto triangle = [&] { return references[at] & ~format::kSharedReference; };
         while (at < references.size() && block.count < format::kBvhWidth) {
             const std::uint32_t node = triangle() / kOfNode;
-            unsigned lanes = 0;
-            for (; at < references.size() && triangle() / kOfNode == node; ++at) {
-                lanes |= 1U << (triangle() / format::kBvhWidth % format::kBvhWidth);
-            }
+            while (at < references.size() && triangle() / kOfNode == node) ++at;
             const std::uint32_t lane = block.count++;
-            block.node[lane] = {node, static_cast<std::uint8_t>(lanes)};
+            block.node[lane] = {node,
+                                static_cast<std::uint8_t>((1U << shape_->used_boxes(0, node)) - 1)};
             put_box(node, block.boxes, lane);
         }
         return at;
@@ -151,41 +150,37 @@ private:
 
     std::array<NodeBlock, kBlocks> block_;
     std::array<Slot, kSlots> slots_;
+    const format::BvhShape* shape_ = nullptr;
     const format::BvhNode* boxes_ = nullptr;  ///< of level 1, or null: the root is of level 0
     std::uint64_t question_ = 0;
     std::uint64_t written_ = 0;
 };
 
-/// Which pairs of leaves of two nodes were held against each other in a question; some
-/// are forgotten, and then met again.
+/// Which pairs of low nodes were held against each other in a question; some are
+/// forgotten, and then met again.
 class MetNodes {
 public:
     void begin() noexcept {
         ++question_;
     }
-    [[nodiscard]] kernels::BoxPairs met(std::uint32_t a, std::uint32_t b) const noexcept {
+    [[nodiscard]] bool holds(std::uint32_t a, std::uint32_t b) const noexcept {
         const Slot& slot = slots_[slot_of(a, b)];
-        return is(slot, a, b) ? slot.pairs : 0;
+        return slot.question == question_ && slot.a == a && slot.b == b;
     }
-    void add(std::uint32_t a, std::uint32_t b, kernels::BoxPairs pairs) noexcept {
-        Slot& slot = slots_[slot_of(a, b)];
-        slot = {question_, a, b, is(slot, a, b) ? slot.pairs | pairs : pairs};
+    void add(std::uint32_t a, std::uint32_t b) noexcept {
+        slots_[slot_of(a, b)] = {question_, a, b};
     }
 
 private:
-    static constexpr std::size_t kSlots = 2048;
+    static constexpr std::size_t kSlots = 4096;
 
     struct Slot {
         std::uint64_t question;
         std::uint32_t a;
         std::uint32_t b;
-        kernels::BoxPairs pairs;
     };
     static std::size_t slot_of(std::uint32_t a, std::uint32_t b) noexcept {
         return (a * 37 + b) % kSlots;
-    }
-    [[nodiscard]] bool is(const Slot& slot, std::uint32_t a, std::uint32_t b) const noexcept {
-        return slot.question == question_ && slot.a == a && slot.b == b;
     }
     std::array<Slot, kSlots> slots_{};
     std::uint64_t question_ = 0;
