@@ -215,7 +215,8 @@ CellBlock KeyedWalk<Contacts>::block_around(unsigned boxes) const noexcept {
             upper = std::max(upper, boxes_.upper[i][j]);
         }
         least[i] = planes_.cell(i, lower, 0);
-        most[i] = planes_.cell(i, upper, kOctreeSteps - 1);
+        // Never below, though a damaged file's boxes may end before they begin.
+        most[i] = std::max(planes_.cell(i, upper, kOctreeSteps - 1), least[i]);
         widest = std::max(widest, most[i] - least[i]);
     }
     auto shift = static_cast<std::uint32_t>(std::bit_width(widest));

@@ -10,12 +10,14 @@
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/format/sections.h"
+#include "cdprep/overlap_through.h"
 #include "cdprep/touching_box.h"
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
 #include "cdprep/touching_triangle.h"
 #include "cdprep/triangles_within.h"
 #include "support/meshes.h"
+#include "support/more_sections.h"
 #include "support/random_pose.h"
 #include "support/reseal.h"
 #include "support/tiny_baker.h"
@@ -109,6 +111,38 @@ TEST(AbsurdBoxes, EveryQuestionEnds) {
         static_cast<void>(closest_point(m, {0, 0, 5}, workspace));
         static_cast<void>(includes(m, {0, 0, 0}, workspace));
         ask_about_shapes(m, random_pose(random, 1), workspace);
+    }
+}
+
+// The same through hashed octrees, whose boxes are the hierarchy's.
+TEST(AbsurdBoxes, EveryQuestionThroughAHashedOctreeEnds) {
+    std::mt19937 random(2);
+    for (int round = 0; round < 100; ++round) {
+        const TestMesh mesh = random_soup(random(), 300, 0.3);
+        const auto bounds = static_cast<build::BvhBounds>(round % 2);
+        AlignedBytes file =
+            with_octree(bake_tiny(mesh.positions, mesh.triangles, {.bounds = bounds}),
+                        {.level = 5, .threshold = 4});
+        spoil(file, SectionId::bvh_nodes, random);
+        if (bounds == build::BvhBounds::oriented) spoil(file, SectionId::oriented_nodes, random);
+        reseal(file.span());
+        const auto model = Model::open(file.span());
+        ASSERT_TRUE(model) << model.error().message;
+        const Model& m = model.value();
+        Workspace workspace;
+        for (const Placement& placement :
+             {Placement::b_moves(Pose()), Placement::world(random_pose(random, 1), Pose())}) {
+            for (const Structure structure :
+                 {Structure::hashed_octree, Structure::hashed_octree_literal}) {
+                for (const CellSearch search : {CellSearch::sorted, CellSearch::mixed}) {
+                    const StructureOptions through = {.structure = structure, .search = search};
+                    EXPECT_LE(
+                        overlapping_triangles_through(through, m, m, placement, workspace, {}),
+                        m.triangle_count() * std::size_t{m.triangle_count()});
+                    static_cast<void>(any_overlap_through(through, m, m, placement, workspace));
+                }
+            }
+        }
     }
 }
 

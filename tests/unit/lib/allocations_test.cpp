@@ -13,6 +13,7 @@
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/includes_through.h"
+#include "cdprep/overlap_through.h"
 #include "cdprep/refit_bvh.h"
 #include "cdprep/split_overlap.h"
 #include "cdprep/touching_box.h"
@@ -21,6 +22,7 @@
 #include "cdprep/touching_triangle.h"
 #include "cdprep/triangles_within.h"
 #include "support/every_structure.h"
+#include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
@@ -189,6 +191,38 @@ TEST(Allocations, NoStructureAllocatesToTellWhatIsInside) {
     }
     EXPECT_EQ(allocations, before);
     EXPECT_EQ(inside, 12);
+}
+
+TEST(Allocations, NoQuestionThroughAHashedOctreeAllocates) {
+    const TestMesh sphere = icosphere(3), ring = torus(1, 0.25, 24, 12);
+    const OpenModel a = open_tiny(with_octree(bake_tiny(sphere.positions, sphere.triangles)));
+    const OpenModel b = open_tiny(with_octree(bake_tiny(ring.positions, ring.triangles)));
+    Workspace workspace;
+    std::vector<TrianglePair> pairs(10'000);
+    std::mt19937 random(2);
+    std::vector<Placement> placements;
+    for (const double reach : {0.5, 1.5, 3.0, 0.5, 1.5, 3.0}) {
+        placements.push_back(Placement::b_moves(random_pose(random, reach)));
+        placements.push_back(Placement::a_moves(random_pose(random, reach)));
+    }
+    std::size_t hits = 0, misses = 0;
+    const std::size_t before = allocations;
+    for (const Placement& placement : placements) {
+        for (const Structure structure :
+             {Structure::hashed_octree, Structure::hashed_octree_literal}) {
+            for (const LeafTest test : {LeafTest::guigue_devillers, LeafTest::feito_torres}) {
+                const StructureOptions through = {.structure = structure, .leaf_test = test};
+                const bool hit =
+                    any_overlap_through(through, a.model, b.model, placement, workspace);
+                (hit ? hits : misses) += 1;
+                static_cast<void>(overlapping_triangles_through(through, a.model, b.model,
+                                                                placement, workspace, pairs));
+            }
+        }
+    }
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(hits, 8U);
+    EXPECT_GT(misses, 8U);
 }
 
 // Frame, leaves and boxes all move: every array is written anew, none is made.
