@@ -276,7 +276,7 @@ MeetingCounts KeyedWalk<Contacts>::count_met(std::span<const KeyedCell> cells) n
         }
     };
     for (const KeyedCell& cell : cells) {
-        if (parts_.is_low(cell.part)) {
+        if (parts_.is_single_leaf(cell.part)) {
             add(cell.boxes);
             continue;
         }
@@ -346,13 +346,11 @@ void KeyedWalk<Contacts>::gather(std::span<const KeyedCell> cells) noexcept {
     for (const KeyedCell& cell : cells) pending[depth++] = cell;
     while (depth > 0) {
         const KeyedCell cell = pending[--depth];
-        if (!parts_.is_low(cell.part)) {
+        if (!parts_.is_single_leaf(cell.part)) {
             depth = open(cell, pending.data(), depth);
             continue;
         }
-        for (std::uint32_t i = 0; i < cell.part.last - cell.part.first; ++i) {
-            add_listed(parts_.references(cell.part, i), cell.boxes);
-        }
+        add_listed(parts_.references(cell.part), cell.boxes);
     }
 }
 

@@ -47,23 +47,21 @@ public:
         return run(code, level);
     }
 
-    /// Whether a part that is not empty is as far down as is worth going: a leaf or, of
-    /// sorted leaves, a few.
-    [[nodiscard]] bool is_low(const OctreePart& part) const noexcept {
-        if (search_ == CellSearch::sorted) return part.last - part.first <= kFewLeaves;
+    /// Whether a part that is not empty is one leaf.
+    [[nodiscard]] bool is_single_leaf(const OctreePart& part) const noexcept {
+        if (search_ == CellSearch::sorted) return part.last - part.first == 1;
         return is_leaf(index_.nodes[part.first]);
     }
 
-    /// The triangles of the i-th leaf of a low part, i below part.last - part.first.
-    [[nodiscard]] std::span<const std::uint32_t> references(const OctreePart& part,
-                                                            std::uint32_t i) const noexcept {
-        const std::uint32_t at = part.first + i;
+    /// The triangles of one leaf.
+    [[nodiscard]] std::span<const std::uint32_t> references(const OctreePart& leaf) const noexcept {
+        const bool sorted = search_ == CellSearch::sorted;
         const format::OctreeNode& node =
-            index_.nodes[search_ == CellSearch::sorted ? index_.leaf_nodes[at] : at];
+            index_.nodes[sorted ? index_.leaf_nodes[leaf.first] : leaf.first];
         return references_.subspan(node.first, node.count);
     }
 
-    /// Which children of what is not low may have parts: a bit each.
+    /// Which children of what is no leaf may have parts: a bit each.
     [[nodiscard]] unsigned children(const OctreePart& part) const noexcept {
         return search_ == CellSearch::sorted ? 0xff : index_.nodes[part.first].count & 0xff;
     }
@@ -94,9 +92,6 @@ public:
     }
 
 private:
-    /// Measured: the boxes of the hierarchy part what they list as well as more cells do.
-    static constexpr std::uint32_t kFewLeaves = 4;
-
     [[nodiscard]] std::uint32_t leaves_up_to(std::uint32_t first, std::uint32_t last,
                                              std::uint64_t code) const noexcept {
         const auto count = count_up_to(index_.leaf_codes.data() + first, last - first, code,

@@ -23,11 +23,9 @@ OpenModel open_with_octree(const TestMesh& mesh, const build::OctreeOptions& oct
 void add_triangles(const OctreeParts& parts, const OctreePart& part, const CellPlace& first,
                    std::uint32_t level, std::set<std::uint32_t>& triangles) {
     if (part.empty()) return;
-    if (parts.is_low(part)) {
-        for (std::uint32_t i = 0; i < part.last - part.first; ++i) {
-            for (const std::uint32_t reference : parts.references(part, i)) {
-                triangles.insert(reference & ~format::kSharedReference);
-            }
+    if (parts.is_single_leaf(part)) {
+        for (const std::uint32_t reference : parts.references(part)) {
+            triangles.insert(reference & ~format::kSharedReference);
         }
         return;
     }
