@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -38,9 +39,9 @@ public:
     [[nodiscard]] OctreePart at(std::uint64_t code, std::uint32_t level) const noexcept {
         switch (search_) {
             case CellSearch::modulus:
-                return chained(index_.modulus_table, code, level, modulus_slot);
+                return chained(index_.modulus_table, code, level, format::modulus_slot);
             case CellSearch::mixed:
-                return chained(index_.mixed_table, code, level, mixed_slot);
+                return chained(index_.mixed_table, code, level, format::mixed_slot);
             case CellSearch::sorted:
                 break;
         }
@@ -94,9 +95,9 @@ public:
 private:
     [[nodiscard]] std::uint32_t leaves_up_to(std::uint32_t first, std::uint32_t last,
                                              std::uint64_t code) const noexcept {
-        const auto count = count_up_to(index_.leaf_codes.data() + first, last - first, code,
-                                       [](std::uint64_t leaf_code) { return leaf_code; });
-        return first + static_cast<std::uint32_t>(count);
+        const std::uint64_t* codes = index_.leaf_codes.data();
+        const std::uint64_t* end = std::upper_bound(codes + first, codes + last, code);
+        return static_cast<std::uint32_t>(end - codes);
     }
 
     /// Leaves that begin in the cell, or else the leaf before them when it holds the cell.
