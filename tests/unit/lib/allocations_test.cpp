@@ -26,6 +26,8 @@
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
+#include "workspace_storage.h"
+
 namespace {
 std::atomic<std::size_t> allocations = 0;
 
@@ -78,6 +80,38 @@ void ask_touching(const Model& model, const Shape& shape, Workspace& workspace,
         static_cast<void>(touching_triangles(model, shape, workspace, triangles.first(5), options));
         visit_touching_triangles(model, shape, workspace, visit, options);
     }
+}
+
+/// With an octree, one with split points of its own, and a tetra-tree.
+OpenModel with_trees(const AlignedBytes& file) {
+    return open_tiny(with_tetra_tree(
+        with_adaptive_octree(with_octree(file, {.level = 3}), {.level = 3}), {.level = 3}));
+}
+
+// Through each structure, with room for next to no answers too.
+TEST(Allocations, NoStructureAllocates) {
+    const TestMesh sphere = icosphere(3), ring = torus(1, 0.25, 24, 12);
+    const OpenModel a = with_trees(bake_tiny(sphere.positions, sphere.triangles));
+    const OpenModel b = with_trees(bake_tiny(ring.positions, ring.triangles));
+    Workspace workspace;
+    std::vector<TrianglePair> pairs(10'000);
+    const Placement placement = Placement::b_moves(Pose());
+    std::size_t found = 0;
+    const std::size_t before = allocations;
+    for (const std::size_t buckets : {TestedPairs::kBuckets, std::size_t{1}}) {
+        workspace.storage().tested_pairs.limit(buckets);
+        for (const Structure structure :
+             {Structure::octree, Structure::adaptive_octree, Structure::tetra_tree}) {
+            for (const LeafTest test : {LeafTest::guigue_devillers, LeafTest::feito_torres}) {
+                const StructureOptions through = {structure, test};
+                found += overlapping_triangles_through(through, a.model, b.model, placement,
+                                                       workspace, pairs);
+                found += any_overlap_through(through, a.model, b.model, placement, workspace);
+            }
+        }
+    }
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(found, 1000u);
 }
 
 // Every question, near, far, touching and nested; what they answer is for other tests.
