@@ -68,6 +68,10 @@ struct OpenStep {
 inline constexpr std::size_t kMaxOpenSteps = std::size_t{2} * (format::kMaxBvhLevels + 1);
 
 struct Workspace::Storage {
+    // What begins cache lines stands first: nothing is lost between.
+    NodeLists<64> node_lists_a;
+    NodeLists<64> node_lists_b;
+    kernels::LeafScratch leaf_scratch;
     std::array<OpenStep, kMaxOpenSteps> open_steps;
     std::array<std::uint64_t, kMaxPendingPairs> pending;
     std::array<NearPair, kMaxPendingPairs> near;
@@ -76,13 +80,10 @@ struct Workspace::Storage {
     std::array<std::uint64_t, kMaxFrontier> frontier_later;
     std::array<BoundedPlace, kMaxBoundedPlaces> bounded;
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
-    kernels::LeafScratch leaf_scratch;
     SortScratch sort_scratch;
     TestedPairs tested_pairs;
     FirstPlaces first_places;
     std::array<PendingLeaves, kernels::kLeafBatch> pending_leaves;  ///< of leaf_pairs
-    NodeLists<64> node_lists_a;
-    NodeLists<64> node_lists_b;
     MetNodes met_nodes;
     KeptBounds bounds_a;
     KeptBounds bounds_b;
