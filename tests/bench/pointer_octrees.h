@@ -77,7 +77,7 @@ struct BoxNode {
     Ending ending;
 };
 
-inline bool holds(const Box3& box, const Double3& p) {
+inline bool holds_half_open(const Box3& box, const Double3& p) {
     return p.x >= box.lower.x && p.x < box.upper.x && p.y >= box.lower.y && p.y < box.upper.y &&
            p.z >= box.lower.z && p.z < box.upper.z;
 }
@@ -92,7 +92,7 @@ inline PointerOctree<BoxNode> box_octree(const format::OctreeGrid& grid,
 inline std::uint32_t find_by_boxes(const BoxNode& node, const Double3& p) {
     if (node.ending.is_leaf) return node.ending.number;
     for (const BoxNode* child : node.children) {
-        if (child != nullptr && holds(child->box, p)) return find_by_boxes(*child, p);
+        if (child != nullptr && holds_half_open(child->box, p)) return find_by_boxes(*child, p);
     }
     return kNoNode;
 }

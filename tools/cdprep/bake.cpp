@@ -185,8 +185,8 @@ void add_bake(CLI::App& app, Exit& exit) {
     command->add_option("--output-dir", arguments->output_folder, "Where many outputs go")
         ->excludes(output);
     command->add_option("--effects", arguments->effects,
-                        "What the file is to serve, with commas, or all. Default: collide, "
-                        "overlap, distance, within, ray, closest");
+                        "What the file is to serve, with commas, or all, with every structure "
+                        "too. Default: collide, overlap, distance, within, ray, closest");
     command->add_flag("--normalize", arguments->options.normalize,
                       "Fit to a box of diagonal 1, centred");
     command

@@ -244,36 +244,28 @@ Structures build_structures(const mesh::Mesh& ordered, std::int32_t frame_expone
     return built;
 }
 
-std::vector<report::StructureReport> reports_of(const Structures& structures,
-                                                std::uint64_t triangle_count,
-                                                const StructureChoice& choice,
-                                                std::span<const write::Section> sections) {
-    report::StructureViews views;
+std::vector<report::StructureReport> reports_of(const StructureChoice& choice,
+                                                const Structures& built, const mesh::Mesh& mesh) {
+    std::vector<report::StructureReport> reports;
+    const std::size_t triangles = mesh.triangles.size();
     if (choice.has_octree()) {
-        const build::Octree& tree = structures.octree;
-        views.octree = &tree.grid;
-        views.octree_nodes = tree.nodes;
-        views.octree_references = tree.references;
-        views.is_hashed = choice.octree.hashed;
+        const OctreeFigures figures = octree_figures(built.octree, triangles);
+        reports.push_back(report::report_of(Structure::octree, built.octree.grid, figures));
+        if (choice.octree.hashed) {
+            reports.push_back(
+                report::report_of(Structure::hashed_octree, built.octree.grid, figures));
+        }
     }
     if (choice.has_adaptive_octree()) {
-        const build::AdaptiveOctree& tree = structures.adaptive_octree;
-        views.adaptive_octree = &tree.tree;
-        views.adaptive_octree_nodes = tree.nodes;
-        views.adaptive_octree_references = tree.references;
+        reports.push_back(report::report_of(
+            built.adaptive_octree.tree, adaptive_octree_figures(built.adaptive_octree, triangles)));
     }
     if (choice.has_tetra_tree()) {
-        const build::TetraTree& tree = structures.tetra_tree;
-        views.tetra_tree = &tree.tree;
-        views.tetra_nodes = tree.nodes;
-        views.tetra_references = tree.references;
+        reports.push_back(
+            report::report_of(built.tetra_tree.tree,
+                              tetra_figures(built.tetra_tree, mesh.positions, mesh.triangles)));
     }
-    std::vector<report::SectionBytes> sizes;
-    sizes.reserve(sections.size());
-    for (const write::Section& section : sections) {
-        sizes.push_back({section.id, section.bytes.size()});
-    }
-    return report::structure_reports(views, triangle_count, sizes);
+    return reports;
 }
 
 }  // namespace
@@ -351,9 +343,8 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     const format::FileHeader facts = facts_of(soup, arrays.mesh(), found, normalization, options);
     format::SectionSet wanted = options.effects.sections;
     wanted.insert(options.structures.sections);
-    const std::vector<write::Section> sections = arrays.sections(wanted);
-    const Result<Done> written =
-        stages.run("write", [&] { return write::write_file(output, facts, sections); });
+    const Result<Done> written = stages.run(
+        "write", [&] { return write::write_file(output, facts, arrays.sections(wanted)); });
     if (!written) return written.error();
 
     report.triangles = facts.triangle_count;
@@ -366,8 +357,11 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     report.promises = report::promise_words(found.defects.defects.verdicts[0]);
     report.warnings = count_warnings(found.defects);
     report.single_precision = soup.single_precision;
-    report.structures =
-        reports_of(arrays.structures(), facts.triangle_count, options.structures, sections);
+    if (!options.structures.names.empty()) {
+        report.structures = stages.run("describe", [&] {
+            return reports_of(options.structures, arrays.structures(), arrays.mesh());
+        });
+    }
     report.bytes = std::filesystem::file_size(output);
     report.stages = stages.times();
     report.seconds = seconds_since(begin);

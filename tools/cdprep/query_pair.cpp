@@ -139,11 +139,13 @@ public:
     /// What the questions did, for people: one line.
     [[nodiscard]] std::string counts() const {
         std::ostringstream line;
-        line << counts_.box_pairs << " box pairs, " << counts_.leaf_pairs << " leaf pairs, "
-             << counts_.triangle_pairs << " triangle pairs; decided " << counts_.by_kernel
-             << " in float, " << counts_.by_corner << " by a common corner, " << counts_.by_filter
-             << " in double, " << counts_.by_exact << " exactly; " << counts_.measured
-             << " distances measured, " << counts_.measured_again << " again\n";
+        line << counts_.box_pairs << " box pairs, ";
+        if (through_.structure != Structure::bvh) line << counts_.cell_pairs << " cell pairs, ";
+        line << counts_.leaf_pairs << " leaf pairs, " << counts_.triangle_pairs
+             << " triangle pairs; decided " << counts_.by_kernel << " in float, "
+             << counts_.by_corner << " by a common corner, " << counts_.by_filter << " in double, "
+             << counts_.by_exact << " exactly; " << counts_.measured << " distances measured, "
+             << counts_.measured_again << " again\n";
         return line.str();
     }
 
@@ -219,10 +221,8 @@ private:
     std::size_t find_pairs(const Placement& placement) {
         const OverlapOptions options = {options_.contact, options_.degenerate};
         return keep_pairs([&](std::span<TrianglePair> room) {
-            return through_.structure == Structure::bvh
-                       ? overlapping_triangles(a_, b_, placement, workspace_, room, options)
-                       : overlapping_triangles_through(through_, a_, b_, placement, workspace_,
-                                                       room, options);
+            return overlapping_triangles_through(through_, a_, b_, placement, workspace_, room,
+                                                 options);
         });
     }
 

@@ -115,12 +115,13 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
     }
     if (const auto error = find_idle_option(arguments, choice)) return *error;
 
+    choice.octree.hashed = choice.sections.contains(format::SectionId::octree_leaf_codes);
     const build::StructurePreset& preset = preset_named(arguments.preset);
-    limit(choice.octree, preset.octree, arguments.octree_level, arguments.octree_threshold);
+    limit(choice.octree, choice.octree.hashed ? preset.hashed_octree : preset.octree,
+          arguments.octree_level, arguments.octree_threshold);
     limit(choice.adaptive_octree, preset.adaptive_octree, arguments.octree_level,
           arguments.octree_threshold);
     limit(choice.tetra_tree, preset.tetra_tree, arguments.tetra_level, arguments.tetra_threshold);
-    choice.octree.hashed = choice.sections.contains(format::SectionId::octree_leaf_codes);
     if (arguments.split == "area") choice.adaptive_octree.rule = format::SplitRule::surface_area;
     if (arguments.bounding == "tetra") choice.tetra_tree.bounding = format::TetraBounding::tetra;
     return choice;

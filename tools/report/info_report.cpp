@@ -64,16 +64,6 @@ std::string findings_text(const Model& model) {
     return text.empty() ? "findings: none\n" : "findings:\n" + text;
 }
 
-std::vector<StructureReport> structures(const Model& model,
-                                        std::span<const format::SectionEntry> sections) {
-    std::vector<SectionBytes> sizes;
-    sizes.reserve(sections.size());
-    for (const format::SectionEntry& entry : sections) {
-        sizes.push_back({entry.id, byte_count(entry)});
-    }
-    return structure_reports(views_of(model), model.triangle_count(), sizes);
-}
-
 std::string mesh_text(const Model& model) {
     if (model.verdicts().empty()) return {};
     const format::Verdict& verdict = model.verdicts()[0];
@@ -103,7 +93,7 @@ std::string info_text(const std::string& file, const Model& model,
     text +=
         std::string("questions about pairs: bounded by ") + bounds_name(bounds_of(model)) + "\n";
     text += mesh_text(model);
-    if (const std::string others = structures_text(structures(model, sections)); !others.empty()) {
+    if (const std::string others = structures_text(structure_reports(model)); !others.empty()) {
         text += "structures:\n" + others;
     }
     text += "section                          offset        bytes\n";
@@ -139,7 +129,7 @@ std::string info_json(const std::string& file, const Model& model,
         json["promises"] = promise_words(model.verdicts()[0]);
     }
     if (const auto found = findings(model); !found.is_null()) json["found"] = found;
-    if (const auto others = structures(model, sections); !others.empty()) {
+    if (const auto others = structure_reports(model); !others.empty()) {
         json["structures"] = structures_json(others);
     }
     json["sections"] = nlohmann::ordered_json::array();
