@@ -25,9 +25,6 @@ constexpr SectionSet kSource = {SectionId::source_triangle, SectionId::source_ve
                                 SectionId::instances,       SectionId::instance_names,
                                 SectionId::group_runs,      SectionId::group_names,
                                 SectionId::material_runs,   SectionId::material_names};
-/// For what lies along rays from a centre.
-constexpr SectionSet kTetraTree = {SectionId::tetra_tree, SectionId::tetra_nodes,
-                                   SectionId::tetra_references, SectionId::tetra_top};
 /// In every bake, whatever it serves.
 constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance, SectionId::verdicts,
                                 SectionId::findings};
@@ -46,7 +43,7 @@ constexpr std::array<Effect, 9> kEffects = {{
     {"closest", with(kGeometry, kSource)},
     {"collide", with(with(kGeometry, kPair), {SectionId::components})},
     {"distance", with(with(kGeometry, kPair), kSource)},
-    {"inaccessible", with(with(kGeometry, kSource), kTetraTree)},
+    {"inaccessible", with(kGeometry, kSource)},
     {"inside", with(kGeometry, {SectionId::components})},
     {"overlap", with(with(kGeometry, kPair), kSource)},
     {"ray", with(kGeometry, kSource)},

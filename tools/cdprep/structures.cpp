@@ -100,8 +100,9 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
         parse_list(arguments.list.empty() ? unless_said : arguments.list);
     if (!names) return names.error();
     StructureChoice choice;
-    // An effect may need one.
-    if (effects.sections.contains(sections_of(Structure::tetra_tree))) {
+    // The one effect that needs a structure, when it was asked for by its own name.
+    if (!effects.all &&
+        std::count(effects.names.begin(), effects.names.end(), "inaccessible") > 0) {
         choice.sections.insert(sections_of(Structure::tetra_tree));
     }
     for (const std::string& name : names.value()) {
