@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <type_traits>
@@ -44,6 +45,7 @@ struct Arguments {
     std::string contact = "closed";
     double tolerance = 0;
     DistanceOptions errors;
+    std::optional<std::uint32_t> level_of_detail;
     std::size_t repeat = 1;
     bool timings = false;
     bool count = false;
@@ -115,11 +117,19 @@ public:
                     return ask_within(number, placement);
                 }));
             default:
-                return answers.add(timed([&] {
-                    cache_ = before;
-                    return ask(number, placement);
-                }));
+                break;
         }
+        if (arguments_.level_of_detail) {
+            return answers.add(timed([&] {
+                return report::CoarseAnswer{
+                    number,
+                    collide_at_level(a_, b_, placement, *arguments_.level_of_detail, workspace_)};
+            }));
+        }
+        answers.add(timed([&] {
+            cache_ = before;
+            return ask(number, placement);
+        }));
     }
 
     /// What the questions took, for people: one line.
@@ -309,6 +319,11 @@ Result<StructureOptions> structure_of(const Arguments& arguments) {
                      "--segments are found through the bvh alone: leave --structure out, or ask "
                      "for pairs."};
     }
+    if (arguments.level_of_detail && through.value().structure != Structure::tetra_tree) {
+        return Error{ErrorCode::bad_argument,
+                     "--level-of-detail is for --structure tetra-tree, but that is " +
+                         arguments.structure.structure + "."};
+    }
     if (arguments.as == "solid" && through.value().structure == Structure::hashed_octree_literal) {
         return Error{ErrorCode::bad_argument,
                      "--as solid has to know that no triangles touch, and hashed-octree-literal "
@@ -431,6 +446,13 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
         add_contact_options(*command, *arguments);
     } else {
         add_distance_options(*command, *arguments);
+    }
+    if (question == Question::collide) {
+        command
+            ->add_option("--level-of-detail", arguments->level_of_detail,
+                         "Ask the facets of this level of both tetra-trees alone: yes, no or "
+                         "unknown of the solids, and how far facets are from the surfaces")
+            ->check(CLI::Range(0U, format::kMaxTetraLevel));
     }
     if (question == Question::overlap) {
         CLI::Option* count =

@@ -150,6 +150,22 @@ std::string as_text(const PairAnswer& answer) {
     return text;
 }
 
+std::string as_json(const CoarseAnswer& answer) {
+    const CoarseCollision& collision = answer.collision;
+    return "{\"pose\": " + number(answer.pose) + ", \"answer\": \"" + word(collision.answer) +
+           "\", \"approximate\": true, \"error_a\": " + number(collision.error_a) +
+           ", \"error_b\": " + number(collision.error_b) + "}";
+}
+
+std::string as_text(const CoarseAnswer& answer) {
+    const CoarseCollision& collision = answer.collision;
+    const std::string text = "pose " + number(answer.pose) +
+                             ": solids collide: " + word(collision.answer) +
+                             ", approximate: facets are up to ";
+    return text + number(collision.error_a) + " and " + number(collision.error_b) +
+           " from the surfaces";
+}
+
 std::string as_json(const DistanceAnswer& answer) {
     std::string text =
         "{\"pose\": " + number(answer.pose) + ", \"found\": " + word(answer.distance.has_value());
@@ -240,6 +256,9 @@ void Answers::add(const PairAnswer& answer) {
     write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
 }
 
+void Answers::add(const CoarseAnswer& answer) {
+    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
+}
 void Answers::add(const DistanceAnswer& answer) {
     write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
 }

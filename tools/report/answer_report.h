@@ -12,6 +12,7 @@
 #include "cdprep/collide.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
+#include "cdprep/level_of_detail.h"
 
 namespace cdprep::report {
 
@@ -26,6 +27,12 @@ struct PairAnswer {
     std::optional<std::span<const Crossing>> crossings;  ///< instead, with --segments
     std::optional<Containment> containment;              ///< solid only
     bool is_approximate = false;                         ///< pairs may be missing
+};
+
+/// What one level of detail says about two solids in one pose.
+struct CoarseAnswer {
+    std::size_t pose = 0;
+    CoarseCollision collision;
 };
 
 /// How far two models are apart in one pose; nothing when farther than asked for.
@@ -71,6 +78,7 @@ public:
     Answers(std::ostream& out, AnswerFormat format) : out_(out), format_(format) {}
 
     void add(const PairAnswer& answer);
+    void add(const CoarseAnswer& answer);
     void add(const DistanceAnswer& answer);
     void add(const WithinAnswer& answer);
     void add(const InsideAnswer& answer);
