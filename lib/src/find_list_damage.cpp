@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "cdprep/format/sections.h"
+#include "find_cone_damage.h"
+#include "list_places.h"
 #include "octree_codes.h"
 #include "split_box.h"
 #include "triangle_box.h"
@@ -18,21 +19,10 @@
 namespace cdprep {
 namespace {
 
-using format::Damage;
-using format::DamageKind;
 using format::kInnerNode;
-using format::kSharedReference;
 using format::OctreeNode;
 
-using Found = std::optional<Damage>;
-
-/// A fact of one element that the geometry does not bear out.
-Damage wrong_fact(std::span<const std::byte> file, SectionId id, std::uint64_t index,
-                  std::uint64_t found, std::uint64_t expected) {
-    const auto entry = format::find_section(file, id);
-    const std::uint64_t at = entry ? entry->offset + index * entry->element_size : 0;
-    return {DamageKind::bad_fact, id, at, found, expected};
-}
+using Found = std::optional<format::Damage>;
 
 /// A model's octree, as the check sees it.
 class OctreeCells {
@@ -126,7 +116,10 @@ public:
             if (const Found damage = send_down(moved_.corners(i), i, 0, cells_.root())) {
                 return damage;
             }
-            if (const Found damage = find_wrong_mark()) return damage;
+            if (const Found damage =
+                    find_wrong_mark(file_, Cells::kReferences, cells_.references(), places_)) {
+                return damage;
+            }
             places += places_.size();
         }
         if (places == cells_.references().size()) return std::nullopt;
@@ -173,27 +166,9 @@ private:
     /// In a leaf that it touches.
     Found look_up(std::uint32_t triangle, std::uint32_t number) {
         const Node& leaf = cells_.nodes()[number];
-        const auto list = cells_.references().subspan(leaf.first, leaf.count);
-        const auto at = std::lower_bound(list.begin(), list.end(), triangle,
-                                         [](std::uint32_t reference, std::uint32_t wanted) {
-                                             return (reference & ~kSharedReference) < wanted;
-                                         });
-        if (at == list.end() || (*at & ~kSharedReference) != triangle) {
-            return wrong_fact(file_, Cells::kNodes, number, leaf.count, triangle);
-        }
-        places_.push_back(leaf.first + static_cast<std::uint32_t>(at - list.begin()));
-        return std::nullopt;
-    }
-
-    [[nodiscard]] Found find_wrong_mark() const {
-        for (const std::uint32_t place : places_) {
-            const std::uint32_t reference = cells_.references()[place];
-            const bool marked = (reference & kSharedReference) != 0;
-            if (marked != (places_.size() > 1)) {
-                return wrong_fact(file_, Cells::kReferences, place, reference,
-                                  reference ^ kSharedReference);
-            }
-        }
+        const auto place = find_reference(cells_.references(), leaf.first, leaf.count, triangle);
+        if (!place) return wrong_fact(file_, Cells::kNodes, number, leaf.count, triangle);
+        places_.push_back(*place);
         return std::nullopt;
     }
 };
@@ -218,6 +193,7 @@ Found find_lost_node(std::span<const std::byte> file, const Model& model, Sectio
 
 std::optional<format::Damage> find_list_damage(std::span<const std::byte> file,
                                                const Model& model) {
+    if (const Found damage = find_cone_damage(file, model)) return damage;
     if (model.adaptive_octree() != nullptr) {
         if (const Found damage = ListCheck<AdaptiveOctreeCells>(file, model).find_damage()) {
             return damage;

@@ -193,5 +193,59 @@ TEST(FindListDamage, SeesASplitThatWasMoved) {
     EXPECT_EQ(damage->section, SectionId::adaptive_octree);
 }
 
+AlignedBytes baked_cones(const TestMesh& mesh, const build::TetraTreeOptions& options = {}) {
+    return with_tetra_tree(bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}),
+                           options);
+}
+
+TEST(FindListDamage, FindsNothingInTetraTrees) {
+    for (const TestMesh& mesh :
+         {TestMesh{}, unit_cube(), icosphere(3), coarse_grid_soup(4, 300, 4), fan(50),
+          torus(2, 0.5, 24, 12), copies_of_one_triangle(30), random_soup(8, 500, 0.3),
+          moved_by(icosphere(2), 1e-3, {1e6, -1e6, 1e6}), moved_by(icosphere(1), 0x1p-1000, {}),
+          moved_by(icosphere(1), 0x1p999, {})}) {
+        EXPECT_FALSE(check(baked_cones(mesh)));
+        EXPECT_FALSE(check(baked_cones(mesh, {.level = 5, .threshold = 20})));
+    }
+}
+
+// As of the octree.
+TEST(FindListDamage, SeesAReferenceToTheWrongTriangleInATetraTree) {
+    const AlignedBytes file = baked_cones(icosphere(2), {.level = 2});
+    const SectionId id = SectionId::tetra_references;
+    auto references = elements<std::uint32_t>(file, id);
+    int seen = 0;
+    for (const auto& node : elements<format::TetraNode>(file, SectionId::tetra_nodes)) {
+        if ((node.flags & format::tetra_inner) != 0) continue;
+        const std::size_t last = node.first + node.count - 1;
+        const std::uint32_t before = references[last];
+        if ((before & ~kSharedReference) + 1 >= 320) continue;
+        ++references[last];
+        const auto damage = check(with(file, id, references));
+        ASSERT_TRUE(damage);
+        EXPECT_EQ(damage->kind, DamageKind::bad_fact);
+        references[last] = before;
+        ++seen;
+    }
+    EXPECT_GT(seen, 10);
+    for (std::size_t i = 0; i < references.size(); i += 7) {
+        references[i] ^= kSharedReference;
+        const auto damage = check(with(file, id, references));
+        ASSERT_TRUE(damage);
+        EXPECT_EQ(damage->section, id);
+        references[i] ^= kSharedReference;
+    }
+}
+
+// The cones of another centre are other cones; that of a fan holds its middle.
+TEST(FindListDamage, SeesACentreThatWasMoved) {
+    for (const TestMesh& mesh : {icosphere(2), fan(50)}) {
+        const AlignedBytes file = baked_cones(mesh);
+        auto tree = elements<format::TetraTree>(file, SectionId::tetra_tree);
+        tree[0].centre.z += 0.125;
+        EXPECT_TRUE(check(with(file, SectionId::tetra_tree, tree)));
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::test

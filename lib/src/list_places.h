@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/octree.h"
+#include "cdprep/format/sections.h"
+
+namespace cdprep {
+
+/// A fact of one element that the geometry does not bear out.
+inline format::Damage wrong_fact(std::span<const std::byte> file, format::SectionId id,
+                                 std::uint64_t index, std::uint64_t found, std::uint64_t expected) {
+    const auto entry = format::find_section(file, id);
+    const std::uint64_t at = entry ? entry->offset + index * entry->element_size : 0;
+    return {format::DamageKind::bad_fact, id, at, found, expected};
+}
+
+/// Where a list that rises names the triangle, among all references.
+inline std::optional<std::uint32_t> find_reference(std::span<const std::uint32_t> references,
+                                                   std::uint32_t first, std::uint32_t count,
+                                                   std::uint32_t triangle) {
+    const auto list = references.subspan(first, count);
+    const auto at = std::lower_bound(list.begin(), list.end(), triangle,
+                                     [](std::uint32_t reference, std::uint32_t wanted) {
+                                         return (reference & ~format::kSharedReference) < wanted;
+                                     });
+    if (at == list.end() || (*at & ~format::kSharedReference) != triangle) return std::nullopt;
+    return first + static_cast<std::uint32_t>(at - list.begin());
+}
+
+/// A reference among all that name one triangle that is not marked as it should be.
+inline std::optional<format::Damage> find_wrong_mark(std::span<const std::byte> file,
+                                                     format::SectionId id,
+                                                     std::span<const std::uint32_t> references,
+                                                     const std::vector<std::uint32_t>& places) {
+    for (const std::uint32_t place : places) {
+        const std::uint32_t reference = references[place];
+        const bool marked = (reference & format::kSharedReference) != 0;
+        if (marked != (places.size() > 1)) {
+            return wrong_fact(file, id, place, reference, reference ^ format::kSharedReference);
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace cdprep
