@@ -44,11 +44,11 @@ INNER, SHARED = 0x80000000, 0x80000000
 POSES = 30
 # Each way to ask, beside the structure: no answer may depend on it.
 STEPS = {
-    "octree": (["--descent", "a-first"], ["--descent", "b-first"], ["--descent", "both"],
+    "octree": (["--descent", "a-first"], ["--descent", "b-first"], ["--descent", "larger"],
                ["--leaf-test", "feito"]),
-    "octree-adaptive": (["--descent", "a-first"], ["--descent", "b-first"], ["--descent", "both"],
+    "octree-adaptive": (["--descent", "a-first"], ["--descent", "b-first"], ["--descent", "larger"],
                         ["--leaf-test", "feito"]),
-    "tetra-tree": (["--descent", "a-first"], ["--descent", "b-first"], ["--descent", "both"],
+    "tetra-tree": (["--descent", "a-first"], ["--descent", "b-first"], ["--descent", "larger"],
                    ["--leaf-test", "feito"]),
     "hashed-octree": (["--search", "modulus"], ["--search", "mixed"], ["--leaf-test", "feito"]),
 }

@@ -57,7 +57,7 @@ Result<StructureOptions> parse_structure(const StructureWords& words, const char
     if (words.leaf_test == "feito") options.leaf_test = LeafTest::feito_torres;
     if (words.descent == "a-first") options.descent = Descent::a_first;
     if (words.descent == "b-first") options.descent = Descent::b_first;
-    if (words.descent == "both") options.descent = Descent::both;
+    if (words.descent == "larger") options.descent = Descent::larger;
     if (words.search == "modulus") options.search = CellSearch::modulus;
     if (words.search == "mixed") options.search = CellSearch::mixed;
     return options;
@@ -77,8 +77,8 @@ void add_structure_steps(CLI::App& command, StructureWords& words) {
     command
         .add_option("--descent", words.descent,
                     "What a pair of cells becomes, for octree, octree-adaptive and tetra-tree: "
-                    "the children of the larger (default), of A's first (a-first), of B's first "
-                    "(b-first), or of both. No answer depends on it")
+                    "the children of the larger (larger), of A's first (a-first), of B's first "
+                    "(b-first), or of both (default). No answer depends on it")
         ->check(CLI::IsMember({"larger", "a-first", "b-first", "both"}));
     command
         .add_option("--search", words.search,

@@ -10,7 +10,7 @@ namespace cdprep {
 /// Through which of a file's structures a question is answered. The answer is the same
 /// through each, bit for bit, but for hashed_octree_literal.
 enum class Structure : std::uint8_t {
-    bvh,              ///< the hierarchy of boxes: the fastest, and the default everywhere
+    bvh,              ///< the hierarchy of boxes: the fastest about two models
     octree,           ///< both models' octrees, side by side
     adaptive_octree,  ///< both models' octrees with split points of their own
     /// One model's octree by its keys, for those triangles of the other that may collide: the
@@ -19,7 +19,7 @@ enum class Structure : std::uint8_t {
     /// The talk's algorithm to the letter: finds cells that a triangle's corners lie in,
     /// so it misses pairs. For studies.
     hashed_octree_literal,
-    tetra_tree,  ///< both models' tetra-trees, side by side
+    tetra_tree,  ///< both models' tetra-trees, side by side; the fastest about points
 };
 
 /// Which exact test decides about two triangles. They agree always.
@@ -46,7 +46,7 @@ enum class CellSearch : std::uint8_t {
 struct StructureOptions {
     Structure structure = Structure::bvh;
     LeafTest leaf_test = LeafTest::guigue_devillers;
-    Descent descent = Descent::larger;
+    Descent descent = Descent::both;
     CellSearch search = CellSearch::sorted;
 };
 
