@@ -51,7 +51,7 @@ public:
 
     CellWalk(const TreeA& a, const TreeB& b, const PlacedBoxes& placed, Descent descent,
              const Lanes& lanes) noexcept
-        : a_(a), b_(b), placed_(placed), descent_(descent), lanes_(lanes) {}
+        : a_(a), b_(b), placed_(placed), lanes_(lanes), descent_(descent) {}
 
     /// Keeps bounds and counts steps in the workspace, which no walk within this one may.
     void use(Workspace::Storage& scratch) noexcept {
@@ -181,20 +181,20 @@ private:
                         : SomeChildren<CellB>{step.b, 1U << lane_b};
     }
 
+    kernels::BoxDepths depths_;
+    std::array<Step, kMostSteps> steps_;
     const TreeA& a_;
     const TreeB& b_;
     const PlacedBoxes& placed_;
-    Descent descent_;
-    Lanes lanes_;
     QueryCounts* counts_ = nullptr;  ///< or null
     KeptBounds* kept_a_ = nullptr;   ///< or null
     KeptBounds* kept_b_ = nullptr;
-    std::array<Step, kMostSteps> steps_;
-    KeptBounds::Place place_a_{};  ///< where none are kept
-    KeptBounds::Place place_b_{};
     const KeptBounds::Place* opened_a_ = nullptr;  ///< of the last step
     const KeptBounds::Place* opened_b_ = nullptr;
-    kernels::BoxDepths depths_;
+    Lanes lanes_;
+    KeptBounds::Place place_a_{};  ///< where none are kept
+    KeptBounds::Place place_b_{};
+    Descent descent_;
 };
 
 }  // namespace cdprep
