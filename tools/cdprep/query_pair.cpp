@@ -311,7 +311,7 @@ std::span<const Structure> structures_serving(Question question) {
 
 /// Fails where a question's other options need what only the hierarchy of boxes does.
 Result<StructureOptions> structure_of(const Arguments& arguments) {
-    const Result<StructureOptions> through = parse_structure(
+    Result<StructureOptions> through = parse_structure(
         arguments.structure, name_of(arguments.question), structures_serving(arguments.question));
     if (!through) return through;
     if (arguments.segments && through.value().structure != Structure::bvh) {
