@@ -8,6 +8,9 @@
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
+#include <utility>
+#include <vector>
+
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
 #endif
@@ -99,29 +102,37 @@ void Threads::run_in_order(std::size_t count,
     const std::size_t at_once = oneapi::tbb::global_control::active_value(
         oneapi::tbb::global_control::max_allowed_parallelism);
     ForkJoin edges;
+    ForkJoin counter;
     std::size_t next = 0;
+    // Here and not in the pipeline's own memory, where the sanitizer would see one thread
+    // make what another takes.
+    std::vector<Deliver> deliveries(count);
     const auto number = [&](oneapi::tbb::flow_control& control) {
+        counter.joined();
         if (next == count) control.stop();
-        return next++;
+        const std::size_t i = next++;
+        counter.end_task();
+        return i;
     };
     // Isolated: a thread that waits within one piece of work begins no other.
     const auto run = [&](std::size_t i) {
         edges.begin_task();
-        Deliver deliver = oneapi::tbb::this_task_arena::isolate([&] { return work(i); });
+        deliveries[i] = oneapi::tbb::this_task_arena::isolate([&] { return work(i); });
         edges.end_task();
-        return deliver;
+        return i;
     };
-    const auto take = [&](const Deliver& deliver) {
-        edges.begin_task();
-        deliver();
+    // Sees what was delivered before, too.
+    const auto take = [&](std::size_t i) {
+        edges.joined();
+        std::exchange(deliveries[i], nullptr)();
         edges.end_task();
     };
     using oneapi::tbb::filter_mode;
     using oneapi::tbb::make_filter;
     oneapi::tbb::parallel_pipeline(
         at_once, make_filter<void, std::size_t>(filter_mode::serial_in_order, number) &
-                     make_filter<std::size_t, Deliver>(filter_mode::parallel, run) &
-                     make_filter<Deliver, void>(filter_mode::serial_in_order, take));
+                     make_filter<std::size_t, std::size_t>(filter_mode::parallel, run) &
+                     make_filter<std::size_t, void>(filter_mode::serial_in_order, take));
     edges.joined();
 }
 
