@@ -42,6 +42,11 @@ public:
           found_(std::move(found)),
           owns_(std::move(owns)) {}
 
+    /// Tests a few pairs of leaves at a time: a hit comes early.
+    void hurry() noexcept {
+        most_ = kHurriedBatch;
+    }
+
     /// Adds what was not tested yet. `place` is whatever `owns` wants to know of. False
     /// when `found` ended the question.
     bool add(const LeafLanes& a, const LeafLanes& b, std::uint64_t place) noexcept {
@@ -55,7 +60,7 @@ public:
         }
         scratch_.pending_leaves[batch_.size()] = {place, held.fresh, held.has_room};
         batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
-        return !batch_.full() || flush();
+        return batch_.size() < most_ || flush();
     }
 
     /// The same for who brings no two leaves twice: nothing is remembered, and `owns` is
@@ -63,7 +68,7 @@ public:
     bool add_once(const LeafLanes& a, const LeafLanes& b) noexcept {
         scratch_.pending_leaves[batch_.size()] = {0, ~std::uint64_t{0}, false};
         batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
-        return !batch_.full() || flush();
+        return batch_.size() < most_ || flush();
     }
 
     /// Whether there was no room to remember some answers: from then on every place has to
@@ -83,6 +88,8 @@ public:
     }
 
 private:
+    static constexpr std::size_t kHurriedBatch = 4;
+
     /// Bits as TestedPairs has them.
     static std::uint64_t pairs_of(std::uint8_t lanes_a, std::uint8_t lanes_b) noexcept {
         std::uint64_t pairs = 0;
@@ -130,6 +137,7 @@ private:
     Found found_;
     Owns owns_;
 
+    std::size_t most_ = kernels::kLeafBatch;  ///< pairs of leaves at a time
     bool forgets_ = false;
     std::uint32_t answered_ = 0;  ///< of the batch: bit set of pairs
 };

@@ -69,6 +69,7 @@ public:
         };
         CellContacts contacts(question_.a, question_.b, question_.placement, placed_,
                               question_.through.leaf_test, question_.options, scratch, found, owns);
+        if (kSearch == Search::first) contacts.hurry();
         MeetCells meet(question_.a, question_.b, placed_, scratch.node_lists_a,
                        scratch.node_lists_b, &scratch.met_nodes);
         CellWalk<kSearch, TreeA, TreeB, AllLanes> walk(a_, b_, placed_, question_.through.descent,
