@@ -7,6 +7,7 @@
 
 #include "cdprep/format/content_hash.h"
 #include "cdprep/format/limits.h"
+#include "cell_boxes.h"
 #include "reference_lists.h"
 
 // Nodes stand level by level, siblings side by side, and leaves' lists in the order of the
@@ -212,6 +213,9 @@ private:
 std::optional<Damage> find_missing_adaptive_octree(std::span<const std::byte> file) noexcept {
     if (const Found gap = find_gap(file, kIds)) return gap;
     const bool has_tree = find_section(file, kIds[0]).has_value();
+    if (!has_tree && find_section(file, SectionId::adaptive_octree_boxes)) {
+        return missing_section(kIds[0]);
+    }
     if (!has_tree || find_section(file, SectionId::triangles)) return std::nullopt;
     return missing_section(SectionId::triangles);
 }
@@ -224,7 +228,10 @@ std::optional<Damage> find_adaptive_octree_damage(std::span<const std::byte> fil
     const Parts parts(file, wanted);
     if (const Found damage = find_bad_facts(parts)) return damage;
     if (const Found damage = find_bad_tree(parts)) return damage;
-    return parts.nodes.count() == 0 ? std::nullopt : SplitCheck(parts).find_bad_split();
+    if (parts.nodes.count() != 0) {
+        if (const Found damage = SplitCheck(parts).find_bad_split()) return damage;
+    }
+    return find_bad_cell_box(file, SectionId::adaptive_octree_boxes, wanted, parts.nodes.count());
 }
 
 }  // namespace cdprep::format

@@ -472,6 +472,8 @@ Found find_bad_content(const Content& content) {
         case SectionId::tetra_nodes:
         case SectionId::tetra_references:
         case SectionId::tetra_top:
+        case SectionId::octree_boxes:
+        case SectionId::adaptive_octree_boxes:
             return nothing_more();
     }
     return nothing_more();

@@ -7,6 +7,7 @@
 
 #include "cdprep/format/content_hash.h"
 #include "cdprep/format/octree.h"
+#include "cell_boxes.h"
 #include "reference_lists.h"
 
 // Nodes stand level by level, so the children of each follow those of the one before: one
@@ -245,7 +246,9 @@ Found find_bad_tables(Bytes file, SectionSet wanted, const Parts& parts) noexcep
 
 std::optional<Damage> find_missing_octree(std::span<const std::byte> file) noexcept {
     if (const Found damage = find_gap(file, kTableIds)) return damage;
-    if (!find_section(file, kTableIds[0])) return find_gap(file, kTreeIds);
+    const bool has_more =
+        find_section(file, kTableIds[0]) || find_section(file, SectionId::octree_boxes);
+    if (!has_more) return find_gap(file, kTreeIds);
     for (const SectionId id : kTreeIds) {
         if (!find_section(file, id)) return missing_section(id);
     }
@@ -260,6 +263,10 @@ std::optional<Damage> find_octree_damage(std::span<const std::byte> file,
     Parts parts(file, wanted);
     if (const Found damage = find_bad_grid(parts)) return damage;
     if (const Found damage = find_bad_tree(parts)) return damage;
+    if (const Found damage =
+            find_bad_cell_box(file, SectionId::octree_boxes, wanted, parts.nodes.count())) {
+        return damage;
+    }
     if (!find_section(file, kTableIds[0])) return std::nullopt;
     return find_bad_tables(file, wanted, parts);
 }

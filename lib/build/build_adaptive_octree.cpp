@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "cdprep/build_octree.h"
+#include "cell_boxes.h"
 #include "choose_split.h"
 #include "chunks.h"
 #include "frame_map.h"
@@ -362,7 +363,11 @@ private:
 AdaptiveOctree build_adaptive_octree(std::span<const Double3> positions,
                                      std::span<const Triangle> triangles,
                                      const AdaptiveOctreeOptions& options) {
-    return Builder(positions, triangles, options).build();
+    AdaptiveOctree octree = Builder(positions, triangles, options).build();
+    if (options.boxes_in) {
+        bound_cells(octree, positions, triangles, *options.boxes_in, options.parallel_for);
+    }
+    return octree;
 }
 
 }  // namespace cdprep::build

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cell_boxes.h"
 #include "octree_grid.h"
 #include "octree_levels.h"
 #include "octree_tables.h"
@@ -17,6 +18,9 @@ Octree build_octree(std::span<const format::Double3> positions,
     octree.grid.threshold = std::max(options.threshold, 1U);
     if (!triangles.empty()) divide_octree(octree, positions, triangles, options.parallel_for);
     if (options.hashed) make_octree_tables(octree);
+    if (options.boxes_in) {
+        bound_cells(octree, positions, triangles, *options.boxes_in, options.parallel_for);
+    }
     return octree;
 }
 

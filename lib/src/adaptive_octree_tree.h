@@ -27,6 +27,7 @@ public:
           nodes_(model.adaptive_octree_nodes().data()),
           references_(model.adaptive_octree_references()),
           frame_(model),
+          boxes_(model.adaptive_octree_boxes().data()),
           is_empty_(tree_ == nullptr || model.adaptive_octree_nodes().empty()) {}
 
     [[nodiscard]] bool is_empty() const noexcept {
@@ -74,6 +75,9 @@ public:
     }
     void bound(const Cell& cell, CellBounds& bounds) const noexcept {
         const bool is_top = cell.node == kAboveRoots;
+        if (boxes_ != nullptr && !is_top) {
+            return bound_by_boxes(boxes_ + nodes_[cell.node].first, lanes(cell), bounds.boxes);
+        }
         const std::array<double, 3> split = is_top ? cell.lower : split_of(cell);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const double lower = frame_.frame(axis, cell.lower[axis]);
@@ -109,6 +113,7 @@ private:
     const format::AdaptiveOctreeNode* nodes_;
     std::span<const std::uint32_t> references_;
     FrameOf frame_;
+    const format::CellBox* boxes_;  ///< or null
     bool is_empty_;
 };
 

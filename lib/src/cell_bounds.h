@@ -7,6 +7,7 @@
 
 #include "box_placement.h"
 #include "cdprep/format/bvh_shape.h"
+#include "cdprep/format/octree.h"
 
 namespace cdprep {
 
@@ -84,6 +85,18 @@ inline void bound_octants(std::size_t axis, const DividedAxis& planes,
     for (std::size_t lane = 0; lane < format::kBvhWidth; ++lane) {
         boxes.lower[axis][lane] = lower[lane >> axis & 1];
         boxes.upper[axis][lane] = upper[lane >> axis & 1];
+    }
+}
+
+/// The stored boxes of children, which stand side by side from `first` on, to their lanes.
+inline void bound_by_boxes(const format::CellBox* first, unsigned lanes,
+                           format::BvhNode& boxes) noexcept {
+    for (; lanes != 0; lanes &= lanes - 1, ++first) {
+        const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            boxes.lower[axis][lane] = first->lower[axis];
+            boxes.upper[axis][lane] = first->upper[axis];
+        }
     }
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "cell_bounds.h"
 #include "find_cone_damage.h"
 #include "list_places.h"
 #include "octree_codes.h"
@@ -31,6 +32,7 @@ public:
     static constexpr SectionId kTree = SectionId::octree_grid;
     static constexpr SectionId kNodes = SectionId::octree_nodes;
     static constexpr SectionId kReferences = SectionId::octree_references;
+    static constexpr SectionId kBoxes = SectionId::octree_boxes;
 
     explicit OctreeCells(const Model& model) : grid_(*model.octree_grid()), model_(model) {}
 
@@ -39,6 +41,9 @@ public:
     }
     [[nodiscard]] std::span<const std::uint32_t> references() const {
         return model_.octree_references();
+    }
+    [[nodiscard]] std::span<const format::CellBox> boxes() const {
+        return model_.octree_boxes();
     }
     [[nodiscard]] Box3 root() const {
         return octree_box(grid_, {0, 0, 0}, 0);
@@ -71,6 +76,7 @@ public:
     static constexpr SectionId kTree = SectionId::adaptive_octree;
     static constexpr SectionId kNodes = SectionId::adaptive_octree_nodes;
     static constexpr SectionId kReferences = SectionId::adaptive_octree_references;
+    static constexpr SectionId kBoxes = SectionId::adaptive_octree_boxes;
 
     explicit AdaptiveOctreeCells(const Model& model) : model_(model) {}
 
@@ -79,6 +85,9 @@ public:
     }
     [[nodiscard]] std::span<const std::uint32_t> references() const {
         return model_.adaptive_octree_references();
+    }
+    [[nodiscard]] std::span<const format::CellBox> boxes() const {
+        return model_.adaptive_octree_boxes();
     }
     [[nodiscard]] Box3 root() const {
         return {model_.adaptive_octree()->lower, model_.adaptive_octree()->upper};
@@ -106,10 +115,11 @@ template <class Cells>
 class ListCheck {
 public:
     ListCheck(std::span<const std::byte> file, const Model& model)
-        : file_(file), model_(model), cells_(model), moved_(model, nullptr) {}
+        : file_(file), model_(model), cells_(model), moved_(model, nullptr), frame_(model) {}
 
     Found find_damage() {
         if (const Found damage = find_outside()) return damage;
+        if (const Found damage = find_small_parent()) return damage;
         std::uint64_t places = 0;
         for (std::uint32_t i = 0; i < model_.triangle_count(); ++i) {
             places_.clear();
@@ -133,6 +143,7 @@ private:
     const Model& model_;
     Cells cells_;
     MovedModel moved_;
+    FrameOf frame_;
     std::vector<std::uint32_t> places_;  ///< references to the triangle that is on its way
 
     [[nodiscard]] Found find_outside() const {
@@ -148,7 +159,7 @@ private:
     Found send_down(const Corners& t, std::uint32_t triangle, std::uint32_t number,
                     const Box3& box) {
         const Node& node = cells_.nodes()[number];
-        if ((node.count & kInnerNode) == 0) return look_up(triangle, number);
+        if ((node.count & kInnerNode) == 0) return look_up(t, triangle, number, box);
         for (std::uint32_t child = 0; child < 8; ++child) {
             const std::optional<Box3> below = cells_.child(node, box, child);
             if (!below || !triangle_touches_box(t, *below)) continue;
@@ -164,12 +175,59 @@ private:
     }
 
     /// In a leaf that it touches.
-    Found look_up(std::uint32_t triangle, std::uint32_t number) {
+    Found look_up(const Corners& t, std::uint32_t triangle, std::uint32_t number,
+                  const Box3& cell) {
         const Node& leaf = cells_.nodes()[number];
         const auto place = find_reference(cells_.references(), leaf.first, leaf.count, triangle);
         if (!place) return wrong_fact(file_, Cells::kNodes, number, leaf.count, triangle);
         places_.push_back(*place);
+        return cells_.boxes().empty() ? std::nullopt : find_small_box(t, number, cell);
+    }
+
+    /// A leaf's box that surely leaves out some of what a triangle's box has in the cell.
+    [[nodiscard]] Found find_small_box(const Corners& t, std::uint32_t number,
+                                       const Box3& cell) const {
+        const Box3 around = box_around(t);
+        const format::CellBox& box = cells_.boxes()[number];
+        const auto is_outside = [&](std::size_t axis, double lower, double upper) {
+            return frame_.frame(axis, upper) > above(box.upper[axis]) ||
+                   frame_.frame(axis, lower) < below(box.lower[axis]);
+        };
+        const auto& [a, b] = around;
+        const bool is_small =
+            is_outside(0, std::max(a.x, cell.lower.x), std::min(b.x, cell.upper.x)) ||
+            is_outside(1, std::max(a.y, cell.lower.y), std::min(b.y, cell.upper.y)) ||
+            is_outside(2, std::max(a.z, cell.lower.z), std::min(b.z, cell.upper.z));
+        if (!is_small) return std::nullopt;
+        return wrong_fact(file_, Cells::kBoxes, number, number, 0);
+    }
+    /// As far off as coordinates in the frame are rounded.
+    static double above(double x) {
+        return x + std::fabs(x) * 0x1p-50 + 0x1p-1000;
+    }
+    static double below(double x) {
+        return x - std::fabs(x) * 0x1p-50 - 0x1p-1000;
+    }
+
+    /// An inner node's box that does not hold a child's.
+    [[nodiscard]] Found find_small_parent() const {
+        const auto boxes = cells_.boxes();
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            const Node& node = cells_.nodes()[i];
+            if ((node.count & kInnerNode) == 0) continue;
+            const auto children = static_cast<std::size_t>(std::popcount(node.count & 0xff));
+            for (const format::CellBox& child : boxes.subspan(node.first, children)) {
+                if (!holds(boxes[i], child)) return wrong_fact(file_, Cells::kBoxes, i, i, 0);
+            }
+        }
         return std::nullopt;
+    }
+    static bool holds(const format::CellBox& outer, const format::CellBox& inner) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (inner.lower[axis] < outer.lower[axis]) return false;
+            if (inner.upper[axis] > outer.upper[axis]) return false;
+        }
+        return true;
     }
 };
 

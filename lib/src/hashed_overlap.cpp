@@ -119,6 +119,7 @@ public:
           planes_(question.a, placed),
           placed_(placed),
           cell_placement_(placed.placement),
+          leaf_boxes_(question.a.octree_boxes().data()),
           scratch_(question.workspace.storage()),
           contacts_(contacts),
           kernel_(kernels::active()) {
@@ -162,6 +163,9 @@ private:
     /// By box, how many of the cells' children with triangles it meets.
     [[nodiscard]] MeetingCounts count_met(std::span<const KeyedCell> cells) noexcept;
 
+    /// Which of some of B's boxes may meet what a leaf holds.
+    [[nodiscard]] unsigned meeting_leaf(const OctreePart& leaf, unsigned boxes) const noexcept;
+
     /// Of one block of cells.
     void count_boxes(unsigned boxes) const noexcept {
         if (scratch_.counts == nullptr) return;
@@ -194,6 +198,7 @@ private:
     PairPlanes planes_;
     const PlacedBoxes& placed_;
     kernels::BoxPlacement cell_placement_;
+    const format::CellBox* leaf_boxes_;  ///< by node, or null
     Workspace::Storage& scratch_;
     Contacts& contacts_;
     const kernels::Table& kernel_;
@@ -268,6 +273,25 @@ std::size_t KeyedWalk<Contacts>::open(const KeyedCell& cell, KeyedCell* met,
 }
 
 template <class Contacts>
+unsigned KeyedWalk<Contacts>::meeting_leaf(const OctreePart& leaf, unsigned boxes) const noexcept {
+    if (leaf_boxes_ == nullptr) return boxes;
+    // The slack of B's boxes here is more than they have against boxes of A's frame.
+    const format::CellBox& box = leaf_boxes_[parts_.node_of(leaf)];
+    std::array<std::uint32_t, format::kBvhWidth> apart{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float lower = box.lower[i] * placed_.placement.scale_a;
+        const float upper = box.upper[i] * placed_.placement.scale_a;
+        for (std::size_t lane = 0; lane < format::kBvhWidth; ++lane) {
+            apart[lane] |= static_cast<std::uint32_t>(boxes_.lower[i][lane] > upper) |
+                           static_cast<std::uint32_t>(boxes_.upper[i][lane] < lower);
+        }
+    }
+    unsigned met = 0;
+    for (unsigned lane = 0; lane < format::kBvhWidth; ++lane) met |= (apart[lane] ^ 1) << lane;
+    return boxes & met;
+}
+
+template <class Contacts>
 MeetingCounts KeyedWalk<Contacts>::count_met(std::span<const KeyedCell> cells) noexcept {
     MeetingCounts counts{};
     const auto add = [&](unsigned boxes) {
@@ -277,7 +301,7 @@ MeetingCounts KeyedWalk<Contacts>::count_met(std::span<const KeyedCell> cells) n
     };
     for (const KeyedCell& cell : cells) {
         if (parts_.is_single_leaf(cell.part)) {
-            add(cell.boxes);
+            add(meeting_leaf(cell.part, cell.boxes));
             continue;
         }
         const CellBlock block = {cell.first, cell.level + 1};
@@ -350,7 +374,8 @@ void KeyedWalk<Contacts>::gather(std::span<const KeyedCell> cells) noexcept {
             depth = open(cell, pending.data(), depth);
             continue;
         }
-        add_listed(parts_.references(cell.part), cell.boxes);
+        const unsigned boxes = meeting_leaf(cell.part, cell.boxes);
+        if (boxes != 0) add_listed(parts_.references(cell.part), boxes);
     }
 }
 
@@ -425,6 +450,7 @@ bool visit_repaired(const QuestionThrough& question, ContactVisitor visit) noexc
     };
     CellContacts contacts(question.a, question.b, question.placement, placed,
                           question.through.leaf_test, question.options, scratch, found, owns);
+    if (question.search == Search::first) contacts.hurry();
     return KeyedWalk(question, placed, contacts).walk();
 }
 

@@ -55,6 +55,8 @@ struct Model::State {
     std::span<const std::uint32_t> octree_mixed_table;
     std::span<const format::AdaptiveOctreeNode> adaptive_octree_nodes;
     std::span<const std::uint32_t> adaptive_octree_references;
+    std::span<const format::CellBox> octree_boxes;
+    std::span<const format::CellBox> adaptive_octree_boxes;
     std::span<const format::TetraNode> tetra_nodes;
     std::span<const std::uint32_t> tetra_references;
     std::span<const std::uint32_t> tetra_top;
@@ -114,6 +116,8 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::octree_mixed_table, wanted, octree_mixed_table);
     view(SectionId::adaptive_octree_nodes, wanted, adaptive_octree_nodes);
     view(SectionId::adaptive_octree_references, wanted, adaptive_octree_references);
+    view(SectionId::octree_boxes, wanted, octree_boxes);
+    view(SectionId::adaptive_octree_boxes, wanted, adaptive_octree_boxes);
     view(SectionId::tetra_nodes, wanted, tetra_nodes);
     view(SectionId::tetra_references, wanted, tetra_references);
     view(SectionId::tetra_top, wanted, tetra_top);
@@ -296,6 +300,12 @@ std::span<const format::AdaptiveOctreeNode> Model::adaptive_octree_nodes() const
 }
 std::span<const std::uint32_t> Model::adaptive_octree_references() const noexcept {
     return state_->adaptive_octree_references;
+}
+std::span<const format::CellBox> Model::octree_boxes() const noexcept {
+    return state_->octree_boxes;
+}
+std::span<const format::CellBox> Model::adaptive_octree_boxes() const noexcept {
+    return state_->adaptive_octree_boxes;
 }
 std::span<const format::TetraNode> Model::tetra_nodes() const noexcept {
     return state_->tetra_nodes;

@@ -19,6 +19,7 @@ struct Parts {
     std::span<const std::uint32_t> references;
     std::uint64_t other_bytes;  ///< of the tree's section of one element
     std::uint64_t table_bytes;
+    std::uint64_t box_bytes;
 };
 
 /// Nodes stand level by level: children of a level's nodes are the next level.
@@ -58,7 +59,7 @@ OctreeFigures figures_of(const Parts<Node>& parts) noexcept {
     figures.shared = parts.triangle_count - static_cast<std::uint64_t>(alone);
     figures.table_bytes = parts.table_bytes;
     figures.bytes = parts.other_bytes + parts.nodes.size_bytes() + parts.references.size_bytes() +
-                    parts.table_bytes;
+                    parts.table_bytes + parts.box_bytes;
     return figures;
 }
 
@@ -74,7 +75,8 @@ OctreeFigures octree_figures(const Model& model) noexcept {
         {model.triangle_count(), model.octree_nodes(), model.octree_references(),
          sizeof(format::OctreeGrid),
          bytes_of(model.octree_leaf_codes(), model.octree_leaf_nodes(), model.octree_top(),
-                  model.octree_modulus_table(), model.octree_mixed_table())});
+                  model.octree_modulus_table(), model.octree_mixed_table()),
+         bytes_of(model.octree_boxes())});
 }
 
 OctreeFigures octree_figures(const build::Octree& octree, std::uint64_t triangle_count) noexcept {
@@ -82,19 +84,21 @@ OctreeFigures octree_figures(const build::Octree& octree, std::uint64_t triangle
     return figures_of<OctreeNode>(
         {triangle_count, octree.nodes, octree.references, sizeof(format::OctreeGrid),
          bytes_of(view(octree.leaf_codes), view(octree.leaf_nodes), view(octree.top),
-                  view(octree.modulus_table), view(octree.mixed_table))});
+                  view(octree.modulus_table), view(octree.mixed_table)),
+         bytes_of(view(octree.boxes))});
 }
 
 OctreeFigures adaptive_octree_figures(const Model& model) noexcept {
-    return figures_of<AdaptiveOctreeNode>({model.triangle_count(), model.adaptive_octree_nodes(),
-                                           model.adaptive_octree_references(),
-                                           sizeof(format::AdaptiveOctree), 0});
+    return figures_of<AdaptiveOctreeNode>(
+        {model.triangle_count(), model.adaptive_octree_nodes(), model.adaptive_octree_references(),
+         sizeof(format::AdaptiveOctree), 0, bytes_of(model.adaptive_octree_boxes())});
 }
 
 OctreeFigures adaptive_octree_figures(const build::AdaptiveOctree& octree,
                                       std::uint64_t triangle_count) noexcept {
-    return figures_of<AdaptiveOctreeNode>(
-        {triangle_count, octree.nodes, octree.references, sizeof(format::AdaptiveOctree), 0});
+    return figures_of<AdaptiveOctreeNode>({triangle_count, octree.nodes, octree.references,
+                                           sizeof(format::AdaptiveOctree), 0,
+                                           std::span(octree.boxes).size_bytes()});
 }
 
 std::uint64_t seed_formula_bytes(const OctreeFigures& figures, EmptyChildren empty) noexcept {

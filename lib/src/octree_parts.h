@@ -56,10 +56,12 @@ public:
 
     /// The triangles of one leaf.
     [[nodiscard]] std::span<const std::uint32_t> references(const OctreePart& leaf) const noexcept {
-        const bool sorted = search_ == CellSearch::sorted;
-        const format::OctreeNode& node =
-            index_.nodes[sorted ? index_.leaf_nodes[leaf.first] : leaf.first];
+        const format::OctreeNode& node = index_.nodes[node_of(leaf)];
         return references_.subspan(node.first, node.count);
+    }
+    /// The number of the node that is one leaf.
+    [[nodiscard]] std::uint32_t node_of(const OctreePart& leaf) const noexcept {
+        return search_ == CellSearch::sorted ? index_.leaf_nodes[leaf.first] : leaf.first;
     }
 
     /// Which children of what is no leaf may have parts: a bit each.

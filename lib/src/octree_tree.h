@@ -27,6 +27,7 @@ public:
           nodes_(model.octree_nodes().data()),
           references_(model.octree_references()),
           frame_(model),
+          boxes_(model.octree_boxes().data()),
           is_empty_(grid_ == nullptr || model.octree_nodes().empty()) {}
 
     [[nodiscard]] bool is_empty() const noexcept {
@@ -73,6 +74,9 @@ public:
                 octree_plane(grid_->origin.z, grid_->step, cell.first[2] + half)};
     }
     void bound(const Cell& cell, CellBounds& bounds) const noexcept {
+        if (boxes_ != nullptr && cell.node != kAboveRoots) {
+            return bound_by_boxes(boxes_ + nodes_[cell.node].first, lanes(cell), bounds.boxes);
+        }
         const std::array<double, 3> origin = {grid_->origin.x, grid_->origin.y, grid_->origin.z};
         const std::uint32_t steps = kOctreeSteps >> cell.level;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -109,6 +113,7 @@ private:
     const format::OctreeNode* nodes_;
     std::span<const std::uint32_t> references_;
     FrameOf frame_;
+    const format::CellBox* boxes_;  ///< or null
     bool is_empty_;
 };
 

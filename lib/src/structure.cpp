@@ -28,4 +28,16 @@ format::SectionSet sections_of(Structure structure) noexcept {
     }
 }
 
+format::SectionSet more_sections_of(Structure structure) noexcept {
+    switch (structure) {
+        case Structure::octree:
+        case Structure::hashed_octree:
+            return {SectionId::octree_boxes};
+        case Structure::adaptive_octree:
+            return {SectionId::adaptive_octree_boxes};
+        default:
+            return {};
+    }
+}
+
 }  // namespace cdprep

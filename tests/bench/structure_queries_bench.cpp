@@ -9,8 +9,9 @@
 // BAKES holds NAME.cdp.h5, baked with --normalize; POSES holds A-B.pose files of 12 numbers
 // a line, line i of kind i mod 3 (light, deep, near). SETTING is
 // STRUCTURE:LEVEL:THRESHOLD[:DESCENT[:TEST]] with octree, adaptive, surface (adaptive by
-// surface area), tetra or hashed; larger, a_first, b_first or both; gd or ft. Structures are
-// built here. PAIR is A-B; without, all files of POSES are taken.
+// surface area), tetra or hashed; larger, a_first, b_first or both; gd or ft. A + behind the
+// structure gives its nodes boxes. Structures are built here. PAIR is A-B; without, all files of
+// POSES are taken.
 //
 // Prints a CSV table: microseconds, `times` the median by the hierarchy's; then what a
 // question took in the mean: boxes against boxes, leaf cells against leaf cells, BVH leaves
@@ -36,6 +37,7 @@ constexpr std::array<const char*, 2> kKind = {"light", "deep"};
 struct Setting {
     std::string name;  ///< as it was given
     std::string structure = "bvh";
+    bool boxes = false;
     std::uint32_t level = 0;
     std::uint32_t threshold = 1;
     StructureOptions through;
@@ -56,8 +58,10 @@ std::vector<std::string> parts(const std::string& text) {
 Setting setting_of(const std::string& text) {
     Setting setting;
     setting.name = text;
-    const std::vector<std::string> part = parts(text);
+    std::vector<std::string> part = parts(text);
     if (part.size() < 3) stop(text + " is no STRUCTURE:LEVEL:THRESHOLD.");
+    setting.boxes = part[0].ends_with('+');
+    if (setting.boxes) part[0].pop_back();
     setting.structure = part[0];
     setting.level = static_cast<std::uint32_t>(std::stoul(part[1]));
     setting.threshold = static_cast<std::uint32_t>(std::stoul(part[2]));
@@ -86,6 +90,8 @@ test::AlignedBytes file_bytes(const std::filesystem::path& path) {
 }
 
 test::OpenModel with_structure(const test::AlignedBytes& bytes, const Setting& setting) {
+    const std::optional<build::Frame> boxes_in =
+        setting.boxes ? std::optional(build::Frame{}) : std::nullopt;
     if (setting.structure == "bvh") return test::open_tiny(test::AlignedBytes(bytes.span()));
     if (setting.structure == "tetra") {
         return test::open_tiny(
@@ -94,12 +100,15 @@ test::OpenModel with_structure(const test::AlignedBytes& bytes, const Setting& s
     if (setting.structure == "octree" || setting.structure == "hashed") {
         return test::open_tiny(test::with_octree(bytes, {.level = setting.level,
                                                          .threshold = setting.threshold,
-                                                         .hashed = setting.structure == "hashed"}));
+                                                         .hashed = setting.structure == "hashed",
+                                                         .boxes_in = boxes_in}));
     }
     const auto rule = setting.structure == "surface" ? format::SplitRule::surface_area
                                                      : format::SplitRule::median;
-    return test::open_tiny(test::with_adaptive_octree(
-        bytes, {.level = setting.level, .threshold = setting.threshold, .rule = rule}));
+    return test::open_tiny(test::with_adaptive_octree(bytes, {.level = setting.level,
+                                                              .threshold = setting.threshold,
+                                                              .rule = rule,
+                                                              .boxes_in = boxes_in}));
 }
 
 class Contender {

@@ -6,10 +6,12 @@
 namespace cdprep::test {
 
 AlignedBytes with_every_structure(const AlignedBytes& file, const Division& division) {
-    const auto [level, threshold] = division;
-    const AlignedBytes octree = with_octree(file, {.level = level, .threshold = threshold});
-    const AlignedBytes adaptive =
-        with_adaptive_octree(octree, {.level = level, .threshold = threshold});
+    const auto [level, threshold, boxes] = division;
+    const auto boxes_in = boxes ? std::optional(build::Frame{}) : std::nullopt;
+    const AlignedBytes octree =
+        with_octree(file, {.level = level, .threshold = threshold, .boxes_in = boxes_in});
+    const AlignedBytes adaptive = with_adaptive_octree(
+        octree, {.level = level, .threshold = threshold, .boxes_in = boxes_in});
     return with_tetra_tree(
         adaptive, {.level = std::min(level, format::kMaxTetraLevel), .threshold = threshold});
 }

@@ -30,6 +30,7 @@ inline std::string name_of(Structure structure) {
 struct Division {
     std::uint32_t level = 3;
     std::uint32_t threshold = 1;
+    bool boxes = false;  ///< around what octrees' cells hold
 };
 
 /// A baked file with every structure that a question can go through.

@@ -32,11 +32,11 @@ struct BuilderInput {
 [[nodiscard]] BuilderInput builder_input(const Model& model);
 
 /// The same file with an octree, an adaptive octree, a tetra-tree over its triangles. To
-/// have several, ask in this order.
-[[nodiscard]] AlignedBytes with_octree(const AlignedBytes& file,
-                                       const build::OctreeOptions& options = {});
+/// have several, ask in this order. Boxes, where they are asked for, are in the frame of the
+/// file, whatever options.boxes_in says.
+[[nodiscard]] AlignedBytes with_octree(const AlignedBytes& file, build::OctreeOptions options = {});
 [[nodiscard]] AlignedBytes with_adaptive_octree(const AlignedBytes& file,
-                                                const build::AdaptiveOctreeOptions& options = {});
+                                                build::AdaptiveOctreeOptions options = {});
 /// Radii are in the frame of the file.
 [[nodiscard]] AlignedBytes with_tetra_tree(const AlignedBytes& file,
                                            build::TetraTreeOptions options = {});

@@ -4,8 +4,10 @@
 
 namespace cdprep::test {
 
-AlignedBytes with_octree(const AlignedBytes& file, const build::OctreeOptions& options) {
+AlignedBytes with_octree(const AlignedBytes& file, build::OctreeOptions options) {
     const OpenModel open = open_tiny(AlignedBytes(file.span()));
+    const format::FileHeader& header = open.model.header();
+    if (options.boxes_in) options.boxes_in = {header.frame_origin, header.frame_exponent};
     const BuilderInput input = builder_input(open.model);
     const build::Octree tree = build::build_octree(input.positions, input.triangles, options);
     const auto section = [](SectionId id, const auto& elements) {
@@ -23,6 +25,7 @@ AlignedBytes with_octree(const AlignedBytes& file, const build::OctreeOptions& o
         made.push_back(section(SectionId::octree_modulus_table, tree.modulus_table));
         made.push_back(section(SectionId::octree_mixed_table, tree.mixed_table));
     }
+    if (options.boxes_in) made.push_back(section(SectionId::octree_boxes, tree.boxes));
     return with_sections(file, std::move(made));
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "cdprep/build_bvh.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/octree.h"
 #include "cdprep/parallel_for.h"
@@ -16,6 +18,7 @@ struct AdaptiveOctree {
     format::AdaptiveOctree tree{};
     std::vector<format::AdaptiveOctreeNode> nodes;
     std::vector<std::uint32_t> references;
+    std::vector<format::CellBox> boxes;  ///< around what the nodes hold
 };
 
 struct AdaptiveOctreeOptions {
@@ -23,6 +26,8 @@ struct AdaptiveOctreeOptions {
     std::uint32_t level = 3;      ///< no cell is deeper; 0 to format::kOctreeBits
     std::uint32_t threshold = 1;  ///< a cell with fewer triangles is not divided; 1 at least
     format::SplitRule rule = format::SplitRule::median;
+    /// The model's frame, where boxes are to be made: in it they are stored.
+    std::optional<Frame> boxes_in{};
 };
 
 /// Bytes that a build takes beside its result, at most.

@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "cdprep/build_bvh.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/octree.h"
 #include "cdprep/parallel_for.h"
@@ -23,6 +25,7 @@ struct Octree {
     std::vector<std::uint32_t> top;            ///< with a table of where to begin
     std::vector<std::uint32_t> modulus_table;  ///< its literal form
     std::vector<std::uint32_t> mixed_table;    ///< the same with mixed keys
+    std::vector<format::CellBox> boxes;        ///< around what the nodes hold
 };
 
 struct OctreeOptions {
@@ -30,6 +33,8 @@ struct OctreeOptions {
     std::uint32_t level = 3;      ///< no cell is deeper; 0 to format::kOctreeBits
     std::uint32_t threshold = 1;  ///< a cell with fewer triangles is not divided; 1 at least
     bool hashed = true;           ///< whether to make what finds cells by their keys
+    /// The model's frame, where boxes are to be made: in it they are stored.
+    std::optional<Frame> boxes_in{};
 };
 
 /// References that an octree may have beside kMostReferencesPerTriangle for each triangle.

@@ -118,6 +118,9 @@ public:
     [[nodiscard]] std::span<const format::AdaptiveOctreeNode> adaptive_octree_nodes()
         const noexcept;
     [[nodiscard]] std::span<const std::uint32_t> adaptive_octree_references() const noexcept;
+    /// Per node of either tree; empty where the file has none.
+    [[nodiscard]] std::span<const format::CellBox> octree_boxes() const noexcept;
+    [[nodiscard]] std::span<const format::CellBox> adaptive_octree_boxes() const noexcept;
     /// The tetra-tree (format/tetra_tree.h).
     [[nodiscard]] const format::TetraTree* tetra_tree() const noexcept;  ///< or null
     [[nodiscard]] std::span<const format::TetraNode> tetra_nodes() const noexcept;

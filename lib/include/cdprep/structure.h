@@ -54,4 +54,7 @@ struct StructureOptions {
 /// that it needs anyway.
 [[nodiscard]] format::SectionSet sections_of(Structure structure) noexcept;
 
+/// Sections that some files have and that such a question is faster with.
+[[nodiscard]] format::SectionSet more_sections_of(Structure structure) noexcept;
+
 }  // namespace cdprep

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "cdprep/format/octree.h"
+
 namespace cdprep::build {
 
 /// How far a structure divides space.
@@ -20,10 +22,13 @@ struct StructurePreset {
     TreeLimits hashed_octree;
     TreeLimits adaptive_octree;
     TreeLimits tetra_tree;
+    format::SplitRule split;  ///< of the adaptive octree
+    bool boxes;               ///< whether octrees' cells get boxes around what they hold
 };
 
 /// As in the papers: 512 cells each, 8^3 of the octree and 8 * 4^3 of the tetra-tree.
-inline constexpr StructurePreset kPaperPreset = {"paper", {3, 1}, {3, 1}, {3, 1}, {3, 1}};
+inline constexpr StructurePreset kPaperPreset = {
+    "paper", {3, 1}, {3, 1}, {3, 1}, {3, 1}, format::SplitRule::median, false};
 
 /// What finds overlaps and collisions soonest. Two trees of large cells win, since what
 /// two cells that meet list is held against each other by blocks of 64 triangles, and many
@@ -39,7 +44,8 @@ inline constexpr StructurePreset kPaperPreset = {"paper", {3, 1}, {3, 1}, {3, 1}
 ///
 /// Of the eight times larger dragon each wants a level more. To ask what is inside, a deeper
 /// tetra-tree is better: its costs are the triangles of one cone.
-inline constexpr StructurePreset kTunedPreset = {"tuned", {4, 64}, {8, 64}, {3, 64}, {3, 64}};
+inline constexpr StructurePreset kTunedPreset = {
+    "tuned", {5, 8}, {8, 64}, {4, 16}, {3, 64}, format::SplitRule::surface_area, true};
 
 inline constexpr std::array<StructurePreset, 2> kStructurePresets = {kPaperPreset, kTunedPreset};
 

@@ -294,12 +294,13 @@ struct SomeThreads {
 
 TEST(BuildOctree, MakesTheSameBytesOnAnyNumberOfThreads) {
     const TestMesh mesh = joined(random_soup(9, 30'000, 0.05), icosphere(4));
-    const Octree alone =
-        build_octree(mesh.positions, mesh.triangles, {.level = 7, .threshold = 10});
+    const Octree alone = build_octree(mesh.positions, mesh.triangles,
+                                      {.level = 7, .threshold = 10, .boxes_in = build::Frame{}});
     for (std::size_t threads = 2; threads <= 8; ++threads) {
         SomeThreads run{threads};
-        const Octree octree = build_octree(mesh.positions, mesh.triangles,
-                                           {.parallel_for = run, .level = 7, .threshold = 10});
+        const Octree octree = build_octree(
+            mesh.positions, mesh.triangles,
+            {.parallel_for = run, .level = 7, .threshold = 10, .boxes_in = build::Frame{}});
         EXPECT_EQ(std::memcmp(&octree.grid, &alone.grid, sizeof alone.grid), 0);
         EXPECT_TRUE(same_bytes(octree.nodes, alone.nodes));
         EXPECT_TRUE(same_bytes(octree.references, alone.references));
@@ -308,6 +309,7 @@ TEST(BuildOctree, MakesTheSameBytesOnAnyNumberOfThreads) {
         EXPECT_TRUE(same_bytes(octree.top, alone.top));
         EXPECT_TRUE(same_bytes(octree.modulus_table, alone.modulus_table));
         EXPECT_TRUE(same_bytes(octree.mixed_table, alone.mixed_table));
+        EXPECT_TRUE(same_bytes(octree.boxes, alone.boxes));
     }
 }
 

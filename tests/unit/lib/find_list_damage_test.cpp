@@ -61,6 +61,7 @@ TEST(FindListDamage, FindsNothingInWhatTheBuilderMakes) {
           moved_by(icosphere(2), 1e-3, {1e6, -1e6, 1e6}), moved_by(icosphere(1), 0x1p-1000, {}),
           moved_by(icosphere(1), 0x1p999, {})}) {
         EXPECT_FALSE(check(baked(mesh)));
+        EXPECT_FALSE(check(baked(mesh, {.level = 4, .boxes_in = build::Frame{}})));
         EXPECT_FALSE(check(baked(mesh, {.level = 6, .threshold = 20, .hashed = false})));
     }
 }
@@ -146,6 +147,7 @@ TEST(FindListDamage, FindsNothingInAdaptiveOctrees) {
               moved_by(icosphere(2), 1e-3, {1e6, -1e6, 1e6}), moved_by(icosphere(1), 0x1p-1000, {}),
               moved_by(icosphere(1), 0x1p999, {})}) {
             EXPECT_FALSE(check(baked_adaptive(mesh, {.rule = rule})));
+            EXPECT_FALSE(check(baked_adaptive(mesh, {.rule = rule, .boxes_in = build::Frame{}})));
             EXPECT_FALSE(check(baked_adaptive(mesh, {.level = 6, .threshold = 20, .rule = rule})));
         }
     }
@@ -198,6 +200,36 @@ TEST(FindListDamage, SeesASplitThatWasMoved) {
     const auto damage = check(with(file, SectionId::adaptive_octree, tree));
     ASSERT_TRUE(damage);
     EXPECT_EQ(damage->section, SectionId::adaptive_octree);
+}
+
+/// Every box of an octree's cells that is drawn in by a float's step, on one side of one axis,
+/// is told: leaves' hold a part of a triangle that reaches there, others' a child's box.
+void sees_small_boxes(const AlignedBytes& file, SectionId id) {
+    auto boxes = elements<format::CellBox>(file, id);
+    int seen = 0;
+    for (std::size_t i = 0; i < boxes.size(); i += 3) {
+        const std::size_t axis = i % 3;
+        const format::CellBox whole = boxes[i];
+        float& end = i % 2 == 0 ? boxes[i].lower[axis] : boxes[i].upper[axis];
+        // Two steps: the box is rounded outwards by less than one.
+        const float inside = i % 2 == 0 ? whole.upper[axis] : whole.lower[axis];
+        end = std::nextafter(std::nextafter(end, inside), inside);
+        if (boxes[i].lower[axis] < boxes[i].upper[axis]) {
+            const auto damage = check(with(file, id, boxes));
+            ASSERT_TRUE(damage) << i;
+            EXPECT_EQ(damage->section, id);
+            ++seen;
+        }
+        boxes[i] = whole;
+    }
+    EXPECT_GT(seen, 20);
+}
+
+TEST(FindListDamage, SeesABoxThatLeavesSomethingOut) {
+    sees_small_boxes(baked(icosphere(2), {.level = 2, .boxes_in = build::Frame{}}),
+                     SectionId::octree_boxes);
+    sees_small_boxes(baked_adaptive(icosphere(2), {.level = 2, .boxes_in = build::Frame{}}),
+                     SectionId::adaptive_octree_boxes);
 }
 
 AlignedBytes baked_cones(const TestMesh& mesh, const build::TetraTreeOptions& options = {}) {

@@ -56,11 +56,12 @@ void expect_pairs(const Model& a, const Model& b, const Placement& placement, Wo
     }
 }
 
-/// Levels and thresholds from one cell to the deepest.
+/// Levels and thresholds from one cell to the deepest, with boxes and without.
 build::OctreeOptions some_octree(std::mt19937& random) {
     constexpr std::array<std::uint32_t, 6> kLevels = {0, 1, 2, 3, 5, 7};
     return {.level = kLevels[random() % kLevels.size()],
-            .threshold = 1 + static_cast<std::uint32_t>(random() % 20)};
+            .threshold = 1 + static_cast<std::uint32_t>(random() % 20),
+            .boxes_in = random() % 2 == 0 ? std::optional(build::Frame{}) : std::nullopt};
 }
 
 // The oracle: brute force by the six-segment test, and the hierarchy's answer. Fine and
@@ -110,8 +111,8 @@ TEST(HashedOverlapLaws, AgreesWithTheHierarchyWhateverBoundsTheFileHas) {
     Workspace workspace;
     for (const build::BvhBounds bounds :
          {build::BvhBounds::aligned, build::BvhBounds::oriented, build::BvhBounds::swept_lines}) {
-        const OpenModel model_a =
-            open_with_octree(a, {.level = 6, .threshold = 8}, {.bounds = bounds});
+        const OpenModel model_a = open_with_octree(
+            a, {.level = 6, .threshold = 8, .boxes_in = build::Frame{}}, {.bounds = bounds});
         const OpenModel model_b =
             open_with_octree(b, {.level = 5, .threshold = 30}, {.bounds = bounds});
         for (int round = 0; round < 12; ++round) {

@@ -30,14 +30,18 @@ struct Limits {
     std::uint32_t threshold = 1;
     format::SplitRule rule = format::SplitRule::median;
     format::TetraBounding bounding = format::TetraBounding::caps;
+    bool boxes = false;  ///< around what octrees' cells hold
 };
 
 /// With an octree, an adaptive octree and a tetra-tree.
 AlignedBytes with_all(const AlignedBytes& file, const Limits& limits) {
-    const AlignedBytes octree =
-        with_octree(file, {.level = limits.level, .threshold = limits.threshold});
-    const AlignedBytes adaptive = with_adaptive_octree(
-        octree, {.level = limits.level, .threshold = limits.threshold, .rule = limits.rule});
+    const auto boxes_in = limits.boxes ? std::optional(build::Frame{}) : std::nullopt;
+    const AlignedBytes octree = with_octree(
+        file, {.level = limits.level, .threshold = limits.threshold, .boxes_in = boxes_in});
+    const AlignedBytes adaptive = with_adaptive_octree(octree, {.level = limits.level,
+                                                                .threshold = limits.threshold,
+                                                                .rule = limits.rule,
+                                                                .boxes_in = boxes_in});
     return with_tetra_tree(adaptive, {.level = std::min(limits.level, format::kMaxTetraLevel),
                                       .threshold = limits.threshold,
                                       .bounding = limits.bounding});
@@ -118,8 +122,10 @@ TEST(OverlapThroughLaws, AgreesWithBruteForce) {
         const TestMesh a = mesh(), b = mesh();
         const Limits limits_a = {static_cast<std::uint32_t>(round % 4), 1U + round % 7,
                                  format::SplitRule{static_cast<std::uint32_t>(round / 2 % 2)},
-                                 format::TetraBounding{static_cast<std::uint32_t>(round / 4 % 2)}};
-        const Limits limits_b = {static_cast<std::uint32_t>(round % 3), 3};
+                                 format::TetraBounding{static_cast<std::uint32_t>(round / 4 % 2)},
+                                 round % 3 != 0};
+        Limits limits_b = {static_cast<std::uint32_t>(round % 3), 3};
+        limits_b.boxes = round % 5 < 3;
         const OpenModel model_a = open_all(a, limits_a, {.double_precision = round % 3 == 0});
         const OpenModel model_b = open_all(b, limits_b);
         const Pose p = round % 4 == 0 ? Pose() : random_pose(random, coarse ? 3 : 1.5);
@@ -143,9 +149,10 @@ TEST(OverlapThroughLaws, AgreesWithBruteForce) {
 // The same pairs as the hierarchy's, for two surfaces in 200 poses; some touch nothing.
 TEST(OverlapThroughLaws, AgreesWithTheHierarchyInRandomPoses) {
     std::mt19937 random(9);
-    const OpenModel a = open_all(icosphere(4), {.level = 4, .threshold = 8});
+    const OpenModel a = open_all(icosphere(4), {.level = 4, .threshold = 8, .boxes = true});
     const OpenModel b =
-        open_all(torus(1, 0.3, 48, 24), {.level = 5, .threshold = 16}, {.double_precision = true});
+        open_all(torus(1, 0.3, 48, 24), {.level = 5, .threshold = 16, .boxes = true},
+                 {.double_precision = true});
     Workspace workspace;
     int hits = 0;
     for (int round = 0; round < 200; ++round) {
@@ -171,8 +178,9 @@ TEST(OverlapThroughLaws, HardPlacementsHaveTheirPairs) {
     Workspace workspace;
     for (const HardPlacement& p : hard_placements()) {
         SCOPED_TRACE(p.name);
-        const OpenModel a = open_all(p.a, {.level = 3}, {.double_precision = true});
-        const OpenModel b = open_all(p.b, {.level = 4, .threshold = 4}, {.double_precision = true});
+        const OpenModel a = open_all(p.a, {.level = 3, .boxes = true}, {.double_precision = true});
+        const OpenModel b =
+            open_all(p.b, {.level = 4, .threshold = 4, .boxes = true}, {.double_precision = true});
         const Pairs expected = all_pairs(a.model, b.model, p.placement, workspace);
         ASSERT_EQ(expected.size(), p.pairs);
         const Placement back = p.placement.a_is_moved()
@@ -204,8 +212,8 @@ TEST(OverlapThroughLaws, EachPairIsOneAnswerWithoutRoom) {
         const bool soup = round % 2 == 0;
         const TestMesh a = soup ? coarse_grid_soup(random(), 24, 3) : icosphere(1);
         const TestMesh b = soup ? coarse_grid_soup(random(), 50, 3) : torus(1, 0.25, 12, 6);
-        const OpenModel model_a = open_all(a, {.level = 1});
-        const OpenModel model_b = open_all(b, {.level = 2, .threshold = 5});
+        const OpenModel model_a = open_all(a, {.level = 1, .boxes = true});
+        const OpenModel model_b = open_all(b, {.level = 2, .threshold = 5, .boxes = true});
         const Placement placement =
             Placement::b_moves(round < 4 ? Pose() : random_pose(random, 0.5));
         const Pairs expected = all_pairs(model_a.model, model_b.model, placement, workspace);
@@ -268,7 +276,7 @@ TEST(OverlapThroughLaws, LargeTrianglesMeetSmallCells) {
     const TestMesh small = icosphere(3);
     const TestMesh large = {{{-10, -8, 0.1}, {10, -9, 0.2}, {0.5, 10, -0.1}}, {{{0, 1, 2}}}};
     const OpenModel a = open_all(small, {.level = 5});
-    const OpenModel b = open_all(large, {.level = 5});
+    const OpenModel b = open_all(large, {.level = 5, .boxes = true});
     Workspace workspace;
     const Placement still = Placement::b_moves(Pose());
     const Pairs expected = brute_force_pairs(small, large, still);
@@ -300,7 +308,7 @@ TEST(OverlapThroughLaws, TrianglesOnCellBoundariesAreOneAnswerEach) {
     const TestMesh around = joined(planes, in_floats(fan(12)));
     Workspace workspace;
     for (const std::uint32_t level : {1U, 3U}) {
-        const OpenModel a = open_all(around, {.level = level});
+        const OpenModel a = open_all(around, {.level = level, .boxes = level % 2 == 0});
         const OpenModel b = open_all(planes, {.level = 2, .threshold = 2});
         for (const Placement& placement :
              {Placement::b_moves(Pose()),
@@ -323,7 +331,7 @@ TEST(OverlapThroughLaws, TrivialMeshesHaveAnswers) {
     Workspace workspace;
     for (const TestMesh& a : meshes) {
         for (const TestMesh& b : meshes) {
-            const OpenModel model_a = open_all(a, {.level = 4});
+            const OpenModel model_a = open_all(a, {.level = 4, .boxes = true});
             const OpenModel model_b = open_all(b, {.level = 2});
             const Placement still = Placement::b_moves(Pose());
             expect_pairs(brute_force_pairs(a, b, still), model_a.model, model_b.model, still,
@@ -342,22 +350,24 @@ TEST(OverlapThroughLaws, AnyScaleAndPlaceAnswersAlike) {
     ASSERT_GT(expected.size(), 50u);
     for (const int exponent : {-900, -40, 0, 60, 900}) {
         const double scale = std::ldexp(1.0, exponent);
-        const OpenModel model_a =
-            open_all(moved_by(a, scale, {0, 0, 0}), {.level = 4}, {.double_precision = true});
-        const OpenModel model_b =
-            open_all(moved_by(b, scale, {0, 0, 0}), {.level = 3}, {.double_precision = true});
+        const OpenModel model_a = open_all(moved_by(a, scale, {0, 0, 0}),
+                                           {.level = 4, .boxes = true}, {.double_precision = true});
+        const OpenModel model_b = open_all(moved_by(b, scale, {0, 0, 0}),
+                                           {.level = 3, .boxes = true}, {.double_precision = true});
         SCOPED_TRACE(exponent);
         expect_pairs(expected, model_a.model, model_b.model, still, workspace);
     }
     const TestMesh far_a = moved_by(a, 1e-3, {1e6, -1e6, 1e6});
     const TestMesh far_b = moved_by(b, 1e-3, {1e6, -1e6, 1e6});
-    const OpenModel model_a = open_all(far_a, {.level = 6}, {.double_precision = true});
+    const OpenModel model_a =
+        open_all(far_a, {.level = 6, .boxes = true}, {.double_precision = true});
     const OpenModel model_b = open_all(far_b, {.level = 5}, {.double_precision = true});
     expect_pairs(brute_force_pairs(far_a, far_b, still), model_a.model, model_b.model, still,
                  workspace);
     // One of them 2^80 times as large as the other.
     const TestMesh tiny = moved_by(b, 0x1p-80, {0, 0, 1});
-    const OpenModel model_tiny = open_all(tiny, {.level = 3}, {.double_precision = true});
+    const OpenModel model_tiny =
+        open_all(tiny, {.level = 3, .boxes = true}, {.double_precision = true});
     const OpenModel sphere = open_all(a, {.level = 4}, {.double_precision = true});
     expect_pairs(brute_force_pairs(a, tiny, still), sphere.model, model_tiny.model, still,
                  workspace);

@@ -75,8 +75,10 @@ enum class SectionId : std::uint32_t {
     tetra_tree = 36,                  ///< TetraTree, one
     tetra_nodes = 37,                 ///< TetraNode, sorted by key
     tetra_references = 38,            ///< as octree_references
-    tetra_top = 39,  ///< uint32 per cone of level top_level, by key: the node in which the
-                     ///< search for a direction in it goes on, plus one; 0 where none is
+    tetra_top = 39,     ///< uint32 per cone of level top_level, by key: the node in which the
+                        ///< search for a direction in it goes on, plus one; 0 where none is
+    octree_boxes = 41,  ///< CellBox per OctreeNode; some files have none
+    adaptive_octree_boxes = 42,  ///< CellBox per AdaptiveOctreeNode; some files have none
 };
 
 /// In repaired_from and source_vertex: made by a repair, from nothing in the file.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -110,6 +111,16 @@ struct AdaptiveOctreeNode {
     std::uint32_t count;  ///< as OctreeNode
 };
 
+/// Around what a cell holds, frame coordinates, rounded outwards. A leaf's: around what each
+/// of its triangles' boxes has in common with the leaf's cell. An inner node's: around its
+/// children's. So what of a triangle lies in a cell lies in the cell's box, which is often
+/// much smaller than the cell.
+struct CellBox {
+    std::array<float, 3> lower;
+    std::array<float, 3> upper;
+};
+
+static_assert(sizeof(CellBox) == 24 && alignof(CellBox) == 4);
 static_assert(sizeof(OctreeGrid) == 48 && alignof(OctreeGrid) == 8);
 static_assert(offsetof(OctreeGrid, level) == 32);
 static_assert(sizeof(OctreeNode) == 16 && alignof(OctreeNode) == 8);

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cdprep/build_adaptive_octree.h"
+#include "cdprep/build_octree.h"
+
+namespace cdprep::build {
+
+/// Fills octree.boxes, of its nodes and references; all in `frame`, which holds the positions.
+/// O(references), and 48 bytes of scratch for each node.
+void bound_cells(Octree& octree, std::span<const format::Double3> positions,
+                 std::span<const format::Triangle> triangles, const Frame& frame,
+                 ParallelFor parallel_for);
+
+/// The same of one whose nodes chose their split points.
+void bound_cells(AdaptiveOctree& octree, std::span<const format::Double3> positions,
+                 std::span<const format::Triangle> triangles, const Frame& frame,
+                 ParallelFor parallel_for);
+
+}  // namespace cdprep::build
