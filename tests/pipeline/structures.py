@@ -22,20 +22,25 @@ from known_meshes import CUBE
 from poses_truth import truth
 from shared_models import answers, bake, must, run, shared_folder_if_there, shared_models_if_there
 
-OCTREE = {"octree_grid", "octree_nodes", "octree_references"}
+OCTREE = {"octree_grid", "octree_nodes", "octree_references", "octree_boxes"}
 SECTIONS = {
     "octree": OCTREE,
     "hashed-octree": OCTREE | {"octree_leaf_codes", "octree_leaf_nodes", "octree_top",
                                "octree_modulus_table", "octree_mixed_table"},
-    "octree-adaptive": {"adaptive_octree", "adaptive_octree_nodes", "adaptive_octree_references"},
+    "octree-adaptive": {"adaptive_octree", "adaptive_octree_nodes", "adaptive_octree_references",
+                        "adaptive_octree_boxes"},
     "tetra-tree": {"tetra_tree", "tetra_nodes", "tetra_references", "tetra_top"},
 }
 ALL = set().union(*SECTIONS.values())
+# Where octrees' cells have boxes, as they do unless others are asked for.
+BOXES = {"octree_boxes", "adaptive_octree_boxes"}
 FIELDS = {
     "octree_grid": ("origin", "step", "level", "threshold", "top_level", "slot_bits"),
     "octree_nodes": ("key", "first", "count"),
     "adaptive_octree": ("lower", "upper", "level", "threshold", "rule", "reserved"),
     "adaptive_octree_nodes": ("split", "first", "count"),
+    "octree_boxes": ("lower", "upper"),
+    "adaptive_octree_boxes": ("lower", "upper"),
     "tetra_tree": ("centre", "level", "threshold", "top_level", "bounding", "centre_count",
                    "flags"),
     "tetra_nodes": ("key", "first", "count", "radius_min", "radius_max", "flags"),
@@ -82,7 +87,11 @@ def holds_what_was_asked(program, mesh, folder):
     wanted += [([], set()), (["--structures", "none"], set()), (["--effects", "all"], ALL),
                (["--structures", "all"], ALL), (["--effects", "all", "--structures", "none"], set()),
                (["--effects", "all", "--structures", "octree"], OCTREE),
-               (["--structures", "tetra-tree,octree,octree"], OCTREE | SECTIONS["tetra-tree"])]
+               (["--structures", "tetra-tree,octree,octree"], OCTREE | SECTIONS["tetra-tree"]),
+               (["--structures", "all", "--structure-preset", "paper"], ALL - BOXES),
+               (["--structures", "all", "--octree-bounding", "cells"], ALL - BOXES),
+               (["--structures", "octree", "--structure-preset", "paper", "--octree-bounding",
+                 "boxes"], OCTREE)]
     for options, sections in wanted:
         baked = folder / "some.cdp.h5"
         report = json.loads(bake(program, mesh, "-o", baked, *options, "--format", "json").stdout)
@@ -90,13 +99,13 @@ def holds_what_was_asked(program, mesh, folder):
         names = {section["name"] for section in info["sections"]}
         must(names & ALL == sections, f"{options} baked {names & ALL}")
         sizes = {section["name"]: section["bytes"] for section in info["sections"]}
-        structures = {name for name, parts in SECTIONS.items() if parts <= sections}
+        structures = {name for name, parts in SECTIONS.items() if parts - BOXES <= sections}
         settings = info["provenance"]["options"]["structures"]
         must(set(settings) == structures, f"{options}: provenance has {settings}")
         told_of = info.get("structures", {})
         must(set(told_of) == structures, f"{options}: info tells of {set(told_of)}")
         for name in structures:
-            stored = sum(sizes[part] for part in SECTIONS[name])
+            stored = sum(sizes.get(part, 0) for part in SECTIONS[name])
             must(told_of[name]["bytes"] == stored or not info["triangles"],
                  f"{options}: {name} has {told_of[name]['bytes']} bytes")
             must(settings[name].items() <= told_of[name].items(), f"{options}: {told_of[name]}")
@@ -154,6 +163,11 @@ def opens_in_h5py(program, mesh, folder):
         nodes = data["adaptive_octree_nodes"][:]
         is_leaf = nodes["count"] < INNER
         lists(nodes, data["adaptive_octree_references"][:], is_leaf, nodes["count"][is_leaf])
+        for boxes in (data["octree_boxes"][:], data["adaptive_octree_boxes"][:]):
+            must(numpy.all(boxes["lower"] <= boxes["upper"]), "boxes end before they begin")
+            must(numpy.array_equal(boxes["lower"].min(axis=0), boxes["lower"][0])
+                 and numpy.array_equal(boxes["upper"].max(axis=0), boxes["upper"][0]),
+                 "a root's box does not hold all")
 
         tree, nodes = data["tetra_tree"][0], data["tetra_nodes"][:]
         is_leaf = nodes["flags"] & 0x10 == 0
@@ -167,17 +181,20 @@ def opens_in_h5py(program, mesh, folder):
 
 
 def same_bytes(program, mesh, folder):
-    options = ["--structures", "all", "--split", "area", "--bounding", "tetra", "--octree-level",
-               "7", "--octree-threshold", "5", "--tetra-level", "5", "--tetra-threshold", "6"]
+    options = ["--structures", "all", "--split", "median", "--bounding", "tetra",
+               "--octree-bounding", "cells", "--octree-level", "7", "--octree-threshold", "5",
+               "--tetra-level", "5", "--tetra-threshold", "6"]
     digests = set()
     for threads in (1, 2, 4):
         bake(program, mesh, "-o", folder / "threads.cdp.h5", "-j", threads, *options)
         digests.add(digest(folder / "threads.cdp.h5"))
     must(len(digests) == 1, f"{mesh.name}: threads change the bytes")
     settings = told(program, folder / "threads.cdp.h5")["provenance"]["options"]["structures"]
-    must(settings["octree-adaptive"] == {"level": 7, "threshold": 5, "split": "area"}
+    must(settings["octree-adaptive"] == {"level": 7, "threshold": 5, "split": "median",
+                                          "bounding": "cells"}
          and settings["tetra-tree"] == {"level": 5, "threshold": 6, "bounding": "tetra"}
-         and settings["octree"] == {"level": 7, "threshold": 5}, f"provenance: {settings}")
+         and settings["octree"] == {"level": 7, "threshold": 5, "bounding": "cells"},
+         f"provenance: {settings}")
     for i in range(0, len(options), 2):
         if options[i] == "--structures":
             continue

@@ -56,6 +56,8 @@ void add_structures(const Structures& structures, const Add& add) {
     add(SectionId::adaptive_octree, bytes_of_one(adaptive.tree), true);
     add(SectionId::adaptive_octree_nodes, bytes_of(adaptive.nodes), true);
     add(SectionId::adaptive_octree_references, bytes_of(adaptive.references), true);
+    add(SectionId::octree_boxes, bytes_of(octree.boxes), true);
+    add(SectionId::adaptive_octree_boxes, bytes_of(adaptive.boxes), true);
     const build::TetraTree& tetra = structures.tetra_tree;
     add(SectionId::tetra_tree, bytes_of_one(tetra.tree), true);
     add(SectionId::tetra_nodes, bytes_of(tetra.nodes), true);

@@ -11,6 +11,7 @@ namespace cdprep::cli {
 Result<Model> open_for(const std::filesystem::path& path, SectionSet needed, Structure through) {
     SectionSet wanted = needed;
     wanted.insert(sections_of(through));
+    wanted.insert(more_sections_of(through));
     Result<Model> opened = Model::open(path, wanted);
     if (!opened) return opened;
     const SectionSet present = opened.value().sections();

@@ -218,17 +218,19 @@ std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash)
 
 /// Builds what was chosen over a mesh in tree order, whose numbers the structures then
 /// speak of. One after the other: each shares its work out, and only one holds scratch.
-Structures build_structures(const mesh::Mesh& ordered, std::int32_t frame_exponent,
+Structures build_structures(const mesh::Mesh& ordered, const build::Frame& frame,
                             StructureChoice choice, const Threads& threads, Stages& stages) {
     Structures built;
     if (choice.has_octree()) {
         choice.octree.parallel_for = threads.parallel_for();
+        if (choice.octree_boxes()) choice.octree.boxes_in = frame;
         built.octree = stages.run("  octree", [&] {
             return build::build_octree(ordered.positions, ordered.triangles, choice.octree);
         });
     }
     if (choice.has_adaptive_octree()) {
         choice.adaptive_octree.parallel_for = threads.parallel_for();
+        if (choice.adaptive_octree_boxes()) choice.adaptive_octree.boxes_in = frame;
         built.adaptive_octree = stages.run("  octree-adaptive", [&] {
             return build::build_adaptive_octree(ordered.positions, ordered.triangles,
                                                 choice.adaptive_octree);
@@ -236,7 +238,7 @@ Structures build_structures(const mesh::Mesh& ordered, std::int32_t frame_expone
     }
     if (choice.has_tetra_tree()) {
         choice.tetra_tree.parallel_for = threads.parallel_for();
-        choice.tetra_tree.frame_exponent = frame_exponent;
+        choice.tetra_tree.frame_exponent = frame.exponent;
         built.tetra_tree = stages.run("  tetra-tree", [&] {
             return build::build_tetra_tree(ordered.positions, ordered.triangles, choice.tetra_tree);
         });
@@ -250,15 +252,17 @@ std::vector<report::StructureReport> reports_of(const StructureChoice& choice,
     const std::size_t triangles = mesh.triangles.size();
     if (choice.has_octree()) {
         const OctreeFigures figures = octree_figures(built.octree, triangles);
-        reports.push_back(report::report_of(Structure::octree, built.octree.grid, figures));
+        reports.push_back(report::report_of(Structure::octree, built.octree.grid, figures,
+                                            choice.octree_boxes()));
         if (choice.octree.hashed) {
-            reports.push_back(
-                report::report_of(Structure::hashed_octree, built.octree.grid, figures));
+            reports.push_back(report::report_of(Structure::hashed_octree, built.octree.grid,
+                                                figures, choice.octree_boxes()));
         }
     }
     if (choice.has_adaptive_octree()) {
         reports.push_back(report::report_of(
-            built.adaptive_octree.tree, adaptive_octree_figures(built.adaptive_octree, triangles)));
+            built.adaptive_octree.tree, adaptive_octree_figures(built.adaptive_octree, triangles),
+            choice.adaptive_octree_boxes()));
     }
     if (choice.has_tetra_tree()) {
         reports.push_back(
@@ -334,8 +338,8 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     });
     if (!options.structures.names.empty()) {
         arrays.keep(stages.run("structures", [&] {
-            return build_structures(arrays.mesh(), found.bvh.frame.exponent, options.structures,
-                                    threads, stages);
+            return build_structures(arrays.mesh(), found.bvh.frame, options.structures, threads,
+                                    stages);
         }));
     }
     if (is_interrupted()) return interrupted(input);

@@ -59,13 +59,14 @@ std::optional<Error> find_idle_option(const StructureArguments& arguments,
         bool is_used;
         const char* user;
     };
-    const std::array<Use, 6> uses = {{
+    const std::array<Use, 7> uses = {{
         {"--octree-level", arguments.octree_level.has_value(), has_some_octree, "octree"},
         {"--octree-threshold", arguments.octree_threshold.has_value(), has_some_octree, "octree"},
         {"--tetra-level", arguments.tetra_level.has_value(), choice.has_tetra_tree(), "tetra-tree"},
         {"--tetra-threshold", arguments.tetra_threshold.has_value(), choice.has_tetra_tree(),
          "tetra-tree"},
         {"--split", !arguments.split.empty(), choice.has_adaptive_octree(), "octree-adaptive"},
+        {"--octree-bounding", !arguments.octree_bounding.empty(), has_some_octree, "octree"},
         {"--bounding", !arguments.bounding.empty(), choice.has_tetra_tree(), "tetra-tree"},
     }};
     for (const Use& use : uses) {
@@ -123,7 +124,15 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
     limit(choice.adaptive_octree, preset.adaptive_octree, arguments.octree_level,
           arguments.octree_threshold);
     limit(choice.tetra_tree, preset.tetra_tree, arguments.tetra_level, arguments.tetra_threshold);
-    if (arguments.split == "area") choice.adaptive_octree.rule = format::SplitRule::surface_area;
+    choice.adaptive_octree.rule = arguments.split.empty()     ? preset.split
+                                  : arguments.split == "area" ? format::SplitRule::surface_area
+                                                              : format::SplitRule::median;
+    const bool has_boxes =
+        arguments.octree_bounding.empty() ? preset.boxes : arguments.octree_bounding == "boxes";
+    if (has_boxes && choice.has_octree()) choice.sections.insert(format::SectionId::octree_boxes);
+    if (has_boxes && choice.has_adaptive_octree()) {
+        choice.sections.insert(format::SectionId::adaptive_octree_boxes);
+    }
     if (arguments.bounding == "tetra") choice.tetra_tree.bounding = format::TetraBounding::tetra;
     return choice;
 }
@@ -133,14 +142,22 @@ std::vector<report::StructureSettings> settings_of(const StructureChoice& choice
     for (const std::string& name : choice.names) {
         const Structure structure = find_baked(name)->structure;
         if (structure == Structure::adaptive_octree) {
-            settings.push_back({structure, choice.adaptive_octree.level,
-                                choice.adaptive_octree.threshold, "split",
-                                report::split_name(choice.adaptive_octree.rule)});
+            settings.push_back(
+                {structure,
+                 choice.adaptive_octree.level,
+                 choice.adaptive_octree.threshold,
+                 {{"split", report::split_name(choice.adaptive_octree.rule)},
+                  {"bounding", report::bounding_name(choice.adaptive_octree_boxes())}}});
         } else if (structure == Structure::tetra_tree) {
-            settings.push_back({structure, choice.tetra_tree.level, choice.tetra_tree.threshold,
-                                "bounding", report::bounding_name(choice.tetra_tree.bounding)});
+            settings.push_back({structure,
+                                choice.tetra_tree.level,
+                                choice.tetra_tree.threshold,
+                                {{"bounding", report::bounding_name(choice.tetra_tree.bounding)}}});
         } else {
-            settings.push_back({structure, choice.octree.level, choice.octree.threshold, "", ""});
+            settings.push_back({structure,
+                                choice.octree.level,
+                                choice.octree.threshold,
+                                {{"bounding", report::bounding_name(choice.octree_boxes())}}});
         }
     }
     return settings;
@@ -169,10 +186,16 @@ void add_structure_options(CLI::App& command, StructureArguments& arguments) {
     number("--tetra-threshold", arguments.tetra_threshold, 1, format::kMaxTriangles,
            "Tetra-tree: a cone with fewer triangles is not split");
     command
-        .add_option("--split", arguments.split,
-                    "Where octree-adaptive splits a cell: at the median of the triangles' middles "
-                    "(default), or at the planes of least area times triangles")
+        .add_option(
+            "--split", arguments.split,
+            "Where octree-adaptive splits a cell: at the median of the triangles' middles, or "
+            "at the planes of least area times triangles; else as the preset")
         ->check(CLI::IsMember({"median", "area"}));
+    command
+        .add_option("--octree-bounding", arguments.octree_bounding,
+                    "All octrees: what bounds a cell's triangles: boxes, a box around what it "
+                    "holds, or cells, the cell itself; else as the preset")
+        ->check(CLI::IsMember({"boxes", "cells"}));
     command
         .add_option("--bounding", arguments.bounding,
                     "What bounds a cone's triangles: caps, from the nearest to the farthest "

@@ -25,8 +25,9 @@ struct StructureArguments {
     std::optional<std::uint32_t> octree_threshold;
     std::optional<std::uint32_t> tetra_level;
     std::optional<std::uint32_t> tetra_threshold;
-    std::string split;     ///< empty: not given
-    std::string bounding;  ///< empty: not given
+    std::string split;            ///< empty: not given
+    std::string octree_bounding;  ///< empty: not given
+    std::string bounding;         ///< empty: not given
 };
 
 /// Adds --structures and the options that say how they are built.
@@ -45,6 +46,13 @@ struct StructureChoice {
     }
     [[nodiscard]] bool has_adaptive_octree() const noexcept {
         return sections.contains(format::SectionId::adaptive_octree_nodes);
+    }
+    /// Whether their cells get boxes.
+    [[nodiscard]] bool octree_boxes() const noexcept {
+        return sections.contains(format::SectionId::octree_boxes);
+    }
+    [[nodiscard]] bool adaptive_octree_boxes() const noexcept {
+        return sections.contains(format::SectionId::adaptive_octree_boxes);
     }
     [[nodiscard]] bool has_tetra_tree() const noexcept {
         return sections.contains(format::SectionId::tetra_nodes);

@@ -22,7 +22,7 @@ nlohmann::json structures_json(const std::vector<StructureSettings>& structures)
     for (const StructureSettings& settings : structures) {
         nlohmann::json& own = json[structure_name(settings.structure)];
         own = {{"level", settings.level}, {"threshold", settings.threshold}};
-        if (!settings.rule_value.empty()) own[settings.rule] = settings.rule_value;
+        for (const StructureRule& rule : settings.rules) own[rule.name] = rule.value;
     }
     return json;
 }

@@ -43,6 +43,10 @@ inline constexpr std::array<StructureName, 6> kStructureNames = {{
 [[nodiscard]] constexpr const char* split_name(format::SplitRule rule) noexcept {
     return rule == format::SplitRule::median ? "median" : "area";
 }
+/// As --octree-bounding spells it.
+[[nodiscard]] constexpr const char* bounding_name(bool has_boxes) noexcept {
+    return has_boxes ? "boxes" : "cells";
+}
 [[nodiscard]] constexpr const char* bounding_name(format::TetraBounding bounding) noexcept {
     return bounding == format::TetraBounding::tetra ? "tetra" : "caps";
 }

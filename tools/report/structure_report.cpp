@@ -17,7 +17,7 @@ double share(std::uint64_t part, std::uint64_t triangles) {
 nlohmann::ordered_json as_json(const StructureReport& report) {
     nlohmann::ordered_json json = {{"level", report.settings.level},
                                    {"threshold", report.settings.threshold}};
-    if (!report.settings.rule.empty()) json[report.settings.rule] = report.settings.rule_value;
+    for (const StructureRule& rule : report.settings.rules) json[rule.name] = rule.value;
     json["nodes"] = report.nodes;
     json["leaves"] = report.leaves;
     json["deepest"] = report.deepest;
@@ -40,7 +40,7 @@ std::string as_text(const StructureReport& report) {
     const StructureSettings& settings = report.settings;
     std::string text = "level " + std::to_string(settings.level) + ", threshold " +
                        std::to_string(settings.threshold);
-    if (!settings.rule.empty()) text += ", " + settings.rule + " " + settings.rule_value;
+    for (const StructureRule& rule : settings.rules) text += ", " + rule.name + " " + rule.value;
     text += ": " + std::to_string(report.nodes) + " nodes, " + std::to_string(report.leaves) +
             " leaves, " + fixed(share(report.references, report.triangles), 2) +
             " references a triangle, largest leaf " + std::to_string(report.largest_leaf) + ", " +
@@ -71,24 +71,29 @@ StructureReport counted(const Figures& figures) {
 }  // namespace
 
 StructureReport report_of(Structure which, const format::OctreeGrid& grid,
-                          const OctreeFigures& figures) {
+                          const OctreeFigures& figures, bool has_boxes) {
     StructureReport report = counted(figures);
-    report.settings = {which, grid.level, grid.threshold, "", ""};
+    report.settings = {which, grid.level, grid.threshold, {{"bounding", bounding_name(has_boxes)}}};
     if (which == Structure::octree) report.bytes -= figures.table_bytes;
     return report;
 }
 
-StructureReport report_of(const format::AdaptiveOctree& tree, const OctreeFigures& figures) {
+StructureReport report_of(const format::AdaptiveOctree& tree, const OctreeFigures& figures,
+                          bool has_boxes) {
     StructureReport report = counted(figures);
-    report.settings = {Structure::adaptive_octree, tree.level, tree.threshold, "split",
-                       split_name(tree.rule)};
+    report.settings = {Structure::adaptive_octree,
+                       tree.level,
+                       tree.threshold,
+                       {{"split", split_name(tree.rule)}, {"bounding", bounding_name(has_boxes)}}};
     return report;
 }
 
 StructureReport report_of(const format::TetraTree& tree, const TetraFigures& figures) {
     StructureReport report = counted(figures);
-    report.settings = {Structure::tetra_tree, tree.level, tree.threshold, "bounding",
-                       bounding_name(tree.bounding)};
+    report.settings = {Structure::tetra_tree,
+                       tree.level,
+                       tree.threshold,
+                       {{"bounding", bounding_name(tree.bounding)}}};
     const bool on_surface = (tree.flags & format::tetra_centre_on) != 0;
     report.cones = ConeFigures{on_surface              ? "on the surface"
                                : figures.centre_inside ? "inside"
@@ -102,13 +107,16 @@ std::vector<StructureReport> structure_reports(const Model& model) {
     std::vector<StructureReport> reports;
     if (const format::OctreeGrid* grid = model.octree_grid()) {
         const OctreeFigures figures = octree_figures(model);
-        reports.push_back(report_of(Structure::octree, *grid, figures));
+        const bool has_boxes = model.sections().contains(format::SectionId::octree_boxes);
+        reports.push_back(report_of(Structure::octree, *grid, figures, has_boxes));
         if (model.sections().contains(sections_of(Structure::hashed_octree))) {
-            reports.push_back(report_of(Structure::hashed_octree, *grid, figures));
+            reports.push_back(report_of(Structure::hashed_octree, *grid, figures, has_boxes));
         }
     }
     if (const format::AdaptiveOctree* tree = model.adaptive_octree()) {
-        reports.push_back(report_of(*tree, adaptive_octree_figures(model)));
+        reports.push_back(
+            report_of(*tree, adaptive_octree_figures(model),
+                      model.sections().contains(format::SectionId::adaptive_octree_boxes)));
     }
     if (const format::TetraTree* tree = model.tetra_tree()) {
         reports.push_back(report_of(*tree, tetra_figures(model)));

@@ -39,11 +39,12 @@ struct StructureReport {
     std::optional<ConeFigures> cones;  ///< tetra-tree only
 };
 
-/// `which` is the octree, or the hashed one that finds its cells.
+/// `which` is the octree, or the hashed one that finds its cells. `has_boxes`: around what the
+/// cells hold.
 [[nodiscard]] StructureReport report_of(Structure which, const format::OctreeGrid& grid,
-                                        const OctreeFigures& figures);
+                                        const OctreeFigures& figures, bool has_boxes);
 [[nodiscard]] StructureReport report_of(const format::AdaptiveOctree& tree,
-                                        const OctreeFigures& figures);
+                                        const OctreeFigures& figures, bool has_boxes);
 [[nodiscard]] StructureReport report_of(const format::TetraTree& tree, const TetraFigures& figures);
 
 /// Of each structure of an open model.

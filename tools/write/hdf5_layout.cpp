@@ -243,6 +243,12 @@ Handle adaptive_octree_node_type() {
                      {"count", offsetof(AdaptiveOctreeNode, count), H5T_STD_U32LE, {}}});
 }
 
+Handle cell_box_type() {
+    using format::CellBox;
+    return compound(sizeof(CellBox), {{"lower", offsetof(CellBox, lower), H5T_IEEE_F32LE, {3}},
+                                      {"upper", offsetof(CellBox, upper), H5T_IEEE_F32LE, {3}}});
+}
+
 Handle tetra_tree_type() {
     using format::TetraTree;
     return compound(sizeof(TetraTree),
@@ -356,6 +362,10 @@ const std::vector<Look>& looks() {
          "triangles that hold the centre, then of each leaf; bit 31: other leaves too"},
         {SectionId::tetra_top, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
          "for each cone of top_level its node, or the leaf above it, plus one; 0: none"},
+        {SectionId::octree_boxes, cell_box_type, 0, "frame coordinates",
+         "box around what each node of the octree holds"},
+        {SectionId::adaptive_octree_boxes, cell_box_type, 0, "frame coordinates",
+         "box around what each node of the adaptive octree holds"},
     };
     return all;
 }
