@@ -9,7 +9,8 @@
 // BAKES holds NAME.cdp.h5, baked with --normalize; POSES holds A-B.pose files of 12 numbers
 // a line, line i of kind i mod 3 (light, deep, near). SETTING is
 // STRUCTURE:LEVEL:THRESHOLD[:DESCENT[:TEST]] with octree, adaptive, surface (adaptive by
-// surface area), tetra or hashed; larger, a_first, b_first or both; gd or ft. A + behind the
+// surface area), tetra or hashed; larger, a_first, b_first or both, or of
+// hashed sorted, modulus or mixed; gd or ft. A + behind the
 // structure gives its nodes boxes. Structures are built here. PAIR is A-B; without, all files of
 // POSES are taken.
 //
@@ -75,6 +76,9 @@ Setting setting_of(const std::string& text) {
                           : part[3] == "b_first" ? Descent::b_first
                           : part[3] == "both"    ? Descent::both
                                                  : Descent::larger;
+        through.search = part[3] == "modulus" ? CellSearch::modulus
+                         : part[3] == "mixed" ? CellSearch::mixed
+                                              : CellSearch::sorted;
     }
     if (part.size() > 4 && part[4] == "ft") through.leaf_test = LeafTest::feito_torres;
     return setting;

@@ -55,7 +55,7 @@ STEPS = {
                         ["--leaf-test", "feito"]),
     "tetra-tree": (["--descent", "a-first"], ["--descent", "b-first"], ["--descent", "larger"],
                    ["--leaf-test", "feito"]),
-    "hashed-octree": (["--search", "modulus"], ["--search", "mixed"], ["--leaf-test", "feito"]),
+    "hashed-octree": (["--search", "modulus"], ["--search", "sorted"], ["--leaf-test", "feito"]),
 }
 
 

@@ -59,7 +59,7 @@ Result<StructureOptions> parse_structure(const StructureWords& words, const char
     if (words.descent == "b-first") options.descent = Descent::b_first;
     if (words.descent == "larger") options.descent = Descent::larger;
     if (words.search == "modulus") options.search = CellSearch::modulus;
-    if (words.search == "mixed") options.search = CellSearch::mixed;
+    if (words.search == "sorted") options.search = CellSearch::sorted;
     return options;
 }
 
@@ -82,9 +82,9 @@ void add_structure_steps(CLI::App& command, StructureWords& words) {
         ->check(CLI::IsMember({"larger", "a-first", "b-first", "both"}));
     command
         .add_option("--search", words.search,
-                    "How a cell is found, for hashed-octree: among sorted leaves with a top table "
-                    "(default), or in a hash table by the key's modulus or by a mixed key. No "
-                    "answer depends on it")
+                    "How a cell is found, for hashed-octree: in a hash table by a mixed key (default) "
+                    "or by the key's modulus, or among sorted leaves with a top table. No answer "
+                    "depends on it")
         ->check(CLI::IsMember({"sorted", "modulus", "mixed"}));
 }
 

@@ -47,7 +47,7 @@ struct StructureOptions {
     Structure structure = Structure::bvh;
     LeafTest leaf_test = LeafTest::guigue_devillers;
     Descent descent = Descent::both;
-    CellSearch search = CellSearch::sorted;
+    CellSearch search = CellSearch::mixed;
 };
 
 /// The sections that a question through a structure reads of each file, beside those

@@ -45,7 +45,7 @@ inline constexpr StructurePreset kPaperPreset = {
 /// Of the eight times larger dragon each wants a level more. To ask what is inside, a deeper
 /// tetra-tree is better: its costs are the triangles of one cone.
 inline constexpr StructurePreset kTunedPreset = {
-    "tuned", {5, 8}, {8, 64}, {4, 16}, {3, 64}, format::SplitRule::surface_area, true};
+    "tuned", {5, 8}, {6, 32}, {4, 16}, {3, 64}, format::SplitRule::surface_area, true};
 
 inline constexpr std::array<StructurePreset, 2> kStructurePresets = {kPaperPreset, kTunedPreset};
 
