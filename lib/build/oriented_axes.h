@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "cdprep/format/geometry.h"
+#include "lanes.h"
+
+namespace cdprep::build {
+
+using Vector = std::array<double, 3>;
+using Doubles = Lanes<double, format::kBvhWidth>;
+
+/// Rows and columns of a symmetric matrix kept as xx, yy, zz, xy, yz, zx.
+inline constexpr std::array<std::size_t, 6> kRow = {0, 1, 2, 0, 1, 2};
+inline constexpr std::array<std::size_t, 6> kColumn = {0, 1, 2, 1, 2, 0};
+
+inline double dot(const Vector& a, const Vector& b) {
+    return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
+}
+
+/// In pairs, so that half of a vector is added to the other.
+template <class T>
+T sum_of(Lanes<T, format::kBvhWidth> lanes) {
+    for_lanes<4>([&](std::size_t lane) { lanes[lane] += lanes[lane + 4]; });
+    return (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]);
+}
+
+/// Area, its middle, and the integral of (x - middle) (x - middle)^T. Frame
+/// coordinates.
+struct Moments {
+    double area = 0;
+    Vector middle{};
+    std::array<double, 6> second{};
+};
+
+/// The moments of eight things.
+struct MomentLanes {
+    Doubles area{};
+    std::array<Doubles, 3> middle{};
+    std::array<Doubles, 6> second{};
+
+    void set(std::size_t lane, const Moments& moments) {
+        area[lane] = moments.area;
+        for (std::size_t i = 0; i < 3; ++i) middle[i][lane] = moments.middle[i];
+        for (std::size_t i = 0; i < 6; ++i) second[i][lane] = moments.second[i];
+    }
+};
+
+/// Of eight things together (Steiner).
+[[nodiscard]] Moments sum_of(const MomentLanes& lanes);
+
+/// Orthonormal axes rounded to float, the third their cross product.
+struct Axes {
+    std::array<std::array<float, 3>, 2> stored;
+    std::array<Vector, 3> used;
+};
+
+using NodeAxes = std::array<Axes, format::kBvhWidth>;
+
+/// Of eight surfaces, every part counted by its area: the direction of least extent first,
+/// then that of the middle one. x and y of what has no area.
+[[nodiscard]] NodeAxes axes_of(const MomentLanes& moments);
+
+/// How far something reaches along three axes, from a point on.
+struct Reach {
+    Vector lower;
+    Vector upper;
+};
+
+/// Writes the box of what reaches so far from `origin`, frame coordinates, its half extents
+/// enlarged by `slack`, by 2^-17 of the largest and by what the centre is rounded.
+void write_box(const Vector& origin, const Axes& axes, const Reach& reach, double slack,
+               format::OrientedNode& node, std::size_t box);
+
+/// Writes that there is no such box.
+void write_no_box(format::OrientedNode& node, std::size_t box);
+
+}  // namespace cdprep::build
