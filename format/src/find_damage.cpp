@@ -474,6 +474,8 @@ Found find_bad_content(const Content& content) {
         case SectionId::tetra_top:
         case SectionId::octree_boxes:
         case SectionId::adaptive_octree_boxes:
+        case SectionId::tetra_boxes:
+        case SectionId::tetra_oriented:
             return nothing_more();
     }
     return nothing_more();

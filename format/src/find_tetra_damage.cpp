@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cdprep/format/content_hash.h"
+#include "cdprep/format/geometry.h"
 #include "cdprep/format/limits.h"
 #include "cdprep/format/tetra_tree.h"
 #include "reference_lists.h"
@@ -20,12 +21,19 @@ namespace {
 using Found = std::optional<Damage>;
 using Bytes = std::span<const std::byte>;
 
+/// BvhNode and OrientedNode alike: numbers of eight boxes side by side.
+template <std::size_t kRows>
+using Rows = std::array<std::array<float, kBvhWidth>, kRows>;
+static_assert(sizeof(Rows<6>) == sizeof(BvhNode) && sizeof(Rows<12>) == sizeof(OrientedNode));
+
 /// A tetra-tree's sections, as far as they are wanted.
 struct Parts {
     SectionView<TetraTree> tree;
     SectionView<TetraNode> nodes;
     SectionView<std::uint32_t> references;
     SectionView<std::uint32_t> top;
+    SectionView<Rows<6>> boxes;
+    SectionView<Rows<12>> oriented;
     std::uint64_t triangle_count;
 
     Parts(Bytes file, SectionSet wanted) noexcept
@@ -33,6 +41,8 @@ struct Parts {
           nodes(file, SectionId::tetra_nodes, wanted),
           references(file, SectionId::tetra_references, wanted),
           top(file, SectionId::tetra_top, wanted),
+          boxes(file, SectionId::tetra_boxes, wanted),
+          oriented(file, SectionId::tetra_oriented, wanted),
           triangle_count(read_header(file).triangle_count) {}
 };
 
@@ -58,7 +68,7 @@ Found find_bad_facts(const Parts& parts) noexcept {
     if (const Found damage = limited(tree.level, kMaxTetraLevel)) return damage;
     if (const Found damage = limited(tree.top_level, tree.level)) return damage;
     if (const Found damage = limited(static_cast<std::uint32_t>(tree.bounding),
-                                     static_cast<std::uint32_t>(TetraBounding::caps))) {
+                                     static_cast<std::uint32_t>(TetraBounding::boxes))) {
         return damage;
     }
     if (const Found damage = limited(tree.flags, kFlags)) return damage;
@@ -174,6 +184,87 @@ Found find_bad_top(const Parts& parts) noexcept {
     return parts.top.damage(DamageKind::bad_count, 0, 0 - named, 0);
 }
 
+/// Of a node that there is: numbers of the frame, in order. Rows are those of BvhNode.
+bool is_box(const Rows<6>& rows, std::uint32_t lane) noexcept {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float lower = rows[axis][lane];
+        const float upper = rows[3 + axis][lane];
+        if (!(lower >= -1 && lower <= upper && upper <= 1)) return false;
+    }
+    return true;
+}
+
+/// The same of an oriented one. Rows are those of OrientedNode.
+bool is_box(const Rows<12>& rows, std::uint32_t lane) noexcept {
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+        const float x = rows[row][lane];
+        const bool is_half = row >= 9;
+        if (!std::isfinite(x) || (is_half && x < 0)) return false;
+    }
+    return true;
+}
+
+/// One column of `a` and one of `b`.
+template <std::size_t kRows>
+bool same_lane(const Rows<kRows>& a, std::uint32_t lane_a, const Rows<kRows>& b,
+               std::uint32_t lane_b) noexcept {
+    for (std::size_t row = 0; row < kRows; ++row) {
+        if (a[row][lane_a] != b[row][lane_b]) return false;
+    }
+    return true;
+}
+
+/// Boxes that two elements have in common are the same; `unused` are those of no node.
+template <std::size_t kRows>
+Found find_bad_boxes(const SectionView<Rows<kRows>>& section, std::uint64_t nodes,
+                     const std::array<float, kRows>& unused) noexcept {
+    const std::uint64_t expected = tetra_box_count(nodes);
+    if (section.count() != expected) {
+        return section.damage(DamageKind::bad_count, 0, section.count(), expected);
+    }
+    Rows<kRows> none;
+    for (std::size_t row = 0; row < kRows; ++row) none[row].fill(unused[row]);
+    Rows<kRows> before;
+    for (std::uint64_t i = 0; i < expected; ++i) {
+        const Rows<kRows> rows = section[i];
+        for (std::uint32_t lane = 0; lane < kBvhWidth; ++lane) {
+            const bool is_used = kTetraBoxStride * i + lane < nodes;
+            const bool is_good = is_used ? is_box(rows, lane) : same_lane(rows, lane, none, 0);
+            if (!is_good) return section.damage(DamageKind::bad_number, i, lane, kBvhWidth - 1);
+            if (i == 0 || lane >= kTetraBoxStride) continue;
+            if (!same_lane(rows, lane, before, lane + kTetraBoxStride)) {
+                return section.damage(DamageKind::bad_order, i, lane, 0);
+            }
+        }
+        before = rows;
+    }
+    return std::nullopt;
+}
+
+Found find_bad_boxes(const Parts& parts, SectionSet wanted) noexcept {
+    if (parts.tree[0].bounding != TetraBounding::boxes) return std::nullopt;
+    const std::uint64_t nodes = parts.nodes.count();
+    if (wanted.contains(SectionId::tetra_boxes)) {
+        const Found damage = find_bad_boxes<6>(parts.boxes, nodes, {1, 1, 1, -1, -1, -1});
+        if (damage) return damage;
+    }
+    if (!wanted.contains(SectionId::tetra_oriented)) return std::nullopt;
+    return find_bad_boxes<12>(parts.oriented, nodes, {1, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, -1});
+}
+
+/// A tree has boxes exactly when its facts say so.
+Found find_missing_boxes(Bytes file, TetraBounding bounding) noexcept {
+    const bool wants_boxes = bounding == TetraBounding::boxes;
+    for (const SectionId id : {SectionId::tetra_boxes, SectionId::tetra_oriented}) {
+        const bool is_there = find_section(file, id).has_value();
+        if (wants_boxes && !is_there) return missing_section(id);
+        if (!wants_boxes && is_there) {
+            return Damage{DamageKind::bad_section, id, kSectionTableOffset, 1, 0};
+        }
+    }
+    return std::nullopt;
+}
+
 constexpr std::array<SectionId, 4> kIds = {SectionId::tetra_tree, SectionId::tetra_nodes,
                                            SectionId::tetra_references, SectionId::tetra_top};
 
@@ -182,6 +273,9 @@ constexpr std::array<SectionId, 4> kIds = {SectionId::tetra_tree, SectionId::tet
 std::optional<Damage> find_missing_tetra(std::span<const std::byte> file) noexcept {
     if (const Found gap = find_gap(file, kIds)) return gap;
     const bool has_tree = find_section(file, SectionId::tetra_tree).has_value();
+    const bool has_boxes = find_section(file, SectionId::tetra_boxes).has_value() ||
+                           find_section(file, SectionId::tetra_oriented).has_value();
+    if (!has_tree && has_boxes) return missing_section(SectionId::tetra_tree);
     if (!has_tree || find_section(file, SectionId::triangles)) return std::nullopt;
     return Damage{DamageKind::missing_section, SectionId::triangles, kSectionTableOffset, 0, 1};
 }
@@ -195,8 +289,10 @@ std::optional<Damage> find_tetra_damage(std::span<const std::byte> file,
     }
     const Parts parts(file, wanted);
     if (const Found damage = find_bad_facts(parts)) return damage;
+    if (const Found damage = find_missing_boxes(file, parts.tree[0].bounding)) return damage;
     if (const Found damage = find_bad_tree(parts)) return damage;
-    return find_bad_top(parts);
+    if (const Found damage = find_bad_top(parts)) return damage;
+    return find_bad_boxes(parts, wanted);
 }
 
 }  // namespace cdprep::format

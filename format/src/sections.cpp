@@ -18,7 +18,7 @@ struct Kind {
     const char* name;
 };
 
-constexpr std::array<Kind, 41> kKinds = {{
+constexpr std::array<Kind, 43> kKinds = {{
     {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
     {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
     {SectionId::triangles, sizeof(Triangle), "triangles"},
@@ -58,8 +58,10 @@ constexpr std::array<Kind, 41> kKinds = {{
     {SectionId::tetra_nodes, sizeof(TetraNode), "tetra_nodes"},
     {SectionId::tetra_references, 4, "tetra_references"},
     {SectionId::tetra_top, 4, "tetra_top"},
+    {SectionId::tetra_boxes, sizeof(BvhNode), "tetra_boxes"},
     {SectionId::octree_boxes, sizeof(CellBox), "octree_boxes"},
     {SectionId::adaptive_octree_boxes, sizeof(CellBox), "adaptive_octree_boxes"},
+    {SectionId::tetra_oriented, sizeof(OrientedNode), "tetra_oriented"},
 }};
 
 const Kind* find_kind(SectionId id) noexcept {

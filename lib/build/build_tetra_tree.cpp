@@ -12,6 +12,7 @@
 #include "frame_map.h"
 #include "radial_range.h"
 #include "split_at_once.h"
+#include "tetra_boxes.h"
 #include "tetra_centre.h"
 #include "winding.h"
 
@@ -97,6 +98,9 @@ public:
             place_triangles();
             split_levels();
             find_radii();
+            if (options_.bounding == format::TetraBounding::boxes) {
+                make_tetra_boxes(input_, exponent_, options_, result_);
+            }
             find_inside();
         }
         fill_top();

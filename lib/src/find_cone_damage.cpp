@@ -2,8 +2,10 @@
 #include "find_cone_damage.h"
 
 #include <bit>
+#include <cmath>
 #include <vector>
 
+#include "cell_bounds.h"
 #include "list_places.h"
 #include "moved_model.h"
 #include "tetra_cones.h"
@@ -24,6 +26,9 @@ public:
           tree_(*model.tetra_tree()),
           nodes_(model.tetra_nodes()),
           references_(model.tetra_references()),
+          boxes_(model.tetra_boxes()),
+          oriented_(model.tetra_oriented()),
+          frame_(model),
           moved_(model, nullptr) {
         while (octants_ < nodes_.size() && nodes_[octants_].key < 16) ++octants_;
     }
@@ -72,6 +77,7 @@ private:
     /// From a node whose cone the triangle touches.
     Found send_down(const Corners& t, std::uint32_t triangle, std::uint32_t number) {
         const format::TetraNode& node = nodes_[number];
+        if (const Found damage = find_corner_outside(t, number)) return damage;
         if ((node.flags & format::tetra_inner) == 0) return look_up(triangle, number);
         const std::uint32_t children = node.flags & format::tetra_children;
         for (std::uint32_t child = 0; child < 4; ++child) {
@@ -86,6 +92,60 @@ private:
             if (const Found damage = send_down(t, triangle, next)) return damage;
         }
         return std::nullopt;
+    }
+
+    /// Corners in a node's cone lie in its boxes. Rounding may hide a hair's breadth.
+    Found find_corner_outside(const Corners& t, std::uint32_t number) const {
+        if (boxes_.empty() || oriented_.empty()) return std::nullopt;
+        for (const Double3& p : t) {
+            const std::array<double, 3> at = {frame_.frame(0, p.x), frame_.frame(1, p.y),
+                                              frame_.frame(2, p.z)};
+            const bool in_box = box_holds(number, at);
+            if (in_box && oriented_holds(number, at)) continue;
+            const TetraCone cone = tetra_cone(nodes_[number].key);
+            if (!triangle_touches_cone({p, p, p}, tree_.centre, cone)) continue;
+            const SectionId id = in_box ? SectionId::tetra_oriented : SectionId::tetra_boxes;
+            const auto section = format::find_section(file_, id);
+            const std::uint64_t element = number / format::kTetraBoxStride;
+            return format::Damage{format::DamageKind::bad_box, id,
+                                  section->offset + element * section->element_size,
+                                  number % format::kTetraBoxStride, 0};
+        }
+        return std::nullopt;
+    }
+    [[nodiscard]] bool box_holds(std::uint32_t number,
+                                 const std::array<double, 3>& p) const noexcept {
+        const format::BvhNode& boxes = boxes_[number / format::kTetraBoxStride];
+        const std::size_t lane = number % format::kTetraBoxStride;
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (!(p[k] >= double{boxes.lower[k][lane]} && p[k] <= double{boxes.upper[k][lane]})) {
+                return false;
+            }
+        }
+        return true;
+    }
+    [[nodiscard]] bool oriented_holds(std::uint32_t number,
+                                      const std::array<double, 3>& p) const noexcept {
+        const format::OrientedNode& boxes = oriented_[number / format::kTetraBoxStride];
+        const std::size_t lane = number % format::kTetraBoxStride;
+        std::array<std::array<double, 3>, 3> axis{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            axis[0][i] = double{boxes.axis[0][i][lane]};
+            axis[1][i] = double{boxes.axis[1][i][lane]};
+        }
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3;
+            const std::size_t m = (i + 2) % 3;
+            axis[2][i] = axis[0][j] * axis[1][m] - axis[0][m] * axis[1][j];
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            double along = 0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                along += axis[k][i] * (p[i] - double{boxes.centre[i][lane]});
+            }
+            if (!(std::fabs(along) <= double{boxes.half[k][lane]})) return false;
+        }
+        return true;
     }
 
     /// In a leaf that it touches.
@@ -104,6 +164,9 @@ private:
     const format::TetraTree& tree_;
     std::span<const format::TetraNode> nodes_;
     std::span<const std::uint32_t> references_;
+    std::span<const format::BvhNode> boxes_;
+    std::span<const format::OrientedNode> oriented_;
+    FrameOf frame_;
     MovedModel moved_;
     std::uint32_t octants_ = 0;
     std::vector<std::uint32_t> places_;  ///< references to the triangle that is on its way

@@ -12,7 +12,8 @@ namespace cdprep {
 
 /// find_list_damage() for the tetra-tree: its leaves list exactly the triangles that have a
 /// point in their closed cones, but for those that hold the centre, which come first.
-/// Radii are not proved. Nothing without one.
+/// Corners that lie in a cone lie in its boxes, where it has those; where edges cross into
+/// it, and radii, are not proved. Nothing without one.
 [[nodiscard]] std::optional<format::Damage> find_cone_damage(std::span<const std::byte> file,
                                                              const Model& model);
 

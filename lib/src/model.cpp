@@ -60,6 +60,8 @@ struct Model::State {
     std::span<const format::TetraNode> tetra_nodes;
     std::span<const std::uint32_t> tetra_references;
     std::span<const std::uint32_t> tetra_top;
+    std::span<const format::BvhNode> tetra_boxes;
+    std::span<const format::OrientedNode> tetra_oriented;
 
     void find_sections(SectionSet wanted);
 
@@ -121,6 +123,8 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::tetra_nodes, wanted, tetra_nodes);
     view(SectionId::tetra_references, wanted, tetra_references);
     view(SectionId::tetra_top, wanted, tetra_top);
+    view(SectionId::tetra_boxes, wanted, tetra_boxes);
+    view(SectionId::tetra_oriented, wanted, tetra_oriented);
 }
 
 namespace {
@@ -315,6 +319,12 @@ std::span<const std::uint32_t> Model::tetra_references() const noexcept {
 }
 std::span<const std::uint32_t> Model::tetra_top() const noexcept {
     return state_->tetra_top;
+}
+std::span<const format::BvhNode> Model::tetra_boxes() const noexcept {
+    return state_->tetra_boxes;
+}
+std::span<const format::OrientedNode> Model::tetra_oriented() const noexcept {
+    return state_->tetra_oriented;
 }
 
 std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {

@@ -23,6 +23,8 @@ struct Parts {
     std::span<const TetraNode> nodes;
     std::span<const std::uint32_t> references;
     std::span<const std::uint32_t> top;
+    std::span<const format::BvhNode> boxes;
+    std::span<const format::OrientedNode> oriented;
 };
 
 bool is_leaf(const TetraNode& node) noexcept {
@@ -61,7 +63,8 @@ TetraFigures figures_of(const Parts& parts) {
     figures.centre_count = parts.tree->centre_count;
     figures.centre_inside = (parts.tree->flags & format::tetra_centre_inside) != 0;
     figures.bytes = sizeof(format::TetraTree) + parts.nodes.size_bytes() +
-                    parts.references.size_bytes() + parts.top.size_bytes();
+                    parts.references.size_bytes() + parts.top.size_bytes() +
+                    parts.boxes.size_bytes() + parts.oriented.size_bytes();
     count_references(parts, figures);
     if (parts.nodes.empty()) return figures;
     figures.deepest = tetra_level(parts.nodes.back().key);
@@ -98,8 +101,9 @@ void count_layers(const Parts& parts, const CornersOf& corners_of, TetraFigures&
 }  // namespace
 
 TetraFigures tetra_figures(const Model& model) {
-    const Parts parts = {model.tetra_tree(), model.triangle_count(), model.tetra_nodes(),
-                         model.tetra_references(), model.tetra_top()};
+    const Parts parts = {model.tetra_tree(),       model.triangle_count(), model.tetra_nodes(),
+                         model.tetra_references(), model.tetra_top(),      model.tetra_boxes(),
+                         model.tetra_oriented()};
     TetraFigures figures = figures_of(parts);
     const bool has_positions = !model.positions_f32().empty() || !model.positions_f64().empty();
     if (!model.triangles().empty() && has_positions) {
@@ -112,7 +116,8 @@ TetraFigures tetra_figures(const Model& model) {
 
 TetraFigures tetra_figures(const build::TetraTree& tree, std::span<const format::Double3> positions,
                            std::span<const format::Triangle> triangles) {
-    const Parts parts = {&tree.tree, triangles.size(), tree.nodes, tree.references, tree.top};
+    const Parts parts = {&tree.tree, triangles.size(), tree.nodes,   tree.references,
+                         tree.top,   tree.boxes,       tree.oriented};
     TetraFigures figures = figures_of(parts);
     const auto corners_of = [&](std::uint32_t i) {
         const auto& v = triangles[i].vertex;

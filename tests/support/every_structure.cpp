@@ -13,7 +13,9 @@ AlignedBytes with_every_structure(const AlignedBytes& file, const Division& divi
     const AlignedBytes adaptive = with_adaptive_octree(
         octree, {.level = level, .threshold = threshold, .boxes_in = boxes_in});
     return with_tetra_tree(
-        adaptive, {.level = std::min(level, format::kMaxTetraLevel), .threshold = threshold});
+        adaptive, {.level = std::min(level, format::kMaxTetraLevel),
+                   .threshold = threshold,
+                   .bounding = boxes ? format::TetraBounding::boxes : format::TetraBounding::caps});
 }
 
 OpenModel open_with_every_structure(const TestMesh& mesh, const Division& division) {

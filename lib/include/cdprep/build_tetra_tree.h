@@ -17,6 +17,8 @@ struct TetraTree {
     std::vector<format::TetraNode> nodes;
     std::vector<std::uint32_t> references;
     std::vector<std::uint32_t> top;
+    std::vector<format::BvhNode> boxes;          ///< with TetraBounding::boxes
+    std::vector<format::OrientedNode> oriented;  ///< the same
 };
 
 struct TetraTreeOptions {
@@ -25,6 +27,7 @@ struct TetraTreeOptions {
     std::uint32_t threshold = 1;  ///< a cone with fewer triangles is not split; 1 at least
     format::TetraBounding bounding = format::TetraBounding::caps;
     std::int32_t frame_exponent = 0;  ///< of the model's frame: the unit of radii
+    format::Double3 frame_origin{};   ///< of the same: where boxes count from
 };
 
 /// Builds it over triangles of finite positions of at most format::kMaxCoordinate;
@@ -35,13 +38,14 @@ struct TetraTreeOptions {
 /// The centre is the mean of the vertices that triangles use, rounded to float where all
 /// their coordinates are floats: so nearly all differences to it are exact. Radii hold the
 /// parts of triangles in exact arithmetic; that takes a frame exponent that brings the model
-/// near 1, else they may be infinite. TetraTreeFlags are found along one ray.
+/// near 1, else they may be infinite. So do boxes, in a frame that holds the model. TetraTreeFlags
+/// are found along one ray.
 ///
 /// As of build_octree(), a level whose split would give the tree more than
 /// kMostFreeReferences and kMostReferencesPerTriangle for each triangle (build_octree.h) is
 /// not split, nor is any below. O(levels * references). Scratch, at most: 21 bytes a vertex,
-/// 7 a triangle, and for each reference of the result 13, for each node 160. Throws nothing
-/// but std::bad_alloc.
+/// 7 a triangle, and for each reference of the result 13, for each node 160, with boxes 460. Throws
+/// nothing but std::bad_alloc.
 [[nodiscard]] TetraTree build_tetra_tree(std::span<const format::Double3> positions,
                                          std::span<const format::Triangle> triangles,
                                          const TetraTreeOptions& options = {});

@@ -126,6 +126,8 @@ public:
     [[nodiscard]] std::span<const format::TetraNode> tetra_nodes() const noexcept;
     [[nodiscard]] std::span<const std::uint32_t> tetra_references() const noexcept;
     [[nodiscard]] std::span<const std::uint32_t> tetra_top() const noexcept;
+    [[nodiscard]] std::span<const format::BvhNode> tetra_boxes() const noexcept;
+    [[nodiscard]] std::span<const format::OrientedNode> tetra_oriented() const noexcept;
 
     /// Name number `index` of instance_names, group_names or material_names;
     /// empty when there is none. O(index).

@@ -19,16 +19,13 @@ namespace {
 
 using test::AlignedBytes;
 
-constexpr std::array kIds = {SectionId::tetra_tree, SectionId::tetra_nodes,
-                             SectionId::tetra_references, SectionId::tetra_top};
-
 AlignedBytes baked(const test::TestMesh& mesh, const build::TetraTreeOptions& options) {
     return test::with_tetra_tree(
         test::bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}), options);
 }
 
 /// With leaves of several levels, and an octant that nothing touches.
-AlignedBytes small_tree() {
+AlignedBytes small_tree(TetraBounding bounding = TetraBounding::caps) {
     test::TestMesh mesh = test::icosphere(1);
     std::erase_if(mesh.triangles, [&](const Triangle& t) {
         return std::any_of(t.vertex.begin(), t.vertex.end(), [&](std::uint32_t v) {
@@ -36,7 +33,7 @@ AlignedBytes small_tree() {
             return p.x <= 0.3 && p.y <= 0.3 && p.z <= 0.3;
         });
     });
-    return baked(mesh, {.level = 3, .threshold = 6});
+    return baked(mesh, {.level = 3, .threshold = 6, .bounding = bounding});
 }
 
 std::optional<Damage> check(const AlignedBytes& file, SectionSet wanted = SectionSet::all()) {
@@ -74,7 +71,8 @@ TEST(FindTetraDamage, AcceptsWhatTheBuilderMakes) {
           test::moved_by(test::icosphere(1), 0x1p-1000, {}),
           test::moved_by(test::icosphere(1), 0x1p999, {})}) {
         for (const std::uint32_t level : {0U, 3U, 5U}) {
-            for (const TetraBounding bounding : {TetraBounding::tetra, TetraBounding::caps}) {
+            for (const TetraBounding bounding :
+                 {TetraBounding::tetra, TetraBounding::caps, TetraBounding::boxes}) {
                 const auto damage =
                     check(baked(mesh, {.level = level, .threshold = 12, .bounding = bounding}));
                 EXPECT_FALSE(damage) << section_name(damage->section) << " " << damage->at;
@@ -84,8 +82,10 @@ TEST(FindTetraDamage, AcceptsWhatTheBuilderMakes) {
 }
 
 TEST(FindTetraDamage, RefusesATreeOfWhichAPartIsMissing) {
-    const AlignedBytes whole = small_tree();
-    for (const SectionId missing : kIds) {
+    const AlignedBytes whole = small_tree(TetraBounding::boxes);
+    for (const SectionId missing :
+         {SectionId::tetra_tree, SectionId::tetra_nodes, SectionId::tetra_references,
+          SectionId::tetra_top, SectionId::tetra_boxes, SectionId::tetra_oriented}) {
         std::vector<test::TinySection> sections;
         for (std::uint32_t id = 1; id < 64; ++id) {
             const auto entry = find_section(whole.span(), SectionId{id});
@@ -158,7 +158,7 @@ TEST(FindTetraDamage, FactsAreInTheirRanges) {
     EXPECT_TRUE(refused([](TetraTree& t) { t.level = 1; }));  // there are deeper nodes
     EXPECT_TRUE(refused([](TetraTree& t) { t.top_level = t.level + 1; }));
     EXPECT_TRUE(refused([](TetraTree& t) { t.top_level = 0; }));  // the table is larger
-    EXPECT_TRUE(refused([](TetraTree& t) { t.bounding = TetraBounding{2}; }));
+    EXPECT_TRUE(refused([](TetraTree& t) { t.bounding = TetraBounding{3}; }));
     EXPECT_TRUE(refused([](TetraTree& t) { t.centre_count = 1; }));
     EXPECT_TRUE(refused([](TetraTree& t) { t.centre_count = 0xffffffffU; }));
     EXPECT_TRUE(refused([](TetraTree& t) { t.flags = 4; }));
@@ -183,12 +183,72 @@ TEST(FindTetraDamage, ReferencesAreOfTrianglesAndRise) {
     EXPECT_EQ(refused(second), DamageKind::bad_order);
 }
 
+// Beside a tree that says it has none.
+TEST(FindTetraDamage, RefusesBoxesThatNothingSpeaksOf) {
+    const AlignedBytes file = small_tree(TetraBounding::boxes);
+    auto tree = element<TetraTree>(file, SectionId::tetra_tree, 0);
+    for (const TetraBounding other : {TetraBounding::tetra, TetraBounding::caps}) {
+        tree.bounding = other;
+        const auto damage = check(with(file, SectionId::tetra_tree, 0, tree));
+        ASSERT_TRUE(damage);
+        EXPECT_EQ(damage->kind, DamageKind::bad_section);
+        EXPECT_EQ(damage->section, SectionId::tetra_boxes);
+    }
+}
+
+// Each box is there twice, so every other number is seen; of unused ones any.
+TEST(FindTetraDamage, RefusesEveryOtherNumberInBoxes) {
+    const AlignedBytes file = small_tree(TetraBounding::boxes);
+    const std::uint64_t nodes = entry_of(file, SectionId::tetra_nodes).count;
+    for (const SectionId id : {SectionId::tetra_boxes, SectionId::tetra_oriented}) {
+        const SectionEntry entry = entry_of(file, id);
+        const std::uint64_t rows = entry.element_size / 4 / kBvhWidth;
+        for (std::uint64_t i = 0; i < entry.count * rows * kBvhWidth; ++i) {
+            const std::uint64_t at = i / (rows * kBvhWidth);
+            const std::uint64_t lane = i % kBvhWidth;
+            const auto now = element<float>(file, id, i);
+            const bool is_once = (at == 0 && lane < 4) || at + 1 == entry.count;
+            const bool is_used = 4 * at + lane < nodes;
+            for (const float value : {std::nanf(""), HUGE_VALF, now + 0.125F}) {
+                const bool is_number = value == now + 0.125F;
+                if (is_once && is_used && is_number) continue;
+                ASSERT_TRUE(check(with(file, id, 4 * i, value)))
+                    << section_name(id) << " number " << i << ": " << value << " for " << now;
+            }
+        }
+    }
+}
+
+TEST(FindTetraDamage, BoxesAreInTheFrameAndInOrder) {
+    const AlignedBytes file = small_tree(TetraBounding::boxes);
+    const auto first = element<BvhNode>(file, SectionId::tetra_boxes, 0);
+    const auto refused = [&](float lower, float upper) {
+        BvhNode changed = first;
+        changed.lower[1][2] = lower;
+        changed.upper[1][2] = upper;
+        return check(with(file, SectionId::tetra_boxes, 0, changed)).has_value();
+    };
+    EXPECT_FALSE(refused(-1, 1));
+    EXPECT_FALSE(refused(0.5F, 0.5F));
+    EXPECT_TRUE(refused(std::nextafter(-1.0F, -2.0F), 1));
+    EXPECT_TRUE(refused(-1, std::nextafter(1.0F, 2.0F)));
+    EXPECT_TRUE(refused(0.5F, std::nextafter(0.5F, 0.0F)));
+    auto oriented = element<OrientedNode>(file, SectionId::tetra_oriented, 0);
+    oriented.half[1][2] = -1;
+    EXPECT_TRUE(check(with(file, SectionId::tetra_oriented, 0, oriented)));
+}
+
 // What is not wanted is not read.
 TEST(FindTetraDamage, LooksOnlyAtWhatIsWanted) {
     const AlignedBytes file = small_tree();
     const AlignedBytes bad = with(file, SectionId::tetra_nodes, 0, std::uint32_t{7});
     EXPECT_TRUE(check(bad));
     EXPECT_FALSE(check(bad, {SectionId::positions_f64, SectionId::triangles}));
+    const AlignedBytes boxed = small_tree(TetraBounding::boxes);
+    const AlignedBytes bad_box = with(boxed, SectionId::tetra_boxes, 0, std::nanf(""));
+    EXPECT_TRUE(check(bad_box));
+    EXPECT_FALSE(check(bad_box, {SectionId::tetra_tree, SectionId::tetra_nodes,
+                                 SectionId::tetra_references, SectionId::tetra_top}));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -53,6 +54,7 @@ double longest_side(const TestMesh& mesh) {
 TetraTree tree_of(const TestMesh& mesh, TetraTreeOptions options) {
     const double longest = longest_side(mesh);
     options.frame_exponent = longest > 0 ? -std::ilogb(longest) - 2 : 0;
+    if (!mesh.positions.empty()) options.frame_origin = mesh.positions[0];
     return build_tetra_tree(mesh.positions, mesh.triangles, options);
 }
 
@@ -295,6 +297,168 @@ TEST(BuildTetraTree, RadiusMinIsZeroOfThePapersTetrahedra) {
     }
 }
 
+/// Leaves at or below a node.
+void gather_leaves(const TetraTree& tree, const TetraNode& node, std::vector<TetraNode>& leaves) {
+    if (is_leaf(node)) return leaves.push_back(node);
+    for (std::uint32_t k = 0; k < node.count; ++k) {
+        gather_leaves(tree, tree.nodes[node.first + k], leaves);
+    }
+}
+
+/// The corners of what the triangles below a node have in its cone, in the frame, exactly.
+std::vector<ExactPoint> parts_in_frame(const TestMesh& mesh, const TetraTree& tree,
+                                       const TetraNode& node) {
+    const double longest = longest_side(mesh);
+    const std::int32_t exponent = longest > 0 ? -std::ilogb(longest) - 2 : 0;
+    const ExactRational unit(std::ldexp(1.0, exponent / 2));
+    const ExactRational rest(std::ldexp(1.0, exponent - exponent / 2));
+    const Double3& c = tree.tree.centre;
+    const Double3& o = mesh.positions[0];
+    const std::array<ExactRational, 3> shift = {ExactRational(c.x) - ExactRational(o.x),
+                                                ExactRational(c.y) - ExactRational(o.y),
+                                                ExactRational(c.z) - ExactRational(o.z)};
+    std::vector<TetraNode> leaves;
+    gather_leaves(tree, node, leaves);
+    std::vector<ExactPoint> parts;
+    for (const TetraNode& leaf : leaves) {
+        for (const std::uint32_t triangle : list_of(tree, leaf)) {
+            for (ExactPoint p : cut_by_cone(corners_of(mesh, triangle), c, tetra_cone(node.key))) {
+                for (std::size_t k = 0; k < 3; ++k) p[k] = (p[k] + shift[k]) * unit * rest;
+                parts.push_back(p);
+            }
+        }
+    }
+    return parts;
+}
+
+void expect_in_box(const ExactPoint& p, const format::BvhNode& boxes, std::size_t lane) {
+    for (std::size_t k = 0; k < 3; ++k) {
+        EXPECT_LE(ExactRational(double{boxes.lower[k][lane]}), p[k]);
+        EXPECT_GE(ExactRational(double{boxes.upper[k][lane]}), p[k]);
+    }
+}
+
+/// A number of the frame, but for 2^-52. Of long fractions approximation() is no number.
+double rounded_frame(const ExactRational& x) {
+    const auto near = static_cast<double>(x.approximation());
+    if (std::isfinite(near)) return near;
+    double lower = -2;
+    for (double step = 2; step > 0x1p-53; step /= 2) {
+        if (ExactRational(lower + step) <= x) lower += step;
+    }
+    return lower;
+}
+
+/// With the third axis as exact numbers and as floats have it. Sums of a few products of
+/// numbers below 4 are off by less than 2^-48, and are short of the half extents by more.
+void expect_in_oriented(const ExactPoint& p, const format::OrientedNode& boxes, std::size_t lane) {
+    std::array<std::array<float, 3>, 2> axis{};
+    std::array<double, 3> from{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        axis[0][i] = boxes.axis[0][i][lane];
+        axis[1][i] = boxes.axis[1][i][lane];
+        from[i] = rounded_frame(p[i]) - double{boxes.centre[i][lane]};
+    }
+    const auto expect_within = [&](const std::array<double, 3>& direction, std::size_t k) {
+        const double along =
+            direction[0] * from[0] + direction[1] * from[1] + direction[2] * from[2];
+        EXPECT_LT(std::fabs(along) + 0x1p-48, double{boxes.half[k][lane]});
+    };
+    std::array<double, 3> third{};
+    std::array<double, 3> rounded{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        const std::size_t m = (i + 2) % 3;
+        third[i] =
+            double{axis[0][j]} * double{axis[1][m]} - double{axis[0][m]} * double{axis[1][j]};
+        rounded[i] = double{axis[0][j] * axis[1][m] - axis[0][m] * axis[1][j]};
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+        expect_within({double{axis[k][0]}, double{axis[k][1]}, double{axis[k][2]}}, k);
+    }
+    expect_within(third, 2);
+    expect_within(rounded, 2);
+}
+
+/// Whether what stands twice is the same.
+template <class Boxes>
+bool agree(const std::vector<Boxes>& all, std::size_t node) {
+    using Rows = std::array<std::array<float, 8>, sizeof(Boxes) / 32>;
+    const auto here = std::bit_cast<Rows>(all[node / 4]);
+    const auto there = std::bit_cast<Rows>(all[node / 4 - 1]);
+    for (std::size_t row = 0; row < here.size(); ++row) {
+        if (here[row][node % 4] != there[row][node % 4 + 4]) return false;
+    }
+    return true;
+}
+
+// Of every node, wherever its boxes stand.
+TEST(BuildTetraTree, BoxesHoldTheClippedTrianglesInExactArithmetic) {
+    for (const TestMesh& mesh : awkward_meshes()) {
+        const TetraTree tree =
+            tree_of(mesh, {.level = 3, .threshold = 3, .bounding = format::TetraBounding::boxes});
+        ASSERT_EQ(tree.boxes.size(), format::tetra_box_count(tree.nodes.size()));
+        ASSERT_EQ(tree.oriented.size(), tree.boxes.size());
+        for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+            for (const ExactPoint& p : parts_in_frame(mesh, tree, tree.nodes[i])) {
+                expect_in_box(p, tree.boxes[i / 4], i % 4);
+                expect_in_oriented(p, tree.oriented[i / 4], i % 4);
+            }
+            if (i < 4) continue;
+            EXPECT_TRUE(agree(tree.boxes, i));
+            EXPECT_TRUE(agree(tree.oriented, i));
+        }
+    }
+}
+
+// As radii are. Oriented ones are thin where the surface is.
+TEST(BuildTetraTree, BoxesAreTight) {
+    const TestMesh mesh = in_floats(moved_by(icosphere(3), 1.1, {0.01, 0.02, 0.03}));
+    const TetraTree tree = tree_of(mesh, {.level = 3, .bounding = format::TetraBounding::boxes});
+    std::size_t thin = 0;
+    for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+        const std::vector<ExactPoint> parts = parts_in_frame(mesh, tree, tree.nodes[i]);
+        const format::BvhNode& boxes = tree.boxes[i / 4];
+        for (std::size_t k = 0; k < 3; ++k) {
+            double lower = INFINITY;
+            double upper = -INFINITY;
+            for (const ExactPoint& p : parts) {
+                lower = std::min(lower, static_cast<double>(p[k].approximation()));
+                upper = std::max(upper, static_cast<double>(p[k].approximation()));
+            }
+            EXPECT_NEAR(boxes.lower[k][i % 4], lower, 0x1p-22);
+            EXPECT_NEAR(boxes.upper[k][i % 4], upper, 0x1p-22);
+        }
+        const auto& half = tree.oriented[i / 4].half;
+        if (is_leaf(tree.nodes[i]) && half[0][i % 4] < half[2][i % 4] / 8) ++thin;
+    }
+    EXPECT_GT(thin, tree.nodes.size() / 2);
+}
+
+// A box is never larger than those of the children together.
+TEST(BuildTetraTree, AnInnerNodesBoxIsThatAroundItsChildren) {
+    for_trees([](const TestMesh& mesh, const TetraTree& other) {
+        const TetraTree tree = tree_of(mesh, {.level = other.tree.level,
+                                              .threshold = other.tree.threshold,
+                                              .bounding = format::TetraBounding::boxes});
+        ASSERT_TRUE(tree.references == other.references);
+        for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+            const TetraNode& node = tree.nodes[i];
+            if (is_leaf(node)) continue;
+            for (std::size_t k = 0; k < 3; ++k) {
+                float lower = 1;
+                float upper = -1;
+                for (std::size_t child = node.first; child < node.first + node.count; ++child) {
+                    lower = std::min(lower, tree.boxes[child / 4].lower[k][child % 4]);
+                    upper = std::max(upper, tree.boxes[child / 4].upper[k][child % 4]);
+                }
+                EXPECT_EQ(tree.boxes[i / 4].lower[k][i % 4], lower);
+                EXPECT_EQ(tree.boxes[i / 4].upper[k][i % 4], upper);
+            }
+        }
+    });
+}
+
 // By hand.
 TEST(BuildTetraTree, TheCentreIsTheMeanOfTheVerticesThatTrianglesUse) {
     TestMesh mesh = {{{0, 0, 0.1}, {1, 0, 0.1}, {0, 1, 0.1}, {1e300, NAN, -7}, {3, 3, 0.1}},
@@ -349,14 +513,17 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 
 bool same_bytes(const TetraTree& a, const TetraTree& b) {
     return std::memcmp(&a.tree, &b.tree, sizeof a.tree) == 0 && same_bytes(a.nodes, b.nodes) &&
-           same_bytes(a.references, b.references) && same_bytes(a.top, b.top);
+           same_bytes(a.references, b.references) && same_bytes(a.top, b.top) &&
+           same_bytes(a.boxes, b.boxes) && same_bytes(a.oriented, b.oriented);
 }
 
 TEST(BuildTetraTree, IsTheSameOnAnyNumberOfThreads) {
     for (const TestMesh& mesh : {icosphere(5), moved_by(grid_sheet(60, 60), 1, {-30, -30, 0}),
                                  random_soup(1, 9000, 0.3), fan(2000)}) {
         for (const TetraTreeOptions& setting :
-             {TetraTreeOptions{}, TetraTreeOptions{.level = 4, .threshold = 100}}) {
+             {TetraTreeOptions{}, TetraTreeOptions{.level = 4, .threshold = 100},
+              TetraTreeOptions{
+                  .level = 4, .threshold = 20, .bounding = format::TetraBounding::boxes}}) {
             const TetraTree alone = tree_of(mesh, setting);
             for (const std::size_t count : {1U, 2U, 3U, 4U, 6U, 8U}) {
                 const Threads threads(count);

@@ -245,6 +245,8 @@ TEST(FindListDamage, FindsNothingInTetraTrees) {
           moved_by(icosphere(1), 0x1p999, {})}) {
         EXPECT_FALSE(check(baked_cones(mesh)));
         EXPECT_FALSE(check(baked_cones(mesh, {.level = 5, .threshold = 20})));
+        EXPECT_FALSE(check(baked_cones(
+            mesh, {.level = 4, .threshold = 10, .bounding = format::TetraBounding::boxes})));
     }
 }
 
@@ -256,6 +258,41 @@ TEST(FindListDamage, SeesAReferenceToTheWrongTriangleInATetraTree) {
         if (is_leaf) lasts.push_back(node.first + node.count - 1);
     }
     sees_wrong_references(file, SectionId::tetra_references, lasts);
+}
+
+// Of every node: a box that lost a side, of which what stands twice says the same.
+TEST(FindListDamage, SeesABoxThatDoesNotHoldItsTriangles) {
+    const AlignedBytes file = baked_cones(
+        icosphere(3), {.level = 2, .threshold = 4, .bounding = format::TetraBounding::boxes});
+    const std::size_t nodes = elements<format::TetraNode>(file, SectionId::tetra_nodes).size();
+    auto boxes = elements<format::BvhNode>(file, SectionId::tetra_boxes);
+    auto oriented = elements<format::OrientedNode>(file, SectionId::tetra_oriented);
+    const auto expect_seen = [&](const AlignedBytes& changed, SectionId id, std::size_t node) {
+        const auto damage = check(changed);
+        ASSERT_TRUE(damage) << node;
+        EXPECT_EQ(damage->kind, DamageKind::bad_box);
+        EXPECT_EQ(damage->section, id);
+    };
+    for (std::size_t i = 0; i < nodes; ++i) {
+        const auto set = [&](auto& all, auto member, auto value) {
+            member(all[i / 4], i % 4) = value;
+            if (i >= 4) member(all[i / 4 - 1], i % 4 + 4) = value;
+        };
+        const auto upper = [&](format::BvhNode& node, std::size_t lane) -> float& {
+            return node.upper[i % 3][lane];
+        };
+        const float before = upper(boxes[i / 4], i % 4);
+        set(boxes, upper, boxes[i / 4].lower[i % 3][i % 4]);
+        expect_seen(with(file, SectionId::tetra_boxes, boxes), SectionId::tetra_boxes, i);
+        set(boxes, upper, before);
+        const auto half = [&](format::OrientedNode& node, std::size_t lane) -> float& {
+            return node.half[i % 3][lane];
+        };
+        const float half_before = half(oriented[i / 4], i % 4);
+        set(oriented, half, 0.0F);
+        expect_seen(with(file, SectionId::tetra_oriented, oriented), SectionId::tetra_oriented, i);
+        set(oriented, half, half_before);
+    }
 }
 
 // The cones of another centre are other cones; that of a fan holds its middle.

@@ -57,12 +57,18 @@ TEST(TetraFigures, ASphereHasOneLayerAndATorusUpToTwo) {
 
 TEST(TetraFigures, OfAModelAreThoseOfItsTree) {
     const TestMesh mesh = icosphere(2);
+    const build::TetraTreeOptions settings = {.threshold = 8,
+                                              .bounding = format::TetraBounding::boxes};
     const AlignedBytes plain = bake_tiny(mesh.positions, mesh.triangles);
-    const OpenModel model = open_tiny(with_tetra_tree(plain, {.threshold = 8}));
+    const OpenModel model = open_tiny(with_tetra_tree(plain, settings));
     const BuilderInput input = builder_input(model.model);
     EXPECT_EQ(tetra_figures(model.model),
-              tetra_figures(build_tetra_tree(input.positions, input.triangles, {.threshold = 8}),
+              tetra_figures(build_tetra_tree(input.positions, input.triangles, settings),
                             input.positions, input.triangles));
+    const auto caps = build_tetra_tree(input.positions, input.triangles, {.threshold = 8});
+    EXPECT_EQ(tetra_figures(model.model).bytes,
+              tetra_figures(caps, input.positions, input.triangles).bytes +
+                  (caps.nodes.size() + 3) / 4 * (192 + 384));
     const OpenModel without = open_tiny(AlignedBytes(plain.span()));
     EXPECT_EQ(tetra_figures(without.model), TetraFigures{.triangles = mesh.triangles.size()});
     EXPECT_EQ(seed_formula_bytes(tetra_figures(without.model)), 0U);

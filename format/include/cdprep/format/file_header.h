@@ -77,8 +77,11 @@ enum class SectionId : std::uint32_t {
     tetra_references = 38,            ///< as octree_references
     tetra_top = 39,     ///< uint32 per cone of level top_level, by key: the node in which the
                         ///< search for a direction in it goes on, plus one; 0 where none is
+    tetra_boxes = 40,   ///< BvhNode: boxes of tetra_nodes, each twice (tetra_tree.h); with
+                        ///< TetraBounding::boxes alone
     octree_boxes = 41,  ///< CellBox per OctreeNode; some files have none
     adaptive_octree_boxes = 42,  ///< CellBox per AdaptiveOctreeNode; some files have none
+    tetra_oriented = 43,         ///< OrientedNode: beside tetra_boxes
 };
 
 /// In repaired_from and source_vertex: made by a repair, from nothing in the file.

@@ -27,6 +27,7 @@ inline constexpr std::uint32_t kMaxTetraLevel = 14;
 enum class TetraBounding : std::uint32_t {
     tetra = 0,  ///< from the centre to the farthest: the paper's tetrahedra, radius_min is 0
     caps = 1,   ///< from the nearest to the farthest: hollow middles prune
+    boxes = 2,  ///< as caps, and boxes: sections tetra_boxes and tetra_oriented
 };
 
 /// Bits of TetraTree::flags.
@@ -76,6 +77,20 @@ struct TetraNode {
     float radius_max;
     std::uint32_t flags;  ///< TetraNodeFlags
 };
+
+/// With TetraBounding::boxes, lane k of element i of tetra_boxes (BvhNode) and of
+/// tetra_oriented (OrientedNode) are boxes of node kTetraBoxStride * i + k: both hold the part
+/// of the triangles below that lies in the closed cone, as those elements hold vertices
+/// (geometry.h). An inner node's aligned box is the one around its children's. So four
+/// children or fewer stand side by side in the element that their first one's number divided
+/// by the stride gives, wherever they begin, and octants in element 0; each box is there
+/// twice. Lanes past the last node are unused ones.
+inline constexpr std::uint32_t kTetraBoxStride = 4;
+
+/// Elements of each section for so many nodes.
+[[nodiscard]] constexpr std::uint64_t tetra_box_count(std::uint64_t nodes) noexcept {
+    return (nodes + kTetraBoxStride - 1) / kTetraBoxStride;
+}
 
 static_assert(sizeof(TetraTree) == 48 && alignof(TetraTree) == 8);
 static_assert(offsetof(TetraTree, level) == 24 && offsetof(TetraTree, flags) == 44);
