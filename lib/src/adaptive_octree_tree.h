@@ -73,7 +73,10 @@ public:
     [[nodiscard]] Double3 split(const Cell& cell) const noexcept {
         return nodes_[cell.node].split;
     }
-    void bound(const Cell& cell, CellBounds& bounds) const noexcept {
+    [[nodiscard]] static StoredBounds stored_bounds(const Cell& /*cell*/) noexcept {
+        return {};
+    }
+    void bound(const Cell& cell, MadeBounds& bounds) const noexcept {
         const bool is_top = cell.node == kAboveRoots;
         if (boxes_ != nullptr && !is_top) {
             return bound_by_boxes(boxes_ + nodes_[cell.node].first, lanes(cell), bounds.boxes);

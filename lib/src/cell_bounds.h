@@ -12,9 +12,20 @@
 namespace cdprep {
 
 /// What bounds eight cells side by side, in frame coordinates, as the kernels read them.
-struct CellBounds {
+struct MadeBounds {
     format::BvhNode boxes;
     format::OrientedNode oriented;  ///< set by trees that say so
+};
+
+/// The same in a file: the second, or both, may be null.
+struct StoredBounds {
+    const format::BvhNode* boxes = nullptr;
+    const format::OrientedNode* oriented = nullptr;
+};
+
+/// The boxes of eight cells side by side, wherever they are.
+struct CellBounds {
+    const format::BvhNode& boxes;
 };
 
 /// The bounds of the children of the cells that a walk came to last.
@@ -24,7 +35,7 @@ struct KeptBounds {
     struct Place {
         std::uint64_t holds;  ///< question and node
         unsigned leaf_lanes;  ///< which of the children are leaves
-        CellBounds bounds;
+        MadeBounds bounds;
     };
     // Lanes that no child has hold what was there before, or zeros: numbers too small for
     // float would slow the kernels down.

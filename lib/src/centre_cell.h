@@ -43,7 +43,10 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> references(const Cell& /*cell*/) const noexcept {
         return references_;
     }
-    static void bound(const Cell& /*cell*/, CellBounds& bounds) noexcept {
+    [[nodiscard]] static StoredBounds stored_bounds(const Cell& /*cell*/) noexcept {
+        return {};
+    }
+    static void bound(const Cell& /*cell*/, MadeBounds& bounds) noexcept {
         for (std::size_t axis = 0; axis < 3; ++axis) bound_root(axis, -1, 1, bounds.boxes);
     }
     [[nodiscard]] unsigned lanes_listing(const Cell& /*cell*/, std::uint32_t triangle,

@@ -73,7 +73,10 @@ public:
                 octree_plane(grid_->origin.y, grid_->step, cell.first[1] + half),
                 octree_plane(grid_->origin.z, grid_->step, cell.first[2] + half)};
     }
-    void bound(const Cell& cell, CellBounds& bounds) const noexcept {
+    [[nodiscard]] static StoredBounds stored_bounds(const Cell& /*cell*/) noexcept {
+        return {};
+    }
+    void bound(const Cell& cell, MadeBounds& bounds) const noexcept {
         if (boxes_ != nullptr && cell.node != kAboveRoots) {
             return bound_by_boxes(boxes_ + nodes_[cell.node].first, lanes(cell), bounds.boxes);
         }

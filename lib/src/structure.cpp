@@ -35,6 +35,8 @@ format::SectionSet more_sections_of(Structure structure) noexcept {
             return {SectionId::octree_boxes};
         case Structure::adaptive_octree:
             return {SectionId::adaptive_octree_boxes};
+        case Structure::tetra_tree:
+            return {SectionId::tetra_boxes, SectionId::tetra_oriented};
         default:
             return {};
     }

@@ -121,6 +121,8 @@ TetraTreeCells::TetraTreeCells(const Model& model, const TetraDetail& detail) no
     : detail_(detail),
       tree_(model.tetra_tree()),
       nodes_(model.tetra_nodes().data()),
+      boxes_(detail.solid ? nullptr : model.tetra_boxes().data()),
+      oriented_(model.tetra_oriented().data()),
       references_(model.tetra_references()),
       centre_{} {
     if (tree_ == nullptr) return;
@@ -129,11 +131,11 @@ TetraTreeCells::TetraTreeCells(const Model& model, const TetraDetail& detail) no
                frame.frame(2, tree_->centre.z)};
     for (const format::TetraNode& node :
          model.tetra_nodes().first(std::min(model.tetra_nodes().size(), std::size_t{8}))) {
-        if (node.key < 16) octants_ |= 1U << (node.key & 7);
+        octants_ += node.key < 16 ? 1 : 0;
     }
 }
 
-void TetraTreeCells::bound(const Cell& cell, CellBounds& bounds) const noexcept {
+void TetraTreeCells::bound(const Cell& cell, MadeBounds& bounds) const noexcept {
     const bool is_top = cell.node == kAboveRoots;
     std::array<Generators, 4> below{};
     if (!is_top) below = split(generators_of(tetra_cone(nodes_[cell.node].key)));
@@ -141,7 +143,7 @@ void TetraTreeCells::bound(const Cell& cell, CellBounds& bounds) const noexcept 
         const auto lane = static_cast<unsigned>(std::countr_zero(rest));
         format::TetraNode node = nodes_[child(cell, lane).node];
         if (detail_.solid) node.radius_min = 0;
-        const Generators v = is_top ? generators_of(tetra_cone(node.key)) : below[lane % 4];
+        const Generators v = is_top ? generators_of(tetra_cone(node.key)) : below[node.key % 4];
         const SixCorners corners = corners_of(v, node);
         bound_aligned(centre_, corners, lane, bounds.boxes);
         bound_oriented(centre_, corners, v, lane, bounds.oriented);

@@ -39,13 +39,14 @@ public:
     [[nodiscard]] static Cell top() noexcept {
         return {kAboveRoots};
     }
+    /// Children stand where tetra_boxes has their boxes.
     [[nodiscard]] unsigned lanes(const Cell& cell) const noexcept {
-        return cell.node == kAboveRoots ? octants_
-                                        : nodes_[cell.node].flags & format::tetra_children;
+        if (cell.node == kAboveRoots) return (1U << octants_) - 1;
+        const format::TetraNode& node = nodes_[cell.node];
+        return ((1U << node.count) - 1) << node.first % format::kTetraBoxStride;
     }
     [[nodiscard]] Cell child(const Cell& cell, unsigned lane) const noexcept {
-        const std::uint32_t first = cell.node == kAboveRoots ? 0 : nodes_[cell.node].first;
-        return {first + lanes_before(lanes(cell), lane)};
+        return {first_box(cell) * format::kTetraBoxStride + lane};
     }
     [[nodiscard]] bool is_leaf(const Cell& cell) const noexcept {
         const format::TetraNode& node = nodes_[cell.node];
@@ -62,7 +63,12 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> references(const Cell& cell) const noexcept {
         return references_.subspan(nodes_[cell.node].first, nodes_[cell.node].count);
     }
-    void bound(const Cell& cell, CellBounds& bounds) const noexcept;
+    [[nodiscard]] StoredBounds stored_bounds(const Cell& cell) const noexcept {
+        if (boxes_ == nullptr) return {};
+        const std::uint32_t at = first_box(cell);
+        return {boxes_ + at, oriented_ == nullptr ? nullptr : oriented_ + at};
+    }
+    void bound(const Cell& cell, MadeBounds& bounds) const noexcept;
     [[nodiscard]] unsigned lanes_listing(const Cell& cell, std::uint32_t triangle,
                                          const Corners& corners) const noexcept;
 
@@ -78,12 +84,19 @@ public:
     }
 
 private:
+    /// Of tetra_boxes: that which begins with, or shortly before, a cell's first child.
+    [[nodiscard]] std::uint32_t first_box(const Cell& cell) const noexcept {
+        return cell.node == kAboveRoots ? 0 : nodes_[cell.node].first / format::kTetraBoxStride;
+    }
+
     TetraDetail detail_;
     const format::TetraTree* tree_;
     const format::TetraNode* nodes_;
+    const format::BvhNode* boxes_;          ///< or null: none, or they do not hold what is wanted
+    const format::OrientedNode* oriented_;  ///< or null
     std::span<const std::uint32_t> references_;
     std::array<double, 3> centre_;  ///< frame coordinates
-    unsigned octants_ = 0;          ///< bit set of those that are there
+    unsigned octants_ = 0;          ///< how many are there
 };
 
 }  // namespace cdprep

@@ -40,7 +40,8 @@ struct AllLanes {
 ///
 /// A tree has Cell, a node and whatever tells where it is; top(), which stands above the
 /// roots; lanes(), which children a cell has, at most eight; child(); is_leaf(); leaf_lanes();
-/// and bound(), what bounds the children. A step bounds some children of one node and some of
+/// stored_bounds(), what bounds the children where a file has that; and bound(), what bounds
+/// them where not. A step bounds some children of one node and some of
 /// another, and one kernel call parts the pairs of them that are apart.
 template <Search kSearch, class TreeA, class TreeB, class Lanes>
 class CellWalk {
@@ -95,16 +96,34 @@ private:
     // A step takes at least one side a level down.
     static constexpr std::size_t kMostSteps = TreeA::kMostLevels + TreeB::kMostLevels + 1;
 
-    static kernels::NodeBoxes boxes_of(const CellBounds& bounds) noexcept {
-        const bool oriented = TreeA::kOriented && TreeB::kOriented;
-        return {bounds.boxes.lower[0].data(),
-                oriented ? bounds.oriented.axis[0][0].data() : nullptr};
+    /// What bounds the children of a cell.
+    struct Opened {
+        const format::BvhNode* boxes;
+        const format::OrientedNode* oriented;  ///< or null
+        unsigned leaf_lanes;
+    };
+
+    static kernels::NodeBoxes boxes_of(const Opened& opened, bool oriented) noexcept {
+        return {opened.boxes->lower[0].data(),
+                oriented ? opened.oriented->axis[0][0].data() : nullptr};
     }
 
-    /// The bounds of a cell's children, from where they are kept or made at `place`.
+    /// From the file, from where they are kept, or made at `place`.
     template <class Tree>
-    static const KeptBounds::Place& bounds_of(const Tree& tree, const typename Tree::Cell& cell,
-                                              KeptBounds* kept, KeptBounds::Place& place) noexcept {
+    static Opened opened(const Tree& tree, const typename Tree::Cell& cell, KeptBounds* kept,
+                         KeptBounds::Place& place) noexcept {
+        if (const StoredBounds stored = tree.stored_bounds(cell); stored.boxes != nullptr) {
+            return {stored.boxes, stored.oriented, tree.leaf_lanes(cell)};
+        }
+        const KeptBounds::Place& made = made_bounds(tree, cell, kept, place);
+        return {&made.bounds.boxes, Tree::kOriented ? &made.bounds.oriented : nullptr,
+                made.leaf_lanes};
+    }
+
+    template <class Tree>
+    static const KeptBounds::Place& made_bounds(const Tree& tree, const typename Tree::Cell& cell,
+                                                KeptBounds* kept,
+                                                KeptBounds::Place& place) noexcept {
         KeptBounds::Place& at =
             kept == nullptr ? place : kept->place[cell.node % KeptBounds::kPlaces];
         const std::uint64_t wanted = kept == nullptr ? 0 : kept->question << 32 | cell.node;
@@ -121,12 +140,13 @@ private:
         step.b = side_b.parent;
         step.pairs = 0;
         if (side_a.lanes == 0 || side_b.lanes == 0) return;  // a damaged file's
-        opened_a_ = &bounds_of(a_, side_a.parent, kept_a_, place_a_);
-        opened_b_ = &bounds_of(b_, side_b.parent, kept_b_, place_b_);
+        opened_a_ = opened(a_, side_a.parent, kept_a_, place_a_);
+        opened_b_ = opened(b_, side_b.parent, kept_b_, place_b_);
         const kernels::BoxChoice choice = {static_cast<std::uint8_t>(side_a.lanes),
                                            static_cast<std::uint8_t>(side_b.lanes), nullptr};
-        const kernels::NodeBoxes in_a = boxes_of(opened_a_->bounds);
-        const kernels::NodeBoxes in_b = boxes_of(opened_b_->bounds);
+        const bool oriented = opened_a_.oriented != nullptr && opened_b_.oriented != nullptr;
+        const kernels::NodeBoxes in_a = boxes_of(opened_a_, oriented);
+        const kernels::NodeBoxes in_b = boxes_of(opened_b_, oriented);
         const kernels::Table& kernel = kernels::active();
         step.pairs =
             kSearch == Search::first
@@ -147,13 +167,15 @@ private:
     bool take_leaves(Step& step, Leaf& leaf) noexcept {
         if (step.pairs == 0) return true;
         kernels::BoxPairs leaves =
-            step.pairs & lane_pairs(opened_a_->leaf_lanes, opened_b_->leaf_lanes);
+            step.pairs & lane_pairs(opened_a_.leaf_lanes, opened_b_.leaf_lanes);
         step.pairs &= ~leaves;
         while (leaves != 0) {
             const unsigned bit = best(leaves);
             leaves &= ~(kernels::BoxPairs{1} << bit);
-            if (!leaf(Pair{step.a, step.b, bit % 8, bit / 8}, opened_a_->bounds, opened_b_->bounds))
+            if (!leaf(Pair{step.a, step.b, bit % 8, bit / 8}, CellBounds{*opened_a_.boxes},
+                      CellBounds{*opened_b_.boxes})) {
                 return false;
+            }
         }
         return true;
     }
@@ -189,8 +211,8 @@ private:
     QueryCounts* counts_ = nullptr;  ///< or null
     KeptBounds* kept_a_ = nullptr;   ///< or null
     KeptBounds* kept_b_ = nullptr;
-    const KeptBounds::Place* opened_a_ = nullptr;  ///< of the last step
-    const KeptBounds::Place* opened_b_ = nullptr;
+    Opened opened_a_{};  ///< of the last step
+    Opened opened_b_{};
     Lanes lanes_;
     KeptBounds::Place place_a_{};  ///< where none are kept
     KeptBounds::Place place_b_{};

@@ -84,8 +84,9 @@ void ask_touching(const Model& model, const Shape& shape, Workspace& workspace,
 
 /// With an octree, one with split points of its own, and a tetra-tree.
 OpenModel with_trees(const AlignedBytes& file) {
-    return open_tiny(with_tetra_tree(
-        with_adaptive_octree(with_octree(file, {.level = 3}), {.level = 3}), {.level = 3}));
+    return open_tiny(
+        with_tetra_tree(with_adaptive_octree(with_octree(file, {.level = 3}), {.level = 3}),
+                        {.level = 3, .bounding = format::TetraBounding::boxes}));
 }
 
 // Through each structure, with room for next to no answers too.

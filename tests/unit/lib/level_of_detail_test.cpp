@@ -15,7 +15,9 @@ namespace cdprep::test {
 namespace {
 
 OpenModel with_cones(const TestMesh& mesh, std::uint32_t level) {
-    return open_tiny(with_tetra_tree(bake_tiny(mesh.positions, mesh.triangles), {.level = level}));
+    // Boxes, which do not hold the inside, must not be used.
+    return open_tiny(with_tetra_tree(bake_tiny(mesh.positions, mesh.triangles),
+                                     {.level = level, .bounding = format::TetraBounding::boxes}));
 }
 
 Placement shifted(const Double3& by) {

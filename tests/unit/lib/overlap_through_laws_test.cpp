@@ -29,7 +29,7 @@ struct Limits {
     std::uint32_t level = 3;
     std::uint32_t threshold = 1;
     format::SplitRule rule = format::SplitRule::median;
-    format::TetraBounding bounding = format::TetraBounding::caps;
+    format::TetraBounding bounding = format::TetraBounding::boxes;
     bool boxes = false;  ///< around what octrees' cells hold
 };
 
@@ -122,10 +122,11 @@ TEST(OverlapThroughLaws, AgreesWithBruteForce) {
         const TestMesh a = mesh(), b = mesh();
         const Limits limits_a = {static_cast<std::uint32_t>(round % 4), 1U + round % 7,
                                  format::SplitRule{static_cast<std::uint32_t>(round / 2 % 2)},
-                                 format::TetraBounding{static_cast<std::uint32_t>(round / 4 % 2)},
+                                 format::TetraBounding{static_cast<std::uint32_t>(round / 4 % 3)},
                                  round % 3 != 0};
-        Limits limits_b = {static_cast<std::uint32_t>(round % 3), 3};
-        limits_b.boxes = round % 5 < 3;
+        const Limits limits_b = {
+            static_cast<std::uint32_t>(round % 3), 3, format::SplitRule::median,
+            format::TetraBounding{static_cast<std::uint32_t>(round % 3)}, round % 5 < 3};
         const OpenModel model_a = open_all(a, limits_a, {.double_precision = round % 3 == 0});
         const OpenModel model_b = open_all(b, limits_b);
         const Pose p = round % 4 == 0 ? Pose() : random_pose(random, coarse ? 3 : 1.5);
@@ -412,11 +413,15 @@ TEST(OverlapThroughLaws, ReadOnlyTheSectionsThatTheyName) {
         Placement::b_moves(Pose::from_quaternion(1, 0.5, 0.25, 0.125, {0.5, 0.25, 0.125}).value());
     const Pairs expected = all_pairs(whole.model, whole.model, placement, workspace);
     ASSERT_FALSE(expected.empty());
-    for (const Structure structure : kStructures) {
+    bool with_more = false;
+    for (const Structure structure : {Structure::octree, Structure::adaptive_octree,
+                                      Structure::tetra_tree, Structure::tetra_tree}) {
         format::SectionSet wanted = {SectionId::bvh_nodes, SectionId::bvh_leaves,
                                      SectionId::source_triangle, SectionId::positions_f32,
                                      SectionId::triangles};
         wanted.insert(sections_of(structure));
+        // The tetra-tree with boxes, and without.
+        if (std::exchange(with_more, !with_more)) wanted.insert(more_sections_of(structure));
         const GuardedPages pages(file.span(), wanted);
         EXPECT_GE(pages.guarded(), 5);
         const auto opened = Model::open(pages.bytes(), wanted);
