@@ -98,8 +98,11 @@ test::OpenModel with_structure(const test::AlignedBytes& bytes, const Setting& s
         setting.boxes ? std::optional(build::Frame{}) : std::nullopt;
     if (setting.structure == "bvh") return test::open_tiny(test::AlignedBytes(bytes.span()));
     if (setting.structure == "tetra") {
-        return test::open_tiny(
-            test::with_tetra_tree(bytes, {.level = setting.level, .threshold = setting.threshold}));
+        return test::open_tiny(test::with_tetra_tree(
+            bytes, {.level = setting.level,
+                    .threshold = setting.threshold,
+                    .bounding = setting.boxes ? format::TetraBounding::boxes
+                                              : format::TetraBounding::caps}));
     }
     if (setting.structure == "octree" || setting.structure == "hashed") {
         return test::open_tiny(test::with_octree(bytes, {.level = setting.level,
