@@ -63,6 +63,8 @@ void add_structures(const Structures& structures, const Add& add) {
     add(SectionId::tetra_nodes, bytes_of(tetra.nodes), true);
     add(SectionId::tetra_references, bytes_of(tetra.references), true);
     add(SectionId::tetra_top, bytes_of(tetra.top), true);
+    add(SectionId::tetra_boxes, bytes_of(tetra.boxes), true);
+    add(SectionId::tetra_oriented, bytes_of(tetra.oriented), true);
 }
 
 }  // namespace

@@ -239,6 +239,7 @@ Structures build_structures(const mesh::Mesh& ordered, const build::Frame& frame
     if (choice.has_tetra_tree()) {
         choice.tetra_tree.parallel_for = threads.parallel_for();
         choice.tetra_tree.frame_exponent = frame.exponent;
+        choice.tetra_tree.frame_origin = frame.origin;
         built.tetra_tree = stages.run("  tetra-tree", [&] {
             return build::build_tetra_tree(ordered.positions, ordered.triangles, choice.tetra_tree);
         });

@@ -133,7 +133,16 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
     if (has_boxes && choice.has_adaptive_octree()) {
         choice.sections.insert(format::SectionId::adaptive_octree_boxes);
     }
-    if (arguments.bounding == "tetra") choice.tetra_tree.bounding = format::TetraBounding::tetra;
+    choice.tetra_tree.bounding = preset.bounding;
+    for (const auto bounding : {format::TetraBounding::tetra, format::TetraBounding::caps,
+                                format::TetraBounding::boxes}) {
+        if (arguments.bounding == report::bounding_name(bounding)) {
+            choice.tetra_tree.bounding = bounding;
+        }
+    }
+    if (choice.has_tetra_tree() && choice.tetra_tree.bounding == format::TetraBounding::boxes) {
+        choice.sections.insert(more_sections_of(Structure::tetra_tree));
+    }
     return choice;
 }
 
@@ -198,9 +207,10 @@ void add_structure_options(CLI::App& command, StructureArguments& arguments) {
         ->check(CLI::IsMember({"boxes", "cells"}));
     command
         .add_option("--bounding", arguments.bounding,
-                    "What bounds a cone's triangles: caps, from the nearest to the farthest "
-                    "(default), or tetra, from the centre, as in the paper")
-        ->check(CLI::IsMember({"caps", "tetra"}));
+                    "What bounds a cone's triangles: boxes around them, which are fastest; caps, "
+                    "from the nearest to the farthest; or tetra, from the centre, as in the paper; "
+                    "else the preset's: boxes of tuned, caps of paper")
+        ->check(CLI::IsMember({"boxes", "caps", "tetra"}));
 }
 
 }  // namespace cdprep::cli

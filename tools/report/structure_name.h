@@ -48,6 +48,7 @@ inline constexpr std::array<StructureName, 6> kStructureNames = {{
     return has_boxes ? "boxes" : "cells";
 }
 [[nodiscard]] constexpr const char* bounding_name(format::TetraBounding bounding) noexcept {
+    if (bounding == format::TetraBounding::boxes) return "boxes";
     return bounding == format::TetraBounding::tetra ? "tetra" : "caps";
 }
 

@@ -366,6 +366,10 @@ const std::vector<Look>& looks() {
          "box around what each node of the octree holds"},
         {SectionId::adaptive_octree_boxes, cell_box_type, 0, "frame coordinates",
          "box around what each node of the adaptive octree holds"},
+        {SectionId::tetra_boxes, node_type, 0, "frame coordinates",
+         "element i: boxes of tetra_nodes 4i to 4i + 7"},
+        {SectionId::tetra_oriented, oriented_type, 0, "frame coordinates",
+         "the same, along the surface's own axes"},
     };
     return all;
 }
