@@ -29,11 +29,13 @@ SECTIONS = {
                                "octree_modulus_table", "octree_mixed_table"},
     "octree-adaptive": {"adaptive_octree", "adaptive_octree_nodes", "adaptive_octree_references",
                         "adaptive_octree_boxes"},
-    "tetra-tree": {"tetra_tree", "tetra_nodes", "tetra_references", "tetra_top"},
+    "tetra-tree": {"tetra_tree", "tetra_nodes", "tetra_references", "tetra_top", "tetra_boxes",
+                   "tetra_oriented"},
 }
 ALL = set().union(*SECTIONS.values())
-# Where octrees' cells have boxes, as they do unless others are asked for.
-BOXES = {"octree_boxes", "adaptive_octree_boxes"}
+# Where cells have boxes, as they do unless others are asked for.
+CONE_BOXES = {"tetra_boxes", "tetra_oriented"}
+BOXES = {"octree_boxes", "adaptive_octree_boxes"} | CONE_BOXES
 FIELDS = {
     "octree_grid": ("origin", "step", "level", "threshold", "top_level", "slot_bits"),
     "octree_nodes": ("key", "first", "count"),
@@ -89,7 +91,8 @@ def holds_what_was_asked(program, mesh, folder):
                (["--effects", "all", "--structures", "octree"], OCTREE),
                (["--structures", "tetra-tree,octree,octree"], OCTREE | SECTIONS["tetra-tree"]),
                (["--structures", "all", "--structure-preset", "paper"], ALL - BOXES),
-               (["--structures", "all", "--octree-bounding", "cells"], ALL - BOXES),
+               (["--structures", "all", "--octree-bounding", "cells", "--bounding", "caps"],
+                ALL - BOXES),
                (["--structures", "octree", "--structure-preset", "paper", "--octree-bounding",
                  "boxes"], OCTREE)]
     for options, sections in wanted:
