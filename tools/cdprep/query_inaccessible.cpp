@@ -54,9 +54,8 @@ Exit run(const Arguments& arguments) {
     // A model without triangles has no cones.
     if (model.tetra_tree() != nullptr) {
         const Threads threads(arguments.threads);
-        found = mesh::find_inaccessible(
-            {*model.tetra_tree(), model.tetra_nodes(), model.tetra_references()}, positions,
-            model.triangles(), threads.parallel_for());
+        found = mesh::find_inaccessible(model.tetra_tree()->centre, positions, model.triangles(),
+                                        threads.parallel_for());
     }
     if (!arguments.coloured.empty()) {
         const Result<Done> written =

@@ -78,70 +78,25 @@ bool are_of_one_edge(const HalfSpace& a, const HalfSpace& b) {
     return !a.is_beyond && !b.is_beyond && is_on(b, a.on[0]) && is_on(b, a.on[1]);
 }
 
-/// What bounds a triangle as seen from the centre: a circle of directions, and distances.
-/// Rounded: off by far less than kCapSlack, of one or of themselves.
-struct Cap {
-    Double3 middle;  ///< unit length
-    double cosine;   ///< of the circle's radius; below -1: all directions
-    double sine;
-    double nearest;
-    double farthest;
+/// One of the half-spaces whose common part is a cone.
+struct Border {
+    std::uint32_t plane;   ///< number of the half-space
+    Vector<Interval> ray;  ///< the corner between this border and the next
 };
 
-constexpr double kCapSlack = 0x1p-40;
+/// A convex cone: its borders in the order in which they go round it.
+using Cone = std::vector<Border>;
 
-double length(const Double3& v) {
-    return std::hypot(v.x, v.y, v.z);
+bool has_inside(const std::array<int, 3>& sides) {
+    return sides[0] > 0 || sides[1] > 0 || sides[2] > 0;
 }
 
-/// Scaled to unit length; whatever the scale, no square leaves the range.
-Double3 direction(const Double3& v) {
-    const double size = length(v);
-    return {v.x / size, v.y / size, v.z / size};
+bool has_outside(const std::array<int, 3>& sides) {
+    return sides[0] < 0 || sides[1] < 0 || sides[2] < 0;
 }
 
-/// Of the triangle's plane, which no point of it is nearer than, less what rounding may
-/// do: the edges' ends are off by 2^-52 of how far they are, and a thin triangle's normal
-/// by as much more as it is thin. 0 where that is all there is.
-double least_distance(const Double3& a, const Double3& b, const Double3& c, double farthest) {
-    const Double3 ab = minus(b, a);
-    const Double3 ac = minus(c, a);
-    const Double3 normal = cross(direction(ab), direction(ac));
-    const double error = (0x1p-48 + 0x1p-48 * farthest / std::min(length(ab), length(ac))) /
-                         std::min(1.0, length(normal));
-    const double height = std::fabs(dot(direction(normal), a)) - farthest * error;
-    return height > 0 ? height * (1 - kCapSlack) : 0;  // 0 too for what is no number
-}
-
-Cap cap_of(const Double3& a, const Double3& b, const Double3& c) {
-    const std::array<Double3, 3> corners = {a, b, c};
-    constexpr Cap kEverything = {{0, 0, 0}, -2, 0, 0, std::numeric_limits<double>::infinity()};
-    Double3 sum = {0, 0, 0};
-    for (const Double3& p : corners) {
-        const Double3 d = direction(p);
-        sum = {sum.x + d.x, sum.y + d.y, sum.z + d.z};
-    }
-    Cap cap{direction(sum), 1, 0, 0, 0};
-    for (const Double3& p : corners) {
-        cap.cosine = std::min(cap.cosine, dot(cap.middle, direction(p)));
-        cap.farthest = std::max(cap.farthest, length(p));
-    }
-    // Half a turn and more, or corners at the centre, or too large to tell.
-    if (!(cap.cosine > 0.1) || !std::isfinite(cap.farthest)) return kEverything;
-    cap.sine = std::sqrt(1 - cap.cosine * cap.cosine);
-    cap.nearest = least_distance(a, b, c, cap.farthest);
-    return cap;
-}
-
-/// Whether some point of `s` may lie beyond one of `t` in a direction of both.
-bool may_hide(const Cap& s, const Cap& t) {
-    if (s.farthest * (1 + kCapSlack) < t.nearest) return false;
-    if (s.cosine < -1 || t.cosine < -1) return true;
-    return dot(s.middle, t.middle) >= s.cosine * t.cosine - s.sine * t.sine - kCapSlack;
-}
-
-/// A convex cone: numbers of half-spaces, in the order in which their borders go round it.
-using Cone = std::vector<std::uint32_t>;
+/// What one triangle is to another, as seen from the centre.
+enum class Over { nowhere, perhaps, everywhere };
 
 }  // namespace
 
@@ -150,7 +105,6 @@ struct RadialCover::Data {
     std::span<const Double3> positions;
     std::span<const Triangle> triangles;
     std::vector<std::int8_t> turn;  ///< by triangle: 1 outwards, -1 inwards, 0 edge-on
-    std::vector<Cap> cap;           ///< by triangle
 
     template <class Number>
     [[nodiscard]] Vector<Number> corner(std::uint32_t vertex) const {
@@ -217,25 +171,52 @@ struct RadialCover::Data {
         return {positions[v[0]], positions[v[1]], positions[v[2]]};
     }
 
-    /// Those of `others` that cover directions, by what bounds them perhaps its own.
-    [[nodiscard]] std::vector<std::uint32_t> neighbours(
-        std::uint32_t triangle, std::span<const std::uint32_t> others) const {
-        std::vector<std::uint32_t> result;
-        for (const std::uint32_t other : others) {
-            const bool is_one =
-                other != triangle && turn[other] != 0 && may_hide(cap[other], cap[triangle]);
-            if (is_one) result.push_back(other);
-        }
-        return result;
+    [[nodiscard]] Corners places(const std::array<std::uint32_t, 3>& v) const {
+        return {positions[v[0]], positions[v[1]], positions[v[2]]};
     }
 
-    /// One plane holds both, which then are nowhere farther out than one another.
-    [[nodiscard]] bool are_coplanar(std::uint32_t s, std::uint32_t t) const {
-        const Corners of_t = corners(t);
-        const Corners of_s = corners(s);
-        return std::all_of(of_s.begin(), of_s.end(), [&](const Double3& p) {
-            return orient3d(of_t[0], of_t[1], of_t[2], p) == 0;
-        });
+    /// Of each of three vertices, its side of a plane through the vertices `held`.
+    [[nodiscard]] std::array<int, 3> sides(const ThreePoints& plane,
+                                           const std::array<std::uint32_t, 3>& held,
+                                           const std::array<std::uint32_t, 3>& vertices) const {
+        const ThreePoints points = places(vertices);
+        std::array<int, 3> signs = filtered_plane_signs(plane, points);
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (signs[i] != 2) continue;
+            const bool is_on = std::find(held.begin(), held.end(), vertices[i]) != held.end();
+            signs[i] = is_on ? 0 : orient3d(plane[0], plane[1], plane[2], points[i]);
+        }
+        return signs;
+    }
+
+    /// Of each of three vertices, its side of an edge's plane; 1: inside of what has the edge
+    /// and turns outwards.
+    [[nodiscard]] std::array<int, 3> sides_of_edge(
+        std::uint32_t from, std::uint32_t to, const std::array<std::uint32_t, 3>& vertices) const {
+        return sides({centre, positions[to], positions[from]}, {from, to, to}, vertices);
+    }
+
+    /// Where `s` is farther out than `t` in directions of both, neither edge-on. By signs at
+    /// corners, since both and where `s` is beyond are convex: nowhere where a border has all
+    /// corners of the other outside or on it, so too for two in one plane; everywhere where
+    /// no corner of `t` is outside of any.
+    [[nodiscard]] Over over(std::uint32_t s, std::uint32_t t) const {
+        const auto v = outwards(s);
+        const auto w = outwards(t);
+        // On the centre's side of the plane of `s`: nearer than it.
+        const std::array<int, 3> below = sides(places(v), v, w);
+        if (!has_inside(below)) return Over::nowhere;
+        bool is_everywhere = !has_outside(below);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::array<int, 3> at = sides_of_edge(v[i], v[(i + 1) % 3], w);
+            if (!has_inside(at)) return Over::nowhere;
+            is_everywhere = is_everywhere && !has_outside(at);
+        }
+        if (is_everywhere) return Over::everywhere;
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (!has_inside(sides_of_edge(w[i], w[(i + 1) % 3], v))) return Over::nowhere;
+        }
+        return Over::perhaps;
     }
 };
 
@@ -256,7 +237,8 @@ class Region {
 public:
     Region(const Data& data, std::uint32_t triangle) : data_(data), triangle_(triangle) {
         Cone all;
-        add_edges(triangle, all);
+        for (const std::uint32_t k : add_edges(triangle)) all.push_back({k, {}});
+        for (std::size_t m = 0; m < all.size(); ++m) find_ray(all, m);
         cones_.push_back(std::move(all));
     }
 
@@ -267,10 +249,10 @@ public:
     /// Takes away the directions in which `other`, not edge-on, is farther out.
     void subtract(std::uint32_t other) {
         const std::size_t known = planes_.size();
-        Cone cutters;
-        add_edges(other, cutters);
+        const auto edges = add_edges(other);
         planes_.push_back(data_.beyond(other, triangle_));
-        cutters.push_back(static_cast<std::uint32_t>(planes_.size() - 1));
+        const Cutters cutters = {edges[0], edges[1], edges[2],
+                                 static_cast<std::uint32_t>(planes_.size() - 1)};
         std::vector<Cone> left;
         bool cuts = false;
         for (Cone& cone : cones_) {
@@ -286,77 +268,92 @@ public:
     }
 
 private:
-    void add_edges(std::uint32_t triangle, Cone& cone) {
+    using Cutters = std::array<std::uint32_t, 4>;
+
+    std::array<std::uint32_t, 3> add_edges(std::uint32_t triangle) {
         const auto v = data_.outwards(triangle);
-        for (std::size_t i = 0; i < 3; ++i) {
-            cone.push_back(static_cast<std::uint32_t>(planes_.size()));
-            planes_.push_back(data_.of_edge(v[i], v[(i + 1) % 3]));
-        }
+        const auto first = static_cast<std::uint32_t>(planes_.size());
+        for (std::size_t i = 0; i < 3; ++i) planes_.push_back(data_.of_edge(v[i], v[(i + 1) % 3]));
+        return {first, first + 1, first + 2};
     }
 
-    /// On which side of plane k the corner between planes i and j lies.
-    [[nodiscard]] int side(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
-        const HalfSpace& a = planes_[i];
-        const HalfSpace& b = planes_[j];
+    void find_ray(Cone& cone, std::size_t m) const {
+        const Border& next = cone[(m + 1) % cone.size()];
+        cone[m].ray = cross(planes_[cone[m].plane].normal, planes_[next.plane].normal);
+    }
+
+    /// On which side of plane k the corner of two borders that follow each other lies.
+    [[nodiscard]] int side(const Border& border, const Border& next, std::uint32_t k) const {
+        if (border.plane == k || next.plane == k) return 0;
+        const HalfSpace& a = planes_[border.plane];
+        const HalfSpace& b = planes_[next.plane];
         const HalfSpace& c = planes_[k];
         // What is zero by construction need not be found so by big numbers.
-        if (i == k || j == k || are_of_one_edge(a, c) || are_of_one_edge(b, c)) return 0;
+        if (are_of_one_edge(a, c) || are_of_one_edge(b, c)) return 0;
         for (const std::uint32_t vertex : c.on) {
             if (is_on(a, vertex) && is_on(b, vertex)) return 0;
         }
-        const Interval rounded = dot(cross(a.normal, b.normal), c.normal);
+        const Interval rounded = dot(border.ray, c.normal);
         if (is_decided(rounded)) return sign_of(rounded);
         const Exact exact =
             dot(cross(data_.exact_normal(a), data_.exact_normal(b)), data_.exact_normal(c));
         return exact > 0 ? 1 : exact < 0 ? -1 : 0;
     }
 
-    /// Sides of plane k on which the corners lie; corner m is between borders m and m + 1.
-    [[nodiscard]] std::vector<int> sides(const Cone& cone, std::uint32_t k) const {
-        std::vector<int> result;
+    /// Finds the sides of plane k on which the corners lie; corner m is between borders m
+    /// and m + 1.
+    void find_sides(const Cone& cone, std::uint32_t k) {
+        at_.clear();
         for (std::size_t m = 0; m < cone.size(); ++m) {
-            result.push_back(side(cone[m], cone[(m + 1) % cone.size()], k));
+            at_.push_back(side(cone[m], cone[(m + 1) % cone.size()], k));
         }
-        return result;
+    }
+
+    [[nodiscard]] bool has_corner_at(int wanted) const {
+        return std::find(at_.begin(), at_.end(), wanted) != at_.end();
     }
 
     /// No inside in common with the half-spaces together, as far as one of them tells.
-    [[nodiscard]] bool is_apart(const Cone& cone, const Cone& cutters) const {
+    [[nodiscard]] bool is_apart(const Cone& cone, const Cutters& cutters) {
         return std::any_of(cutters.begin(), cutters.end(), [&](std::uint32_t k) {
-            const std::vector<int> at = sides(cone, k);
-            return std::none_of(at.begin(), at.end(), [](int s) { return s > 0; });
+            find_sides(cone, k);
+            return !has_corner_at(1);
         });
     }
 
-    /// The part of the cone on one side of plane k, 1 or -1, where it has corners.
-    [[nodiscard]] static Cone part(const Cone& cone, const std::vector<int>& at, std::uint32_t k,
-                                   int wanted) {
+    /// The part of the cone on one side of plane k, 1 or -1, where it has corners by
+    /// find_sides().
+    [[nodiscard]] Cone part(const Cone& cone, std::uint32_t k, int wanted) const {
         Cone result;
+        result.reserve(cone.size() + 1);
+        std::size_t cut = 0;
         const std::size_t count = cone.size();
         for (std::size_t m = 0; m < count; ++m) {
             // Border m runs from corner m - 1 to corner m.
-            const int from = at[(m + count - 1) % count];
-            const int to = at[m];
+            const int from = at_[(m + count - 1) % count];
+            const int to = at_[m];
             if (from != wanted && to != wanted) continue;
             result.push_back(cone[m]);
-            if (from == wanted && to != wanted) result.push_back(k);
+            if (from != wanted || to == wanted) continue;
+            cut = result.size();
+            result.push_back({k, {}});
         }
+        find_ray(result, cut - 1);
+        find_ray(result, cut);
         return result;
     }
 
     /// Adds to `left` what of the cone lies outside the cutters' common part.
-    void keep_outside(Cone cone, const Cone& cutters, std::vector<Cone>& left) {
+    void keep_outside(Cone cone, const Cutters& cutters, std::vector<Cone>& left) {
         for (const std::uint32_t k : cutters) {
-            const std::vector<int> at = sides(cone, k);
-            const bool inside = std::any_of(at.begin(), at.end(), [](int s) { return s > 0; });
-            const bool outside = std::any_of(at.begin(), at.end(), [](int s) { return s < 0; });
-            if (!inside) {
+            find_sides(cone, k);
+            if (!has_corner_at(1)) {
                 left.push_back(std::move(cone));
                 return;
             }
-            if (!outside) continue;
-            left.push_back(part(cone, at, opposite(k), -1));
-            cone = part(cone, at, k, 1);
+            if (!has_corner_at(-1)) continue;
+            left.push_back(part(cone, opposite(k), -1));
+            cone = part(cone, k, 1);
         }
     }
 
@@ -373,6 +370,7 @@ private:
     std::uint32_t triangle_;
     std::vector<HalfSpace> planes_;
     std::vector<Cone> cones_;
+    std::vector<int> at_;  ///< what find_sides() found
 };
 
 /// Directions for a first look: the middle, then near the corners.
@@ -400,7 +398,6 @@ bool is_bare_at(const Data& data, std::uint32_t triangle, std::span<const std::u
 }
 
 bool is_bare(const Data& data, std::uint32_t triangle, std::span<const std::uint32_t> others) {
-    const Interval::Protector upwards;
     return std::any_of(kLooks.begin(), kLooks.end(), [&](const auto& weights) {
         return is_bare_at(data, triangle, others, weights);
     });
@@ -410,13 +407,11 @@ bool is_bare(const Data& data, std::uint32_t triangle, std::span<const std::uint
 
 RadialCover::RadialCover(const Double3& centre, std::span<const Double3> positions,
                          std::span<const Triangle> triangles)
-    : data_(std::make_unique<Data>(Data{centre, positions, triangles, {}, {}})) {
+    : data_(std::make_unique<Data>(Data{centre, positions, triangles, {}})) {
     data_->turn.reserve(triangles.size());
-    data_->cap.reserve(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const Corners t = data_->corners(i);
         data_->turn.push_back(static_cast<std::int8_t>(orient3d(t[0], t[1], t[2], centre)));
-        data_->cap.push_back(cap_of(minus(t[0], centre), minus(t[1], centre), minus(t[2], centre)));
     }
 }
 
@@ -430,11 +425,16 @@ bool RadialCover::is_edge_on(std::uint32_t triangle) const {
 
 bool RadialCover::is_hidden(std::uint32_t triangle, std::span<const std::uint32_t> others) const {
     if (is_edge_on(triangle)) return false;
-    std::vector<std::uint32_t> hiders = data_->neighbours(triangle, others);
-    if (is_bare(*data_, triangle, hiders)) return false;
     // Before intervals round upwards: orient3d() wants to round to the nearest.
-    std::erase_if(hiders, [&](std::uint32_t s) { return data_->are_coplanar(s, triangle); });
+    std::vector<std::uint32_t> hiders;
+    for (const std::uint32_t other : others) {
+        if (other == triangle || is_edge_on(other)) continue;
+        const Over over = data_->over(other, triangle);
+        if (over == Over::everywhere) return true;
+        if (over == Over::perhaps) hiders.push_back(other);
+    }
     const Interval::Protector upwards;
+    if (is_bare(*data_, triangle, hiders)) return false;
     Region left(*data_, triangle);
     for (const std::uint32_t other : hiders) {
         left.subtract(other);
