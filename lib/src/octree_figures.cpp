@@ -17,7 +17,7 @@ struct Parts {
     std::uint64_t triangle_count;
     std::span<const Node> nodes;
     std::span<const std::uint32_t> references;
-    std::uint64_t other_bytes;  ///< of the tree's section of one element
+    std::uint64_t other_bytes;  ///< of the tree's section of one element, where there is one
     std::uint64_t table_bytes;
     std::uint64_t box_bytes;
 };
@@ -48,7 +48,11 @@ template <class Node>
 OctreeFigures figures_of(const Parts<Node>& parts) noexcept {
     OctreeFigures figures;
     figures.triangles = parts.triangle_count;
+    figures.table_bytes = parts.table_bytes;
+    figures.bytes = parts.other_bytes + parts.nodes.size_bytes() + parts.references.size_bytes() +
+                    parts.table_bytes + parts.box_bytes;
     figures.nodes = parts.nodes.size();
+    // No octree, or one of a model without triangles.
     if (parts.nodes.empty()) return figures;
     figures.references = parts.references.size();
     count_nodes(parts.nodes, figures);
@@ -57,9 +61,6 @@ OctreeFigures figures_of(const Parts<Node>& parts) noexcept {
         parts.references.begin(), parts.references.end(),
         [](std::uint32_t reference) { return (reference & format::kSharedReference) == 0; });
     figures.shared = parts.triangle_count - static_cast<std::uint64_t>(alone);
-    figures.table_bytes = parts.table_bytes;
-    figures.bytes = parts.other_bytes + parts.nodes.size_bytes() + parts.references.size_bytes() +
-                    parts.table_bytes + parts.box_bytes;
     return figures;
 }
 
@@ -73,7 +74,7 @@ std::uint64_t bytes_of(std::span<const Elements>... tables) noexcept {
 OctreeFigures octree_figures(const Model& model) noexcept {
     return figures_of<OctreeNode>(
         {model.triangle_count(), model.octree_nodes(), model.octree_references(),
-         sizeof(format::OctreeGrid),
+         model.octree_grid() == nullptr ? 0 : sizeof(format::OctreeGrid),
          bytes_of(model.octree_leaf_codes(), model.octree_leaf_nodes(), model.octree_top(),
                   model.octree_modulus_table(), model.octree_mixed_table()),
          bytes_of(model.octree_boxes())});
@@ -91,7 +92,8 @@ OctreeFigures octree_figures(const build::Octree& octree, std::uint64_t triangle
 OctreeFigures adaptive_octree_figures(const Model& model) noexcept {
     return figures_of<AdaptiveOctreeNode>(
         {model.triangle_count(), model.adaptive_octree_nodes(), model.adaptive_octree_references(),
-         sizeof(format::AdaptiveOctree), 0, bytes_of(model.adaptive_octree_boxes())});
+         model.adaptive_octree() == nullptr ? 0 : sizeof(format::AdaptiveOctree), 0,
+         bytes_of(model.adaptive_octree_boxes())});
 }
 
 OctreeFigures adaptive_octree_figures(const build::AdaptiveOctree& octree,

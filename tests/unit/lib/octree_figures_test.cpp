@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
 #include <set>
+#include <utility>
 
+#include "cdprep/format/sections.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
@@ -69,6 +72,36 @@ TEST(OctreeFigures, AreZeroWithoutAnOctree) {
     const OctreeFigures none = octree_figures(open_tiny(mesh).model);
     EXPECT_EQ(none, OctreeFigures{.triangles = 12});
     EXPECT_EQ(seed_formula_bytes(none, EmptyChildren::counted), 0U);
+}
+
+std::uint64_t stored_bytes(const AlignedBytes& file,
+                           std::initializer_list<format::SectionId> sections) {
+    std::uint64_t bytes = 0;
+    for (const format::SectionId id : sections) {
+        const auto entry = format::find_section(file.span(), id);
+        if (entry) bytes += entry->count * entry->element_size;
+    }
+    return bytes;
+}
+
+// Its grid and tables are stored all the same.
+TEST(OctreeFigures, OfAModelWithoutTrianglesHaveItsBytes) {
+    using format::SectionId;
+    const AlignedBytes plain = bake_tiny({}, {});
+    for (const bool hashed : {false, true}) {
+        AlignedBytes file = with_octree(plain, {.hashed = hashed});
+        const std::uint64_t tables =
+            stored_bytes(file, {SectionId::octree_leaf_codes, SectionId::octree_leaf_nodes,
+                                SectionId::octree_top, SectionId::octree_modulus_table,
+                                SectionId::octree_mixed_table});
+        const OctreeFigures expected = {.bytes = sizeof(format::OctreeGrid) + tables,
+                                        .table_bytes = tables};
+        EXPECT_EQ(octree_figures(open_tiny(std::move(file)).model), expected) << hashed;
+        EXPECT_EQ(octree_figures(build_octree({}, {}, {.hashed = hashed}), 0), expected) << hashed;
+    }
+    const OctreeFigures expected = {.bytes = sizeof(format::AdaptiveOctree)};
+    EXPECT_EQ(adaptive_octree_figures(open_tiny(with_adaptive_octree(plain)).model), expected);
+    EXPECT_EQ(adaptive_octree_figures(build::build_adaptive_octree({}, {}), 0), expected);
 }
 
 // Two triangles in opposite corners of a square. Their middles along x and along y are 1/16
