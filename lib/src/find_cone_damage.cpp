@@ -6,12 +6,15 @@
 #include <vector>
 
 #include "cell_bounds.h"
+#include "cone_faces.h"
+#include "cone_reach.h"
 #include "list_places.h"
 #include "moved_model.h"
 #include "tetra_cones.h"
 
 // As find_list_damage.cpp: every triangle goes down into each child whose closed cone it
-// touches, stored or not, and must find itself in each leaf.
+// touches, stored or not, and must find itself in each leaf. What of it surely lies there,
+// the radii of the leaf and of all nodes above it must reach.
 
 namespace cdprep {
 namespace {
@@ -29,7 +32,9 @@ public:
           boxes_(model.tetra_boxes()),
           oriented_(model.tetra_oriented()),
           frame_(model),
-          moved_(model, nullptr) {
+          moved_(model, nullptr),
+          scale_(std::ldexp(1.0, model.header().frame_exponent)),
+          reach_(nodes_.size()) {
         while (octants_ < nodes_.size() && nodes_[octants_].key < 16) ++octants_;
     }
 
@@ -57,8 +62,10 @@ public:
         if (at_centre != tree_.centre_count) {
             return wrong_fact(file_, SectionId::tetra_tree, 0, tree_.centre_count, at_centre);
         }
-        if (places == references_.size()) return std::nullopt;
-        return wrong_fact(file_, SectionId::tetra_references, 0, references_.size(), places);
+        if (places != references_.size()) {
+            return wrong_fact(file_, SectionId::tetra_references, 0, references_.size(), places);
+        }
+        return find_narrow_cone();
     }
 
 private:
@@ -78,7 +85,7 @@ private:
     Found send_down(const Corners& t, std::uint32_t triangle, std::uint32_t number) {
         const format::TetraNode& node = nodes_[number];
         if (const Found damage = find_corner_outside(t, number)) return damage;
-        if ((node.flags & format::tetra_inner) == 0) return look_up(triangle, number);
+        if ((node.flags & format::tetra_inner) == 0) return look_up(t, triangle, number);
         const std::uint32_t children = node.flags & format::tetra_children;
         for (std::uint32_t child = 0; child < 4; ++child) {
             const std::uint32_t key = node.key << 2 | child;
@@ -149,13 +156,37 @@ private:
     }
 
     /// In a leaf that it touches.
-    Found look_up(std::uint32_t triangle, std::uint32_t number) {
+    Found look_up(const Corners& t, std::uint32_t triangle, std::uint32_t number) {
         const format::TetraNode& leaf = nodes_[number];
         const auto place = find_reference(references_, leaf.first, leaf.count, triangle);
         if (!place) {
             return wrong_fact(file_, SectionId::tetra_nodes, number, leaf.count, triangle);
         }
         places_.push_back(*place);
+        add_reach(cone_faces(tetra_cone(leaf.key)), seen_triangle(tree_.centre, t, scale_),
+                  reach_[number]);
+        return std::nullopt;
+    }
+
+    /// A node whose radii leave out something of its own or of its children's.
+    Found find_narrow_cone() {
+        constexpr double kThird = 0.57735026918962576;  // 1 / sqrt(3)
+        constexpr double kRounding = 0x1p-50;           // of that and of the product
+        for (std::size_t i = nodes_.size(); i-- > 0;) {
+            const format::TetraNode& node = nodes_[i];
+            if ((node.flags & format::tetra_inner) != 0) {
+                for (std::size_t k = 0; k < node.count; ++k) {
+                    reach_[i].add(reach_[node.first + k]);
+                }
+            }
+            const double nearest = reach_[i].least * kThird * (1 + kRounding);
+            const double farthest = reach_[i].greatest * kThird * (1 - kRounding);
+            if (nearest < node.radius_min || farthest > node.radius_max) {
+                format::Damage damage = wrong_fact(file_, SectionId::tetra_nodes, i, i, 0);
+                damage.kind = format::DamageKind::bad_box;
+                return damage;
+            }
+        }
         return std::nullopt;
     }
 
@@ -168,6 +199,8 @@ private:
     std::span<const format::OrientedNode> oriented_;
     FrameOf frame_;
     MovedModel moved_;
+    double scale_;                  ///< frame units in one of the model
+    std::vector<ConeReach> reach_;  ///< by node
     std::uint32_t octants_ = 0;
     std::vector<std::uint32_t> places_;  ///< references to the triangle that is on its way
 };

@@ -12,8 +12,8 @@ namespace cdprep {
 
 /// find_list_damage() for the tetra-tree: its leaves list exactly the triangles that have a
 /// point in their closed cones, but for those that hold the centre, which come first.
-/// Corners that lie in a cone lie in its boxes, where it has those; where edges cross into
-/// it, and radii, are not proved. Nothing without one.
+/// Radii hold of them what surely lies in the cones (cone_reach.h), and boxes, where it has
+/// those, the corners; where edges cross into a cone, boxes are not proved. Nothing without one.
 [[nodiscard]] std::optional<format::Damage> find_cone_damage(std::span<const std::byte> file,
                                                              const Model& model);
 

@@ -295,6 +295,37 @@ TEST(FindListDamage, SeesABoxThatDoesNotHoldItsTriangles) {
     }
 }
 
+/// Of some nodes of a tetra-tree, each by a bit of the cone's thickness and a few floats.
+void sees_wrong_radii(const AlignedBytes& file) {
+    constexpr float kPart = 0x1p-16F;
+    auto nodes = elements<format::TetraNode>(file, SectionId::tetra_nodes);
+    for (std::size_t i = 0; i < nodes.size(); i += 1 + nodes.size() / 16) {
+        const format::TetraNode whole = nodes[i];
+        const auto is_seen = [&] {
+            const auto damage = check(with(file, SectionId::tetra_nodes, nodes));
+            nodes[i] = whole;
+            return damage && damage->section == SectionId::tetra_nodes &&
+                   damage->kind == DamageKind::bad_box;
+        };
+        const float thickness = whole.radius_max - whole.radius_min;
+        nodes[i].radius_max -= kPart * thickness + whole.radius_max * 0x1p-22F;
+        EXPECT_TRUE(is_seen()) << i;
+        nodes[i].radius_min += kPart * thickness + whole.radius_min * 0x1p-22F;
+        EXPECT_TRUE(is_seen()) << i;
+    }
+}
+
+TEST(FindListDamage, SeesARadiusThatLeavesSomethingOut) {
+    for (const int exponent : {0, -1000, 900}) {
+        const TestMesh mesh = moved_by(icosphere(2), std::ldexp(1.0, exponent), {});
+        sees_wrong_radii(baked_cones(mesh, {.level = 1}));
+        sees_wrong_radii(baked_cones(mesh, {.level = 3}));
+    }
+    const TestMesh large = moved_by(unit_cube(), 2, {-0.7, -0.8, -0.9});
+    sees_wrong_radii(baked_cones(large, {.level = 3}));
+    sees_wrong_radii(baked_cones(torus(2, 0.5, 24, 12), {.level = 2}));
+}
+
 // The cones of another centre are other cones; that of a fan holds its middle.
 TEST(FindListDamage, SeesACentreThatWasMoved) {
     for (const TestMesh& mesh : {icosphere(2), fan(50)}) {
