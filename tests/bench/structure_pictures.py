@@ -22,6 +22,7 @@ import h5py
 import numpy
 
 SIZE = 800  # pixels along an edge of a view
+FINER = 2  # times as many are drawn and then mixed, along each edge
 VIEWS = ((0.6, 0.35), (0.6 + numpy.pi, -0.6))  # turn about y, tilt
 SHOWN_LEVEL = 3  # cells of the octree have one colour
 SHARED = 0x80000000
@@ -70,34 +71,37 @@ def draw(model, colours):
 
 
 def draw_view(model, colours, turn, tilt):
-    """Triangles in these colours, lit from the eye; the nearest point wins a pixel."""
+    """Triangles in these colours, lit from the eye; the nearest point wins a pixel drawn."""
+    size = FINER * SIZE
     corners = model.corners @ view_rotation(turn, tilt).T
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
-    scale = 0.94 * SIZE / max(high[0] - low[0], high[1] - low[1])
-    flat = (corners - (low + high) / 2) * scale + [SIZE / 2, SIZE / 2, 0]
+    scale = 0.94 * size / max(high[0] - low[0], high[1] - low[1])
+    flat = (corners - (low + high) / 2) * scale + [size / 2, size / 2, 0]
     normal = numpy.cross(flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0])
     length = numpy.linalg.norm(normal, axis=1)
     light = 0.35 + 0.65 * numpy.abs(normal[:, 2]) / numpy.where(length > 0, length, 1)
     lit = colours * light[:, None]
-    extent = numpy.ceil((flat.max(axis=1) - flat.min(axis=1))[:, :2].max(axis=1)).astype(int)
-    depth = numpy.full(SIZE * SIZE, -numpy.inf)
+    extent = (flat.max(axis=1) - flat.min(axis=1))[:, :2].max(axis=1)
+    # So close that every pixel of a triangle has a sample of it.
+    steps_of = 2 ** numpy.ceil(numpy.log2(1.5 * numpy.maximum(extent, 1))).astype(int)
+    depth = numpy.full(size * size, -numpy.inf)
     samples = []
-    for steps in sorted({1 << int(e).bit_length() for e in numpy.unique(extent)}):
-        chosen = numpy.flatnonzero((1 << numpy.array([int(e).bit_length() for e in extent])) == steps)
-        for i in range(2 * steps + 1):
-            for j in range(2 * steps + 1 - i):
-                u, v = i / (2 * steps), j / (2 * steps)
+    for steps in numpy.unique(steps_of):
+        chosen = numpy.flatnonzero(steps_of == steps)
+        for i in range(steps + 1):
+            for j in range(steps + 1 - i):
+                u, v = i / steps, j / steps
                 p = (flat[chosen, 0] * (1 - u - v) + flat[chosen, 1] * u + flat[chosen, 2] * v)
-                x = p[:, 0].astype(int).clip(0, SIZE - 1)
-                y = (SIZE - 1 - p[:, 1].astype(int)).clip(0, SIZE - 1)
-                pixel = y * SIZE + x
+                x = p[:, 0].astype(int).clip(0, size - 1)
+                y = (size - 1 - p[:, 1].astype(int)).clip(0, size - 1)
+                pixel = y * size + x
                 numpy.maximum.at(depth, pixel, p[:, 2])
                 samples.append((pixel, p[:, 2], chosen))
-    image = numpy.full((SIZE * SIZE, 3), 255.0)
+    image = numpy.full((size * size, 3), 255.0)
     for pixel, z, chosen in samples:
         front = z >= depth[pixel]
         image[pixel[front]] = lit[chosen[front]]
-    return image.reshape(SIZE, SIZE, 3)
+    return image.reshape(SIZE, FINER, SIZE, FINER, 3).mean(axis=(1, 3))
 
 
 def lists(nodes, references, is_leaf):
