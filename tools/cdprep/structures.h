@@ -19,15 +19,15 @@ namespace cdprep::cli {
 
 /// What the command line says of structures.
 struct StructureArguments {
-    std::string list;  ///< --structures; empty: not given
+    std::string list = {};  ///< --structures; empty: not given
     std::string preset = "tuned";
-    std::optional<std::uint32_t> octree_level;
-    std::optional<std::uint32_t> octree_threshold;
-    std::optional<std::uint32_t> tetra_level;
-    std::optional<std::uint32_t> tetra_threshold;
-    std::string split;            ///< empty: not given
-    std::string octree_bounding;  ///< empty: not given
-    std::string bounding;         ///< empty: not given
+    std::optional<std::uint32_t> octree_level = {};
+    std::optional<std::uint32_t> octree_threshold = {};
+    std::optional<std::uint32_t> tetra_level = {};
+    std::optional<std::uint32_t> tetra_threshold = {};
+    std::string split = {};            ///< empty: not given
+    std::string octree_bounding = {};  ///< empty: not given
+    std::string bounding = {};         ///< empty: not given
 };
 
 /// Adds --structures and the options that say how they are built.
