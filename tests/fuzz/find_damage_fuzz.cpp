@@ -22,6 +22,11 @@
 #include "cdprep/distance.h"
 #include "cdprep/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
+#include "cdprep/includes_through.h"
+#include "cdprep/level_of_detail.h"
+#include "cdprep/octree_figures.h"
+#include "cdprep/overlap_through.h"
+#include "cdprep/tetra_figures.h"
 #include "cdprep/touching_box.h"
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
@@ -80,9 +85,47 @@ void ask_shapes(const Model& model, Workspace& workspace) {
     (void)ray_hits(model, {{0, 0, 5}, {0.1, 0, -1}}, workspace);
 }
 
+/// Lists that pass the check may say what no geometry bears out.
+void ask_structures(const Model& model, Workspace& workspace) {
+    static std::vector<TrianglePair> pairs(256);
+    const Placement turned =
+        Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {0.25, 0, 0}).value());
+    for (const Structure structure :
+         {Structure::octree, Structure::adaptive_octree, Structure::hashed_octree,
+          Structure::hashed_octree_literal, Structure::tetra_tree}) {
+        (void)includes_through(structure, model, {0.5, 0.5, 0.5}, workspace);
+        if (!can_answer_pairs(model)) continue;
+        for (const Placement& placement : {turned, Placement::b_moves(Pose())}) {
+            for (const CellSearch search :
+                 {CellSearch::sorted, CellSearch::modulus, CellSearch::mixed}) {
+                const StructureOptions through = {.structure = structure, .search = search};
+                (void)overlapping_triangles_through(through, model, model, placement, workspace,
+                                                    pairs);
+                (void)any_overlap_through(through, model, model, placement, workspace);
+                const bool is_hashed = structure == Structure::hashed_octree ||
+                                       structure == Structure::hashed_octree_literal;
+                if (!is_hashed) break;
+            }
+        }
+        for (const Descent descent : {Descent::larger, Descent::a_first, Descent::b_first}) {
+            const StructureOptions through = {
+                .structure = structure, .leaf_test = LeafTest::feito_torres, .descent = descent};
+            (void)any_overlap_through(through, model, model, turned, workspace);
+        }
+    }
+    for (const std::uint32_t level : {0U, 3U, format::kMaxTetraLevel}) {
+        (void)collide_at_level(model, model, turned, level, workspace);
+        (void)level_error(model, level);
+    }
+}
+
 void ask(const Model& model) {
     static Workspace workspace;
     if (can_answer_pairs(model)) ask_pair(model, workspace);
+    ask_structures(model, workspace);
+    (void)octree_figures(model);
+    (void)adaptive_octree_figures(model);
+    (void)tetra_figures(model);
     (void)cast_ray(model, {{0.5, 0.25, -3}, {0.125, 0, 1}}, workspace);
     ask_shapes(model, workspace);
     (void)closest_point(model, {0.25, 0.5, 2}, workspace);
