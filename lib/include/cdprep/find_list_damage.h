@@ -16,8 +16,9 @@ namespace cdprep {
 /// octree's root holds every corner, and that its tables find every node. Exact: each triangle
 /// is held against the cells by signs that no rounding changes. A tetra-tree's radii that leave
 /// out more than rounding can account for are damage too, where a cone's planes cut a triangle
-/// more than a millionth of the part that is left. Returns nothing when all is well, also without any of them. O(triangles * levels),
-/// a microsecond or so each; allocates. `model` is this file, opened with all its sections.
+/// more than a millionth of the part that is left. Returns nothing when all is well, also without
+/// any of them. O(triangles * levels), a microsecond or so each; allocates. `model` is this file,
+/// opened with all its sections.
 [[nodiscard]] std::optional<format::Damage> find_list_damage(std::span<const std::byte> file,
                                                              const Model& model);
 
