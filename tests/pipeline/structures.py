@@ -43,6 +43,8 @@ FIELDS = {
     "adaptive_octree_nodes": ("split", "first", "count"),
     "octree_boxes": ("lower", "upper"),
     "adaptive_octree_boxes": ("lower", "upper"),
+    "tetra_boxes": ("lower", "upper"),
+    "tetra_oriented": ("axis", "centre", "half"),
     "tetra_tree": ("centre", "level", "threshold", "top_level", "bounding", "centre_count",
                    "flags"),
     "tetra_nodes": ("key", "first", "count", "radius_min", "radius_max", "flags"),

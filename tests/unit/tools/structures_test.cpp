@@ -54,7 +54,11 @@ TEST(ChooseStructures, ListsNameThem) {
               (Names{"octree", "tetra-tree"}));
     const StructureChoice tetra = choose({.list = "tetra-tree"}).value();
     EXPECT_TRUE(tetra.has_tetra_tree() && !tetra.has_octree() && !tetra.has_adaptive_octree());
-    EXPECT_EQ(tetra.sections, sections_of(Structure::tetra_tree));
+    EXPECT_EQ(choose({.list = "tetra-tree", .bounding = "caps"}).value().sections,
+              sections_of(Structure::tetra_tree));
+    format::SectionSet with_boxes = sections_of(Structure::tetra_tree);
+    with_boxes.insert(more_sections_of(Structure::tetra_tree));
+    EXPECT_EQ(choose({.list = "tetra-tree", .bounding = "boxes"}).value().sections, with_boxes);
 }
 
 // Its tables are of no use without the octree's own sections.
