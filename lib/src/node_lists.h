@@ -89,7 +89,7 @@ private:
         std::uint32_t begin;
         std::uint32_t end;
         std::uint32_t blocks;
-        format::BvhNode around;
+        format::BvhNode around{};  ///< as block_
     };
 
     void fill(Slot& slot, std::span<const std::uint32_t> references) noexcept {
@@ -148,7 +148,9 @@ private:
         }
     }
 
-    std::array<NodeBlock, kBlocks> block_;
+    // Lanes past the last of a block hold an earlier one's, or zeros: numbers too small for float,
+    // as memory may hold, would slow the kernels down.
+    std::array<NodeBlock, kBlocks> block_{};
     std::array<Slot, kSlots> slots_;
     const format::BvhShape* shape_ = nullptr;
     const format::BvhNode* boxes_ = nullptr;  ///< of level 1, or null: the root is of level 0
