@@ -119,7 +119,7 @@ public:
           planes_(question.a, placed),
           placed_(placed),
           cell_placement_(placed.placement),
-          leaf_boxes_(question.a.octree_boxes().data()),
+          boxes_of_a_(question.a.octree_boxes().data()),
           scratch_(question.workspace.storage()),
           contacts_(contacts),
           kernel_(kernels::active()) {
@@ -160,11 +160,12 @@ private:
     /// that meet most of them come first.
     std::size_t push_met(std::span<const KeyedCell> cells, const TreePlace& first_below,
                          std::size_t depth) noexcept;
-    /// By box, how many of the cells' children with triangles it meets.
+    /// By box, how many of the cells' children with triangles it meets, or of the cells where
+    /// these have boxes: those say more than their children's cells.
     [[nodiscard]] MeetingCounts count_met(std::span<const KeyedCell> cells) noexcept;
 
-    /// Which of some of B's boxes may meet what a leaf holds.
-    [[nodiscard]] unsigned meeting_leaf(const OctreePart& leaf, unsigned boxes) const noexcept;
+    /// Which of some of B's boxes may meet what a part that is one node holds.
+    [[nodiscard]] unsigned meeting_node(const OctreePart& part, unsigned boxes) const noexcept;
 
     /// Of one block of cells.
     void count_boxes(unsigned boxes) const noexcept {
@@ -198,7 +199,7 @@ private:
     PairPlanes planes_;
     const PlacedBoxes& placed_;
     kernels::BoxPlacement cell_placement_;
-    const format::CellBox* leaf_boxes_;  ///< by node, or null
+    const format::CellBox* boxes_of_a_;  ///< by node, or null
     Workspace::Storage& scratch_;
     Contacts& contacts_;
     const kernels::Table& kernel_;
@@ -273,10 +274,10 @@ std::size_t KeyedWalk<Contacts>::open(const KeyedCell& cell, KeyedCell* met,
 }
 
 template <class Contacts>
-unsigned KeyedWalk<Contacts>::meeting_leaf(const OctreePart& leaf, unsigned boxes) const noexcept {
-    if (leaf_boxes_ == nullptr) return boxes;
+unsigned KeyedWalk<Contacts>::meeting_node(const OctreePart& part, unsigned boxes) const noexcept {
+    if (boxes_of_a_ == nullptr) return boxes;
     // The slack of B's boxes here is more than they have against boxes of A's frame.
-    const format::CellBox& box = leaf_boxes_[parts_.node_of(leaf)];
+    const format::CellBox& box = boxes_of_a_[parts_.node_of(part)];
     std::array<std::uint32_t, format::kBvhWidth> apart{};
     for (std::size_t i = 0; i < 3; ++i) {
         const float lower = box.lower[i] * placed_.placement.scale_a;
@@ -300,8 +301,9 @@ MeetingCounts KeyedWalk<Contacts>::count_met(std::span<const KeyedCell> cells) n
         }
     };
     for (const KeyedCell& cell : cells) {
-        if (parts_.is_single_leaf(cell.part)) {
-            add(meeting_leaf(cell.part, cell.boxes));
+        const bool has_box = boxes_of_a_ != nullptr && parts_.is_node(cell.part);
+        if (has_box || parts_.is_single_leaf(cell.part)) {
+            add(meeting_node(cell.part, cell.boxes));
             continue;
         }
         const CellBlock block = {cell.first, cell.level + 1};
@@ -374,7 +376,7 @@ void KeyedWalk<Contacts>::gather(std::span<const KeyedCell> cells) noexcept {
             depth = open(cell, pending.data(), depth);
             continue;
         }
-        const unsigned boxes = meeting_leaf(cell.part, cell.boxes);
+        const unsigned boxes = meeting_node(cell.part, cell.boxes);
         if (boxes != 0) add_listed(parts_.references(cell.part), boxes);
     }
 }

@@ -59,9 +59,14 @@ public:
         const format::OctreeNode& node = index_.nodes[node_of(leaf)];
         return references_.subspan(node.first, node.count);
     }
-    /// The number of the node that is one leaf.
-    [[nodiscard]] std::uint32_t node_of(const OctreePart& leaf) const noexcept {
-        return search_ == CellSearch::sorted ? index_.leaf_nodes[leaf.first] : leaf.first;
+    /// The number of a part that is one node.
+    [[nodiscard]] std::uint32_t node_of(const OctreePart& part) const noexcept {
+        return search_ == CellSearch::sorted ? index_.leaf_nodes[part.first] : part.first;
+    }
+
+    /// Whether a part that is not empty is one node.
+    [[nodiscard]] bool is_node(const OctreePart& part) const noexcept {
+        return search_ != CellSearch::sorted || part.last - part.first == 1;
     }
 
     /// Which children of what is no leaf may have parts: a bit each.
