@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -71,6 +72,18 @@ public:
         if (height < -0x1p-40 * most) return -1;
         if (height > 0x1p-40 * most) return 1;
         return exact_.side(p);
+    }
+
+    /// About how far behind the plane a point is; no more than that where the plane's
+    /// terms cancel much.
+    [[nodiscard]] double depth(const Double3& p) const {
+        const double x = p.x - exact_.at.x, y = p.y - exact_.at.y, z = p.z - exact_.at.z;
+        const double height = normal_.x * x + normal_.y * y + normal_.z * z;
+        const double most =
+            size_.x * std::fabs(x) + size_.y * std::fabs(y) + size_.z * std::fabs(z);
+        const double length = std::hypot(normal_.x, normal_.y, normal_.z);
+        const double least = (-height - 0x1p-40 * most) / (length * (1 + 0x1p-40));
+        return least > 0 ? least : 0;  // 0 where something left the range
     }
 
 private:
@@ -208,14 +221,40 @@ private:
     }
 
     [[nodiscard]] std::string containment_flaw() const {
+        const std::vector<std::uint32_t> doubtful = outside_inner_ball();
         for (std::size_t g = 0; g + 1 < hull_.groups.size(); ++g) {
             const HullFacet& facet = hull_.facets[hull_.groups[g]];
             const FilteredPlane filtered(corner(facet, 0), corner(facet, 1), corner(facet, 2));
-            for (std::size_t i = 0; i < input_.size(); ++i) {
+            for (const std::uint32_t i : doubtful) {
                 if (filtered.side(input_[i]) > 0) return at("outside:", i);
             }
         }
         return hull_.dimension == 2 ? polygon_flaw() : std::string();
+    }
+
+    /// The input points that are not in a ball around the corners' mean which no plane
+    /// cuts; 2^-30 of the radius is more than all roundings.
+    [[nodiscard]] std::vector<std::uint32_t> outside_inner_ball() const {
+        Double3 centre = {};
+        for (const Double3& p : hull_.points) {
+            centre.x += p.x / static_cast<double>(hull_.points.size());
+            centre.y += p.y / static_cast<double>(hull_.points.size());
+            centre.z += p.z / static_cast<double>(hull_.points.size());
+        }
+        double radius = std::numeric_limits<double>::infinity();
+        for (std::size_t g = 0; g + 1 < hull_.groups.size(); ++g) {
+            const HullFacet& facet = hull_.facets[hull_.groups[g]];
+            radius = std::min(
+                radius,
+                FilteredPlane(corner(facet, 0), corner(facet, 1), corner(facet, 2)).depth(centre));
+        }
+        std::vector<std::uint32_t> outside;
+        for (std::uint32_t i = 0; i < input_.size(); ++i) {
+            const Double3& p = input_[i];
+            const double away = std::hypot(p.x - centre.x, p.y - centre.y, p.z - centre.z);
+            if (!(away < radius * (1 - 0x1p-30))) outside.push_back(i);
+        }
+        return outside;
     }
 
     /// A polygon's input points lie left of every border edge of the first side.
