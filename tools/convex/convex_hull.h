@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cdprep/format/geometry.h"
+#include "cdprep/parallel_for.h"
 
 namespace cdprep::convex {
 
@@ -32,7 +33,9 @@ struct ConvexHull {
 /// into the fan around their lexicographically least point (the back of a polygon: around
 /// the one before it, so that it is a closed surface too), facets of a group are sorted,
 /// and groups stand in order of their first facet. Any number of points, equal,
-/// collinear and coplanar ones too. Coordinates must be finite. Expected O(n log n).
-[[nodiscard]] ConvexHull convex_hull(std::span<const Double3> points);
+/// collinear and coplanar ones too. Coordinates must be finite. Expected O(n log n), and
+/// little more than O(n) where most points are well inside; only finding out which those
+/// are uses the threads of `run`.
+[[nodiscard]] ConvexHull convex_hull(std::span<const Double3> points, ParallelFor run = serial_for);
 
 }  // namespace cdprep::convex
