@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "convex/exact_hull.h"
 
@@ -58,10 +59,6 @@ struct Chunk {
     std::vector<Block> blocks;
     std::vector<std::uint32_t> numbers;
 
-    void reserve(std::size_t count) {
-        blocks.reserve((count + kLanes - 1) / kLanes);
-        numbers.reserve(count);
-    }
     void add(std::uint32_t number, const Float3& x) {
         if (numbers.size() % kLanes == 0) blocks.emplace_back();
         put(numbers.size(), x);
@@ -181,6 +178,8 @@ Chunk kept_of(const Chunk& chunk, std::span<const Plane> planes, float* highest)
         highest[p] = weigh(chunk.blocks, planes[p], kept.data());
     }
     Chunk left;
+    left.blocks.reserve(chunk.blocks.size());
+    left.numbers.reserve(chunk.numbers.size());
     for (std::size_t i = 0; i < chunk.numbers.size(); ++i) {
         if (kept[i / kLanes][i % kLanes] != 0) left.add(chunk.numbers[i], chunk.at(i));
     }
@@ -312,6 +311,7 @@ std::vector<std::uint32_t> first_corners(const Chunks& sample) {
 struct Grown {
     std::vector<std::uint32_t> corners;
     std::vector<Plane> planes;  ///< of the corners' hull
+    std::vector<Plane> before;  ///< of the polytope before it
 };
 
 /// Passes over the chunks as long as they are worth it and facets few.
@@ -327,21 +327,39 @@ void grow(Chunks& chunks, Grown& grown, std::span<const Double3> points, const U
         if (grown.corners.size() == corner_count) return;
         const bool last = corner_count > 50 && dropped * kWorthwhile < before;
         if (last) return;
+        grown.before = std::move(grown.planes);
         grown.planes = planes_of(points, grown.corners, unit);
     }
 }
 
+/// The `number`-th kChunk points of the input.
+Chunk chunk_of(std::span<const Double3> points, std::size_t number, const UnitBox& unit) {
+    const std::size_t first = number * kChunk;
+    const std::size_t count = std::min(kChunk, points.size() - first);
+    Chunk chunk;
+    chunk.numbers.resize(count);
+    std::iota(chunk.numbers.begin(), chunk.numbers.end(), static_cast<std::uint32_t>(first));
+    chunk.blocks.resize((count + kLanes - 1) / kLanes);
+    for (std::size_t b = 0; b < chunk.blocks.size(); ++b) {
+        Block& block = chunk.blocks[b];
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const Double3& p = points[first + std::min(b * kLanes + lane, count - 1)];
+            const Float3 x = unit.floats(p);
+            block.x[lane] = x[0];
+            block.y[lane] = x[1];
+            block.z[lane] = x[2];
+        }
+    }
+    return chunk;
+}
+
+/// Over all points; the few planes of the polytope before spare most the many of the last.
 Chunks first_pass(std::span<const Double3> points, Grown& grown, const UnitBox& unit,
                   ParallelFor run) {
     const auto chunk_at = [&](std::size_t i) {
-        Chunk chunk;
-        chunk.reserve(kChunk);
-        const std::size_t end = std::min((i + 1) * kChunk, points.size());
-        for (std::size_t j = i * kChunk; j < end; ++j) {
-            chunk.add(static_cast<std::uint32_t>(j), unit.floats(points[j]));
-        }
-        chunk.fill_last_block();
-        return chunk;
+        std::vector<float> unused(grown.before.size());
+        const Chunk chunk = chunk_of(points, i, unit);
+        return grown.before.empty() ? chunk : kept_of(chunk, grown.before, unused.data());
     };
     const Pass pass = pass_over((points.size() + kChunk - 1) / kChunk, chunk_at, grown.planes, run);
     add_farthest(pass, grown.planes, grown.corners);
