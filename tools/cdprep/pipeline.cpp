@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <deque>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <utility>
 
@@ -18,6 +16,7 @@
 #include "convex/find_bounds.h"
 #include "convex/mass_properties.h"
 #include "interrupt.h"
+#include "load_mesh.h"
 #include "mesh/degenerate.h"
 #include "mesh/normalize.h"
 #include "mesh/repair.h"
@@ -70,42 +69,6 @@ private:
 
 Error interrupted(const std::filesystem::path& input) {
     return {ErrorCode::interrupted, input.string() + ": stopped; nothing was written."};
-}
-
-/// The sentence for the first number that no mesh may hold.
-Error refused(const std::filesystem::path& input, const mesh::TriangleSoup& soup) {
-    const mesh::BadNumber& bad = soup.bad_numbers.front();
-    std::string message = input.string() + ": ";
-    if (bad.kind == mesh::BadNumber::Kind::not_finite) {
-        message += "vertex " + std::to_string(bad.vertex) +
-                   " has a coordinate that is not finite; every one must be";
-    } else {
-        message += "triangle " + std::to_string(bad.triangle) + " uses vertex " +
-                   std::to_string(bad.found) + ", but the file has " + std::to_string(bad.limit) +
-                   " vertices";
-    }
-    if (soup.bad_number_count > 1) {
-        message += " (" + std::to_string(soup.bad_number_count) + " such places in all)";
-    }
-    return {ErrorCode::unreadable, message + "."};
-}
-
-/// The sentence for the first coordinate beyond what the runtime promises.
-std::optional<Error> find_too_large(const std::filesystem::path& input,
-                                    const mesh::TriangleSoup& soup) {
-    for (const format::Triangle& triangle : soup.triangles) {
-        for (const std::uint32_t vertex : triangle.vertex) {
-            const format::Double3& p = soup.positions[vertex];
-            const double largest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-            if (largest <= format::kMaxCoordinate) continue;
-            std::ostringstream message;
-            message << input.string() << ": vertex " << vertex << " has a coordinate of size "
-                    << largest << "; the largest allowed is 2^1000, about "
-                    << format::kMaxCoordinate << '.';
-            return Error{ErrorCode::unreadable, message.str()};
-        }
-    }
-    return std::nullopt;
 }
 
 std::uint64_t hash_of_file(const std::filesystem::path& path) {
@@ -295,8 +258,7 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     mesh::TriangleSoup soup = std::move(imported).value();
     const Mended mended = stages.run("repair", [&] { return mend(soup, options.repair, threads); });
     if (is_interrupted()) return interrupted(input);
-    if (soup.bad_number_count > 0) return refused(input, soup);
-    if (const auto error = find_too_large(input, soup)) return *error;
+    if (const auto error = find_refusal(input, soup)) return *error;
 
     const mesh::Normalization normalization = stages.run("normalize", [&] {
         return options.normalize ? mesh::normalize(soup) : mesh::Normalization{};
