@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "cdprep/format/geometry.h"
+#include "cdprep/format/hull.h"
+
+namespace cdprep {
+
+using format::Double3;
+
+/// The corners of a convex hull as queries want them. All spans are the caller's (a
+/// mapped file's).
+///
+/// The hull is that of the points: of any dimension, a single point included. Points that
+/// are no corners are allowed where there are no neighbours.
+struct ConvexPoints {
+    std::span<const format::HullBlock> blocks;  ///< ceil(count / 8); see there how it ends
+    std::uint32_t count = 0;                    ///< of points, >= 1; queries say what 0 means
+    Double3 reach{};  ///< at least the largest |x|, |y|, |z| of any point, model units
+    /// count + 1 places in `neighbours`, or empty: then the farthest point is sought among
+    /// all, which is best for fewer than kClimbFrom points.
+    std::span<const std::uint32_t> neighbour_begins;
+    /// Numbers of the points at the other ends of a point's edges: exact hull edges,
+    /// diagonals of coplanar facets included. A point that is higher than all its
+    /// neighbours must be the highest.
+    std::span<const std::uint32_t> neighbours;
+    /// For each direction_cell() a point that is far in its directions, or empty. Any point
+    /// is right; a good one saves steps.
+    std::span<const std::uint32_t> starts;
+
+    [[nodiscard]] Double3 point(std::uint32_t number) const noexcept {
+        const auto& at = blocks[number / format::kHullLanes].at;
+        const std::size_t lane = number % format::kHullLanes;
+        return {at[0][lane], at[1][lane], at[2][lane]};
+    }
+};
+
+/// Points from which on neighbours pay.
+inline constexpr std::uint32_t kClimbFrom = 64;
+
+/// Cells along each edge of the cube around a hull on which directions are sorted.
+inline constexpr std::uint32_t kDirectionCells = 8;
+/// Length of ConvexPoints::starts.
+inline constexpr std::uint32_t kDirectionStarts = 6 * kDirectionCells * kDirectionCells;
+
+/// Returns which cell of the cube's faces a direction points at, below kDirectionStarts:
+/// faces +x, -x, +y, -y, +z, -z, in each rows of the axis after next and columns of the
+/// next axis, rising. Of several largest coordinates the first counts. The direction is
+/// finite; 0, 0, 0 is in some cell.
+[[nodiscard]] inline std::uint32_t direction_cell(const Double3& direction) noexcept {
+    const std::array<double, 3> d = {direction.x, direction.y, direction.z};
+    std::uint32_t axis = std::fabs(d[1]) > std::fabs(d[0]) ? 1 : 0;
+    if (std::fabs(d[2]) > std::fabs(d[axis])) axis = 2;
+    const double most = std::fabs(d[axis]);
+    const auto cell = [&](double x) {
+        constexpr double kHalf = kDirectionCells / 2.0;
+        const double at = most > 0 ? x / most * kHalf + kHalf : kHalf;
+        return std::min(static_cast<std::uint32_t>(at), kDirectionCells - 1);
+    };
+    const std::uint32_t face = 2 * axis + (d[axis] < 0 ? 1 : 0);
+    return (face * kDirectionCells + cell(d[(axis + 2) % 3])) * kDirectionCells +
+           cell(d[(axis + 1) % 3]);
+}
+
+}  // namespace cdprep
