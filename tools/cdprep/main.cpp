@@ -17,6 +17,7 @@ Exit run(int argc, char** argv) {
     add_bake(app, exit);
     add_validate(app, exit);
     add_explain(app, exit);
+    add_hull(app, exit);
     add_info(app, exit);
     add_query(app, exit);
     add_reindex(app, exit);

@@ -17,7 +17,16 @@ using format::Triangle;
 std::string obj_text(const MeshArrays& mesh) {
     std::string text;
     append_positions(text, mesh, "v ");
-    append_triangles(text, mesh, "f ", 1);
+    if (mesh.parts.empty()) append_triangles(text, mesh, "f ", 1);
+    for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
+        text += "g " + mesh.parts[i].name + "\n";
+        const std::uint64_t first = mesh.parts[i].first_triangle;
+        const std::uint64_t end =
+            i + 1 < mesh.parts.size() ? mesh.parts[i + 1].first_triangle : mesh.triangles.size();
+        for (const Triangle& triangle : mesh.triangles.subspan(first, end - first)) {
+            append_triangle(text, triangle, "f ", 1);
+        }
+    }
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "cdprep/format/geometry.h"
@@ -17,11 +18,18 @@ enum class MeshFormat : std::uint8_t { obj, ply, stl, off };
 /// By the extension, in any case of letters; nothing for another one.
 [[nodiscard]] std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path);
 
+/// Triangles from `first_triangle` on, up to the next part, under one name.
+struct NamedPart {
+    std::string name;  ///< without blanks and line ends
+    std::uint64_t first_triangle = 0;
+};
+
 /// Vertices and triangles as they are to stand in the file, in their order.
 struct MeshArrays {
     std::span<const format::Double3> positions;
     std::span<const format::Triangle> triangles;
-    bool single_precision = false;  ///< every coordinate is a float
+    bool single_precision = false;          ///< every coordinate is a float
+    std::span<const NamedPart> parts = {};  ///< rising; groups of an OBJ file, else not stored
 };
 
 /// Writes a mesh so that it is read back the same to the last bit: text in the fewest

@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Asks the program for hulls and proves them with fractions.
+
+Every vertex of the input must be behind or on every facet as it stands in the file; corners
+of exact hulls must be vertices; groups must be named; what cannot be answered must say why
+in one sentence, with the right exit code.
+Usage: hull.py CDPREP
+"""
+import fractions
+import json
+import pathlib
+import random
+import sys
+import tempfile
+
+from shared_models import must, run
+
+F = fractions.Fraction
+
+
+def write_obj(path, vertices, triangles):
+    path.write_text("".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices)
+                    + "".join(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in triangles))
+
+
+def read_obj(path):
+    """Vertices, triangles and, by name, the triangles of groups."""
+    vertices, triangles, groups = [], [], {}
+    group = groups.setdefault("", [])
+    for line in path.read_text().splitlines():
+        words = line.split()
+        if words[0] == "v":
+            vertices.append(tuple(map(float, words[1:])))
+        elif words[0] == "g":
+            group = groups.setdefault(words[1], [])
+        elif words[0] == "f":
+            group.append(tuple(int(word) - 1 for word in words[1:]))
+            triangles.append(group[-1])
+    return vertices, triangles, {name: group for name, group in groups.items() if group}
+
+
+def exact(point):
+    return tuple(map(F, point))
+
+
+def height(a, b, c, p):
+    """Above 0 when p is in front of the plane of a, b, c."""
+    u, v, w = (tuple(x - y for x, y in zip(q, a)) for q in (b, c, p))
+    return (w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2])
+            + w[2] * (u[0] * v[1] - u[1] * v[0]))
+
+
+def must_contain(name, vertices, triangles, points):
+    corners = [exact(v) for v in vertices]
+    for a, b, c in triangles:
+        for p in points:
+            must(height(corners[a], corners[b], corners[c], exact(p)) <= 0,
+                 f"{name}: {p} is in front of a facet")
+
+
+def cloud(seed, count):
+    draw = random.Random(seed)
+    return [tuple(draw.gauss(0, 1) for _ in range(3)) for _ in range(count)]
+
+
+def soup_over(points):
+    """Triangles that use every point."""
+    return [(i, (i + 1) % len(points), (i + 2) % len(points)) for i in range(len(points))]
+
+
+def check_exact_and_enclosing(program, folder):
+    source, output = folder / "cloud.obj", folder / "hull.obj"
+    points = cloud(1, 300)
+    write_obj(source, points, soup_over(points))
+    for most in (None, 4, 8, 20):
+        options = [] if most is None else ["--max-vertices", most]
+        done = run(program, "hull", source, "-o", output, "--format", "json", *options)
+        must(done.returncode == 0, done.stderr)
+        report = json.loads(done.stdout)
+        hull, = report["hulls"]
+        vertices, triangles, groups = read_obj(output)
+        must(list(groups) == ["hull"], f"groups {list(groups)}")
+        must_contain(f"{most} vertices", vertices, triangles, points)
+        must((len(vertices), len(triangles)) == (hull["points"], hull["facets"]),
+             "figures are not the file's")
+        must(len(triangles) == 2 * len(vertices) - 4, "V - E + F is not 2")
+        must(hull["exact"] == (most is None), "exact where it should not be, or not")
+        if most is None:
+            must(set(vertices) <= set(points), "a corner is no vertex")
+            must(hull["distance"] == 0, "distance of the exact hull")
+        else:
+            must(len(vertices) <= most and hull["distance"] > 0, f"{len(vertices)} of {most}")
+
+
+def check_parts(program, folder):
+    """Two boxes: one hull for both, one for each."""
+    corners = [(x, y, z) for x in (0.0, 1.0) for y in (0.0, 1.0) for z in (0.0, 1.0)]
+    points = corners + [(x + 5, y, z) for x, y, z in corners]
+    triangles = [tuple(t) for t in soup_over(corners)]
+    triangles += [tuple(i + 8 for i in t) for t in soup_over(corners)]
+    source, output = folder / "boxes.obj", folder / "parts.obj"
+    write_obj(source, points, triangles)
+    for scope, hulls in (("whole", 1), ("component", 2), ("node", 1)):
+        done = run(program, "hull", source, "-o", output, "--per", scope, "--format", "json")
+        must(done.returncode == 0, done.stderr)
+        report = json.loads(done.stdout)
+        must(len(report["hulls"]) == hulls, f"{scope}: {len(report['hulls'])} hulls")
+        for hull in report["hulls"]:
+            must((hull["dimension"], hull["points"], hull["faces"]) == (3, 8, 6), f"{hull}")
+        groups = read_obj(output)[2]
+        must(sorted(groups) == sorted(hull["name"] for hull in report["hulls"]), f"{groups}")
+
+
+def check_low_dimensions(program, folder):
+    source, output = folder / "flat.obj", folder / "flat_hull.off"
+    for dimension, points in ((0, [(1.0, 2.0, 3.0)] * 3), (1, [(0.0, 0.0, 0.0), (1.0, 1.0, 1.0),
+                                                              (2.0, 2.0, 2.0)]),
+                              (2, [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)])):
+        write_obj(source, points, [(0, 1, 2)])
+        done = run(program, "hull", source, "-o", output, "--format", "json")
+        must(done.returncode == 0, done.stderr)
+        hull, = json.loads(done.stdout)["hulls"]
+        must((hull["dimension"], hull["points"]) == (dimension, dimension + 1), f"{hull}")
+
+
+def check_every_format(program, folder):
+    """Read back by the program itself, the hull of a hull has as many corners."""
+    source = folder / "floats.obj"
+    points = [tuple(round(x, 3) for x in p) for p in cloud(2, 100)]
+    write_obj(source, points, soup_over(points))
+    for extension in ("obj", "ply", "stl", "off"):
+        first, second = folder / f"a.{extension}", folder / f"b.{extension}"
+        run(program, "hull", source, "-o", first)
+        counts = [json.loads(run(program, "hull", path, "-o", second, "--format",
+                                 "json").stdout)["hulls"][0]["points"]
+                  for path in (source, first)]
+        must(counts[0] == counts[1], f"{extension}: {counts}")
+        # STL has no shared vertices, whose numbers decide on the order of facets.
+        must(extension == "stl" or first.read_bytes() == second.read_bytes(),
+             f"{extension}: another hull of a hull")
+
+
+def check_refusals(program, folder):
+    good, bad = folder / "good.obj", folder / "bad.obj"
+    write_obj(good, [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.1, 0.0)], [(0, 1, 2)])
+    write_obj(bad, [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, float("inf"), 0.0)], [(0, 1, 2)])
+    points = cloud(3, 60)
+    doubles = folder / "doubles.obj"
+    write_obj(doubles, points, soup_over(points))
+    for code, arguments in ((3, (bad, "-o", folder / "x.obj")),
+                            (3, (folder / "none.obj", "-o", folder / "x.obj")),
+                            (2, (good, "-o", folder / "x.step")),
+                            (2, (good, "-o", good)),
+                            (2, (doubles, "-o", folder / "x.stl")),
+                            (2, (good, "-o", folder / "x.obj", "--max-vertices", "3")),
+                            (4, (good, "-o", folder / "no_folder" / "x.obj"))):
+        done = run(program, "hull", *arguments)
+        must(done.returncode == code, f"{arguments}: exit {done.returncode}: {done.stderr}")
+        must(done.stderr.strip() and not done.stdout, f"{arguments}: no sentence")
+        must(not (folder / "x.obj").exists(), f"{arguments}: written all the same")
+
+
+def main(program):
+    with tempfile.TemporaryDirectory() as name:
+        for check in (check_exact_and_enclosing, check_parts, check_low_dimensions,
+                      check_every_format, check_refusals):
+            check(program, pathlib.Path(name))
+    print("hulls are as proved")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <system_error>
+
+#include "command.h"
+#include "convex/enclosing_hull.h"
+#include "convex/mesh_hulls.h"
+#include "import/import_file.h"
+#include "import_limits.h"
+#include "interrupt.h"
+#include "load_mesh.h"
+#include "mesh/weld.h"
+#include "parallel.h"
+#include "report/hull_report.h"
+#include "write/mesh_file.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kMostThreads = 4096;
+constexpr std::size_t kLinesShown = 20;  ///< of hulls, in text
+
+const std::map<std::string, convex::HullScope> kScopes = {
+    {"whole", convex::HullScope::whole},
+    {"component", convex::HullScope::component},
+    {"node", convex::HullScope::node},
+};
+
+struct Arguments {
+    fs::path input;
+    fs::path output;
+    std::string scope = "whole";
+    std::uint32_t max_vertices = 0;
+    std::string format = "text";
+    std::size_t threads = 0;
+    ImportLimits import;
+};
+
+/// Fails before anything is read when the output could not be written.
+Result<write::MeshFormat> output_format(const Arguments& arguments) {
+    std::error_code unknown;  // not there: not the same
+    if (fs::equivalent(arguments.input, arguments.output, unknown)) {
+        return Error{ErrorCode::bad_argument,
+                     arguments.output.string() +
+                         ": is the input and would be replaced. Choose another output."};
+    }
+    const auto format = write::mesh_format_of(arguments.output);
+    if (format) return *format;
+    return Error{ErrorCode::bad_argument,
+                 arguments.output.string() +
+                     ": the extension names no format that can be written; it must be .obj, "
+                     ".ply, .stl or .off."};
+}
+
+/// What a hull is called: in an OBJ file a name is one word.
+std::string name_of(const mesh::TriangleSoup& soup, convex::HullScope scope, std::size_t number) {
+    if (scope == convex::HullScope::component) return "component_" + std::to_string(number);
+    if (scope == convex::HullScope::whole || soup.instances.empty()) return "hull";
+    std::string name = soup.instance_names[soup.instances[number].name];
+    for (char& letter : name) {
+        if (static_cast<unsigned char>(letter) <= ' ') letter = '_';
+    }
+    return name.empty() ? "node_" + std::to_string(number) : name;
+}
+
+/// All hulls as one mesh.
+struct HullMesh {
+    std::vector<format::Double3> positions;
+    std::vector<format::Triangle> triangles;
+    std::vector<write::NamedPart> parts;
+    bool single_precision = true;
+
+    void add(const convex::ConvexHull& hull, const std::string& name, bool single) {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        parts.push_back({name, triangles.size()});
+        positions.insert(positions.end(), hull.points.begin(), hull.points.end());
+        for (const auto& [a, b, c] : hull.facets) {
+            triangles.push_back({{first + a, first + b, first + c}});
+        }
+        single_precision = single_precision && single;
+    }
+};
+
+report::HullFigures figures_of(const convex::MeshHull& found, const std::string& name) {
+    const convex::ConvexHull& hull = found.hull;
+    const bool is_exact = hull.dimension < 0 || !hull.numbers.empty();
+    return {
+        name,     hull.dimension, hull.points.size(), hull.facets.size(), hull.groups.size() - 1,
+        is_exact, found.distance};
+}
+
+Result<report::HullReport> find_hulls(const Arguments& arguments) {
+    const Result<write::MeshFormat> format = output_format(arguments);
+    if (!format) return format.error();
+    const Threads threads(arguments.threads);
+    import::ImportOptions limits = arguments.import.options();
+    limits.parallel_for = threads.parallel_for();
+    const Result<mesh::TriangleSoup> imported = import::import_file(arguments.input, limits);
+    if (!imported) return imported.error();
+    const mesh::TriangleSoup& soup = imported.value();
+    if (const auto error = find_refusal(arguments.input, soup)) return *error;
+    const mesh::Mesh mesh = mesh::weld(soup).mesh;
+
+    const convex::HullScope scope = kScopes.at(arguments.scope);
+    const Clock::time_point begin = Clock::now();
+    const auto hulls = convex::find_mesh_hulls(mesh, soup.instances,
+                                               {.scope = scope,
+                                                .max_vertices = arguments.max_vertices,
+                                                .parallel_for = threads.parallel_for()});
+    report::HullReport report;
+    report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (!hulls) {
+        return Error{ErrorCode::bad_argument,
+                     arguments.input.string() +
+                         ": an enclosing hull would have coordinates beyond the range of doubles. "
+                         "Leave out --max-vertices."};
+    }
+    if (is_interrupted()) {
+        return Error{ErrorCode::interrupted,
+                     arguments.input.string() + ": stopped; nothing was written."};
+    }
+    report.input = arguments.input.string();
+    report.output = arguments.output.string();
+    report.scope = arguments.scope;
+    report.triangles = mesh.triangles.size();
+    report.vertices = mesh.positions.size();
+    HullMesh output;
+    for (std::size_t i = 0; i < hulls->size(); ++i) {
+        report.hulls.push_back(figures_of((*hulls)[i], name_of(soup, scope, i)));
+        const report::HullFigures& figures = report.hulls.back();
+        output.add((*hulls)[i].hull, figures.name, soup.single_precision && figures.exact);
+    }
+    const Result<Done> written = write::write_mesh_file(
+        arguments.output, format.value(),
+        {output.positions, output.triangles, output.single_precision, output.parts});
+    if (!written) return written.error();
+    return report;
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<report::HullReport> found = find_hulls(arguments);
+    const bool is_json = arguments.format == "json";
+    if (!found) {
+        report::HullReport report;
+        report.input = arguments.input.string();
+        report.exit = static_cast<int>(exit_for(found.error().code));
+        report.error = found.error().message;
+        if (is_json) std::cout << report::hull_json(report);
+        return fail("hull", found.error());
+    }
+    std::cout << (is_json ? report::hull_json(found.value())
+                          : report::hull_text(found.value(), kLinesShown));
+    return Exit::success;
+}
+
+}  // namespace
+
+void add_hull(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("hull", "Write the convex hull of a mesh");
+    command->footer(
+        "Exact: its points are vertices of the mesh, and no vertex is outside, not by a bit.\n"
+        "With --max-vertices a hull of so many points contains the exact one; how far it is\n"
+        "from that at most is proved and stated. Points, segments and polygons are hulls too.");
+    command->add_option("input", arguments->input, "OBJ, STL, PLY, OFF, glTF, ... file")
+        ->required();
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "An .obj file with a group for each hull, or a .ply, .stl or .off file")
+        ->required();
+    command
+        ->add_option("--max-vertices", arguments->max_vertices,
+                     "Enclose the exact hull in one with at most so many vertices; 4 or more")
+        ->check(CLI::Range(convex::kFewestEnclosingVertices, format::kMaxTriangles));
+    command
+        ->add_option("--per", arguments->scope,
+                     "One hull for the whole mesh, for each component of triangles that share "
+                     "vertices, or for each node of the file")
+        ->check(CLI::IsMember({"whole", "component", "node"}))
+        ->capture_default_str();
+    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
+        ->check(CLI::Range(0, kMostThreads));
+    command->add_option("--format", arguments->format, "text or json")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->capture_default_str();
+    add_import_limits(*command, arguments->import);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli
