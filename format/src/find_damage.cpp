@@ -12,6 +12,7 @@
 #include "cdprep/format/sections.h"
 #include "cdprep/format/verdict.h"
 #include "find_adaptive_octree_damage.h"
+#include "find_hull_damage.h"
 #include "find_octree_damage.h"
 #include "find_tetra_damage.h"
 
@@ -476,6 +477,13 @@ Found find_bad_content(const Content& content) {
         case SectionId::adaptive_octree_boxes:
         case SectionId::tetra_boxes:
         case SectionId::tetra_oriented:
+        case SectionId::hulls:
+        case SectionId::hull_blocks:
+        case SectionId::hull_vertices:
+        case SectionId::hull_facets:
+        case SectionId::hull_groups:
+        case SectionId::hull_neighbours:
+        case SectionId::hull_starts:
             return nothing_more();
     }
     return nothing_more();
@@ -504,6 +512,7 @@ Found find_missing(Bytes file) {
     if (const Found damage = find_missing_octree(file)) return damage;
     if (const Found damage = find_missing_adaptive_octree(file)) return damage;
     if (const Found damage = find_missing_tetra(file)) return damage;
+    if (const Found damage = find_missing_hulls(file)) return damage;
     return std::nullopt;
 }
 
@@ -542,6 +551,7 @@ std::optional<Damage> find_damage(std::span<const std::byte> file, SectionSet wa
     if (const Found damage = find_octree_damage(file, wanted)) return damage;
     if (const Found damage = find_adaptive_octree_damage(file, wanted)) return damage;
     if (const Found damage = find_tetra_damage(file, wanted)) return damage;
+    if (const Found damage = find_hull_damage(file, wanted)) return damage;
     return std::nullopt;
 }
 

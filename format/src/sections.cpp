@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "cdprep/format/geometry.h"
+#include "cdprep/format/hulls.h"
 #include "cdprep/format/octree.h"
 #include "cdprep/format/tetra_tree.h"
 #include "cdprep/format/verdict.h"
@@ -18,7 +19,7 @@ struct Kind {
     const char* name;
 };
 
-constexpr std::array<Kind, 43> kKinds = {{
+constexpr std::array<Kind, 50> kKinds = {{
     {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
     {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
     {SectionId::triangles, sizeof(Triangle), "triangles"},
@@ -62,6 +63,13 @@ constexpr std::array<Kind, 43> kKinds = {{
     {SectionId::octree_boxes, sizeof(CellBox), "octree_boxes"},
     {SectionId::adaptive_octree_boxes, sizeof(CellBox), "adaptive_octree_boxes"},
     {SectionId::tetra_oriented, sizeof(OrientedNode), "tetra_oriented"},
+    {SectionId::hulls, sizeof(Hull), "hulls"},
+    {SectionId::hull_blocks, sizeof(HullBlock), "hull_blocks"},
+    {SectionId::hull_vertices, 4, "hull_vertices"},
+    {SectionId::hull_facets, sizeof(HullFacet), "hull_facets"},
+    {SectionId::hull_groups, sizeof(HullGroup), "hull_groups"},
+    {SectionId::hull_neighbours, 4, "hull_neighbours"},
+    {SectionId::hull_starts, 4, "hull_starts"},
 }};
 
 const Kind* find_kind(SectionId id) noexcept {

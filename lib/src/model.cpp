@@ -62,6 +62,13 @@ struct Model::State {
     std::span<const std::uint32_t> tetra_top;
     std::span<const format::BvhNode> tetra_boxes;
     std::span<const format::OrientedNode> tetra_oriented;
+    std::span<const format::Hull> hulls;
+    std::span<const format::HullBlock> hull_blocks;
+    std::span<const std::uint32_t> hull_vertices;
+    std::span<const format::HullFacet> hull_facets;
+    std::span<const format::HullGroup> hull_groups;
+    std::span<const std::uint32_t> hull_neighbours;
+    std::span<const std::uint32_t> hull_starts;
 
     void find_sections(SectionSet wanted);
 
@@ -125,6 +132,13 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::tetra_top, wanted, tetra_top);
     view(SectionId::tetra_boxes, wanted, tetra_boxes);
     view(SectionId::tetra_oriented, wanted, tetra_oriented);
+    view(SectionId::hulls, wanted, hulls);
+    view(SectionId::hull_blocks, wanted, hull_blocks);
+    view(SectionId::hull_vertices, wanted, hull_vertices);
+    view(SectionId::hull_facets, wanted, hull_facets);
+    view(SectionId::hull_groups, wanted, hull_groups);
+    view(SectionId::hull_neighbours, wanted, hull_neighbours);
+    view(SectionId::hull_starts, wanted, hull_starts);
 }
 
 namespace {
@@ -325,6 +339,27 @@ std::span<const format::BvhNode> Model::tetra_boxes() const noexcept {
 }
 std::span<const format::OrientedNode> Model::tetra_oriented() const noexcept {
     return state_->tetra_oriented;
+}
+std::span<const format::Hull> Model::hulls() const noexcept {
+    return state_->hulls;
+}
+std::span<const format::HullBlock> Model::hull_blocks() const noexcept {
+    return state_->hull_blocks;
+}
+std::span<const std::uint32_t> Model::hull_vertices() const noexcept {
+    return state_->hull_vertices;
+}
+std::span<const format::HullFacet> Model::hull_facets() const noexcept {
+    return state_->hull_facets;
+}
+std::span<const format::HullGroup> Model::hull_groups() const noexcept {
+    return state_->hull_groups;
+}
+std::span<const std::uint32_t> Model::hull_neighbours() const noexcept {
+    return state_->hull_neighbours;
+}
+std::span<const std::uint32_t> Model::hull_starts() const noexcept {
+    return state_->hull_starts;
 }
 
 std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {

@@ -141,6 +141,34 @@ def check_every_format(program, folder):
              f"{extension}: another hull of a hull")
 
 
+def check_baked(program, folder):
+    """What bake stores is what info tells, proved by --deep, and read by h5py."""
+    source, baked = folder / "two.obj", folder / "two.cdp.h5"
+    points = cloud(4, 80) + [(x + 9, y, z) for x, y, z in cloud(5, 40)]
+    write_obj(source, points, soup_over(points[:80])
+              + [tuple(i + 80 for i in t) for t in soup_over(points[80:])])
+    done = run(program, "bake", source, "-o", baked, "--structures", "hull")
+    must(done.returncode == 0, done.stderr)
+    done = run(program, "info", baked, "--deep", "--format", "json")
+    must(done.returncode == 0, done.stderr)
+    hulls = json.loads(done.stdout)["hulls"]
+    must([(hull["around"], hull["number"]) for hull in hulls]
+         == [("whole", 0), ("component", 0), ("component", 1)], f"{hulls}")
+    try:
+        import h5py
+    except ImportError:
+        return
+    with h5py.File(baked, "r") as file:
+        data = file["cdprep"]
+        for told, stored in zip(hulls, data["hulls"][:]):
+            must(told["points"] == stored["point_count"], f"{told}: {stored}")
+            for lane in range(stored["point_count"]):
+                block, place = divmod(8 * stored["first_block"] + lane, 8)
+                vertex = points[data["hull_vertices"][8 * block + place]]
+                must(tuple(data["hull_blocks"][block]["at"][:, place]) == vertex,
+                     f"point {lane} is not its vertex")
+
+
 def check_refusals(program, folder):
     good, bad = folder / "good.obj", folder / "bad.obj"
     write_obj(good, [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.1, 0.0)], [(0, 1, 2)])
@@ -164,7 +192,7 @@ def check_refusals(program, folder):
 def main(program):
     with tempfile.TemporaryDirectory() as name:
         for check in (check_exact_and_enclosing, check_parts, check_low_dimensions,
-                      check_every_format, check_refusals):
+                      check_every_format, check_baked, check_refusals):
             check(program, pathlib.Path(name))
     print("hulls are as proved")
 

@@ -65,6 +65,14 @@ void add_structures(const Structures& structures, const Add& add) {
     add(SectionId::tetra_top, bytes_of(tetra.top), true);
     add(SectionId::tetra_boxes, bytes_of(tetra.boxes), true);
     add(SectionId::tetra_oriented, bytes_of(tetra.oriented), true);
+    const convex::HullSections& hulls = structures.hulls;
+    add(SectionId::hulls, bytes_of(hulls.hulls), true);
+    add(SectionId::hull_blocks, bytes_of(hulls.blocks), true);
+    add(SectionId::hull_vertices, bytes_of(hulls.vertices), true);
+    add(SectionId::hull_facets, bytes_of(hulls.facets), true);
+    add(SectionId::hull_groups, bytes_of(hulls.groups), true);
+    add(SectionId::hull_neighbours, bytes_of(hulls.neighbours), true);
+    add(SectionId::hull_starts, bytes_of(hulls.starts), true);
 }
 
 }  // namespace

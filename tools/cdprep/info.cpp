@@ -10,6 +10,7 @@
 #include "cdprep/model.h"
 #include "command.h"
 #include "damage_sentence.h"
+#include "find_hull_falsehood.h"
 #include "mapped_file.h"
 #include "report/info_report.h"
 
@@ -42,6 +43,7 @@ Exit run(const Arguments& arguments) {
     if (arguments.deep) {
         auto damage = format::find_deep_damage(bytes);
         if (!damage) damage = find_list_damage(bytes, opened.value());
+        if (!damage) damage = find_hull_falsehood(bytes, opened.value());
         if (damage) {
             return fail("info",
                         {ErrorCode::unreadable, damage_sentence(arguments.file.string(), *damage)});

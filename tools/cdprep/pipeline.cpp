@@ -173,10 +173,10 @@ Mended mend(mesh::TriangleSoup& soup, const std::string& preset, const Threads& 
 }
 
 std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash) {
-    return report::provenance_json({CDPREP_VERSION, options.effects.names, options.normalize,
-                                    options.weld_distance, options.repair,
-                                    report::bounds_name(options.bounds),
-                                    settings_of(options.structures), source_hash});
+    return report::provenance_json(
+        {CDPREP_VERSION, options.effects.names, options.normalize, options.weld_distance,
+         options.repair, report::bounds_name(options.bounds), settings_of(options.structures),
+         options.structures.has_hulls(), source_hash});
 }
 
 /// Builds what was chosen over a mesh in tree order, whose numbers the structures then
@@ -301,8 +301,16 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     });
     if (!options.structures.names.empty()) {
         arrays.keep(stages.run("structures", [&] {
-            return build_structures(arrays.mesh(), found.bvh.frame, options.structures, threads,
-                                    stages);
+            Structures built = build_structures(arrays.mesh(), found.bvh.frame, options.structures,
+                                                threads, stages);
+            // Of the mesh in source order, in which components and instances are numbered.
+            if (options.structures.has_hulls()) {
+                built.hulls = stages.run("  hull", [&] {
+                    return convex::make_hull_sections(welded.mesh, soup.instances,
+                                                      threads.parallel_for());
+                });
+            }
+            return built;
         }));
     }
     if (is_interrupted()) return interrupted(input);

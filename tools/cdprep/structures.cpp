@@ -12,6 +12,14 @@
 namespace cdprep::cli {
 namespace {
 
+/// Convex hulls: no tree, but chosen as the trees are.
+constexpr const char* kHull = "hull";
+constexpr format::SectionSet kHullSections = {
+    format::SectionId::hulls,         format::SectionId::hull_blocks,
+    format::SectionId::hull_vertices, format::SectionId::hull_facets,
+    format::SectionId::hull_groups,   format::SectionId::hull_neighbours,
+    format::SectionId::hull_starts};
+
 const report::StructureName* find_baked(const std::string& name) {
     const auto* at = std::find_if(
         report::kStructureNames.begin(), report::kStructureNames.end(),
@@ -24,6 +32,7 @@ std::vector<std::string> baked_names() {
     for (const report::StructureName& known : report::kStructureNames) {
         if (known.is_baked) names.emplace_back(known.name);
     }
+    names.emplace_back(kHull);
     return names;
 }
 
@@ -44,7 +53,7 @@ Result<std::vector<std::string>> parse_list(const std::string& list) {
         for (const std::string& name : baked_names()) names.push_back(name);
     }
     for (const std::string& name : names) {
-        if (find_baked(name) == nullptr) return unknown_structure(name);
+        if (name != kHull && find_baked(name) == nullptr) return unknown_structure(name);
     }
     return names;
 }
@@ -107,7 +116,8 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
         choice.sections.insert(sections_of(Structure::tetra_tree));
     }
     for (const std::string& name : names.value()) {
-        choice.sections.insert(sections_of(find_baked(name)->structure));
+        choice.sections.insert(name == kHull ? kHullSections
+                                             : sections_of(find_baked(name)->structure));
     }
     for (const report::StructureName& known : report::kStructureNames) {
         // The hashed octree brings the octree's own sections.
@@ -115,6 +125,7 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
             choice.names.emplace_back(known.name);
         }
     }
+    if (choice.has_hulls()) choice.names.emplace_back(kHull);
     if (const auto error = find_idle_option(arguments, choice)) return *error;
 
     choice.octree.hashed = choice.sections.contains(format::SectionId::octree_leaf_codes);
@@ -149,6 +160,7 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
 std::vector<report::StructureSettings> settings_of(const StructureChoice& choice) {
     std::vector<report::StructureSettings> settings;
     for (const std::string& name : choice.names) {
+        if (name == kHull) continue;  // nothing about it is chosen
         const Structure structure = find_baked(name)->structure;
         if (structure == Structure::adaptive_octree) {
             settings.push_back(
@@ -173,10 +185,11 @@ std::vector<report::StructureSettings> settings_of(const StructureChoice& choice
 }
 
 void add_structure_options(CLI::App& command, StructureArguments& arguments) {
-    command.add_option("--structures", arguments.list,
-                       "Which other structures to bake for 'query --structure', with commas: "
-                       "octree, octree-adaptive, hashed-octree, tetra-tree; all or none. Default: "
-                       "all with --effects all, else none. No answer depends on them");
+    command.add_option(
+        "--structures", arguments.list,
+        "Which other structures to bake for 'query --structure', with commas: "
+        "octree, octree-adaptive, hashed-octree, tetra-tree, hull; all or none. Default: "
+        "all with --effects all, else none. No answer depends on them");
     command
         .add_option("--structure-preset", arguments.preset,
                     "How finely they divide space: tuned (for speed) or paper (512 cells)")

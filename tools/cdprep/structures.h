@@ -12,6 +12,7 @@
 #include "cdprep/format/section_set.h"
 #include "cdprep/result.h"
 #include "command.h"
+#include "convex/hull_sections.h"
 #include "effects.h"
 #include "report/structure_settings.h"
 
@@ -57,6 +58,9 @@ struct StructureChoice {
     [[nodiscard]] bool has_tetra_tree() const noexcept {
         return sections.contains(format::SectionId::tetra_nodes);
     }
+    [[nodiscard]] bool has_hulls() const noexcept {
+        return sections.contains(format::SectionId::hulls);
+    }
 };
 
 /// Decides what is built: what --structures lists; without it every structure for all
@@ -73,6 +77,7 @@ struct Structures {
     build::Octree octree;
     build::AdaptiveOctree adaptive_octree;
     build::TetraTree tetra_tree;
+    convex::HullSections hulls;
 };
 
 }  // namespace cdprep::cli

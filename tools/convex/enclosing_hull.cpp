@@ -21,9 +21,10 @@
 namespace cdprep::convex {
 namespace {
 
-/// In units of half the largest side: how far planes stay off at first, and at most. The
-/// first is what rounding costs corners of well-shaped intersections.
-constexpr double kFirstSlack = 0x1p-48, kMostSlack = 0x1p12, kSlackGrowth = 8;
+/// In units of half the largest side: how far planes stay off at first, which is what rounding
+/// costs corners of well-shaped intersections.
+constexpr double kFirstSlack = 0x1p-48, kSlackGrowth = 8;
+constexpr int kSlackSteps = 20;
 /// Corners closer than this are not worth a plane.
 constexpr double kClose = 0x1p-40;
 /// Heights above a facet's plane are off by less than this times its edges' lengths.
@@ -296,7 +297,8 @@ double distance_of(const ConvexHull& outer, const Inner& inner) {
 std::optional<EnclosingHull> enclosing_from(const Inner& inner, const ConvexHull& exact,
                                             Normals first, std::uint32_t max_vertices) {
     const std::vector<HalfSpace> planes = chosen_planes(inner, first, max_vertices);
-    for (double slack = kFirstSlack; slack < kMostSlack; slack *= kSlackGrowth) {
+    double slack = kFirstSlack;
+    for (int step = 0; step < kSlackSteps; ++step, slack *= kSlackGrowth) {
         const std::vector<Corner> corners = corners_of(planes, slack);
         if (corners.size() > max_vertices) continue;
         std::optional<ConvexHull> hull = stored_hull(corners, inner.frame());

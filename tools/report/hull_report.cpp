@@ -22,7 +22,7 @@ std::string number(double value, const char* pattern) {
 const char* shape_name(int dimension) {
     constexpr std::array<const char*, 5> kNames = {"nothing", "a point", "a segment", "a polygon",
                                                    "a solid"};
-    return kNames.at(static_cast<std::size_t>(dimension + 1));
+    return kNames.at(static_cast<std::size_t>(dimension) + 1);
 }
 
 std::string hull_line(const HullFigures& hull) {

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cdprep/format/sections.h"
+#include "report/baked_hulls.h"
 #include "report/bounds_name.h"
 #include "report/structure_report.h"
 #include "report/verdict_words.h"
@@ -96,6 +97,10 @@ std::string info_text(const std::string& file, const Model& model,
     if (const std::string others = structures_text(structure_reports(model)); !others.empty()) {
         text += "structures:\n" + others;
     }
+    if (!model.hulls().empty()) {
+        constexpr std::size_t kMostLines = 10;
+        text += "hulls:\n" + baked_hulls_text(model, kMostLines);
+    }
     text += "section                          offset        bytes\n";
     for (const format::SectionEntry& entry : sections) {
         std::array<char, 128> line{};
@@ -132,6 +137,7 @@ std::string info_json(const std::string& file, const Model& model,
     if (const auto others = structure_reports(model); !others.empty()) {
         json["structures"] = structures_json(others);
     }
+    if (!model.hulls().empty()) json["hulls"] = baked_hulls_json(model);
     json["sections"] = nlohmann::ordered_json::array();
     for (const format::SectionEntry& entry : sections) {
         json["sections"].push_back({{"name", format::section_name(entry.id)},

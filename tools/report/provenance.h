@@ -19,6 +19,7 @@ struct Provenance {
     std::string repair;  ///< the preset, or empty
     std::string bounds;  ///< as --bounds spells it
     std::vector<StructureSettings> structures;
+    bool has_hulls = false;
     std::uint64_t source_hash = 0;  ///< format::checksum() of the input file
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cdprep/format/geometry.h"
+#include "cdprep/format/hulls.h"
 #include "cdprep/format/octree.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/format/tetra_tree.h"
@@ -272,6 +273,47 @@ Handle tetra_node_type() {
                      {"flags", offsetof(TetraNode, flags), H5T_STD_U32LE, {}}});
 }
 
+Handle hull_type() {
+    using format::Hull;
+    return compound(sizeof(Hull),
+                    {{"scope", offsetof(Hull, scope), H5T_STD_U32LE, {}},
+                     {"number", offsetof(Hull, number), H5T_STD_U32LE, {}},
+                     {"dimension", offsetof(Hull, dimension), H5T_STD_I32LE, {}},
+                     {"flags", offsetof(Hull, flags), H5T_STD_U32LE, {}},
+                     {"first_block", offsetof(Hull, first_block), H5T_STD_U32LE, {}},
+                     {"point_count", offsetof(Hull, point_count), H5T_STD_U32LE, {}},
+                     {"first_facet", offsetof(Hull, first_facet), H5T_STD_U32LE, {}},
+                     {"facet_count", offsetof(Hull, facet_count), H5T_STD_U32LE, {}},
+                     {"first_group", offsetof(Hull, first_group), H5T_STD_U32LE, {}},
+                     {"group_count", offsetof(Hull, group_count), H5T_STD_U32LE, {}},
+                     {"first_neighbour", offsetof(Hull, first_neighbour), H5T_STD_U32LE, {}},
+                     {"neighbour_count", offsetof(Hull, neighbour_count), H5T_STD_U32LE, {}},
+                     {"first_start", offsetof(Hull, first_start), H5T_STD_U32LE, {}},
+                     {"start_count", offsetof(Hull, start_count), H5T_STD_U32LE, {}},
+                     {"distance", offsetof(Hull, distance), H5T_IEEE_F64LE, {}},
+                     {"reach", offsetof(Hull, reach), H5T_IEEE_F64LE, {3}}});
+}
+
+Handle hull_block_type() {
+    using format::HullBlock;
+    return compound(sizeof(HullBlock),
+                    {{"at", offsetof(HullBlock, at), H5T_IEEE_F64LE, {3, format::kHullLanes}}});
+}
+
+Handle hull_facet_type() {
+    using format::HullFacet;
+    return compound(sizeof(HullFacet), {{"point", offsetof(HullFacet, point), H5T_STD_U32LE, {3}},
+                                        {"across", offsetof(HullFacet, across), H5T_STD_U32LE, {3}},
+                                        {"group", offsetof(HullFacet, group), H5T_STD_U32LE, {}}});
+}
+
+Handle hull_group_type() {
+    using format::HullGroup;
+    return compound(sizeof(HullGroup),
+                    {{"first_facet", offsetof(HullGroup, first_facet), H5T_STD_U32LE, {}},
+                     {"facet_count", offsetof(HullGroup, facet_count), H5T_STD_U32LE, {}}});
+}
+
 Handle scalar(hid_t type) {
     return {H5Tcopy(type), H5Tclose};
 }
@@ -370,6 +412,19 @@ const std::vector<Look>& looks() {
          "element i: boxes of tetra_nodes 4i to 4i + 7"},
         {SectionId::tetra_oriented, oriented_type, 0, "frame coordinates",
          "the same, along the surface's own axes"},
+        {SectionId::hulls, hull_type, 0, "distance, reach: model units",
+         "convex hulls: of the whole, of components, of instances; where their parts begin"},
+        {SectionId::hull_blocks, hull_block_type, 0, "model units",
+         "points of hulls, eight side by side; the last of a hull fills its block"},
+        {SectionId::hull_vertices, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "for each lane of hull_blocks its vertex in the imported file; 2^32 - 1: none"},
+        {SectionId::hull_facets, hull_facet_type, 0, "1",
+         "triangles of hulls; across: the facet beyond each edge; group: its coplanar face"},
+        {SectionId::hull_groups, hull_group_type, 0, "1", "maximal coplanar faces of hulls"},
+        {SectionId::hull_neighbours, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "for each larger hull where each point's neighbours begin and the last end, then those"},
+        {SectionId::hull_starts, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "for each larger hull and 384 directions a point that is far in it"},
     };
     return all;
 }

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "cdprep/format/bvh_shape.h"
+#include "cdprep/format/hulls.h"
 #include "cdprep/format/octree.h"
 #include "cdprep/format/section_set.h"
 #include "cdprep/format/tetra_tree.h"
@@ -128,6 +129,14 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> tetra_top() const noexcept;
     [[nodiscard]] std::span<const format::BvhNode> tetra_boxes() const noexcept;
     [[nodiscard]] std::span<const format::OrientedNode> tetra_oriented() const noexcept;
+    /// Convex hulls (format/hulls.h; model_hulls.h finds their way about).
+    [[nodiscard]] std::span<const format::Hull> hulls() const noexcept;
+    [[nodiscard]] std::span<const format::HullBlock> hull_blocks() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> hull_vertices() const noexcept;
+    [[nodiscard]] std::span<const format::HullFacet> hull_facets() const noexcept;
+    [[nodiscard]] std::span<const format::HullGroup> hull_groups() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> hull_neighbours() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> hull_starts() const noexcept;
 
     /// Name number `index` of instance_names, group_names or material_names;
     /// empty when there is none. O(index).

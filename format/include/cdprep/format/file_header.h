@@ -82,6 +82,15 @@ enum class SectionId : std::uint32_t {
     octree_boxes = 41,  ///< CellBox per OctreeNode; some files have none
     adaptive_octree_boxes = 42,  ///< CellBox per AdaptiveOctreeNode; some files have none
     tetra_oriented = 43,         ///< OrientedNode: beside tetra_boxes
+    hulls = 44,  ///< Hull, sorted by scope, then number; sections 44 to 49 and 60 are in hulls.h
+    hull_blocks = 45,      ///< HullBlock: points of hulls
+    hull_vertices = 46,    ///< uint32 per lane of hull_blocks: the point's number in the imported
+                           ///< file, as in source_vertex, or kNoVertex
+    hull_facets = 47,      ///< HullFacet
+    hull_groups = 48,      ///< HullGroup
+    hull_neighbours = 49,  ///< uint32: of each larger hull where the neighbours of each point
+                           ///< begin, and where the last end; then those
+    hull_starts = 60,  ///< uint32: of each larger hull, per cell of directions, a point far in it
 };
 
 /// In repaired_from and source_vertex: made by a repair, from nothing in the file.

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "cdprep/convex_points.h"
+#include "cdprep/model.h"
+
+namespace cdprep {
+
+/// Returns the number, in Model::hulls(), of the hull around the whole of a model, around a
+/// component or an instance; nothing when none was baked. `number` is 0 for the whole.
+/// O(log n).
+[[nodiscard]] std::optional<std::uint32_t> find_hull(const Model& model, format::HullScope scope,
+                                                     std::uint32_t number = 0) noexcept;
+
+/// Returns the corners of a hull as queries want them, in the file: valid as long as the
+/// model. `hull` is below model.hulls().size(). One of nothing has the count 0.
+///
+///     const auto whole = cdprep::find_hull(model, cdprep::format::HullScope::whole);
+///     if (whole) ask(cdprep::convex_points(model, *whole));
+[[nodiscard]] ConvexPoints convex_points(const Model& model, std::uint32_t hull) noexcept;
+
+}  // namespace cdprep
