@@ -10,7 +10,7 @@
 #include "point_triangle_distance.h"
 #include "shape_frame.h"
 #include "triangle_distance.h"
-#include "wide_integer.h"
+#include "wide_vector.h"
 
 // Two that do not touch are nearest at a corner of one and a corner, edge or face of
 // the other, or at an edge of each. Every such place whose feet lie within is a pair
@@ -23,27 +23,10 @@
 namespace cdprep {
 namespace {
 
-template <std::size_t kLimbs>
-using Vector = std::array<WideInteger<kLimbs>, 3>;
-using Place = Vector<kWideCoordinate>;
+using Place = WidePlace;
 using Length = WideInteger<kWideCoordinate>;
 using Square = WideInteger<2 * kWideCoordinate>;
 using Volume = WideInteger<3 * kWideCoordinate>;
-
-template <std::size_t kLimbs>
-Vector<kLimbs> operator-(const Vector<kLimbs>& a, const Vector<kLimbs>& b) noexcept {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-template <std::size_t kLimbs, std::size_t kOther>
-WideInteger<kLimbs + kOther> dot(const Vector<kLimbs>& a, const Vector<kOther>& b) noexcept {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-template <std::size_t kLimbs, std::size_t kOther>
-Vector<kLimbs + kOther> cross(const Vector<kLimbs>& a, const Vector<kOther>& b) noexcept {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 template <std::size_t kLimbs>
 bool at_most(const WideInteger<kLimbs>& a, const WideInteger<kLimbs>& b) noexcept {
@@ -78,7 +61,7 @@ bool near_segment(const Place& p, const Place& from, const Place& to,
 
 /// p and the inside of the triangle, where p's foot lies in it.
 bool near_face(const Place& p, const Figure& t, const Square& limit) noexcept {
-    const Vector<2 * kWideCoordinate> n =
+    const WideVector<2 * kWideCoordinate> n =
         cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]);
     const auto squared = dot(n, n);
     if (squared.sign() == 0) return false;
@@ -96,7 +79,7 @@ bool near_lines(const Place& p, const Place& p_end, const Place& q, const Place&
     const Place u = p_end - p;
     const Place v = q_end - q;
     const Place w = p - q;
-    const Vector<2 * kWideCoordinate> n = cross(u, v);
+    const WideVector<2 * kWideCoordinate> n = cross(u, v);
     const auto squared = dot(n, n);
     if (squared.sign() == 0) return false;
     const Square uv = dot(u, v), uw = dot(u, w), vw = dot(v, w);
@@ -132,21 +115,11 @@ bool near_any_edges(const Figure& a, const Figure& b, const Square& limit) noexc
     return false;
 }
 
-int lowest_bit_of(std::span<const Double3> points) noexcept {
-    int lowest = lowest_bit(0);
-    for (const Double3& p : points) {
-        lowest = std::min({lowest, lowest_bit(p.x), lowest_bit(p.y), lowest_bit(p.z)});
-    }
-    return lowest;
-}
-
 Figure figure(std::span<const Double3> points, int lowest) noexcept {
     Figure result;
     result.count = points.size();
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const Double3& p = points[i];
-        result.corner[i] = {Length::from_double(p.x, lowest), Length::from_double(p.y, lowest),
-                            Length::from_double(p.z, lowest)};
+        result.corner[i] = wide_place(points[i], lowest);
     }
     return result;
 }
