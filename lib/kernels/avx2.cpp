@@ -197,10 +197,51 @@ inline F8 select(Mask8 where, F8 a, F8 b) noexcept {
     return _mm256_blendv_ps(b.x, a.x, where.x);
 }
 
+/// Eight doubles, in two halves.
+struct D8 {
+    struct Mask {
+        __m256d x, y;
+    };
+    __m256d x, y;
+
+    D8(__m256d lower, __m256d upper) noexcept : x(lower), y(upper) {}
+    explicit D8(double value) noexcept : x(_mm256_set1_pd(value)), y(x) {}
+    static D8 load(const double* p) noexcept {
+        return {_mm256_loadu_pd(p), _mm256_loadu_pd(p + 4)};
+    }
+    void store(double* p) const noexcept {
+        _mm256_storeu_pd(p, x);
+        _mm256_storeu_pd(p + 4, y);
+    }
+};
+inline D8 operator+(const D8& a, const D8& b) noexcept {
+    return {_mm256_add_pd(a.x, b.x), _mm256_add_pd(a.y, b.y)};
+}
+inline D8 operator-(const D8& a, const D8& b) noexcept {
+    return {_mm256_sub_pd(a.x, b.x), _mm256_sub_pd(a.y, b.y)};
+}
+inline D8 operator*(const D8& a, const D8& b) noexcept {
+    return {_mm256_mul_pd(a.x, b.x), _mm256_mul_pd(a.y, b.y)};
+}
+inline D8 max(const D8& a, const D8& b) noexcept {
+    return {_mm256_max_pd(a.x, b.x), _mm256_max_pd(a.y, b.y)};
+}
+inline D8 abs(const D8& a) noexcept {
+    const __m256d sign = _mm256_set1_pd(-0.0);
+    return {_mm256_andnot_pd(sign, a.x), _mm256_andnot_pd(sign, a.y)};
+}
+inline D8::Mask greater(const D8& a, const D8& b) noexcept {
+    return {_mm256_cmp_pd(a.x, b.x, _CMP_GT_OQ), _mm256_cmp_pd(a.y, b.y, _CMP_GT_OQ)};
+}
+inline D8 select(const D8::Mask& where, const D8& a, const D8& b) noexcept {
+    return {_mm256_blendv_pd(b.x, a.x, where.x), _mm256_blendv_pd(b.y, a.y, where.y)};
+}
+
 }  // namespace
 }  // namespace cdprep::kernels
 
 #include "cells_met.h"
+#include "farthest.h"
 #include "swept_spheres.h"
 
 namespace cdprep::kernels {
@@ -215,6 +256,8 @@ const Table kAvx2 = {"avx2",
                      find_own_contacts_of<F8, F8, F8>,
                      place_among_cells_of<F8>,
                      cells_met_of<F8>,
-                     {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>}};
+                     {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>},
+                     farthest_of<D8>,
+                     farthest_moved_of<D8>};
 
 }  // namespace cdprep::kernels

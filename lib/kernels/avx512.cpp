@@ -253,10 +253,49 @@ inline F16 select(F16::Mask where, F16 a, F16 b) noexcept {
     return _mm512_mask_blend_ps(where.x, b.x, a.x);
 }
 
+/// Eight doubles.
+struct D8 {
+    struct Mask {
+        __mmask8 x;
+    };
+    __m512d x;
+
+    D8(__m512d value) noexcept : x(value) {}  // NOLINT(google-explicit-constructor)
+    explicit D8(double value) noexcept : x(_mm512_set1_pd(value)) {}
+    static D8 load(const double* p) noexcept {
+        return _mm512_loadu_pd(p);
+    }
+    void store(double* p) const noexcept {
+        _mm512_storeu_pd(p, x);
+    }
+};
+inline D8 operator+(D8 a, D8 b) noexcept {
+    return _mm512_add_pd(a.x, b.x);
+}
+inline D8 operator-(D8 a, D8 b) noexcept {
+    return _mm512_sub_pd(a.x, b.x);
+}
+inline D8 operator*(D8 a, D8 b) noexcept {
+    return _mm512_mul_pd(a.x, b.x);
+}
+inline D8 max(D8 a, D8 b) noexcept {
+    return _mm512_max_pd(a.x, b.x);
+}
+inline D8 abs(D8 a) noexcept {
+    return _mm512_abs_pd(a.x);
+}
+inline D8::Mask greater(D8 a, D8 b) noexcept {
+    return {_mm512_cmp_pd_mask(a.x, b.x, _CMP_GT_OQ)};
+}
+inline D8 select(D8::Mask where, D8 a, D8 b) noexcept {
+    return _mm512_mask_blend_pd(where.x, b.x, a.x);
+}
+
 }  // namespace
 }  // namespace cdprep::kernels
 
 #include "cells_met.h"
+#include "farthest.h"
 #include "swept_spheres.h"
 
 namespace cdprep::kernels {
@@ -271,6 +310,8 @@ const Table kAvx512 = {"avx512",
                        find_own_contacts_of<F8, F16, F16>,
                        place_among_cells_of<F8>,
                        cells_met_of<F8>,
-                       {kSweptTests<0, F8, F16>, kSweptTests<1, F8, F16>, kSweptTests<2, F8, F16>}};
+                       {kSweptTests<0, F8, F16>, kSweptTests<1, F8, F16>, kSweptTests<2, F8, F16>},
+                       farthest_of<D8>,
+                       farthest_moved_of<D8>};
 
 }  // namespace cdprep::kernels

@@ -226,6 +226,22 @@ struct BoundTests {
                      const BoxChoice& choice, const Reach& reach, BoxPairFloats& gaps) noexcept;
 };
 
+/// What points are held against: moved to rotation * p + translation, as cdprep::moved()
+/// does, they are so far along `direction` from `origin`.
+struct MovedDirection {
+    double rotation[9];
+    double translation[3];
+    double origin[3];
+    double direction[3];
+};
+
+/// The point that is farthest along a direction; of several the lowest number.
+struct FarthestPoint {
+    std::uint32_t number;
+    double value;  ///< how far it is, rounded
+    double bound;  ///< no point is farther: rounding included, underflow not
+};
+
 /// One instruction set's kernels.
 struct Table {
     const char* name;  ///< "scalar", "avx2", "avx512": shown in tests and benchmarks
@@ -288,6 +304,16 @@ struct Table {
 
     /// The tests of nodes that both have swept spheres, by format::SweptKind.
     BoundTests swept[3];
+
+    /// The number of the point that is farthest along a direction, as far as double can
+    /// tell; of several the lowest. `count` blocks, at least one, as format::HullBlock; no
+    /// number is beyond double's range on the way. The same for every table, as is the next.
+    std::uint32_t (*farthest)(const double* blocks, std::size_t count,
+                              const double* direction) noexcept;
+
+    /// The same of points as they are moved, and a proven bound.
+    FarthestPoint (*farthest_moved)(const double* blocks, std::size_t count,
+                                    const MovedDirection& from) noexcept;
 };
 
 extern const Table kScalar;  ///< the reference, for any processor

@@ -210,10 +210,60 @@ inline F8 select(Mask8 where, const F8& a, const F8& b) noexcept {
     return each([&](unsigned i) { return ((where.x >> i) & 1) != 0 ? a.x[i] : b.x[i]; });
 }
 
+/// Eight doubles.
+struct D8 {
+    double x[8];
+
+    D8() noexcept = default;
+    explicit D8(double value) noexcept {
+        for (double& lane : x) lane = value;
+    }
+    static D8 load(const double* p) noexcept {
+        D8 result;
+        for (unsigned i = 0; i < 8; ++i) result.x[i] = p[i];
+        return result;
+    }
+    void store(double* p) const noexcept {
+        for (unsigned i = 0; i < 8; ++i) p[i] = x[i];
+    }
+};
+
+template <class Operation>
+D8 each_double(Operation operation) noexcept {
+    D8 result;
+    for (unsigned i = 0; i < 8; ++i) result.x[i] = operation(i);
+    return result;
+}
+
+inline D8 operator+(const D8& a, const D8& b) noexcept {
+    return each_double([&](unsigned i) { return a.x[i] + b.x[i]; });
+}
+inline D8 operator-(const D8& a, const D8& b) noexcept {
+    return each_double([&](unsigned i) { return a.x[i] - b.x[i]; });
+}
+inline D8 operator*(const D8& a, const D8& b) noexcept {
+    return each_double([&](unsigned i) { return a.x[i] * b.x[i]; });
+}
+inline D8 max(const D8& a, const D8& b) noexcept {
+    return each_double([&](unsigned i) { return a.x[i] > b.x[i] ? a.x[i] : b.x[i]; });
+}
+inline D8 abs(const D8& a) noexcept {
+    return each_double([&](unsigned i) { return a.x[i] < 0 ? -a.x[i] : a.x[i]; });
+}
+inline Mask8 greater(const D8& a, const D8& b) noexcept {
+    unsigned mask = 0;
+    for (unsigned i = 0; i < 8; ++i) mask |= static_cast<unsigned>(a.x[i] > b.x[i]) << i;
+    return {mask};
+}
+inline D8 select(Mask8 where, const D8& a, const D8& b) noexcept {
+    return each_double([&](unsigned i) { return ((where.x >> i) & 1) != 0 ? a.x[i] : b.x[i]; });
+}
+
 }  // namespace
 }  // namespace cdprep::kernels
 
 #include "cells_met.h"
+#include "farthest.h"
 #include "swept_spheres.h"
 
 namespace cdprep::kernels {
@@ -228,6 +278,8 @@ const Table kScalar = {"scalar",
                        find_own_contacts_of<F8, F8, F8>,
                        place_among_cells_of<F8>,
                        cells_met_of<F8>,
-                       {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>}};
+                       {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>},
+                       farthest_of<D8>,
+                       farthest_moved_of<D8>};
 
 }  // namespace cdprep::kernels

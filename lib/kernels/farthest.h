@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// The body that all instruction sets share; see kernels.h. Products and sums are rounded
+// one by one and in one order: the answers are the same for every table, to the last bit.
+#pragma once
+
+#include "kernels.h"
+
+namespace cdprep::kernels {
+namespace {
+
+/// The highest of each lane, and the first block that has it.
+template <class D8>
+struct HighestOfLane {
+    D8 value = D8(-__builtin_inf());
+    D8 block = D8(0.0);
+
+    void take(const D8& other, const D8& number) noexcept {
+        const auto higher = greater(other, value);
+        value = select(higher, other, value);
+        block = select(higher, number, block);
+    }
+    /// Of all lanes; of several the lowest number.
+    [[nodiscard]] FarthestPoint farthest() const noexcept {
+        double values[kLanes];
+        double blocks[kLanes];
+        value.store(values);
+        block.store(blocks);
+        FarthestPoint best = {0, -__builtin_inf(), 0};
+        for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
+            const auto number = static_cast<std::uint32_t>(blocks[lane]) * 8 + lane;
+            if (values[lane] < best.value) continue;
+            if (values[lane] == best.value && number > best.number) continue;
+            best.number = number;
+            best.value = values[lane];
+        }
+        return best;
+    }
+};
+
+template <class D8>
+std::uint32_t farthest_of(const double* blocks, std::size_t count,
+                          const double* direction) noexcept {
+    const D8 dx(direction[0]), dy(direction[1]), dz(direction[2]);
+    HighestOfLane<D8> highest;
+    D8 number(0.0);
+    const D8 one(1.0);
+    for (const double* end = blocks + 24 * count; blocks != end; blocks += 24) {
+        const D8 x = D8::load(blocks), y = D8::load(blocks + 8), z = D8::load(blocks + 16);
+        highest.take((dx * x + dy * y) + dz * z, number);
+        number = number + one;
+    }
+    return highest.farthest().number;
+}
+
+/// Of a value, the sum of three products of a difference and a component: the difference,
+/// the product and two sums are off by u each, of at most the sum of the products' sizes;
+/// and the sum of both here by another u. The sixth covers the roundings of the sizes.
+constexpr double kValueError = 6 * 0x1p-53;
+
+template <class D8>
+FarthestPoint farthest_moved_of(const double* blocks, std::size_t count,
+                                const MovedDirection& from) noexcept {
+    const double* r = from.rotation;
+    const double* t = from.translation;
+    const D8 error(kValueError);
+    HighestOfLane<D8> highest;
+    D8 bound(-__builtin_inf());
+    D8 number(0.0);
+    const D8 one(1.0);
+    for (const double* end = blocks + 24 * count; blocks != end; blocks += 24) {
+        const D8 x = D8::load(blocks), y = D8::load(blocks + 8), z = D8::load(blocks + 16);
+        D8 value(0.0), size(0.0);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const D8 at =
+                ((D8(r[3 * i]) * x + D8(r[3 * i + 1]) * y) + D8(r[3 * i + 2]) * z) + D8(t[i]);
+            const D8 term = (at - D8(from.origin[i])) * D8(from.direction[i]);
+            value = value + term;
+            size = size + abs(term);
+        }
+        highest.take(value, number);
+        bound = max(bound, value + size * error);
+        number = number + one;
+    }
+    FarthestPoint best = highest.farthest();
+    double bounds[kLanes];
+    bound.store(bounds);
+    best.bound = bounds[0];
+    for (std::size_t lane = 1; lane < kLanes; ++lane) {
+        if (bounds[lane] > best.bound) best.bound = bounds[lane];
+    }
+    return best;
+}
+
+}  // namespace
+}  // namespace cdprep::kernels

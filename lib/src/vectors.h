@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "cdprep/format/geometry.h"
+
+namespace cdprep {
+
+using format::Double3;
+
+// Points and directions in double, rounded as written.
+
+inline Double3 operator-(const Double3& a) noexcept {
+    return {-a.x, -a.y, -a.z};
+}
+inline Double3 operator+(const Double3& a, const Double3& b) noexcept {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Double3 operator-(const Double3& a, const Double3& b) noexcept {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Double3 operator*(double s, const Double3& a) noexcept {
+    return {s * a.x, s * a.y, s * a.z};
+}
+inline double dot(const Double3& a, const Double3& b) noexcept {
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+inline Double3 cross(const Double3& a, const Double3& b) noexcept {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double largest_of(const Double3& a) noexcept {
+    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
+}
+/// The sum of the sizes of what dot() adds up.
+inline double dot_size(const Double3& a, const Double3& b) noexcept {
+    return (std::fabs(a.x * b.x) + std::fabs(a.y * b.y)) + std::fabs(a.z * b.z);
+}
+
+}  // namespace cdprep
