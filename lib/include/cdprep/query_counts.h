@@ -32,6 +32,12 @@ struct QueryCounts {
     std::uint64_t measured = 0;        ///< distances of two triangles taken in double
     std::uint64_t measured_again = 0;  ///< again, for the last digits
 
+    // Of convex hulls.
+    std::uint64_t hull_pairs = 0;      ///< pairs asked about
+    std::uint64_t hull_steps = 0;      ///< farthest points sought, one of each hull
+    std::uint64_t hulls_by_exact = 0;  ///< pairs that double could not decide about
+    std::uint64_t exact_steps = 0;     ///< farthest points sought without rounding
+
     /// Triangles held against a ray to learn whether a point is inside a model.
     std::uint64_t ray_triangles = 0;
 };

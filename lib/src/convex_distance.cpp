@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/convex_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact_nearest.h"
+#include "gjk.h"
+
+namespace cdprep {
+namespace {
+
+/// The two hulls of a question.
+struct TwoHulls {
+    MovedHull a;
+    MovedHull b;
+
+    TwoHulls(const ConvexPoints& of_a, const ConvexPoints& of_b, const Placement& placement)
+        : a(of_a, placement.a_is_moved() ? &placement.pose_a() : nullptr),
+          b(of_b, placement.b_is_moved() ? &placement.pose_b() : nullptr) {}
+};
+
+ExactNearest ask_integers(const TwoHulls& hulls, const GjkResult& found, ExactGoal goal,
+                          QueryCounts* counts) {
+    const ExactNearest exact = exact_nearest(hulls.a, hulls.b, found.simplex, goal);
+    if (counts != nullptr) {
+        ++counts->hulls_by_exact;
+        counts->exact_steps += exact.steps;
+    }
+    return exact;
+}
+
+Double3 witness(const NearestSimplex& simplex, Double3 Difference::*side) {
+    Double3 sum{};
+    for (std::size_t i = 0; i < simplex.count; ++i) {
+        sum = sum + simplex.weight[i] * (simplex.corner[i].*side);
+    }
+    return sum;
+}
+
+ConvexDistance between(const NearestSimplex& simplex, const DistanceBounds& bounds) {
+    return {bounds.lower, bounds.upper, witness(simplex, &Difference::at_a),
+            witness(simplex, &Difference::at_b)};
+}
+
+ConvexDistance touching_at(const NearestSimplex& simplex) {
+    const Double3 common = witness(simplex, &Difference::at_a);
+    return {0, 0, common, common};
+}
+
+/// Whether the bounds are as near each other as was promised.
+bool is_near_enough(const GjkResult& found, const ConvexDistanceOptions& options) {
+    const double width = found.upper - found.lower;
+    if (width <= options.relative_error * found.upper || width <= options.absolute_error) {
+        return true;
+    }
+    if (options.relative_error > 0 || options.absolute_error > 0) return false;
+    constexpr double kRelative = 1e-12;
+    constexpr double kOfCoordinates = 1e-14;
+    double most = 0;
+    for (std::size_t i = 0; i < found.simplex.count; ++i) {
+        most = std::max(most, largest_of(found.simplex.corner[i].at));
+    }
+    return width <= kRelative * found.upper + kOfCoordinates * most;
+}
+
+}  // namespace
+
+bool convex_collide(const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
+                    ConvexCache* cache, QueryCounts* counts) noexcept {
+    if (a.count == 0 || b.count == 0) return false;
+    const TwoHulls hulls(a, b, placement);
+    const GjkResult found = gjk(hulls.a, hulls.b, {.farther = 0}, cache, counts);
+    if (found.verdict != GjkVerdict::unsure) return found.verdict == GjkVerdict::meet;
+    return ask_integers(hulls, found, ExactGoal::verdict, counts).meet;
+}
+
+std::optional<ConvexDistance> convex_distance(const ConvexPoints& a, const ConvexPoints& b,
+                                              const Placement& placement,
+                                              const ConvexDistanceOptions& options,
+                                              ConvexCache* cache, QueryCounts* counts) noexcept {
+    if (a.count == 0 || b.count == 0 || !(options.max_distance >= 0)) return std::nullopt;
+    const TwoHulls hulls(a, b, placement);
+    const GjkGoal goal = {options.relative_error, options.absolute_error, options.max_distance};
+    const GjkResult found = gjk(hulls.a, hulls.b, goal, cache, counts);
+    if (found.lower > options.max_distance) return std::nullopt;
+    if (found.verdict == GjkVerdict::meet) return touching_at(found.simplex);
+    if (found.verdict == GjkVerdict::apart && is_near_enough(found, options)) {
+        return between(found.simplex, {found.lower, found.upper});
+    }
+    const ExactNearest exact = ask_integers(hulls, found, ExactGoal::nearest, counts);
+    const NearestSimplex simplex = weighted(exact);
+    if (exact.meet) return touching_at(simplex);
+    const DistanceBounds bounds = bounds_of(exact);
+    if (bounds.lower > options.max_distance) return std::nullopt;
+    return between(simplex, bounds);
+}
+
+bool convex_is_within(const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
+                      double tolerance, ConvexCache* cache, QueryCounts* counts) noexcept {
+    if (tolerance == 0) return convex_collide(a, b, placement, cache, counts);
+    if (!(tolerance > 0) || a.count == 0 || b.count == 0) return false;
+    if (!(tolerance <= std::numeric_limits<double>::max())) return true;
+    const TwoHulls hulls(a, b, placement);
+    const GjkGoal goal = {.farther = tolerance, .nearer = tolerance};
+    const GjkResult found = gjk(hulls.a, hulls.b, goal, cache, counts);
+    if (found.verdict == GjkVerdict::meet || found.upper <= tolerance) return true;
+    if (found.verdict == GjkVerdict::apart && found.lower > tolerance) return false;
+    const ExactNearest exact = ask_integers(hulls, found, ExactGoal::nearest, counts);
+    return exact.meet || is_within(exact, tolerance);
+}
+
+}  // namespace cdprep

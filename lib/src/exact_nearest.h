@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "moved_hull.h"
+#include "nearest_simplex.h"
+
+namespace cdprep {
+
+/// When a search in integers may end.
+enum class ExactGoal : std::uint8_t {
+    verdict,  ///< as soon as it is known whether the hulls meet
+    nearest,  ///< not before the nearest corners are known
+};
+
+/// What is known of two hulls without rounding.
+struct ExactNearest {
+    bool meet;  ///< they have a common point
+    /// When they meet, at most four whose hull holds the origin. When they do not and the
+    /// goal was the nearest, at most three such that the nearest point of their hull is
+    /// that of all of A - B; else at least one.
+    std::array<Difference, 4> corner;
+    std::size_t count;
+    std::uint32_t steps;  ///< corners that were added
+};
+
+/// Answers without rounding, from up to four corners of A - B, at least one: the nearer
+/// to the origin, the fewer steps. In integers: tens of microseconds for a few steps on
+/// everyday numbers, and one look at every point a step. Never allocates.
+[[nodiscard]] ExactNearest exact_nearest(const MovedHull& a, const MovedHull& b,
+                                         const NearestSimplex& from, ExactGoal goal) noexcept;
+
+/// Bounds of a distance, model units.
+struct DistanceBounds {
+    double lower;
+    double upper;
+};
+
+/// Returns the distance of hulls that do not meet, within 2^-48 of itself, or a step of
+/// the smallest doubles.
+[[nodiscard]] DistanceBounds bounds_of(const ExactNearest& nearest) noexcept;
+
+/// Returns whether hulls that do not meet are at most `tolerance` apart: finite, >= 0.
+[[nodiscard]] bool is_within(const ExactNearest& nearest, double tolerance) noexcept;
+
+/// Sets the weights of the point of the corners' hull that is nearest to the origin.
+[[nodiscard]] NearestSimplex weighted(const ExactNearest& nearest) noexcept;
+
+}  // namespace cdprep
