@@ -10,41 +10,13 @@
 namespace cdprep {
 namespace {
 
-/// The two hulls of a question.
-struct TwoHulls {
-    MovedHull a;
-    MovedHull b;
-
-    TwoHulls(const ConvexPoints& of_a, const ConvexPoints& of_b, const Placement& placement)
-        : a(of_a, placement.a_is_moved() ? &placement.pose_a() : nullptr),
-          b(of_b, placement.b_is_moved() ? &placement.pose_b() : nullptr) {}
-};
-
-ExactNearest ask_integers(const TwoHulls& hulls, const GjkResult& found, ExactGoal goal,
-                          QueryCounts* counts) {
-    const ExactNearest exact = exact_nearest(hulls.a, hulls.b, found.simplex, goal);
-    if (counts != nullptr) {
-        ++counts->hulls_by_exact;
-        counts->exact_steps += exact.steps;
-    }
-    return exact;
-}
-
-Double3 witness(const NearestSimplex& simplex, Double3 Difference::*side) {
-    Double3 sum{};
-    for (std::size_t i = 0; i < simplex.count; ++i) {
-        sum = sum + simplex.weight[i] * (simplex.corner[i].*side);
-    }
-    return sum;
-}
-
 ConvexDistance between(const NearestSimplex& simplex, const DistanceBounds& bounds) {
-    return {bounds.lower, bounds.upper, witness(simplex, &Difference::at_a),
-            witness(simplex, &Difference::at_b)};
+    return {bounds.lower, bounds.upper, weighted_sum(simplex, &Difference::at_a),
+            weighted_sum(simplex, &Difference::at_b)};
 }
 
 ConvexDistance touching_at(const NearestSimplex& simplex) {
-    const Double3 common = witness(simplex, &Difference::at_a);
+    const Double3 common = weighted_sum(simplex, &Difference::at_a);
     return {0, 0, common, common};
 }
 
@@ -72,7 +44,7 @@ bool convex_collide(const ConvexPoints& a, const ConvexPoints& b, const Placemen
     const TwoHulls hulls(a, b, placement);
     const GjkResult found = gjk(hulls.a, hulls.b, {.farther = 0}, cache, counts);
     if (found.verdict != GjkVerdict::unsure) return found.verdict == GjkVerdict::meet;
-    return ask_integers(hulls, found, ExactGoal::verdict, counts).meet;
+    return exact_nearest(hulls.a, hulls.b, found.simplex, ExactGoal::verdict, counts).meet;
 }
 
 std::optional<ConvexDistance> convex_distance(const ConvexPoints& a, const ConvexPoints& b,
@@ -88,7 +60,8 @@ std::optional<ConvexDistance> convex_distance(const ConvexPoints& a, const Conve
     if (found.verdict == GjkVerdict::apart && is_near_enough(found, options)) {
         return between(found.simplex, {found.lower, found.upper});
     }
-    const ExactNearest exact = ask_integers(hulls, found, ExactGoal::nearest, counts);
+    const ExactNearest exact =
+        exact_nearest(hulls.a, hulls.b, found.simplex, ExactGoal::nearest, counts);
     const NearestSimplex simplex = weighted(exact);
     if (exact.meet) return touching_at(simplex);
     const DistanceBounds bounds = bounds_of(exact);
@@ -106,7 +79,8 @@ bool convex_is_within(const ConvexPoints& a, const ConvexPoints& b, const Placem
     const GjkResult found = gjk(hulls.a, hulls.b, goal, cache, counts);
     if (found.verdict == GjkVerdict::meet || found.upper <= tolerance) return true;
     if (found.verdict == GjkVerdict::apart && found.lower > tolerance) return false;
-    const ExactNearest exact = ask_integers(hulls, found, ExactGoal::nearest, counts);
+    const ExactNearest exact =
+        exact_nearest(hulls.a, hulls.b, found.simplex, ExactGoal::nearest, counts);
     return exact.meet || is_within(exact, tolerance);
 }
 

@@ -241,7 +241,8 @@ SquaredDistance squared_distance(const Places& places, std::size_t count) {
 }  // namespace
 
 ExactNearest exact_nearest(const MovedHull& a, const MovedHull& b, const NearestSimplex& from,
-                           ExactGoal goal) noexcept {
+                           ExactGoal goal, QueryCounts* counts) noexcept {
+    if (counts != nullptr) ++counts->hulls_by_exact;
     ExactNearest result{};
     result.corner = from.corner;
     result.count = from.count;
@@ -262,7 +263,7 @@ ExactNearest exact_nearest(const MovedHull& a, const MovedHull& b, const Nearest
             return result;
         }
         result.corner[result.count++] = added;
-        ++result.steps;
+        if (counts != nullptr) ++counts->exact_steps;
     }
 }
 

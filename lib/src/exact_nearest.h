@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cdprep/query_counts.h"
 #include "moved_hull.h"
 #include "nearest_simplex.h"
 
@@ -24,14 +25,14 @@ struct ExactNearest {
     /// that of all of A - B; else at least one.
     std::array<Difference, 4> corner;
     std::size_t count;
-    std::uint32_t steps;  ///< corners that were added
 };
 
 /// Answers without rounding, from up to four corners of A - B, at least one: the nearer
 /// to the origin, the fewer steps. In integers: tens of microseconds for a few steps on
-/// everyday numbers, and one look at every point a step. Never allocates.
+/// everyday numbers, and one look at every point a step. Never allocates. `counts` may be null.
 [[nodiscard]] ExactNearest exact_nearest(const MovedHull& a, const MovedHull& b,
-                                         const NearestSimplex& from, ExactGoal goal) noexcept;
+                                         const NearestSimplex& from, ExactGoal goal,
+                                         QueryCounts* counts) noexcept;
 
 /// Bounds of a distance, model units.
 struct DistanceBounds {

@@ -66,4 +66,15 @@ private:
     const Pose* pose_;  ///< null: the hull stays as it is
 };
 
+/// The two hulls of a question.
+struct TwoHulls {
+    MovedHull a;
+    MovedHull b;
+
+    TwoHulls(const ConvexPoints& of_a, const ConvexPoints& of_b,
+             const Placement& placement) noexcept
+        : a(of_a, placement.a_is_moved() ? &placement.pose_a() : nullptr),
+          b(of_b, placement.b_is_moved() ? &placement.pose_b() : nullptr) {}
+};
+
 }  // namespace cdprep

@@ -160,10 +160,10 @@ bool certainly_encloses_origin(const NearestSimplex& simplex) noexcept {
     return sign(0, 2, 3) == -first && sign(0, 1, 3) == first && sign(0, 1, 2) == -first;
 }
 
-Double3 weighted_point(const NearestSimplex& simplex) noexcept {
+Double3 weighted_sum(const NearestSimplex& simplex, Double3 Difference::*side) noexcept {
     Double3 sum{};
     for (std::size_t i = 0; i < simplex.count; ++i) {
-        sum = sum + simplex.weight[i] * simplex.corner[i].at;
+        sum = sum + simplex.weight[i] * (simplex.corner[i].*side);
     }
     return sum;
 }

@@ -42,8 +42,14 @@ void keep_nearest(NearestSimplex& simplex) noexcept;
 /// True when four corners have the origin strictly inside for certain.
 [[nodiscard]] bool certainly_encloses_origin(const NearestSimplex& simplex) noexcept;
 
+/// Returns the sum of the corners' points, of A, of B or of A - B, with their weights.
+[[nodiscard]] Double3 weighted_sum(const NearestSimplex& simplex,
+                                   Double3 Difference::*side) noexcept;
+
 /// Returns the nearest point by the weights.
-[[nodiscard]] Double3 weighted_point(const NearestSimplex& simplex) noexcept;
+[[nodiscard]] inline Double3 weighted_point(const NearestSimplex& simplex) noexcept {
+    return weighted_sum(simplex, &Difference::at);
+}
 
 /// Returns the direction from the origin to the nearest point of at most three corners,
 /// of any length: more exact than weighted_point(), which is off by about 1e-16 of the

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/convex_penetration.h"
+
+#include "exact_nearest.h"
+#include "expanding_polytope.h"
+#include "gjk.h"
+
+namespace cdprep {
+namespace {
+
+Penetration expanded(const TwoHulls& hulls, const Difference* corner, std::size_t count,
+                     const PenetrationOptions& options, QueryCounts* counts) {
+    ExpandingPolytope polytope(hulls.a, hulls.b);
+    const Penetration result = polytope.expand(corner, count, options);
+    if (counts != nullptr) counts->hull_steps += polytope.steps();
+    return result;
+}
+
+}  // namespace
+
+std::optional<Penetration> convex_penetration(const ConvexPoints& a, const ConvexPoints& b,
+                                              const Placement& placement,
+                                              const PenetrationOptions& options, ConvexCache* cache,
+                                              QueryCounts* counts) noexcept {
+    if (a.count == 0 || b.count == 0) return std::nullopt;
+    const TwoHulls hulls(a, b, placement);
+    const GjkResult found = gjk(hulls.a, hulls.b, {.farther = 0}, cache, counts);
+    if (found.verdict == GjkVerdict::apart) return std::nullopt;
+    if (found.verdict == GjkVerdict::meet) {
+        const NearestSimplex& simplex = found.simplex;
+        return expanded(hulls, simplex.corner.data(), simplex.count, options, counts);
+    }
+    const ExactNearest exact =
+        exact_nearest(hulls.a, hulls.b, found.simplex, ExactGoal::verdict, counts);
+    if (!exact.meet) return std::nullopt;
+    return expanded(hulls, exact.corner.data(), exact.count, options, counts);
+}
+
+}  // namespace cdprep

@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: MIT
+#include "expanding_polytope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "difference_side.h"
+
+// The border of a polytope that holds the origin is as far from it as the nearest of its
+// triangles. A triangle is at least min d . x / |d| away, over its corners x, for any
+// direction d: no normal needs to be trusted. And A - B reaches at most as far along d as
+// A's and B's farthest points prove, for any d. So both bounds hold whatever the search
+// does, as long as the origin is inside; exact signs see to that.
+
+namespace cdprep {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The largest coordinate made 1; false for no direction.
+bool normalise(Double3& d) {
+    const double most = largest_of(d);
+    if (!(most > 0 && most < kInfinity)) return false;
+    d = {d.x / most, d.y / most, d.z / most};
+    return true;
+}
+
+double length(const Double3& d) {
+    return std::sqrt(dot(d, d));
+}
+
+/// How far along a direction three corners are, at least: 4 u for the rounded corners and
+/// the dot products, 8 u for the length and the quotient.
+double lower_along(const Double3& d, const NearestSimplex& simplex) {
+    double least = kInfinity;
+    for (std::size_t i = 0; i < simplex.count; ++i) {
+        const Double3& p = simplex.corner[i].at;
+        least = std::min(least, dot(d, p) - 5 * kUnit * dot_size(d, p));
+    }
+    return std::max(0.0, least / length(d) * (1 - 8 * kUnit));
+}
+
+/// Two directions at right angles to one.
+std::array<Double3, 2> across(const Double3& d) {
+    const Double3 least =
+        std::fabs(d.x) <= std::fabs(d.y) && std::fabs(d.x) <= std::fabs(d.z)
+            ? Double3{1, 0, 0}
+            : (std::fabs(d.y) <= std::fabs(d.z) ? Double3{0, 1, 0} : Double3{0, 0, 1});
+    Double3 first = cross(d, least);
+    normalise(first);
+    Double3 second = cross(d, first);
+    normalise(second);
+    return {first, second};
+}
+
+/// Below, a corner's distance from the others may be rounding alone.
+double noise_of(const Difference& p, const Difference& q) {
+    const auto most = [](const Difference& d) {
+        return std::max(largest_of(d.at_a), largest_of(d.at_b));
+    };
+    return 64 * kUnit * std::max(most(p), most(q));
+}
+
+}  // namespace
+
+Difference ExpandingPolytope::difference(std::uint32_t i, std::uint32_t j) const noexcept {
+    const Double3 p = a_.point(i);
+    const Double3 q = b_.point(j);
+    return {i, j, p, q, p - q};
+}
+
+Difference ExpandingPolytope::highest(const Double3& direction) noexcept {
+    ++steps_;
+    return difference(a_.farthest(direction), b_.farthest(-direction));
+}
+
+void ExpandingPolytope::bound_along(const Double3& direction, const Difference& top,
+                                    const NearestSimplex& nearest) noexcept {
+    const double of_a = a_.proven(direction, top.at_a, top.a).bound;
+    const double of_b = b_.proven(-direction, top.at_b, top.b).bound;
+    const double size = dot_size(direction, top.at) + std::fabs(of_a) + std::fabs(of_b);
+    const double reach = dot(direction, top.at) + of_a + of_b + 8 * kUnit * size;
+    const double unit = length(direction);
+    constexpr double kUnderflow = 0x1p-1050;
+    const double upper = std::max(0.0, reach / unit * (1 + 8 * kUnit)) + kUnderflow;
+    // Triangles with one normal prove as much, also those that lay deeper: the last has
+    // the witnesses.
+    const double noise = 16 * kUnit * size;
+    const double foot = length(weighted_point(nearest));
+    if (!(upper < best_.upper - noise || (upper <= best_.upper + noise && foot > foot_))) return;
+    foot_ = foot;
+    best_.upper = upper;
+    best_.normal = {direction.x / unit, direction.y / unit, direction.z / unit};
+    best_.witness_a = weighted_sum(nearest, &Difference::at_a);
+    best_.witness_b = weighted_sum(nearest, &Difference::at_b);
+}
+
+bool ExpandingPolytope::add_off_point() noexcept {
+    constexpr std::array<Double3, 3> kAxes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    for (const Double3& axis : kAxes) {
+        for (const Double3& d : {axis, -axis}) {
+            const Difference top = highest(d);
+            if (dot(d, top.at - corner_[0].at) <= noise_of(top, corner_[0])) continue;
+            corner_[corners_++] = top;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool ExpandingPolytope::add_off_line() noexcept {
+    Double3 edge = corner_[1].at - corner_[0].at;
+    normalise(edge);
+    for (const Double3& axis : across(edge)) {
+        for (const Double3& d : {axis, -axis}) {
+            const Difference top = highest(d);
+            const Double3 off = cross(top.at - corner_[0].at, edge);
+            if (largest_of(off) <= noise_of(top, corner_[0])) continue;
+            corner_[corners_++] = top;
+            return true;
+        }
+    }
+    return false;
+}
+
+bool ExpandingPolytope::add_off_plane() noexcept {
+    Double3 n = cross(corner_[1].at - corner_[0].at, corner_[2].at - corner_[0].at);
+    if (!normalise(n)) return false;
+    for (const Double3& d : {n, -n}) {
+        const Difference top = highest(d);
+        if (side_of(corner_[0], corner_[1], corner_[2], top) == 0) continue;
+        corner_[corners_++] = top;
+        return true;
+    }
+    return false;
+}
+
+bool ExpandingPolytope::span_space() noexcept {
+    if (corners_ == 1 && !add_off_point()) return false;
+    if (corners_ == 2 && !add_off_line()) return false;
+    return corners_ > 3 || add_off_plane();
+}
+
+void ExpandingPolytope::bound_flat() noexcept {
+    NearestSimplex nearest;
+    nearest.count = corners_;
+    std::copy_n(corner_.begin(), corners_, nearest.corner.begin());
+    Double3 d = {0, 0, 1};
+    if (corners_ > 1) {
+        Double3 edge = corner_[1].at - corner_[0].at;
+        normalise(edge);
+        d = across(edge)[0];
+    }
+    if (corners_ > 2) {
+        const Double3 n = cross(corner_[1].at - corner_[0].at, corner_[2].at - corner_[0].at);
+        if (largest_of(n) > 0) d = n;
+        normalise(d);
+    }
+    keep_nearest(nearest);
+    for (const Double3& side : {d, -d}) bound_along(side, highest(side), nearest);
+}
+
+NearestSimplex ExpandingPolytope::simplex_of(const Face& face) const noexcept {
+    NearestSimplex simplex;
+    simplex.count = 3;
+    for (std::size_t i = 0; i < 3; ++i) simplex.corner[i] = corner_[face.corner[i]];
+    return simplex;
+}
+
+void ExpandingPolytope::add_face(std::uint8_t p, std::uint8_t q, std::uint8_t r) noexcept {
+    Face face = {{p, q, r}, 0, {}};
+    const NearestSimplex all = simplex_of(face);
+    const Double3& from = all.corner[0].at;
+    face.direction = cross(all.corner[1].at - from, all.corner[2].at - from);
+    if (normalise(face.direction)) face.lower = lower_along(face.direction, all);
+    NearestSimplex nearest = all;
+    keep_nearest(nearest);
+    // What is nearly a line has a poor normal.
+    Double3 other = nearest_direction(nearest);
+    if (nearest.count < 3 && normalise(other)) {
+        face.lower = std::max(face.lower, lower_along(other, all));
+        if (largest_of(face.direction) == 0) face.direction = other;
+    }
+    face_[faces_++] = face;
+}
+
+void ExpandingPolytope::first_faces() noexcept {
+    if (side_of(corner_[0], corner_[1], corner_[2], corner_[3]) < 0) {
+        std::swap(corner_[0], corner_[1]);
+    }
+    add_face(0, 1, 2);
+    add_face(1, 0, 3);
+    add_face(2, 1, 3);
+    add_face(0, 2, 3);
+}
+
+bool ExpandingPolytope::sees(const Difference& from, const Face& face) const noexcept {
+    return side_of(corner_[face.corner[0]], corner_[face.corner[1]], corner_[face.corner[2]],
+                   from) < 0;
+}
+
+bool ExpandingPolytope::has(const Difference& corner) const noexcept {
+    return std::any_of(
+        corner_.begin(), corner_.begin() + static_cast<std::ptrdiff_t>(corners_),
+        [&](const Difference& other) { return other.a == corner.a && other.b == corner.b; });
+}
+
+bool ExpandingPolytope::grow(const Difference& corner) noexcept {
+    if (corners_ == kMostCorners) return false;
+    std::size_t edges = 0;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < faces_; ++i) {
+        const Face face = face_[i];
+        if (!sees(corner, face)) {
+            face_[kept++] = face;
+            continue;
+        }
+        for (std::size_t j = 0; j < 3; ++j) {
+            const Edge edge = {face.corner[j], face.corner[(j + 1) % 3]};
+            // An edge between two faces that are seen is met from both sides.
+            const auto end = edge_.begin() + static_cast<std::ptrdiff_t>(edges);
+            const auto back = std::find_if(edge_.begin(), end, [&](const Edge& other) {
+                return other.from == edge.to && other.to == edge.from;
+            });
+            if (back == end) {
+                edge_[edges++] = edge;
+            } else {
+                *back = edge_[--edges];
+            }
+        }
+    }
+    faces_ = kept;
+    const auto added = static_cast<std::uint8_t>(corners_);
+    corner_[corners_++] = corner;
+    for (std::size_t i = 0; i < edges; ++i) add_face(edge_[i].from, edge_[i].to, added);
+    return true;
+}
+
+const ExpandingPolytope::Face& ExpandingPolytope::nearest_face() const noexcept {
+    return *std::min_element(face_.begin(), face_.begin() + static_cast<std::ptrdiff_t>(faces_),
+                             [](const Face& x, const Face& y) { return x.lower < y.lower; });
+}
+
+Penetration ExpandingPolytope::expand(const Difference* corner, std::size_t count,
+                                      const PenetrationOptions& options) noexcept {
+    std::copy_n(corner, count, corner_.begin());
+    corners_ = count;
+    best_.upper = kInfinity;
+    const bool spans = span_space();
+    if (!spans) {
+        bound_flat();
+        return best_;
+    }
+    first_faces();
+    for (;;) {
+        const Face face = nearest_face();
+        best_.lower = face.lower;
+        NearestSimplex nearest = simplex_of(face);
+        keep_nearest(nearest);
+        const Difference top = highest(face.direction);
+        bound_along(face.direction, top, nearest);
+        const double permitted =
+            std::max(options.relative_error * best_.upper, options.absolute_error);
+        if (best_.upper - best_.lower <= permitted || has(top) || !sees(top, face) || !grow(top)) {
+            best_.lower = std::min(best_.lower, best_.upper);
+            return best_;
+        }
+    }
+}
+
+}  // namespace cdprep
