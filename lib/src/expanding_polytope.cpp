@@ -27,6 +27,16 @@ bool normalise(Double3& d) {
     return true;
 }
 
+/// Across p, q, r, which turn counter-clockwise seen from where it points; edges of length
+/// 1 first, so that no product leaves the range of double. False for no direction.
+bool normal_of(const Double3& p, const Double3& q, const Double3& r, Double3& normal) {
+    Double3 first = q - p;
+    Double3 second = r - p;
+    if (!normalise(first) || !normalise(second)) return false;
+    normal = cross(first, second);
+    return normalise(normal);
+}
+
 double length(const Double3& d) {
     return std::sqrt(dot(d, d));
 }
@@ -83,6 +93,7 @@ void ExpandingPolytope::bound_along(const Double3& direction, const Difference& 
     const double size = dot_size(direction, top.at) + std::fabs(of_a) + std::fabs(of_b);
     const double reach = dot(direction, top.at) + of_a + of_b + 8 * kUnit * size;
     const double unit = length(direction);
+    if (!(unit > 0)) return;
     constexpr double kUnderflow = 0x1p-1050;
     const double upper = std::max(0.0, reach / unit * (1 + 8 * kUnit)) + kUnderflow;
     // Triangles with one normal prove as much, also those that lay deeper: the last has
@@ -126,8 +137,8 @@ bool ExpandingPolytope::add_off_line() noexcept {
 }
 
 bool ExpandingPolytope::add_off_plane() noexcept {
-    Double3 n = cross(corner_[1].at - corner_[0].at, corner_[2].at - corner_[0].at);
-    if (!normalise(n)) return false;
+    Double3 n{};
+    if (!normal_of(corner_[0].at, corner_[1].at, corner_[2].at, n)) return false;
     for (const Double3& d : {n, -n}) {
         const Difference top = highest(d);
         if (side_of(corner_[0], corner_[1], corner_[2], top) == 0) continue;
@@ -154,9 +165,8 @@ void ExpandingPolytope::bound_flat() noexcept {
         d = across(edge)[0];
     }
     if (corners_ > 2) {
-        const Double3 n = cross(corner_[1].at - corner_[0].at, corner_[2].at - corner_[0].at);
-        if (largest_of(n) > 0) d = n;
-        normalise(d);
+        Double3 n{};
+        if (normal_of(corner_[0].at, corner_[1].at, corner_[2].at, n)) d = n;
     }
     keep_nearest(nearest);
     for (const Double3& side : {d, -d}) bound_along(side, highest(side), nearest);
@@ -172,9 +182,9 @@ NearestSimplex ExpandingPolytope::simplex_of(const Face& face) const noexcept {
 void ExpandingPolytope::add_face(std::uint8_t p, std::uint8_t q, std::uint8_t r) noexcept {
     Face face = {{p, q, r}, 0, {}};
     const NearestSimplex all = simplex_of(face);
-    const Double3& from = all.corner[0].at;
-    face.direction = cross(all.corner[1].at - from, all.corner[2].at - from);
-    if (normalise(face.direction)) face.lower = lower_along(face.direction, all);
+    if (normal_of(all.corner[0].at, all.corner[1].at, all.corner[2].at, face.direction)) {
+        face.lower = lower_along(face.direction, all);
+    }
     NearestSimplex nearest = all;
     keep_nearest(nearest);
     // What is nearly a line has a poor normal.

@@ -61,9 +61,9 @@ struct ConvexDistance {
 /// or one has no points. Both bounds are 0 when the hulls touch, with a common point as
 /// witness, and lower is above 0 when they do not, but for gaps near the smallest doubles.
 ///
-/// upper - lower is at most what is permitted; where nothing is, at most 1e-12 of upper
-/// plus 1e-14 of the largest coordinate of the witnesses' simplex, by which is meant the
-/// corners of A and B around them, seen from one of them (convex_distance_laws_test).
+/// upper - lower is at most what is permitted, but for relative errors below 1e-14. Where
+/// nothing is, it is at most 1e-12 of upper plus 1e-14 of the size of A - B, that is how
+/// far any point of A is from any of B along an axis (convex_distance_laws_test).
 /// Where faces or edges are parallel there are many nearest pairs: one of them answers.
 [[nodiscard]] std::optional<ConvexDistance> convex_distance(
     const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
