@@ -81,9 +81,9 @@ Difference ExpandingPolytope::difference(std::uint32_t i, std::uint32_t j) const
     return {i, j, p, q, p - q};
 }
 
-Difference ExpandingPolytope::highest(const Double3& direction) noexcept {
+Difference ExpandingPolytope::highest(const Double3& direction, const Difference& near) noexcept {
     ++steps_;
-    return difference(a_.farthest(direction), b_.farthest(-direction));
+    return difference(a_.farthest_anew(direction, near.a), b_.farthest_anew(-direction, near.b));
 }
 
 void ExpandingPolytope::bound_along(const Double3& direction, const Difference& top,
@@ -112,7 +112,7 @@ bool ExpandingPolytope::add_off_point() noexcept {
     constexpr std::array<Double3, 3> kAxes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     for (const Double3& axis : kAxes) {
         for (const Double3& d : {axis, -axis}) {
-            const Difference top = highest(d);
+            const Difference top = highest(d, corner_[0]);
             if (dot(d, top.at - corner_[0].at) <= noise_of(top, corner_[0])) continue;
             corner_[corners_++] = top;
             return true;
@@ -126,7 +126,7 @@ bool ExpandingPolytope::add_off_line() noexcept {
     normalise(edge);
     for (const Double3& axis : across(edge)) {
         for (const Double3& d : {axis, -axis}) {
-            const Difference top = highest(d);
+            const Difference top = highest(d, corner_[0]);
             const Double3 off = cross(top.at - corner_[0].at, edge);
             if (largest_of(off) <= noise_of(top, corner_[0])) continue;
             corner_[corners_++] = top;
@@ -140,7 +140,7 @@ bool ExpandingPolytope::add_off_plane() noexcept {
     Double3 n{};
     if (!normal_of(corner_[0].at, corner_[1].at, corner_[2].at, n)) return false;
     for (const Double3& d : {n, -n}) {
-        const Difference top = highest(d);
+        const Difference top = highest(d, corner_[0]);
         if (side_of(corner_[0], corner_[1], corner_[2], top) == 0) continue;
         corner_[corners_++] = top;
         return true;
@@ -169,7 +169,7 @@ void ExpandingPolytope::bound_flat() noexcept {
         if (normal_of(corner_[0].at, corner_[1].at, corner_[2].at, n)) d = n;
     }
     keep_nearest(nearest);
-    for (const Double3& side : {d, -d}) bound_along(side, highest(side), nearest);
+    for (const Double3& side : {d, -d}) bound_along(side, highest(side, corner_[0]), nearest);
 }
 
 NearestSimplex ExpandingPolytope::simplex_of(const Face& face) const noexcept {
@@ -269,7 +269,7 @@ Penetration ExpandingPolytope::expand(const Difference* corner, std::size_t coun
         best_.lower = face.lower;
         NearestSimplex nearest = simplex_of(face);
         keep_nearest(nearest);
-        const Difference top = highest(face.direction);
+        const Difference top = highest(face.direction, corner_[face.corner[0]]);
         bound_along(face.direction, top, nearest);
         const double permitted =
             std::max(options.relative_error * best_.upper, options.absolute_error);

@@ -42,8 +42,8 @@ private:
     };
 
     [[nodiscard]] Difference difference(std::uint32_t i, std::uint32_t j) const noexcept;
-    /// The corner of A - B that is highest along a direction.
-    [[nodiscard]] Difference highest(const Double3& direction) noexcept;
+    /// The corner of A - B that is highest along a direction, sought from one near it.
+    [[nodiscard]] Difference highest(const Double3& direction, const Difference& near) noexcept;
     /// Takes note of how far A - B reaches at most along a direction, seen from one of its
     /// corners, that highest() answered.
     void bound_along(const Double3& direction, const Difference& top,

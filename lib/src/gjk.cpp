@@ -66,8 +66,8 @@ private:
     /// The corner that is lowest along a direction.
     [[nodiscard]] Difference lowest(const Direction& d) noexcept {
         ++steps_;
-        near_a_ = a_.farthest(-d.at, near_a_);
-        near_b_ = b_.farthest(d.at, near_b_);
+        near_a_ = is_warm_ ? a_.farthest(-d.at, near_a_) : a_.farthest_anew(-d.at, near_a_);
+        near_b_ = is_warm_ ? b_.farthest(d.at, near_b_) : b_.farthest_anew(d.at, near_b_);
         return difference(near_a_, near_b_);
     }
     /// Adds a corner; false when that brought the simplex no nearer.
@@ -87,6 +87,7 @@ private:
     double lower_ = 0;
     std::uint32_t near_a_ = 0;
     std::uint32_t near_b_ = 0;
+    bool is_warm_ = false;  ///< began where another question ended
     std::uint64_t steps_ = 0;
 };
 
@@ -103,9 +104,11 @@ bool Search::takes(const ConvexCache& cache) noexcept {
 }
 
 void Search::start(const ConvexCache* cache) noexcept {
-    if (cache == nullptr || !takes(*cache)) {
+    is_warm_ = cache != nullptr && takes(*cache);
+    if (!is_warm_) {
         const Double3 way = a_.point(0) - b_.point(0);
-        simplex_.corner[simplex_.count++] = difference(a_.farthest(-way), b_.farthest(way));
+        simplex_.corner[simplex_.count++] =
+            difference(a_.farthest_anew(-way, 0), b_.farthest_anew(way, 0));
     }
     near_a_ = simplex_.corner[0].a;
     near_b_ = simplex_.corner[0].b;

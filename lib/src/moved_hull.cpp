@@ -97,10 +97,14 @@ std::uint32_t MovedHull::farthest(const Double3& direction, std::uint32_t near) 
     return can_climb() ? climb(local, near) : scan(local);
 }
 
-std::uint32_t MovedHull::farthest(const Double3& direction) const noexcept {
+std::uint32_t MovedHull::farthest_anew(const Double3& direction,
+                                       std::uint32_t near) const noexcept {
     const Double3 local = turned_back(direction);
     if (!can_climb()) return scan(local);
-    return climb(local, points_->starts.empty() ? 0 : points_->starts[direction_cell(local)]);
+    if (points_->starts.empty()) return climb(local, near);
+    const std::uint32_t start = points_->starts[direction_cell(local)];
+    const bool is_better = dot(local, points_->point(start)) > dot(local, points_->point(near));
+    return climb(local, is_better ? start : near);
 }
 
 double MovedHull::slack(const Double3& direction) const noexcept {

@@ -30,8 +30,9 @@ public:
     [[nodiscard]] std::uint32_t farthest(const Double3& direction,
                                          std::uint32_t near) const noexcept;
 
-    /// The same for a direction of which nothing is known: from the best start.
-    [[nodiscard]] std::uint32_t farthest(const Double3& direction) const noexcept;
+    /// The same where `near` may be far: from a start for the direction, if that is better.
+    [[nodiscard]] std::uint32_t farthest_anew(const Double3& direction,
+                                              std::uint32_t near) const noexcept;
 
     /// Returns how far the points reach along a direction from `origin`, with a bound that
     /// none exceeds, rounding included, underflow not. `farthest` is what farthest()

@@ -10,6 +10,7 @@
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/convex_penetration.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/includes_through.h"
@@ -25,6 +26,7 @@
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
+#include "support/small_hull.h"
 
 #include "workspace_storage.h"
 
@@ -258,6 +260,26 @@ TEST(Allocations, NoQuestionThroughAHashedOctreeAllocates) {
     EXPECT_EQ(allocations, before);
     EXPECT_GT(hits, 8U);
     EXPECT_GT(misses, 8U);
+}
+
+// Apart, touching and deep, climbing and not: integers and the polytope are asked too.
+TEST(Allocations, NoQuestionAboutHullsAllocates) {
+    const SmallHull box(box_corners(1, 1, 1)), plain(box_corners(1, 2, 1), Edges::none);
+    const ConvexPoints a = box.view(), b = plain.view();
+    ConvexCache cache;
+    QueryCounts counts;
+    const std::size_t before = allocations;
+    for (int i = 0; i < 30; ++i) {
+        const Pose pose = Pose::from_quaternion(5, i % 3, 0, 0, {0.1 * i, 0.5, 0}).value();
+        const Placement placement = Placement::b_moves(pose);
+        static_cast<void>(convex_collide(a, b, placement, &cache, &counts));
+        static_cast<void>(convex_distance(a, b, placement, {}, &cache, &counts));
+        static_cast<void>(convex_is_within(a, b, placement, 0.25, &cache, &counts));
+        static_cast<void>(convex_penetration(a, b, placement, {}, &cache, &counts));
+    }
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(counts.hulls_by_exact, 0U);
+    EXPECT_GT(counts.hull_steps, 0U);
 }
 
 // Frame, leaves and boxes all move: every array is written anew, none is made.

@@ -12,6 +12,7 @@
 #include <random>
 #include <vector>
 
+#include "cdprep/format/hull.h"
 #include "support/random_pose.h"
 #include "triangle_contact.h"
 #include "triangle_distance.h"
@@ -868,6 +869,74 @@ TEST(Kernels, SweptSpheresAreNoFurtherApartThanTheirDistance) {
         }
         EXPECT_GT(bounds, 0.98 * distances) << sides;
     }
+}
+
+/// Blocks of points, on a coarse grid or not; the last point fills the last block.
+std::vector<format::HullBlock> random_blocks(std::mt19937& random, std::size_t count, bool coarse) {
+    std::uniform_real_distribution<double> fine(-1, 1);
+    std::uniform_int_distribution<int> grid(-2, 2);
+    std::vector<format::HullBlock> blocks((count + 7) / 8);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        double last = 0;
+        for (std::size_t i = 0; i < 8 * blocks.size(); ++i) {
+            if (i < count) last = coarse ? grid(random) : fine(random);
+            blocks[i / 8].at[axis][i % 8] = last;
+        }
+    }
+    return blocks;
+}
+
+// The reference is the formula, point by point; every table must give the same bits.
+TEST(Kernels, TheFarthestPointIsTheSameForEveryTable) {
+    std::mt19937 random(77);
+    std::uniform_int_distribution<std::size_t> counts(1, 100);
+    int ties = 0;
+    for (int trial = 0; trial < 3000; ++trial) {
+        const bool coarse = trial % 2 == 0;
+        const std::size_t count = counts(random);
+        const auto blocks = random_blocks(random, count, coarse);
+        const Pose pose = coarse ? Pose() : test::random_pose(random, 2);
+        const auto d = random_blocks(random, 2, coarse)[0].at;
+        MovedDirection from{};
+        std::copy_n(pose.rotation().data(), 9, from.rotation);
+        const Double3& t = pose.translation();
+        const std::array<double, 3> shift = {t.x, t.y, t.z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            from.translation[axis] = shift[axis];
+            from.direction[axis] = d[axis][0];
+            from.origin[axis] = d[axis][1];
+        }
+        std::uint32_t plain = 0;
+        FarthestPoint best = {0, -HUGE_VAL, -HUGE_VAL};
+        double height = -HUGE_VAL;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const auto& at = blocks[i / 8].at;
+            const Double3 p = {at[0][i % 8], at[1][i % 8], at[2][i % 8]};
+            const double* n = from.direction;
+            const double value = (n[0] * p.x + n[1] * p.y) + n[2] * p.z;
+            ties += value == height ? 1 : 0;
+            if (value > height) plain = i;
+            height = std::max(height, value);
+            const Double3 q = moved(pose, p);
+            const double x = (q.x - from.origin[0]) * n[0], y = (q.y - from.origin[1]) * n[1];
+            const double z = (q.z - from.origin[2]) * n[2];
+            const double far = (x + y) + z;
+            if (far > best.value) best.number = i;
+            best.value = std::max(best.value, far);
+            const double size = (std::fabs(x) + std::fabs(y)) + std::fabs(z);
+            best.bound = std::max(best.bound, far + size * (6 * 0x1p-53));
+        }
+        for_each_table([&](const Table& table) {
+            const double* first = blocks[0].at[0].data();
+            ASSERT_EQ(table.farthest(first, blocks.size(), from.direction), plain);
+            const FarthestPoint found = table.farthest_moved(first, blocks.size(), from);
+            ASSERT_EQ(found.number, best.number);
+            ASSERT_EQ(found.value, best.value);
+            ASSERT_EQ(found.bound, best.bound);
+        });
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(ties, 1000);
 }
 
 TEST(Kernels, ScalarIsAlwaysAvailable) {
