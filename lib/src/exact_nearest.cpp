@@ -76,15 +76,16 @@ public:
     /// The face nearest to the origin; afterwards direction() is known unless the origin
     /// lies in it.
     Face nearest() {
-        for (std::uint8_t i = 0; i < count_; ++i) {
+        const auto count = static_cast<std::uint8_t>(count_);
+        for (std::uint8_t i = 0; i < count; ++i) {
             if (const Face face = corner(i); face.count > 0) return face;
         }
-        for (std::uint8_t i = 0; i < count_; ++i) {
+        for (std::uint8_t i = 0; i < count; ++i) {
             for (std::uint8_t j = 0; j < i; ++j) {
                 if (const Face face = edge(i, j); face.count > 0) return face;
             }
         }
-        for (std::uint8_t i = 0; i < count_; ++i) {
+        for (std::uint8_t i = 0; i < count; ++i) {
             for (std::uint8_t j = 0; j < i; ++j) {
                 for (std::uint8_t k = 0; k < j; ++k) {
                     if (const Face face = triangle(i, j, k); face.count > 0) return face;
@@ -104,8 +105,8 @@ private:
     }
     /// Whether no corner is lower along the direction than p.
     [[nodiscard]] bool none_is_lower(std::uint8_t p) const {
-        for (std::uint8_t i = 0; i < count_; ++i) {
-            if (i != p && dot(direction_, at(i) - at(p)).sign() < 0) return false;
+        for (std::size_t i = 0; i < count_; ++i) {
+            if (i != p && dot(direction_, places_.at[i] - at(p)).sign() < 0) return false;
         }
         return true;
     }

@@ -37,7 +37,7 @@ struct Penetration {
 /// rounded bodies of thousands of points that are deep in each other
 /// (convex_penetration_laws_test).
 ///
-/// About as expensive as ten to a hundred distances. Never allocates; 40 kB of stack.
+/// About as expensive as ten to a hundred distances. Never allocates; 30 kB of stack.
 [[nodiscard]] std::optional<Penetration> convex_penetration(const ConvexPoints& a,
                                                             const ConvexPoints& b,
                                                             const Placement& placement,

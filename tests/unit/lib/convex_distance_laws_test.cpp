@@ -104,5 +104,54 @@ TEST(ConvexDistanceLaws, FineHullsAreAnsweredAsByDefinition) {
     EXPECT_LT(apart, kPairs * 7 / 10);
 }
 
+/// Points of a sphere, on a coarse grid or not.
+Points ball_points(std::mt19937& random, std::size_t count, bool coarse) {
+    std::normal_distribution<double> normal;
+    Points points(count);
+    for (Double3& p : points) {
+        p = {normal(random), normal(random), normal(random)};
+        const double scale = (coarse ? 8 : 1) / std::hypot(p.x, p.y, p.z);
+        p = {scale * p.x, scale * p.y, scale * p.z};
+        if (coarse) p = {std::round(p.x), std::round(p.y), std::round(p.z)};
+    }
+    return points;
+}
+
+// By what must not matter: whether every point is looked at or edges are climbed, which
+// hull is asked first, and where a cache begins, in walks that pass through each other.
+TEST(ConvexDistanceLaws, ClimbingAndLookingAtAllPointsAgree) {
+    std::mt19937 random(20240605);
+    int questions = 0, apart = 0;
+    for (int walk = 0; walk < 300; ++walk) {
+        SCOPED_TRACE(walk);
+        const bool coarse = walk % 2 == 0;
+        const double size = coarse ? 8 : 1;
+        const Points at_a = ball_points(random, 150, coarse),
+                     at_b = ball_points(random, 80, coarse);
+        const SmallHull hull_a(at_a), hull_b(at_b);
+        const ConvexPoints a = hull_a.view(), b = hull_b.view();
+        ConvexPoints plain_a = a, plain_b = b;
+        plain_a.neighbour_begins = plain_b.neighbour_begins = {};
+        const auto turn = coarse ? quarter_turns(random) : random_pose(random, 1).rotation();
+        ConvexCache cache, other;
+        for (int step = 0; step < 20; ++step) {
+            const Pose pose = pose_of(turn, {(2.4 - 0.05 * step) * size, 0.5 * size, 0});
+            const Placement placement = Placement::b_moves(pose);
+            const auto climbed = convex_distance(a, b, placement, {}, &cache);
+            const auto scanned = convex_distance(plain_b, plain_a, Placement::a_moves(pose));
+            ++questions;
+            apart += climbed->lower > 0 ? 1 : 0;
+            ASSERT_EQ(climbed->lower > 0, scanned->lower > 0);
+            ASSERT_LE(climbed->lower, scanned->upper);
+            ASSERT_LE(scanned->lower, climbed->upper);
+            ASSERT_EQ(convex_collide(a, b, placement, &other), climbed->upper == 0);
+            ASSERT_EQ(convex_collide(plain_a, plain_b, placement), climbed->upper == 0);
+            ASSERT_LE(climbed->upper - climbed->lower, 1e-12 * climbed->upper + 1e-13 * size);
+        }
+    }
+    EXPECT_GT(apart, questions * 3 / 10);
+    EXPECT_LT(apart, questions * 7 / 10);
+}
+
 }  // namespace
 }  // namespace cdprep::test

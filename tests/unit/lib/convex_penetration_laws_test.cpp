@@ -52,7 +52,7 @@ TEST(ConvexPenetrationLaws, GridHullsAreAsDeepAsByDefinition) {
 // The same in exact numbers.
 TEST(ConvexPenetrationLaws, FineHullsAreAsDeepAsByDefinition) {
     std::mt19937 random(20240604);
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 600; ++i) {
         SCOPED_TRACE(i);
         ask<ExactNumber>(fine_pair(random), random);
         if (HasFatalFailure()) return;
