@@ -133,6 +133,19 @@ TEST(ConvexDistance, OfNothingIsNothing) {
     EXPECT_FALSE(convex_penetration(none, hull.view(), shifted({})));
 }
 
+// By construction: boxes well apart are told apart in double, stacked ones in integers.
+TEST(ConvexDistance, CountsSayWhetherIntegersDecided) {
+    const SmallHull hull(box_corners(1, 1, 1));
+    QueryCounts apart, stacked;
+    EXPECT_FALSE(convex_collide(hull.view(), hull.view(), shifted({3, 0, 0}), nullptr, &apart));
+    EXPECT_EQ(apart.hull_pairs, 1u);
+    EXPECT_GE(apart.hull_steps, 1u);
+    EXPECT_EQ(apart.hulls_by_exact, 0u);
+    EXPECT_TRUE(convex_collide(hull.view(), hull.view(), shifted({0, 0, 2}), nullptr, &stacked));
+    EXPECT_EQ(stacked.hull_pairs, 1u);
+    EXPECT_EQ(stacked.hulls_by_exact, 1u);
+}
+
 TEST(ConvexDistance, PermittedErrorsAreKept) {
     std::mt19937 random(7);
     const SmallHull hull(lattice_sphere(65, 1));
