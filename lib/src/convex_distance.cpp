@@ -62,7 +62,7 @@ std::optional<ConvexDistance> convex_distance(const ConvexPoints& a, const Conve
     }
     const ExactNearest exact =
         exact_nearest(hulls.a, hulls.b, found.simplex, ExactGoal::nearest, counts);
-    const NearestSimplex simplex = weighted(exact);
+    const NearestSimplex simplex = exactly_weighted(exact.corner.data(), exact.count);
     if (exact.meet) return touching_at(simplex);
     const DistanceBounds bounds = bounds_of(exact);
     if (bounds.lower > options.max_distance) return std::nullopt;

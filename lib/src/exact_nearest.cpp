@@ -61,6 +61,24 @@ Approximate approximate(const WideView& wide) {
     return {wide.negative ? -value : value, static_cast<int>(32 * (wide.size - used))};
 }
 
+/// The sizes of numbers, divided by their sum, which is not 0.
+std::array<double, 4> parts_of_one(const std::array<Approximate, 4>& numbers) {
+    int most = std::numeric_limits<int>::min();
+    for (const Approximate& x : numbers) {
+        if (x.value != 0) most = std::max(most, x.exponent + std::ilogb(x.value));
+    }
+    std::array<double, 4> parts{};
+    double sum = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Approximate& x = numbers[i];
+        if (x.value == 0) continue;
+        parts[i] = std::fabs(std::ldexp(x.value, std::max(x.exponent - most, -2000)));
+        sum += parts[i];
+    }
+    for (double& part : parts) part /= sum;
+    return parts;
+}
+
 /// Which corners of a simplex, and what their hull's nearest point is.
 struct Face {
     std::array<std::uint8_t, 4> corner{};
@@ -99,7 +117,29 @@ public:
         return direction_;
     }
 
+    /// Of the nearest point, as nearest() found it: parts of a whole, none negative.
+    [[nodiscard]] std::array<double, 4> weights(const Face& face) const {
+        const auto& [i, j, k, l] = face.corner;
+        if (face.count == 1) return {1};
+        if (face.count == 2) {
+            const WidePlace e = at(j) - at(i);
+            const Square along = -dot(at(i), e);
+            return parts_of_one(
+                {approximate((dot(e, e) - along).view()), approximate(along.view())});
+        }
+        if (face.count == 3) {
+            const WideVector<kSquare> n = cross(at(j) - at(i), at(k) - at(i));
+            return parts_of_one({approximate(dot(n, cross(at(j), at(k))).view()),
+                                 approximate(dot(n, cross(at(k), at(i))).view()),
+                                 approximate(dot(n, cross(at(i), at(j))).view())});
+        }
+        return parts_of_one({volume(j, k, l), volume(i, k, l), volume(i, j, l), volume(i, j, k)});
+    }
+
 private:
+    [[nodiscard]] Approximate volume(std::uint8_t p, std::uint8_t q, std::uint8_t r) const {
+        return approximate(dot(at(p), cross(at(q), at(r))).view());
+    }
     [[nodiscard]] const WidePlace& at(std::uint8_t i) const {
         return places_.at[i];
     }
@@ -292,11 +332,13 @@ bool is_within(const ExactNearest& nearest, double tolerance) noexcept {
     return (squared.numerator - (limit * limit) * squared.denominator).sign() <= 0;
 }
 
-NearestSimplex weighted(const ExactNearest& nearest) noexcept {
+NearestSimplex exactly_weighted(const Difference* corner, std::size_t count) noexcept {
+    ExactSimplex exact(corner, count);
+    const Face face = exact.nearest();
     NearestSimplex simplex;
-    simplex.corner = nearest.corner;
-    simplex.count = nearest.count;
-    keep_nearest(simplex);
+    simplex.count = face.count;
+    simplex.weight = exact.weights(face);
+    for (std::size_t i = 0; i < face.count; ++i) simplex.corner[i] = corner[face.corner[i]];
     return simplex;
 }
 

@@ -47,7 +47,9 @@ struct DistanceBounds {
 /// Returns whether hulls that do not meet are at most `tolerance` apart: finite, >= 0.
 [[nodiscard]] bool is_within(const ExactNearest& nearest, double tolerance) noexcept;
 
-/// Sets the weights of the point of the corners' hull that is nearest to the origin.
-[[nodiscard]] NearestSimplex weighted(const ExactNearest& nearest) noexcept;
+/// Returns up to four corners' point nearest to the origin, and the corners it needs: as
+/// keep_nearest(), but chosen without rounding, and each weight within 2^-50 of itself.
+/// For slivers, whose weights in double may be anything.
+[[nodiscard]] NearestSimplex exactly_weighted(const Difference* corner, std::size_t count) noexcept;
 
 }  // namespace cdprep

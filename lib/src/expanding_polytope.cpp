@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "difference_side.h"
+#include "double_double.h"
+#include "exact_nearest.h"
 
 // The border of a polytope that holds the origin is as far from it as the nearest of its
 // triangles. A triangle is at least min d . x / |d| away, over its corners x, for any
@@ -27,13 +29,49 @@ bool normalise(Double3& d) {
     return true;
 }
 
+/// q - p, from points of A and of B: off by their rounding, not by that of the corners.
+Double3 edge_between(const Difference& p, const Difference& q) {
+    return (q.at_a - p.at_a) - (q.at_b - p.at_b);
+}
+
+using Accurate3 = std::array<DoubleDouble, 3>;
+
+/// The same times a power of two, in twice the precision.
+Accurate3 accurate_edge(const Difference& p, const Difference& q, double scale) {
+    const auto along = [&](double qa, double pa, double qb, double pb) {
+        const DoubleDouble e = (DoubleDouble(qa) - pa) - (DoubleDouble(qb) - pb);
+        return DoubleDouble(e.high * scale, e.low * scale);
+    };
+    return {along(q.at_a.x, p.at_a.x, q.at_b.x, p.at_b.x),
+            along(q.at_a.y, p.at_a.y, q.at_b.y, p.at_b.y),
+            along(q.at_a.z, p.at_a.z, q.at_b.z, p.at_b.z)};
+}
+
+/// Brings the largest coordinate to about 1, in size.
+double scale_of(const Double3& edge) {
+    constexpr int kMost = 1000;
+    return std::ldexp(1, std::clamp(-std::ilogb(largest_of(edge)), -kMost, kMost));
+}
+
 /// Across p, q, r, which turn counter-clockwise seen from where it points; edges of length
-/// 1 first, so that no product leaves the range of double. False for no direction.
-bool normal_of(const Double3& p, const Double3& q, const Double3& r, Double3& normal) {
-    Double3 first = q - p;
-    Double3 second = r - p;
-    if (!normalise(first) || !normalise(second)) return false;
-    normal = cross(first, second);
+/// 1 first, so that no product leaves the range of double, and slivers in twice the
+/// precision: their normals are what the bounds of thin hulls hang on. False for no
+/// direction.
+bool normal_of(const Difference& p, const Difference& q, const Difference& r, Double3& normal) {
+    const Double3 first = edge_between(p, q);
+    const Double3 second = edge_between(p, r);
+    if (!(largest_of(first) > 0 && largest_of(second) > 0)) return false;
+    const double to_first = scale_of(first);
+    const double to_second = scale_of(second);
+    normal = cross(to_first * first, to_second * second);
+    constexpr double kSliver = 0x1p-10;
+    if (largest_of(normal) < kSliver) {
+        const Accurate3 e = accurate_edge(p, q, to_first);
+        const Accurate3 f = accurate_edge(p, r, to_second);
+        normal = {static_cast<double>(e[1] * f[2] - e[2] * f[1]),
+                  static_cast<double>(e[2] * f[0] - e[0] * f[2]),
+                  static_cast<double>(e[0] * f[1] - e[1] * f[0])};
+    }
     return normalise(normal);
 }
 
@@ -87,7 +125,7 @@ Difference ExpandingPolytope::highest(const Double3& direction, const Difference
 }
 
 void ExpandingPolytope::bound_along(const Double3& direction, const Difference& top,
-                                    const NearestSimplex& nearest) noexcept {
+                                    const NearestSimplex& corners) noexcept {
     const double of_a = a_.proven(direction, top.at_a, top.a).bound;
     const double of_b = b_.proven(-direction, top.at_b, top.b).bound;
     const double size = dot_size(direction, top.at) + std::fabs(of_a) + std::fabs(of_b);
@@ -99,13 +137,32 @@ void ExpandingPolytope::bound_along(const Double3& direction, const Difference& 
     // Triangles with one normal prove as much, also those that lay deeper: the last has
     // the witnesses.
     const double noise = 16 * kUnit * size;
+    NearestSimplex nearest = corners;
+    keep_nearest(nearest);
     const double foot = length(weighted_point(nearest));
     if (!(upper < best_.upper - noise || (upper <= best_.upper + noise && foot > foot_))) return;
     foot_ = foot;
     best_.upper = upper;
     best_.normal = {direction.x / unit, direction.y / unit, direction.z / unit};
-    best_.witness_a = weighted_sum(nearest, &Difference::at_a);
-    best_.witness_b = weighted_sum(nearest, &Difference::at_b);
+    nearest_ = nearest;
+    all_ = corners;
+}
+
+Penetration ExpandingPolytope::answer() noexcept {
+    best_.lower = std::min(best_.lower, best_.upper);
+    const Double3 off = weighted_point(nearest_) - best_.upper * best_.normal;
+    double size = 0;
+    for (std::size_t i = 0; i < nearest_.count; ++i) {
+        size = std::max(size, largest_of(nearest_.corner[i].at));
+    }
+    // Corners all but in a line have weights that rounding made.
+    constexpr double kWellPlaced = 0x1p-48;
+    if (!(largest_of(off) <= kWellPlaced * size)) {
+        nearest_ = exactly_weighted(all_.corner.data(), all_.count);
+    }
+    best_.witness_a = weighted_sum(nearest_, &Difference::at_a);
+    best_.witness_b = weighted_sum(nearest_, &Difference::at_b);
+    return best_;
 }
 
 bool ExpandingPolytope::add_off_point() noexcept {
@@ -138,7 +195,7 @@ bool ExpandingPolytope::add_off_line() noexcept {
 
 bool ExpandingPolytope::add_off_plane() noexcept {
     Double3 n{};
-    if (!normal_of(corner_[0].at, corner_[1].at, corner_[2].at, n)) return false;
+    if (!normal_of(corner_[0], corner_[1], corner_[2], n)) return false;
     for (const Double3& d : {n, -n}) {
         const Difference top = highest(d, corner_[0]);
         if (side_of(corner_[0], corner_[1], corner_[2], top) == 0) continue;
@@ -155,9 +212,9 @@ bool ExpandingPolytope::span_space() noexcept {
 }
 
 void ExpandingPolytope::bound_flat() noexcept {
-    NearestSimplex nearest;
-    nearest.count = corners_;
-    std::copy_n(corner_.begin(), corners_, nearest.corner.begin());
+    NearestSimplex corners;
+    corners.count = corners_;
+    std::copy_n(corner_.begin(), corners_, corners.corner.begin());
     Double3 d = {0, 0, 1};
     if (corners_ > 1) {
         Double3 edge = corner_[1].at - corner_[0].at;
@@ -166,10 +223,9 @@ void ExpandingPolytope::bound_flat() noexcept {
     }
     if (corners_ > 2) {
         Double3 n{};
-        if (normal_of(corner_[0].at, corner_[1].at, corner_[2].at, n)) d = n;
+        if (normal_of(corner_[0], corner_[1], corner_[2], n)) d = n;
     }
-    keep_nearest(nearest);
-    for (const Double3& side : {d, -d}) bound_along(side, highest(side, corner_[0]), nearest);
+    for (const Double3& side : {d, -d}) bound_along(side, highest(side, corner_[0]), corners);
 }
 
 NearestSimplex ExpandingPolytope::simplex_of(const Face& face) const noexcept {
@@ -182,7 +238,7 @@ NearestSimplex ExpandingPolytope::simplex_of(const Face& face) const noexcept {
 void ExpandingPolytope::add_face(std::uint8_t p, std::uint8_t q, std::uint8_t r) noexcept {
     Face face = {{p, q, r}, 0, {}};
     const NearestSimplex all = simplex_of(face);
-    if (normal_of(all.corner[0].at, all.corner[1].at, all.corner[2].at, face.direction)) {
+    if (normal_of(all.corner[0], all.corner[1], all.corner[2], face.direction)) {
         face.lower = lower_along(face.direction, all);
     }
     NearestSimplex nearest = all;
@@ -261,21 +317,18 @@ Penetration ExpandingPolytope::expand(const Difference* corner, std::size_t coun
     const bool spans = span_space();
     if (!spans) {
         bound_flat();
-        return best_;
+        return answer();
     }
     first_faces();
     for (;;) {
         const Face face = nearest_face();
         best_.lower = face.lower;
-        NearestSimplex nearest = simplex_of(face);
-        keep_nearest(nearest);
         const Difference top = highest(face.direction, corner_[face.corner[0]]);
-        bound_along(face.direction, top, nearest);
+        bound_along(face.direction, top, simplex_of(face));
         const double permitted =
             std::max(options.relative_error * best_.upper, options.absolute_error);
         if (best_.upper - best_.lower <= permitted || has(top) || !sees(top, face) || !grow(top)) {
-            best_.lower = std::min(best_.lower, best_.upper);
-            return best_;
+            return answer();
         }
     }
 }

@@ -47,7 +47,9 @@ private:
     /// Takes note of how far A - B reaches at most along a direction, seen from one of its
     /// corners, that highest() answered.
     void bound_along(const Double3& direction, const Difference& top,
-                     const NearestSimplex& nearest) noexcept;
+                     const NearestSimplex& corners) noexcept;
+    /// Adds the witnesses.
+    [[nodiscard]] Penetration answer() noexcept;
     /// Adds corners until there are four that span space; false where A - B is flat, as
     /// far as double can tell.
     [[nodiscard]] bool span_space() noexcept;
@@ -71,7 +73,9 @@ private:
     std::size_t corners_ = 0;
     std::size_t faces_ = 0;
     Penetration best_{};
-    double foot_ = 0;  ///< how far the nearest point of best_ is from the origin
+    NearestSimplex all_;      ///< the corners that best_ was proved with
+    NearestSimplex nearest_;  ///< those of them that their nearest point needs
+    double foot_ = 0;         ///< how far its nearest point is from the origin
     std::array<Difference, kMostCorners> corner_;
     std::array<Face, kMostFaces> face_;
     std::array<Edge, 3 * kMostFaces> edge_;

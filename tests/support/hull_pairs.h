@@ -113,6 +113,43 @@ inline HullPair fine_pair(std::mt19937& random) {
     return {a, b, pose, moved_points(b, pose)};
 }
 
+/// The mean of all points.
+inline Double3 middle_of(const Points& points) {
+    Double3 sum{};
+    for (const Double3& p : points) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+    const auto count = static_cast<double>(points.size());
+    return {sum.x / count, sum.y / count, sum.z / count};
+}
+
+/// Squashed along one or two axes by up to 2^-60. Every other pair has its middles in one
+/// place, up to rounding; the others are at most 2^-55 to 1 away from touching where the
+/// two are farthest along a direction.
+inline HullPair thin_pair(std::mt19937& random) {
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    HullPair pair = fine_pair(random);
+    std::array<double, 3> scale = {1, 1, 1};
+    const auto power = [&](unsigned most) {
+        return std::ldexp(1, -static_cast<int>(random() % most));
+    };
+    scale[random() % 3] = power(60);
+    scale[random() % 3] = power(30);
+    for (Points* points : {&pair.a, &pair.b}) {
+        if (random() % 4 == 0) continue;
+        for (Double3& p : *points) p = {scale[0] * p.x, scale[1] * p.y, scale[2] * p.z};
+    }
+    const auto& turn = pair.pose.rotation();
+    const Points turned = moved_points(pair.b, pose_of(turn, {0, 0, 0}));
+    const Double3 d = {coordinate(random), coordinate(random), coordinate(random)};
+    const bool in_middle = random() % 2 == 0;
+    const Double3 p = in_middle ? middle_of(pair.a) : extreme(pair.a, d);
+    const Double3 q = in_middle ? middle_of(turned) : extreme(turned, {-d.x, -d.y, -d.z});
+    const double gap = in_middle ? 0 : coordinate(random) * power(55);
+    pair.pose =
+        pose_of(turn, {p.x - q.x + gap * d.x, p.y - q.y + gap * d.y, p.z - q.z + gap * d.z});
+    pair.placed = moved_points(pair.b, pair.pose);
+    return pair;
+}
+
 /// Any numbers, of points that may not be.
 inline ConvexCache nonsense(std::mt19937& random) {
     ConvexCache cache;

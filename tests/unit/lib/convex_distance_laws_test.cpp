@@ -104,6 +104,23 @@ TEST(ConvexDistanceLaws, FineHullsAreAnsweredAsByDefinition) {
     EXPECT_LT(apart, kPairs * 7 / 10);
 }
 
+// The same of needles and plates.
+TEST(ConvexDistanceLaws, ThinHullsAreAnsweredAsByDefinition) {
+    constexpr int kPairs = 1000;
+    std::mt19937 random(20240606);
+    int apart = 0;
+    for (int i = 0; i < kPairs; ++i) {
+        SCOPED_TRACE(i);
+        const HullPair pair = thin_pair(random);
+        const auto truth = ExactHullPair<ExactNumber>(pair.a, pair.placed).squared_distance();
+        apart += truth ? 1 : 0;
+        ask(pair, truth, random);
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(apart, kPairs * 3 / 10);
+    EXPECT_LT(apart, kPairs * 7 / 10);
+}
+
 /// Points of a sphere, on a coarse grid or not.
 Points ball_points(std::mt19937& random, std::size_t count, bool coarse) {
     std::normal_distribution<double> normal;
