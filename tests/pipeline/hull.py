@@ -169,6 +169,43 @@ def check_baked(program, folder):
                      f"point {lane} is not its vertex")
 
 
+def check_queries(program, folder):
+    """Hulls answer for the models that they contain: never too far, never apart that touch."""
+    boxes = []
+    for name, seed in (("a", 6), ("b", 7)):
+        source, baked = folder / f"{name}.obj", folder / f"{name}.cdp.h5"
+        points = cloud(seed, 150)
+        write_obj(source, points, soup_over(points))
+        done = run(program, "bake", source, "-o", baked, "--structures", "hull")
+        must(done.returncode == 0, done.stderr)
+        boxes.append(baked)
+    poses = folder / "poses.txt"
+    poses.write_text("".join(f"1 0 0 0 1 0 0 0 1 {0.75 * i!r} {0.125 * i!r} 0\n"
+                             for i in range(24)))
+
+    def ask(*question):
+        done = run(program, "query", *question, "--poses", poses, "--format", "json")
+        must(done.returncode == 0, done.stderr)
+        return json.loads(done.stdout)
+
+    touching = 0
+    for model, hull, apart, near in zip(
+            ask("collide", *boxes), ask("collide", *boxes, "--structure", "hull"),
+            ask("distance", *boxes), ask("distance", *boxes, "--structure", "hull")):
+        must(hull["approximate"] and near["approximate"], "not marked as approximate")
+        must(hull["hit"] or not model["hit"], f"{model} but {hull}")
+        must(near["lower"] <= apart["upper"], f"{near} but {apart}")
+        must(hull["hit"] == (near["upper"] == 0), f"{hull} but {near}")
+        touching += hull["hit"]
+    must(4 < touching < 20, f"{touching} of 24 poses touch: a one-sided test")
+    bare = folder / "bare.cdp.h5"
+    run(program, "bake", folder / "a.obj", "-o", bare)
+    for arguments in (("collide", bare, bare), ("overlap", *boxes), ("within", *boxes,
+                      "--tolerance", "1"), ("collide", *boxes, "--descent", "larger")):
+        done = run(program, "query", *arguments, "--structure", "hull")
+        must(done.returncode == 2 and done.stderr, f"{arguments}: exit {done.returncode}")
+
+
 def check_refusals(program, folder):
     good, bad = folder / "good.obj", folder / "bad.obj"
     write_obj(good, [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.1, 0.0)], [(0, 1, 2)])
@@ -192,7 +229,7 @@ def check_refusals(program, folder):
 def main(program):
     with tempfile.TemporaryDirectory() as name:
         for check in (check_exact_and_enclosing, check_parts, check_low_dimensions,
-                      check_every_format, check_baked, check_refusals):
+                      check_every_format, check_baked, check_queries, check_refusals):
             check(program, pathlib.Path(name))
     print("hulls are as proved")
 

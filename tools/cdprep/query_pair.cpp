@@ -10,11 +10,14 @@
 #include <span>
 #include <sstream>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "cdprep/collide.h"
+#include "cdprep/convex_distance.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
+#include "cdprep/model_hulls.h"
 #include "cdprep/overlap_through.h"
 #include "cdprep/query_counts.h"
 #include "cdprep/triangles_within.h"
@@ -24,6 +27,7 @@
 #include "poses_file.h"
 #include "query.h"
 #include "query_structure.h"
+#include "structures.h"
 
 namespace cdprep::cli {
 namespace {
@@ -87,6 +91,40 @@ Result<std::vector<Placement>> placements_of(const Arguments& arguments) {
     return placements;
 }
 
+/// Asks `repeat` times and keeps what each time took.
+class Stopwatch {
+public:
+    template <class Ask>
+    std::invoke_result_t<Ask> timed(std::size_t repeat, bool wanted, Ask ask) {
+        for (std::size_t i = 1;; ++i) {
+            const Clock::time_point begin = Clock::now();
+            auto answer = ask();
+            const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
+            if (wanted) microseconds_.push_back(taken.count());
+            if (i >= repeat) return answer;
+        }
+    }
+
+    /// What the questions took, for people: one line.
+    [[nodiscard]] std::string line() {
+        if (microseconds_.empty()) return "";
+        std::sort(microseconds_.begin(), microseconds_.end());
+        const auto at = [&](double share) {
+            return microseconds_[static_cast<std::size_t>(
+                share * static_cast<double>(microseconds_.size() - 1))];
+        };
+        std::ostringstream line;
+        line << microseconds_.size() << " questions: median " << std::fixed << std::setprecision(2)
+             << at(0.5) << " us, 95 % below " << at(0.95) << " us, most " << at(1) << " us\n";
+        return line.str();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    std::vector<double> microseconds_;
+};
+
 /// Answers one placement after the other with buffers that are kept.
 class Asker {
 public:
@@ -134,16 +172,7 @@ public:
 
     /// What the questions took, for people: one line.
     [[nodiscard]] std::string timings() {
-        if (microseconds_.empty()) return "";
-        std::sort(microseconds_.begin(), microseconds_.end());
-        const auto at = [&](double share) {
-            return microseconds_[static_cast<std::size_t>(
-                share * static_cast<double>(microseconds_.size() - 1))];
-        };
-        std::ostringstream line;
-        line << microseconds_.size() << " questions: median " << std::fixed << std::setprecision(2)
-             << at(0.5) << " us, 95 % below " << at(0.95) << " us, most " << at(1) << " us\n";
-        return line.str();
+        return stopwatch_.line();
     }
 
     /// What the questions did, for people: one line.
@@ -160,17 +189,9 @@ public:
     }
 
 private:
-    using Clock = std::chrono::steady_clock;
-
     template <class Ask>
     std::invoke_result_t<Ask> timed(Ask ask) {
-        for (std::size_t i = 1;; ++i) {
-            const Clock::time_point begin = Clock::now();
-            auto answer = ask();
-            const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
-            if (arguments_.timings) microseconds_.push_back(taken.count());
-            if (i >= arguments_.repeat) return answer;
-        }
+        return stopwatch_.timed(arguments_.repeat, arguments_.timings, ask);
     }
 
     /// The answer's pairs stay valid until the next call.
@@ -273,8 +294,81 @@ private:
     std::vector<Crossing> crossings_;
     QueryCounts counts_;
     PairCache cache_;
-    std::vector<double> microseconds_;
+    Stopwatch stopwatch_;
 };
+
+bool asks_hulls(const Arguments& arguments) {
+    return arguments.structure.structure == "hull" &&
+           (arguments.question == Question::collide || arguments.question == Question::distance);
+}
+
+/// Options that say what convex hulls do not know.
+std::optional<Error> find_idle_for_hulls(const Arguments& arguments) {
+    const std::array<std::pair<const char*, bool>, 7> options = {
+        {{"--leaf-test", !arguments.structure.leaf_test.empty()},
+         {"--descent", !arguments.structure.descent.empty()},
+         {"--search", !arguments.structure.search.empty()},
+         {"--level-of-detail", arguments.level_of_detail.has_value()},
+         {"--contact proper", arguments.contact == "proper"},
+         {"--skip-degenerate", arguments.skip_degenerate},
+         {"--counts", arguments.counts}}};
+    for (const auto& [option, is_given] : options) {
+        if (!is_given) continue;
+        return Error{ErrorCode::bad_argument,
+                     std::string(option) +
+                         " says nothing of convex hulls: leave it out, or ask "
+                         "through another --structure."};
+    }
+    return std::nullopt;
+}
+
+Result<Model> open_hulls(const std::filesystem::path& path) {
+    Result<Model> opened = Model::open(path, kHullSections);
+    if (!opened || find_hull(opened.value(), format::HullScope::whole)) return opened;
+    return Error{ErrorCode::bad_argument,
+                 path.string() +
+                     ": was baked without what --structure hull needs: hulls. Bake it "
+                     "again with --structures hull."};
+}
+
+/// About the hulls of the wholes: solid, whatever the models are.
+Exit run_hulls(const Arguments& arguments) {
+    if (const auto error = find_idle_for_hulls(arguments)) return fail("query", *error);
+    const Result<Model> a = open_hulls(arguments.a);
+    if (!a) return fail("query", a.error());
+    const Result<Model> b = open_hulls(arguments.b);
+    if (!b) return fail("query", b.error());
+    const Result<std::vector<Placement>> placements = placements_of(arguments);
+    if (!placements) return fail("query", placements.error());
+
+    const ConvexPoints of_a = convex_points(a.value(), 0), of_b = convex_points(b.value(), 0);
+    const ConvexDistanceOptions options = {arguments.errors.relative_error,
+                                           arguments.errors.absolute_error,
+                                           arguments.errors.max_distance};
+    ConvexCache cache;
+    Stopwatch stopwatch;
+    report::Answers answers(std::cout, parse_answer_format(arguments.format));
+    for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
+        const Placement& placement = placements.value()[i];
+        const ConvexCache before = cache;
+        const auto timed = [&](auto ask) {
+            return stopwatch.timed(arguments.repeat, arguments.timings, [&] {
+                cache = before;
+                return ask();
+            });
+        };
+        if (arguments.question == Question::collide) {
+            answers.add(report::HullCollideAnswer{
+                i, timed([&] { return convex_collide(of_a, of_b, placement, &cache); })});
+        } else {
+            answers.add(report::HullDistanceAnswer{
+                i, timed([&] { return convex_distance(of_a, of_b, placement, options, &cache); })});
+        }
+    }
+    answers.finish();
+    if (arguments.timings) std::cerr << stopwatch.line();
+    return Exit::success;
+}
 
 format::SectionSet needed_for(const Arguments& arguments) {
     format::SectionSet needed = sections_for("collide");
@@ -333,6 +427,7 @@ Result<StructureOptions> structure_of(const Arguments& arguments) {
 }
 
 Exit run(const Arguments& arguments) {
+    if (asks_hulls(arguments)) return run_hulls(arguments);
     const Result<StructureOptions> through = structure_of(arguments);
     if (!through) return fail("query", through.error());
     const format::SectionSet needed = needed_for(arguments);
@@ -427,13 +522,19 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
         add_structure(*command, arguments->structure,
                       question == Question::collide
                           ? "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or "
-                            "tetra-tree; bake both with --structures. The answers are the same"
+                            "tetra-tree; bake both with --structures. The answers are the same, "
+                            "but for hull: do the convex hulls touch?"
                           : "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or "
                             "tetra-tree, with the same answers, or hashed-octree-literal, which "
                             "misses pairs and is for studies; bake both with --structures");
         add_structure_steps(*command, arguments->structure);
     } else {
-        add_structure(*command, arguments->structure, "bvh: no other serves this question");
+        add_structure(
+            *command, arguments->structure,
+            question == Question::distance
+                ? "Through what to ask: bvh, or hull: how far the convex hulls are apart; "
+                  "bake both with --structures hull"
+                : "bvh: no other serves this question");
     }
     add_answer_format(*command, arguments->format);
     command->add_option("--repeat", arguments->repeat, "Ask each pose this often, for --timings")

@@ -14,11 +14,6 @@ namespace {
 
 /// Convex hulls: no tree, but chosen as the trees are.
 constexpr const char* kHull = "hull";
-constexpr format::SectionSet kHullSections = {
-    format::SectionId::hulls,         format::SectionId::hull_blocks,
-    format::SectionId::hull_vertices, format::SectionId::hull_facets,
-    format::SectionId::hull_groups,   format::SectionId::hull_neighbours,
-    format::SectionId::hull_starts};
 
 const report::StructureName* find_baked(const std::string& name) {
     const auto* at = std::find_if(

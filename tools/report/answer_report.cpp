@@ -188,6 +188,37 @@ std::string as_text(const DistanceAnswer& answer) {
            place(d.witness_a, " ") + " and " + place(d.witness_b, " ");
 }
 
+std::string as_json(const HullCollideAnswer& answer) {
+    return "{\"pose\": " + number(answer.pose) + ", \"hit\": " + word(answer.hit) +
+           ", \"approximate\": true}";
+}
+
+std::string as_text(const HullCollideAnswer& answer) {
+    return "pose " + number(answer.pose) +
+           (answer.hit ? ": hulls touch, approximate: the models may not" : ": no contact");
+}
+
+std::string as_json(const HullDistanceAnswer& answer) {
+    std::string text =
+        "{\"pose\": " + number(answer.pose) + ", \"found\": " + word(answer.distance.has_value());
+    if (answer.distance) {
+        const ConvexDistance& d = *answer.distance;
+        text += ", \"lower\": " + number(d.lower) + ", \"upper\": " + number(d.upper) +
+                ", \"witness_a\": [" + place(d.witness_a, ", ") + "], \"witness_b\": [" +
+                place(d.witness_b, ", ") + "]";
+    }
+    return text + ", \"approximate\": true}";
+}
+
+std::string as_text(const HullDistanceAnswer& answer) {
+    const std::string text = "pose " + number(answer.pose) + ": ";
+    if (!answer.distance) return text + "nothing that near";
+    const ConvexDistance& d = *answer.distance;
+    return text + "distance of hulls " + number(d.lower) + " to " + number(d.upper) + ", at " +
+           place(d.witness_a, " ") + " and " + place(d.witness_b, " ") +
+           ", approximate: the models may be farther apart";
+}
+
 std::string as_json(const WithinAnswer& answer) {
     return "{\"pose\": " + number(answer.pose) + ", \"within\": " + word(answer.within) +
            count_and_pairs_json(answer) + "}";
@@ -260,6 +291,14 @@ void Answers::add(const CoarseAnswer& answer) {
     write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
 }
 void Answers::add(const DistanceAnswer& answer) {
+    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
+}
+
+void Answers::add(const HullCollideAnswer& answer) {
+    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
+}
+
+void Answers::add(const HullDistanceAnswer& answer) {
     write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
 }
 

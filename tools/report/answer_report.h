@@ -10,6 +10,7 @@
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/convex_distance.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/level_of_detail.h"
@@ -39,6 +40,17 @@ struct CoarseAnswer {
 struct DistanceAnswer {
     std::size_t pose = 0;
     std::optional<Distance> distance;
+};
+
+/// What two models' hulls say in one pose: where they do not touch, nor do the models, which
+/// are at least as far apart.
+struct HullCollideAnswer {
+    std::size_t pose = 0;
+    bool hit = false;
+};
+struct HullDistanceAnswer {
+    std::size_t pose = 0;
+    std::optional<ConvexDistance> distance;  ///< nothing when farther than asked for
 };
 
 /// Whether two models are within the tolerance in one pose.
@@ -80,6 +92,8 @@ public:
     void add(const PairAnswer& answer);
     void add(const CoarseAnswer& answer);
     void add(const DistanceAnswer& answer);
+    void add(const HullCollideAnswer& answer);
+    void add(const HullDistanceAnswer& answer);
     void add(const WithinAnswer& answer);
     void add(const InsideAnswer& answer);
     void add(const ClosestAnswer& answer);

@@ -40,7 +40,7 @@ std::string baked_hulls_text(const Model& model, std::size_t most_lines) {
     const auto hulls = model.hulls();
     for (const Hull& hull : hulls.first(std::min(most_lines, hulls.size()))) {
         text += std::string("  ") + scope_name(hull.scope);
-        if (hull.scope != HullScope::whole) text += " " + std::to_string(hull.number);
+        if (hull.scope != HullScope::whole) text.append(1, ' ').append(std::to_string(hull.number));
         text += ": dimension " + std::to_string(hull.dimension) + ", " +
                 std::to_string(hull.point_count) + " points, " + std::to_string(hull.facet_count) +
                 " facets in " + std::to_string(hull.group_count) + " faces" +
