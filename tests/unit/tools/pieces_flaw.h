@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "convex/convex_hull.h"
+#include "convex/surface_pieces.h"
+#include "support/exact_rational.h"
+#include "unit/tools/hull_flaw.h"
+
+namespace cdprep::test {
+
+/// The vertices of a piece, ascending.
+inline std::vector<std::uint32_t> piece_vertices(const mesh::Mesh& mesh,
+                                                 std::span<const std::uint32_t> triangles) {
+    std::set<std::uint32_t> all;
+    for (const std::uint32_t t : triangles) {
+        all.insert(mesh.triangles[t].vertex.begin(), mesh.triangles[t].vertex.end());
+    }
+    return {all.begin(), all.end()};
+}
+
+inline std::vector<Double3> piece_points(const mesh::Mesh& mesh,
+                                         std::span<const std::uint32_t> triangles) {
+    std::vector<Double3> points;
+    for (const std::uint32_t v : piece_vertices(mesh, triangles)) {
+        points.push_back(mesh.positions[v]);
+    }
+    return points;
+}
+
+/// Says what is wrong with the lists of pieces, or nothing: every triangle is in one piece
+/// and in no other, pieces are sorted as promised.
+inline std::string partition_flaw(const mesh::Mesh& mesh, const convex::SurfacePieces& pieces) {
+    if (pieces.first.size() != pieces.pieces.size() + 1) return "lists of unequal length";
+    if (pieces.first.front() != 0 || pieces.first.back() != mesh.triangles.size()) {
+        return "lists do not end where the triangles do";
+    }
+    std::vector<std::uint8_t> seen(mesh.triangles.size(), 0);
+    for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
+        const auto triangles = pieces.of(i);
+        if (triangles.empty()) return "piece " + std::to_string(i) + " is empty";
+        if (!std::is_sorted(triangles.begin(), triangles.end())) {
+            return "piece " + std::to_string(i) + " is not sorted";
+        }
+        if (i > 0 && pieces.of(i - 1)[0] > triangles[0]) return "pieces are not sorted";
+        for (const std::uint32_t t : triangles) {
+            if (t >= seen.size() || seen[t] != 0) return "triangle twice, or out of range";
+            seen[t] = 1;
+        }
+    }
+    return "";
+}
+
+/// Says which triangle does not lie on the hull of its piece, or nothing: a vertex of the
+/// piece is above its plane. Exact.
+inline std::string hull_face_flaw(const mesh::Mesh& mesh, const convex::SurfacePieces& pieces) {
+    for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
+        const std::vector<Double3> points = piece_points(mesh, pieces.of(i));
+        for (const std::uint32_t t : pieces.of(i)) {
+            const auto& v = mesh.triangles[t].vertex;
+            const FilteredPlane plane(mesh.positions[v[0]], mesh.positions[v[1]],
+                                      mesh.positions[v[2]]);
+            for (const Double3& p : points) {
+                if (plane.side(p) > 0) {
+                    return "triangle " + std::to_string(t) + " is below a vertex of piece " +
+                           std::to_string(i);
+                }
+            }
+        }
+    }
+    return "";
+}
+
+using RationalPoint = std::array<ExactRational, 3>;
+
+/// How far a point is in front of a plane, in some unit.
+inline ExactRational height(const ExactPlane& plane, const RationalPoint& p) {
+    ExactRational sum;
+    const std::array<double, 3> at = {plane.at.x, plane.at.y, plane.at.z};
+    for (std::size_t k = 0; k < 3; ++k) {
+        sum =
+            sum + ExactRational(plane.normal[k], ExactNumber(1.0)) * (p[k] - ExactRational(at[k]));
+    }
+    return sum;
+}
+
+/// The part of a polygon that is not in front of a plane.
+inline std::vector<RationalPoint> clipped(const std::vector<RationalPoint>& polygon,
+                                          const ExactPlane& plane) {
+    std::vector<RationalPoint> left;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const RationalPoint &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        const ExactRational hp = height(plane, p), hq = height(plane, q);
+        if (hp.sign() <= 0) left.push_back(p);
+        if (hp.sign() * hq.sign() >= 0) continue;
+        const ExactRational at = hp / (hp - hq);
+        RationalPoint between;
+        for (std::size_t k = 0; k < 3; ++k) between[k] = p[k] + at * (q[k] - p[k]);
+        left.push_back(between);
+    }
+    return left;
+}
+
+/// The triangle has a point strictly inside the hull: cut off what is outside, and ask
+/// whether what is left lies in no facet's plane altogether. Exact rationals, and slow.
+inline bool enters(const convex::ConvexHull& hull, const std::array<Double3, 3>& triangle) {
+    if (hull.dimension < 3) return false;
+    std::vector<RationalPoint> left;
+    for (const Double3& p : triangle) left.push_back({p.x, p.y, p.z});
+    std::vector<ExactPlane> planes;
+    for (const auto& facet : hull.facets) {
+        planes.push_back(
+            exact_plane(hull.points[facet[0]], hull.points[facet[1]], hull.points[facet[2]]));
+        left = clipped(left, planes.back());
+        if (left.empty()) return false;
+    }
+    return std::all_of(planes.begin(), planes.end(), [&](const ExactPlane& plane) {
+        return std::any_of(left.begin(), left.end(),
+                           [&](const RationalPoint& p) { return height(plane, p).sign() < 0; });
+    });
+}
+
+/// Says which triangle enters the hull of a piece that is said to be contained, or nothing.
+/// All triangles of a mesh count, which must be one solid.
+inline std::string containment_flaw(const mesh::Mesh& mesh, const convex::SurfacePieces& pieces) {
+    for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
+        if (!pieces.pieces[i].contained) continue;
+        const convex::ConvexHull hull = convex::convex_hull(piece_points(mesh, pieces.of(i)));
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+            const auto& v = mesh.triangles[t].vertex;
+            if (enters(hull, {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]})) {
+                return "triangle " + std::to_string(t) + " enters the hull of piece " +
+                       std::to_string(i);
+            }
+        }
+    }
+    return "";
+}
+
+}  // namespace cdprep::test
