@@ -30,6 +30,7 @@ Exit fail(const char* command, const Error& error);
 
 /// Each adds its subcommand; its callback stores how it went in `exit`.
 void add_bake(CLI::App& app, Exit& exit);
+void add_decompose(CLI::App& app, Exit& exit);
 void add_explain(CLI::App& app, Exit& exit);
 void add_hull(CLI::App& app, Exit& exit);
 void add_info(CLI::App& app, Exit& exit);

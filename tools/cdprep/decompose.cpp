@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <system_error>
+
+#include "command.h"
+#include "convex/surface_pieces.h"
+#include "import_limits.h"
+#include "interrupt.h"
+#include "load_mesh.h"
+#include "parallel.h"
+#include "progress.h"
+#include "report/pieces_report.h"
+#include "write/pieces_file.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr int kMostThreads = 4096;
+
+const std::map<std::string, convex::PieceOrder> kOrders = {
+    {"greedy", convex::PieceOrder::greedy},
+    {"depth-first", convex::PieceOrder::depth_first},
+    {"breadth-first", convex::PieceOrder::breadth_first},
+    {"cresting", convex::PieceOrder::cresting},
+};
+
+struct Arguments {
+    fs::path input;
+    fs::path output;
+    bool exact = false;
+    std::string order = "greedy";
+    double tolerance = 0;
+    bool table = false;
+    std::string format = "text";
+    std::string progress = "auto";
+    std::size_t threads = 0;
+    ImportLimits import;
+    LoadOptions load;
+};
+
+/// Fails before anything is read when the output could not be written.
+std::optional<Error> find_bad_output(const Arguments& arguments) {
+    if (arguments.output.empty()) return std::nullopt;
+    std::error_code unknown;  // not there: not the same
+    if (fs::equivalent(arguments.input, arguments.output, unknown)) {
+        return Error{ErrorCode::bad_argument,
+                     arguments.output.string() +
+                         ": is the input and would be replaced. Choose another output."};
+    }
+    const auto format = write::mesh_format_of(arguments.output);
+    if (format == write::MeshFormat::obj || format == write::MeshFormat::ply) return std::nullopt;
+    return Error{ErrorCode::bad_argument,
+                 arguments.output.string() + ": pieces can be written as .obj or .ply only."};
+}
+
+Error stopped(const Arguments& arguments) {
+    return {ErrorCode::interrupted, arguments.input.string() + ": stopped; nothing was written."};
+}
+
+Result<report::SurfacePiecesReport> decompose(const Arguments& arguments, Progress& progress) {
+    if (const auto error = find_bad_output(arguments)) return *error;
+    const Threads threads(arguments.threads);
+    LoadOptions load = arguments.load;
+    load.import = arguments.import.options();
+    load.import.parallel_for = threads.parallel_for();
+    progress.show(0, arguments.input.filename().string() + ": import");
+    const Result<mesh::Mesh> mesh = load_mesh(arguments.input, load);
+    if (!mesh) return mesh.error();
+    if (is_interrupted()) return stopped(arguments);
+
+    progress.show(0, arguments.input.filename().string() + ": decompose");
+    const Clock::time_point begin = Clock::now();
+    report::SurfacePiecesReport report;
+    report.order = kOrders.at(arguments.order);
+    report.tolerance = arguments.tolerance;
+    report.pieces =
+        convex::find_surface_pieces(mesh.value(), {.order = report.order,
+                                                   .tolerance = arguments.tolerance,
+                                                   .parallel_for = threads.parallel_for(),
+                                                   .stop = is_interrupted});
+    report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (is_interrupted()) return stopped(arguments);
+    report.input = arguments.input.string();
+    report.output = arguments.output.string();
+    report.has_table = arguments.table;
+    if (arguments.output.empty()) return report;
+
+    progress.show(0, arguments.input.filename().string() + ": write");
+    const Result<Done> written = write::write_pieces(
+        arguments.output,
+        {mesh.value().positions, mesh.value().triangles, mesh.value().single_precision},
+        {report.pieces.triangles, report.pieces.first});
+    if (!written) return written.error();
+    return report;
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<ProgressStyle> style = parse_progress(arguments.progress);
+    if (!style) return fail("decompose", style.error());
+    Progress progress(style.value(), 1);
+    const Result<report::SurfacePiecesReport> found = decompose(arguments, progress);
+    progress.clear();
+    const bool is_json = arguments.format == "json";
+    if (!found) {
+        report::SurfacePiecesReport report;
+        report.input = arguments.input.string();
+        report.exit = static_cast<int>(exit_for(found.error().code));
+        report.error = found.error().message;
+        if (is_json) std::cout << report::pieces_json(report);
+        return fail("decompose", found.error());
+    }
+    std::cout << (is_json ? report::pieces_json(found.value())
+                          : report::pieces_text(found.value()));
+    return Exit::success;
+}
+
+}  // namespace
+
+void add_decompose(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("decompose", "Cut a mesh into convex pieces");
+    command->footer(
+        "Cuts the surface into patches that lie on the boundary of their convex hulls, exactly\n"
+        "or, with --tolerance, nearly. Takes any mesh: borders, edges that are not manifold and\n"
+        "edges whose triangles are wound against each other are never crossed.");
+    command->add_option("input", arguments->input, "OBJ, STL, PLY, OFF, glTF, ... file")
+        ->required();
+    command->add_option("-o,--output", arguments->output,
+                        "An .obj file with a group for each piece, or a .ply file with colours");
+    CLI::Option* exact = command->add_flag("--exact", arguments->exact,
+                                           "Every triangle lies on its hull exactly (the default)");
+    command
+        ->add_option("--tolerance", arguments->tolerance,
+                     "Let vertices be this much above the triangles of their piece, in model "
+                     "units; what was needed is proved and stated")
+        ->check(is_length())
+        ->excludes(exact);
+    command
+        ->add_option("--order", arguments->order,
+                     "How pieces come about: greedy (patches merge; fewest pieces), depth-first, "
+                     "breadth-first or cresting (patches grow)")
+        ->check(CLI::IsMember({"greedy", "depth-first", "breadth-first", "cresting"}))
+        ->capture_default_str();
+    command->add_flag("--table", arguments->table, "Report every piece");
+    command->add_flag("--normalize", arguments->load.normalize,
+                      "Fit to a box of diagonal 1, centred");
+    command
+        ->add_option("--weld", arguments->load.weld_distance,
+                     "Merge vertices this close, in model units")
+        ->check(is_length())
+        ->capture_default_str();
+    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
+        ->check(CLI::Range(0, kMostThreads));
+    command->add_option("--format", arguments->format, "text or json")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->capture_default_str();
+    command->add_option("--progress", arguments->progress, "auto, bar, plain or none")
+        ->capture_default_str();
+    add_import_limits(*command, arguments->import);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli
