@@ -5,6 +5,7 @@
 #include <array>
 #include <numeric>
 
+#include "build/chunks.h"
 #include "convex/convex_hull.h"
 #include "convex/flat_turn.h"
 #include "predicates.h"
@@ -54,6 +55,16 @@ Grouped connected(const PatchRules& rules, Joins joins) {
     result.first.push_back(count);
     for (std::uint32_t t = 0; t < count; ++t) result.triangles[next[groups.lowest(t)]++] = t;
     return result;
+}
+
+/// Calls body(group) for all groups, side by side.
+template <class Body>
+void for_groups(const Grouped& groups, ParallelFor parallel_for, Body body) {
+    constexpr std::size_t kAtATime = 1024;
+    build::for_chunks(groups.count(), kAtATime, parallel_for,
+                      [&](std::size_t first, std::size_t last) {
+                          for (std::size_t i = first; i < last; ++i) body(i);
+                      });
 }
 
 /// The vertices of some triangles, ascending.
@@ -260,7 +271,7 @@ void close_convex_regions(const PatchRules& rules, PatchSet& patches, ParallelFo
         if (!rules.keeps_inside && any_half_edge(triangles, goes_on)) return;
         if (Region(rules, triangles).is_convex()) patches.close(triangles);
     };
-    parallel_for(regions.count(), close);
+    for_groups(regions, parallel_for, close);
 }
 
 void fill_polygons(const PatchRules& rules, PatchSet& patches, ParallelFor parallel_for) {
@@ -272,7 +283,7 @@ void fill_polygons(const PatchRules& rules, PatchSet& patches, ParallelFor paral
         const Polygon polygon(rules, triangles);
         if (polygon.is_convex()) patches.join_polygon(triangles, polygon.corners());
     };
-    parallel_for(polygons.count(), fill);
+    for_groups(polygons, parallel_for, fill);
 }
 
 }  // namespace cdprep::convex

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "build/chunks.h"
 #include "mesh/vectors.h"
 #include "predicates.h"
 
@@ -49,13 +50,12 @@ FacePlanes::FacePlanes(const mesh::Mesh& mesh, double tolerance, ParallelFor par
     : mesh_(mesh), tolerance_(tolerance), planes_(mesh.triangles.size()) {
     const Double3 extent = extent_of(mesh);
     constexpr std::size_t kAtATime = 1 << 14;
-    const auto fill = [&](std::size_t part) {
-        const std::size_t last = std::min((part + 1) * kAtATime, planes_.size());
-        for (std::size_t t = part * kAtATime; t < last; ++t) {
-            planes_[t] = plane_of(static_cast<std::uint32_t>(t), extent);
-        }
-    };
-    parallel_for((planes_.size() + kAtATime - 1) / kAtATime, fill);
+    build::for_chunks(planes_.size(), kAtATime, parallel_for,
+                      [&](std::size_t first, std::size_t last) {
+                          for (std::size_t t = first; t < last; ++t) {
+                              planes_[t] = plane_of(static_cast<std::uint32_t>(t), extent);
+                          }
+                      });
 }
 
 FacePlanes::Plane FacePlanes::plane_of(std::uint32_t triangle, const Double3& extent) const {
@@ -93,13 +93,58 @@ bool FacePlanes::admits_exactly(std::uint32_t triangle, std::uint32_t vertex) co
                     mesh_.positions[vertex]) >= 0;
 }
 
-double FacePlanes::height_bound(std::uint32_t triangle, std::uint32_t vertex) const {
+void FacePlanes::gather(std::span<const std::uint32_t> vertices, Points& points) const {
+    points.vertex.assign(vertices.begin(), vertices.end());
+    points.x.resize(vertices.size());
+    points.y.resize(vertices.size());
+    points.z.resize(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const Double3& p = mesh_.positions[vertices[i]];
+        points.x[i] = p.x;
+        points.y[i] = p.y;
+        points.z[i] = p.z;
+    }
+}
+
+bool FacePlanes::admits_all(std::uint32_t triangle, const Points& points) const {
+    const Plane plane = planes_[triangle];
+    const double *x = points.x.data(), *y = points.y.data(), *z = points.z.data();
+    constexpr std::size_t kAtATime = 16;  // without a branch, so that lanes are used
+    for (std::size_t first = 0; first < points.vertex.size(); first += kAtATime) {
+        const std::size_t last = std::min(first + kAtATime, points.vertex.size());
+        std::uint64_t doubtful = 0;
+        for (std::size_t i = first; i < last; ++i) {
+            const double height = plane.normal.x * (x[i] - plane.at.x) +
+                                  plane.normal.y * (y[i] - plane.at.y) +
+                                  plane.normal.z * (z[i] - plane.at.z);
+            doubtful += height <= plane.reach ? 0U : 1U;
+        }
+        if (doubtful == 0) continue;
+        for (std::size_t i = first; i < last; ++i) {
+            if (!admits(triangle, points.vertex[i])) return false;
+        }
+    }
+    return true;
+}
+
+double FacePlanes::height_bound(std::uint32_t triangle, const Points& points) const {
     const Plane& plane = planes_[triangle];
-    const double height = raw_height(plane, mesh_.positions[vertex]);
-    if (height < -plane.doubt || admits_exactly(triangle, vertex)) return 0;
+    const auto& own = mesh_.triangles[triangle].vertex;
+    double most = 0;
+    bool any = false;
+    for (const std::uint32_t vertex : points.vertex) {
+        const double height = raw_height(plane, mesh_.positions[vertex]);
+        if (height < -plane.doubt || std::find(own.begin(), own.end(), vertex) != own.end()) {
+            continue;
+        }
+        if (height <= plane.doubt && admits_exactly(triangle, vertex)) continue;
+        any = true;
+        most = std::max(most, height);
+    }
+    if (!any) return 0;
     const double length = least_length(triangle);
     if (length == 0) return kInfinity;
-    return std::nextafter((height + plane.doubt) / length * (1 + 4 * kUnit), kInfinity);
+    return std::nextafter((most + plane.doubt) / length * (1 + 4 * kUnit), kInfinity);
 }
 
 }  // namespace cdprep::convex

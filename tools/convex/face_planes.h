@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cdprep/parallel_for.h"
@@ -30,9 +31,19 @@ public:
         return height <= plane.doubt && admits_exactly(triangle, vertex);
     }
 
-    /// Returns an upper bound of the height of a vertex above a triangle's plane; 0 when it
-    /// is not above.
-    [[nodiscard]] double height_bound(std::uint32_t triangle, std::uint32_t vertex) const;
+    /// Points side by side, and the vertices that they are.
+    struct Points {
+        std::vector<double> x, y, z;
+        std::vector<std::uint32_t> vertex;
+    };
+    void gather(std::span<const std::uint32_t> vertices, Points& points) const;
+
+    /// True when admits() is for all of them.
+    [[nodiscard]] bool admits_all(std::uint32_t triangle, const Points& points) const;
+
+    /// Returns an upper bound of how far one of them is above a triangle's plane; 0 exactly
+    /// when none is.
+    [[nodiscard]] double height_bound(std::uint32_t triangle, const Points& points) const;
 
 private:
     /// height * |normal|, rounded: off by at most `doubt`.

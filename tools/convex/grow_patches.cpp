@@ -102,7 +102,7 @@ void grow_patches(const PatchRules& rules, PatchSet& patches, PieceOrder order,
         std::stable_sort(seeds.begin(), seeds.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return crest[a] > crest[b]; });
     }
-    PatchScope scope{0, static_cast<std::uint32_t>(place.size()), work * place.size(), {}};
+    PatchScope scope{0, static_cast<std::uint32_t>(place.size()), work * place.size()};
     Growth growth(rules, patches, order, scope);
     constexpr std::size_t kBetweenLooks = 1024;
     for (std::size_t i = 0; i < seeds.size(); ++i) {

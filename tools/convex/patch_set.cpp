@@ -38,15 +38,13 @@ std::span<const std::uint32_t> PatchSet::faces(std::uint32_t patch) const {
     return std::span(own_number_).subspan(patch, 1);
 }
 
-bool PatchSet::fit(std::uint32_t a, std::uint32_t b) const {
+bool PatchSet::fit(std::uint32_t a, std::uint32_t b, PatchScope& scope) const {
     const auto admits_all = [&](std::uint32_t by, std::uint32_t of) {
-        const auto points = vertices(of);
-        for (const std::uint32_t face : faces(by)) {
-            for (const std::uint32_t vertex : points) {
-                if (!rules_.planes.admits(face, vertex)) return false;
-            }
-        }
-        return true;
+        rules_.planes.gather(vertices(of), scope.points);
+        const auto all = faces(by);
+        return std::all_of(all.begin(), all.end(), [&](std::uint32_t face) {
+            return rules_.planes.admits_all(face, scope.points);
+        });
     };
     return admits_all(a, b) && admits_all(b, a);
 }
@@ -61,7 +59,7 @@ bool PatchSet::lie_in_one_plane(std::uint32_t a, std::uint32_t b) const {
 }
 
 // A flat hull has no inside: it stays in the surface when it is no larger than the patch.
-bool PatchSet::is_outline_convex(std::uint32_t a, std::uint32_t b) {
+bool PatchSet::is_outline_convex(std::uint32_t a, std::uint32_t b) const {
     const mesh::Mesh& mesh = rules_.mesh;
     const Corners plane = rules_.solids.corners_of(faces(a)[0]);
     const int axis = axis_of_turn(plane[0], plane[1], plane[2]);
@@ -74,7 +72,7 @@ bool PatchSet::is_outline_convex(std::uint32_t a, std::uint32_t b) {
     const auto is_outline = [&](mesh::HalfEdge h) {
         const mesh::HalfEdge twin = rules_.edges.twin[h];
         if (twin == mesh::kNone) return true;
-        const std::uint32_t beyond = patch_of(twin / 3);
+        const std::uint32_t beyond = owner_of(twin / 3);
         return beyond != a && beyond != b;
     };
     for (const std::uint32_t patch : {a, b}) {
@@ -92,7 +90,7 @@ bool PatchSet::is_outline_convex(std::uint32_t a, std::uint32_t b) {
     return true;
 }
 
-void PatchSet::make_hull(std::uint32_t a, std::uint32_t b, PatchScope& scope) {
+void PatchSet::make_hull(std::uint32_t a, std::uint32_t b, PatchScope& scope) const {
     const auto size = [&](std::uint32_t p) { return patches_[p].hull ? vertices(p).size() : 0; };
     if (size(a) < size(b)) std::swap(a, b);
     std::vector<Double3> points;
@@ -112,32 +110,32 @@ void PatchSet::make_hull(std::uint32_t a, std::uint32_t b, PatchScope& scope) {
     for (const Double3& p : points) scope.hull.add(p);
 }
 
-bool PatchSet::stays_inside(std::uint32_t a, std::uint32_t b, PatchScope& scope) {
+bool PatchSet::stays_inside(std::uint32_t a, std::uint32_t b, PatchScope& scope) const {
     if (lie_in_one_plane(a, b)) return is_outline_convex(a, b);
     return hull_stays_inside(a, b, scope);
 }
 
-bool PatchSet::hull_stays_inside(std::uint32_t a, std::uint32_t b, PatchScope& scope) {
+bool PatchSet::hull_stays_inside(std::uint32_t a, std::uint32_t b, PatchScope& scope) const {
     make_hull(a, b, scope);
     if (scope.hull.facets().size() > kMostHullFacets) return false;
     const auto is_own = [&](std::uint32_t t) {
         if (t < scope.first || t >= scope.last) return false;
-        const std::uint32_t patch = patch_of(t);
+        const std::uint32_t patch = owner_of(t);
         return patch == a || patch == b;
     };
     return rules_.solids.contains(scope.hull, a, is_own, scope.work);
 }
 
-bool PatchSet::can_join(std::uint32_t a, std::uint32_t b, PatchScope& scope) {
+bool PatchSet::can_join(std::uint32_t a, std::uint32_t b, PatchScope& scope) const {
     const std::uint64_t tests =
         faces(a).size() * vertices(b).size() + faces(b).size() * vertices(a).size();
     if (scope.work < tests) return false;
     scope.work -= tests;
-    if (!fit(a, b)) return false;
+    if (!fit(a, b, scope)) return false;
     return !rules_.keeps_inside || !rules_.solids.is_solid(a) || stays_inside(a, b, scope);
 }
 
-bool PatchSet::is_contained(std::uint32_t patch, PatchScope& scope) {
+bool PatchSet::is_contained(std::uint32_t patch, PatchScope& scope) const {
     if (faces(patch).size() == 1) return true;
     if (patches_[patch].is_flat) return is_outline_convex(patch, patch);
     return hull_stays_inside(patch, patch, scope);

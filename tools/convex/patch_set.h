@@ -29,7 +29,8 @@ struct PatchScope {
     std::uint32_t first;  ///< triangles [first, last)
     std::uint32_t last;
     std::uint64_t work;  ///< tests that are left, so that nothing runs for ever
-    GrowingHull hull;
+    GrowingHull hull = {};
+    FacePlanes::Points points = {};
 };
 
 /// A partition of a mesh's triangles, each alone at first. Tasks may join patches at the
@@ -41,10 +42,16 @@ public:
     /// The patch of a triangle, by the number of one of its triangles.
     [[nodiscard]] std::uint32_t patch_of(std::uint32_t triangle);
 
+    /// The same; for triangles that other tasks may look at too.
+    [[nodiscard]] std::uint32_t owner_of(std::uint32_t triangle) const {
+        while (parent_[triangle] != triangle) triangle = parent_[triangle];
+        return triangle;
+    }
+
     /// True when the two patches of the scope may be one: all vertices of either are
     /// admitted by all faces of the other, and in closed components the hull of both stays
     /// inside. What is refused once is refused for all that grows out of the two.
-    bool can_join(std::uint32_t a, std::uint32_t b, PatchScope& scope);
+    [[nodiscard]] bool can_join(std::uint32_t a, std::uint32_t b, PatchScope& scope) const;
 
     /// Makes one patch of two, which can_join() allowed just before; returns its number.
     std::uint32_t join(std::uint32_t a, std::uint32_t b, PatchScope& scope);
@@ -59,7 +66,7 @@ public:
 
     /// True when the hull of a patch of a closed component stays inside, which needs all its
     /// triangles on the hull.
-    [[nodiscard]] bool is_contained(std::uint32_t patch, PatchScope& scope);
+    [[nodiscard]] bool is_contained(std::uint32_t patch, PatchScope& scope) const;
 
     /// Vertices that matter: extreme ones of the patch are among them.
     [[nodiscard]] std::span<const std::uint32_t> vertices(std::uint32_t patch) const;
@@ -74,12 +81,12 @@ private:
         bool is_flat = true;
     };
 
-    [[nodiscard]] bool fit(std::uint32_t a, std::uint32_t b) const;
+    [[nodiscard]] bool fit(std::uint32_t a, std::uint32_t b, PatchScope& scope) const;
     [[nodiscard]] bool lie_in_one_plane(std::uint32_t a, std::uint32_t b) const;
-    [[nodiscard]] bool is_outline_convex(std::uint32_t a, std::uint32_t b);
-    bool stays_inside(std::uint32_t a, std::uint32_t b, PatchScope& scope);
-    bool hull_stays_inside(std::uint32_t a, std::uint32_t b, PatchScope& scope);
-    void make_hull(std::uint32_t a, std::uint32_t b, PatchScope& scope);
+    [[nodiscard]] bool is_outline_convex(std::uint32_t a, std::uint32_t b) const;
+    [[nodiscard]] bool stays_inside(std::uint32_t a, std::uint32_t b, PatchScope& scope) const;
+    [[nodiscard]] bool hull_stays_inside(std::uint32_t a, std::uint32_t b, PatchScope& scope) const;
+    void make_hull(std::uint32_t a, std::uint32_t b, PatchScope& scope) const;
 
     PatchRules rules_;
     std::vector<std::uint32_t> parent_;

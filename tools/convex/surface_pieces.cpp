@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "build/chunks.h"
 #include "cdprep/build_bvh.h"
 #include "convex/close_regions.h"
 #include "convex/grow_patches.h"
@@ -50,12 +51,12 @@ SurfacePieces listed(PatchSet& patches, std::span<const std::uint32_t> place) {
 }
 
 /// The largest height of a vertex of a patch above a plane of it, at most.
-double error_of(const PatchRules& rules, const PatchSet& patches, std::uint32_t patch) {
+double error_of(const PatchRules& rules, const PatchSet& patches, std::uint32_t patch,
+                FacePlanes::Points& points) {
+    rules.planes.gather(patches.vertices(patch), points);
     double most = 0;
     for (const std::uint32_t face : patches.faces(patch)) {
-        for (const std::uint32_t vertex : patches.vertices(patch)) {
-            most = std::max(most, rules.planes.height_bound(face, vertex));
-        }
+        most = std::max(most, rules.planes.height_bound(face, points));
     }
     return most;
 }
@@ -64,20 +65,19 @@ double error_of(const PatchRules& rules, const PatchSet& patches, std::uint32_t 
 void describe(const PatchRules& rules, PatchSet& patches, std::span<const std::uint32_t> place,
               SurfacePieces& result, std::uint64_t work, ParallelFor parallel_for) {
     constexpr std::size_t kAtATime = 256;
-    const auto run = [&](std::size_t part) {
-        const std::size_t last = std::min((part + 1) * kAtATime, result.pieces.size());
-        for (std::size_t i = part * kAtATime; i < last; ++i) {
+    const auto run = [&](std::size_t first, std::size_t last) {
+        PatchScope scope{0, static_cast<std::uint32_t>(place.size()), work * kAtATime};
+        for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t patch = patches.patch_of(place[result.of(i)[0]]);
             SurfacePiece& piece = result.pieces[i];
             piece.contained = rules.solids.is_solid(patch);
             if (rules.keeps_inside) continue;
-            piece.outer_error = error_of(rules, patches, patch);
-            PatchScope scope{0, static_cast<std::uint32_t>(place.size()), work, {}};
+            piece.outer_error = error_of(rules, patches, patch, scope.points);
             piece.contained =
                 piece.contained && piece.outer_error == 0 && patches.is_contained(patch, scope);
         }
     };
-    parallel_for((result.pieces.size() + kAtATime - 1) / kAtATime, run);
+    build::for_chunks(result.pieces.size(), kAtATime, parallel_for, run);
 }
 
 /// places[order[i]] is i.

@@ -106,34 +106,57 @@ inline std::vector<RationalPoint> clipped(const std::vector<RationalPoint>& poly
     return left;
 }
 
-/// The triangle has a point strictly inside the hull: cut off what is outside, and ask
-/// whether what is left lies in no facet's plane altogether. Exact rationals, and slow.
-inline bool enters(const convex::ConvexHull& hull, const std::array<Double3, 3>& triangle) {
-    if (hull.dimension < 3) return false;
-    std::vector<RationalPoint> left;
-    for (const Double3& p : triangle) left.push_back({p.x, p.y, p.z});
-    std::vector<ExactPlane> planes;
-    for (const auto& facet : hull.facets) {
-        planes.push_back(
-            exact_plane(hull.points[facet[0]], hull.points[facet[1]], hull.points[facet[2]]));
-        left = clipped(left, planes.back());
-        if (left.empty()) return false;
+/// A hull, ready to be asked whether triangles enter it.
+class ExactBody {
+public:
+    explicit ExactBody(const convex::ConvexHull& hull) {
+        if (hull.dimension < 3) return;
+        for (const auto& f : hull.facets) {
+            const std::array<Double3, 3> p = {hull.points[f[0]], hull.points[f[1]],
+                                              hull.points[f[2]]};
+            planes_.push_back(exact_plane(p[0], p[1], p[2]));
+            filtered_.emplace_back(p[0], p[1], p[2]);
+        }
     }
-    return std::all_of(planes.begin(), planes.end(), [&](const ExactPlane& plane) {
-        return std::any_of(left.begin(), left.end(),
-                           [&](const RationalPoint& p) { return height(plane, p).sign() < 0; });
-    });
-}
+
+    /// The triangle has a point strictly inside: one plane with all its corners on it or
+    /// before it says no. Else cut off what is outside, and ask whether what is left lies in
+    /// no facet's plane altogether. Exact rationals, and slow.
+    [[nodiscard]] bool is_entered_by(const std::array<Double3, 3>& triangle) const {
+        if (planes_.empty()) return false;
+        for (const FilteredPlane& plane : filtered_) {
+            if (std::all_of(triangle.begin(), triangle.end(),
+                            [&](const Double3& p) { return plane.side(p) >= 0; })) {
+                return false;
+            }
+        }
+        std::vector<RationalPoint> left;
+        for (const Double3& p : triangle) left.push_back({p.x, p.y, p.z});
+        for (const ExactPlane& plane : planes_) {
+            left = clipped(left, plane);
+            if (left.empty()) return false;
+        }
+        return std::all_of(planes_.begin(), planes_.end(), [&](const ExactPlane& plane) {
+            return std::any_of(left.begin(), left.end(),
+                               [&](const RationalPoint& p) { return height(plane, p).sign() < 0; });
+        });
+    }
+
+private:
+    std::vector<ExactPlane> planes_;
+    std::vector<FilteredPlane> filtered_;
+};
 
 /// Says which triangle enters the hull of a piece that is said to be contained, or nothing.
 /// All triangles of a mesh count, which must be one solid.
 inline std::string containment_flaw(const mesh::Mesh& mesh, const convex::SurfacePieces& pieces) {
     for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
         if (!pieces.pieces[i].contained) continue;
-        const convex::ConvexHull hull = convex::convex_hull(piece_points(mesh, pieces.of(i)));
+        const ExactBody body(convex::convex_hull(piece_points(mesh, pieces.of(i))));
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             const auto& v = mesh.triangles[t].vertex;
-            if (enters(hull, {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]})) {
+            if (body.is_entered_by(
+                    {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]})) {
                 return "triangle " + std::to_string(t) + " enters the hull of piece " +
                        std::to_string(i);
             }
