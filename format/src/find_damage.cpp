@@ -14,6 +14,7 @@
 #include "find_adaptive_octree_damage.h"
 #include "find_hull_damage.h"
 #include "find_octree_damage.h"
+#include "find_piece_damage.h"
 #include "find_tetra_damage.h"
 
 // Every read is a copy of a few bytes at an offset that was proved to lie inside
@@ -484,6 +485,10 @@ Found find_bad_content(const Content& content) {
         case SectionId::hull_groups:
         case SectionId::hull_neighbours:
         case SectionId::hull_starts:
+        case SectionId::pieces:
+        case SectionId::piece_triangles:
+        case SectionId::piece_vertices:
+        case SectionId::piece_facets:
             return nothing_more();
     }
     return nothing_more();
@@ -513,6 +518,7 @@ Found find_missing(Bytes file) {
     if (const Found damage = find_missing_adaptive_octree(file)) return damage;
     if (const Found damage = find_missing_tetra(file)) return damage;
     if (const Found damage = find_missing_hulls(file)) return damage;
+    if (const Found damage = find_missing_pieces(file)) return damage;
     return std::nullopt;
 }
 
@@ -552,6 +558,7 @@ std::optional<Damage> find_damage(std::span<const std::byte> file, SectionSet wa
     if (const Found damage = find_adaptive_octree_damage(file, wanted)) return damage;
     if (const Found damage = find_tetra_damage(file, wanted)) return damage;
     if (const Found damage = find_hull_damage(file, wanted)) return damage;
+    if (const Found damage = find_piece_damage(file, wanted)) return damage;
     return std::nullopt;
 }
 

@@ -306,15 +306,15 @@ Found find_loose_swept(Bytes file, const Tree& tree) {
         });
 }
 
-Found find_repeated_source(Bytes file) {
-    const auto source = copy_of<std::uint32_t>(file, SectionId::source_triangle);
-    std::vector<bool> seen(source.size(), false);
-    for (std::size_t i = 0; i < source.size(); ++i) {
-        if (seen[source[i]]) {
-            return Damage{DamageKind::bad_fact, SectionId::source_triangle,
-                          place_of(file, SectionId::source_triangle, i), source[i], i};
+/// A list of numbers below its own length, of which one is there twice.
+Found find_repeated(Bytes file, SectionId id) {
+    const auto list = copy_of<std::uint32_t>(file, id);
+    std::vector<bool> seen(list.size(), false);
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        if (seen[list[i]]) {
+            return Damage{DamageKind::bad_fact, id, place_of(file, id, i), list[i], i};
         }
-        seen[source[i]] = true;
+        seen[list[i]] = true;
     }
     return std::nullopt;
 }
@@ -367,7 +367,8 @@ Found find_wrong_hash(Bytes file) {
 std::optional<Damage> find_deep_damage(std::span<const std::byte> file) {
     if (const Found damage = find_damage(file)) return damage;
     if (const Found damage = find_wrong_hash(file)) return damage;
-    if (const Found damage = find_repeated_source(file)) return damage;
+    if (const Found damage = find_repeated(file, SectionId::source_triangle)) return damage;
+    if (const Found damage = find_repeated(file, SectionId::piece_triangles)) return damage;
     Tree tree{read_header(file), {}, positions_of(file), {}, {}};
     tree.shape = bvh_shape(tree.header.triangle_count);
     tree.triangles = copy_of<Triangle>(file, SectionId::triangles);

@@ -7,6 +7,7 @@
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/hulls.h"
 #include "cdprep/format/octree.h"
+#include "cdprep/format/pieces.h"
 #include "cdprep/format/tetra_tree.h"
 #include "cdprep/format/verdict.h"
 
@@ -19,7 +20,7 @@ struct Kind {
     const char* name;
 };
 
-constexpr std::array<Kind, 50> kKinds = {{
+constexpr std::array<Kind, 54> kKinds = {{
     {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
     {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
     {SectionId::triangles, sizeof(Triangle), "triangles"},
@@ -70,6 +71,10 @@ constexpr std::array<Kind, 50> kKinds = {{
     {SectionId::hull_groups, sizeof(HullGroup), "hull_groups"},
     {SectionId::hull_neighbours, 4, "hull_neighbours"},
     {SectionId::hull_starts, 4, "hull_starts"},
+    {SectionId::pieces, sizeof(Piece), "pieces"},
+    {SectionId::piece_triangles, 4, "piece_triangles"},
+    {SectionId::piece_vertices, 4, "piece_vertices"},
+    {SectionId::piece_facets, sizeof(PieceFacet), "piece_facets"},
 }};
 
 const Kind* find_kind(SectionId id) noexcept {

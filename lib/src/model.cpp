@@ -69,6 +69,10 @@ struct Model::State {
     std::span<const format::HullGroup> hull_groups;
     std::span<const std::uint32_t> hull_neighbours;
     std::span<const std::uint32_t> hull_starts;
+    std::span<const format::Piece> pieces;
+    std::span<const std::uint32_t> piece_triangles;
+    std::span<const std::uint32_t> piece_vertices;
+    std::span<const format::PieceFacet> piece_facets;
 
     void find_sections(SectionSet wanted);
 
@@ -139,6 +143,10 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::hull_groups, wanted, hull_groups);
     view(SectionId::hull_neighbours, wanted, hull_neighbours);
     view(SectionId::hull_starts, wanted, hull_starts);
+    view(SectionId::pieces, wanted, pieces);
+    view(SectionId::piece_triangles, wanted, piece_triangles);
+    view(SectionId::piece_vertices, wanted, piece_vertices);
+    view(SectionId::piece_facets, wanted, piece_facets);
 }
 
 namespace {
@@ -360,6 +368,18 @@ std::span<const std::uint32_t> Model::hull_neighbours() const noexcept {
 }
 std::span<const std::uint32_t> Model::hull_starts() const noexcept {
     return state_->hull_starts;
+}
+std::span<const format::Piece> Model::pieces() const noexcept {
+    return state_->pieces;
+}
+std::span<const std::uint32_t> Model::piece_triangles() const noexcept {
+    return state_->piece_triangles;
+}
+std::span<const std::uint32_t> Model::piece_vertices() const noexcept {
+    return state_->piece_vertices;
+}
+std::span<const format::PieceFacet> Model::piece_facets() const noexcept {
+    return state_->piece_facets;
 }
 
 std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {

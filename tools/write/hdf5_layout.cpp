@@ -12,6 +12,7 @@
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/hulls.h"
 #include "cdprep/format/octree.h"
+#include "cdprep/format/pieces.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/format/tetra_tree.h"
 #include "cdprep/format/verdict.h"
@@ -314,6 +315,25 @@ Handle hull_group_type() {
                      {"facet_count", offsetof(HullGroup, facet_count), H5T_STD_U32LE, {}}});
 }
 
+Handle piece_type() {
+    using format::Piece;
+    return compound(sizeof(Piece),
+                    {{"first_triangle", offsetof(Piece, first_triangle), H5T_STD_U32LE, {}},
+                     {"first_vertex", offsetof(Piece, first_vertex), H5T_STD_U32LE, {}},
+                     {"first_facet", offsetof(Piece, first_facet), H5T_STD_U32LE, {}},
+                     {"flags", offsetof(Piece, flags), H5T_STD_U32LE, {}},
+                     {"outer_error", offsetof(Piece, outer_error), H5T_IEEE_F64LE, {}},
+                     {"dimension", offsetof(Piece, dimension), H5T_STD_U32LE, {}},
+                     {"reserved", offsetof(Piece, reserved), H5T_STD_U32LE, {}}});
+}
+
+Handle piece_facet_type() {
+    using format::PieceFacet;
+    return compound(sizeof(PieceFacet),
+                    {{"corner", offsetof(PieceFacet, corner), H5T_STD_U32LE, {3}},
+                     {"flags", offsetof(PieceFacet, flags), H5T_STD_U32LE, {}}});
+}
+
 Handle scalar(hid_t type) {
     return {H5Tcopy(type), H5Tclose};
 }
@@ -425,6 +445,14 @@ const std::vector<Look>& looks() {
          "for each larger hull where each point's neighbours begin and the last end, then those"},
         {SectionId::hull_starts, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
          "for each larger hull and 384 directions a point that is far in it"},
+        {SectionId::pieces, piece_type, 0, "outer_error: model units",
+         "convex pieces of the surface: where their lists begin, and what they promise"},
+        {SectionId::piece_triangles, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "triangles of the tree order by piece"},
+        {SectionId::piece_vertices, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "vertices that are the corners of each piece's hull"},
+        {SectionId::piece_facets, piece_facet_type, 0, "1",
+         "facets of each piece's hull, over its own corners; flags: 1 virtual, 2 a face begins"},
     };
     return all;
 }

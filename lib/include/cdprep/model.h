@@ -11,6 +11,7 @@
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/hulls.h"
 #include "cdprep/format/octree.h"
+#include "cdprep/format/pieces.h"
 #include "cdprep/format/section_set.h"
 #include "cdprep/format/tetra_tree.h"
 #include "cdprep/format/verdict.h"
@@ -137,6 +138,11 @@ public:
     [[nodiscard]] std::span<const format::HullGroup> hull_groups() const noexcept;
     [[nodiscard]] std::span<const std::uint32_t> hull_neighbours() const noexcept;
     [[nodiscard]] std::span<const std::uint32_t> hull_starts() const noexcept;
+    /// Convex pieces of the surface and their hulls (format/pieces.h); empty when baked without.
+    [[nodiscard]] std::span<const format::Piece> pieces() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> piece_triangles() const noexcept;
+    [[nodiscard]] std::span<const std::uint32_t> piece_vertices() const noexcept;
+    [[nodiscard]] std::span<const format::PieceFacet> piece_facets() const noexcept;
 
     /// Name number `index` of instance_names, group_names or material_names;
     /// empty when there is none. O(index).

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+namespace cdprep::format {
+
+/// Bits of Piece::flags.
+enum PieceFlags : std::uint32_t {
+    /// No point of the hull is outside the solid that the piece's component bounds. Without
+    /// it nothing is known of what the hull covers besides the piece.
+    piece_contained = 1,
+};
+
+/// A convex piece of the surface: triangles that all lie on the boundary of the hull of
+/// their corners, or at most outer_error below it. Sections 50 to 53 are all there or none.
+///
+/// Its triangles are piece_triangles[first_triangle] up to those of the next piece, or to
+/// the end; likewise the hull's corners in piece_vertices and its facets in piece_facets.
+struct Piece {
+    std::uint32_t first_triangle;  ///< in piece_triangles; a piece has one at least
+    std::uint32_t first_vertex;    ///< in piece_vertices; a hull has one at least
+    std::uint32_t first_facet;     ///< in piece_facets
+    std::uint32_t flags;           ///< PieceFlags
+    double outer_error;            ///< model units, 0 or more; 0: exactly on the hull
+    std::uint32_t dimension;       ///< of the hull: 3; 2: flat, seen from both sides; 1; 0
+    std::uint32_t reserved;        ///< zero
+};
+
+/// Bits of PieceFacet::flags.
+enum PieceFacetFlags : std::uint32_t {
+    /// The triangles of the piece do not cover the face that the facet is of: who meets it
+    /// has not met the surface yet.
+    facet_virtual = 1,
+    facet_first_of_face = 2,  ///< the first of a maximal coplanar face of the hull
+};
+
+/// A triangle of a hull's boundary, counter-clockwise seen from outside, not degenerate; those
+/// of a coplanar face follow each other.
+struct PieceFacet {
+    std::array<std::uint32_t, 3> corner;  ///< places among the corners of its own piece
+    std::uint32_t flags;                  ///< PieceFacetFlags
+};
+
+static_assert(sizeof(Piece) == 32 && alignof(Piece) == 8);
+static_assert(offsetof(Piece, outer_error) == 16 && offsetof(Piece, dimension) == 24);
+static_assert(sizeof(PieceFacet) == 16 && alignof(PieceFacet) == 4);
+static_assert(offsetof(PieceFacet, flags) == 12);
+static_assert(std::is_trivially_copyable_v<Piece> && std::is_trivially_copyable_v<PieceFacet>);
+
+}  // namespace cdprep::format

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "cdprep/format/content_hash.h"
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/pieces.h"
+#include "cdprep/format/sections.h"
+#include "support/meshes.h"
+#include "support/more_sections.h"
+#include "support/reseal.h"
+
+namespace cdprep::format {
+namespace {
+
+using test::AlignedBytes;
+
+constexpr std::array kIds = {SectionId::pieces, SectionId::piece_triangles,
+                             SectionId::piece_vertices, SectionId::piece_facets};
+
+struct Arrays {
+    std::vector<Piece> pieces;
+    std::vector<std::uint32_t> triangles;
+    std::vector<std::uint32_t> vertices;
+    std::vector<PieceFacet> facets;
+};
+
+/// Of two triangles side by side: each is a piece, seen from both sides.
+Arrays two_pieces() {
+    Arrays arrays;
+    arrays.pieces = {{0, 0, 0, piece_contained, 0.5, 2, 0}, {1, 3, 2, 0, 0, 2, 0}};
+    arrays.triangles = {0, 1};
+    arrays.vertices = {0, 1, 2, 1, 2, 3};
+    for (int i = 0; i < 2; ++i) {
+        arrays.facets.push_back({{0, 1, 2}, facet_first_of_face});
+        arrays.facets.push_back({{0, 2, 1}, facet_first_of_face | facet_virtual});
+    }
+    return arrays;
+}
+
+AlignedBytes file_of(const Arrays& arrays) {
+    const test::TestMesh sheet = test::grid_sheet(1, 1);
+    return test::with_sections(
+        test::bake_tiny(sheet.positions, sheet.triangles, {.double_precision = true}),
+        {test::as_section(SectionId::pieces, std::span(arrays.pieces)),
+         test::as_section(SectionId::piece_triangles, std::span(arrays.triangles)),
+         test::as_section(SectionId::piece_vertices, std::span(arrays.vertices)),
+         test::as_section(SectionId::piece_facets, std::span(arrays.facets))});
+}
+
+std::optional<Damage> check(const Arrays& arrays) {
+    const AlignedBytes file = file_of(arrays);
+    return find_damage(file.span(), SectionSet::all());
+}
+
+/// After `change`, the damage is of this kind in this section.
+template <class Change>
+void expect(DamageKind kind, SectionId section, Change change) {
+    Arrays arrays = two_pieces();
+    change(arrays);
+    const auto damage = check(arrays);
+    ASSERT_TRUE(damage) << section_name(section);
+    EXPECT_EQ(damage->kind, kind) << section_name(damage->section);
+    EXPECT_EQ(damage->section, section);
+}
+
+TEST(FindPieceDamage, AcceptsSoundPieces) {
+    EXPECT_FALSE(check(two_pieces()));
+    EXPECT_FALSE(find_deep_damage(file_of(two_pieces()).span()));
+}
+
+TEST(FindPieceDamage, RefusesPiecesOfWhichAPartIsMissing) {
+    const AlignedBytes whole = file_of(two_pieces());
+    for (const SectionId missing : kIds) {
+        std::vector<test::TinySection> sections;
+        for (std::uint32_t id = 1; id < 64; ++id) {
+            const auto entry = find_section(whole.span(), SectionId{id});
+            if (!entry || SectionId{id} == missing) continue;
+            const auto bytes =
+                whole.span().subspan(entry->offset, entry->count * entry->element_size);
+            sections.push_back({entry->id, {bytes.begin(), bytes.end()}});
+        }
+        const AlignedBytes file = test::assemble(read_header(whole.span()), sections);
+        const auto damage = find_damage(file.span(), SectionSet::all());
+        ASSERT_TRUE(damage) << section_name(missing);
+        EXPECT_EQ(damage->kind, DamageKind::missing_section);
+        EXPECT_EQ(damage->section, missing);
+    }
+}
+
+TEST(FindPieceDamage, RefusesListsThatDoNotFollowEachOther) {
+    constexpr auto kOrder = DamageKind::bad_order;
+    constexpr auto kPieces = SectionId::pieces;
+    expect(kOrder, kPieces, [](Arrays& a) { a.pieces[0].first_triangle = 1; });
+    expect(kOrder, kPieces, [](Arrays& a) { a.pieces[1].first_triangle = 0; });
+    expect(kOrder, kPieces, [](Arrays& a) { a.pieces[1].first_triangle = 3; });
+    expect(kOrder, kPieces, [](Arrays& a) { a.pieces[1].first_vertex = 0; });
+    expect(kOrder, kPieces, [](Arrays& a) { a.pieces[1].first_vertex = ~0U; });
+    expect(kOrder, kPieces, [](Arrays& a) { a.pieces[1].first_facet = ~0U; });
+    expect(DamageKind::bad_count, kPieces, [](Arrays& a) { a.pieces[1].first_facet = 1; });
+    expect(DamageKind::bad_count, kPieces, [](Arrays& a) { a.pieces[1].first_vertex = 2; });
+    expect(kOrder, kPieces, [](Arrays& a) { a.pieces.clear(); });
+}
+
+TEST(FindPieceDamage, RefusesNumbersThatArePointless) {
+    constexpr auto kNumber = DamageKind::bad_number;
+    constexpr auto kPieces = SectionId::pieces;
+    expect(kNumber, kPieces, [](Arrays& a) { a.pieces[0].outer_error = -1; });
+    expect(kNumber, kPieces, [](Arrays& a) { a.pieces[1].outer_error = NAN; });
+    expect(kNumber, kPieces, [](Arrays& a) { a.pieces[1].outer_error = INFINITY; });
+    expect(kNumber, kPieces, [](Arrays& a) { a.pieces[1].flags = 2; });
+    expect(kNumber, kPieces, [](Arrays& a) { a.pieces[1].reserved = 1; });
+    expect(DamageKind::bad_count, kPieces, [](Arrays& a) { a.pieces[1].dimension = 4; });
+    expect(DamageKind::bad_count, kPieces, [](Arrays& a) { a.pieces[1].dimension = 3; });
+    expect(DamageKind::bad_count, kPieces, [](Arrays& a) { a.pieces[1].dimension = 1; });
+}
+
+TEST(FindPieceDamage, RefusesNumbersThatPointNowhere) {
+    constexpr auto kIndex = DamageKind::bad_index;
+    expect(kIndex, SectionId::piece_triangles, [](Arrays& a) { a.triangles[1] = 2; });
+    expect(DamageKind::bad_count, SectionId::piece_triangles,
+           [](Arrays& a) { a.triangles.push_back(1); });
+    expect(kIndex, SectionId::piece_vertices, [](Arrays& a) { a.vertices[5] = 4; });
+    expect(DamageKind::bad_order, SectionId::piece_vertices, [](Arrays& a) { a.vertices[5] = 2; });
+    expect(kIndex, SectionId::piece_facets, [](Arrays& a) { a.facets[3].corner[1] = 3; });
+    expect(DamageKind::bad_order, SectionId::piece_facets,
+           [](Arrays& a) { a.facets[3].corner[1] = 0; });
+    expect(DamageKind::bad_number, SectionId::piece_facets,
+           [](Arrays& a) { a.facets[3].flags = 4; });
+    expect(DamageKind::bad_number, SectionId::piece_facets,
+           [](Arrays& a) { a.facets[2].flags = 0; });
+}
+
+TEST(FindPieceDamage, DeepCheckRefusesATriangleInTwoPieces) {
+    Arrays arrays = two_pieces();
+    arrays.triangles = {0, 0};
+    EXPECT_FALSE(check(arrays));
+    const auto damage = find_deep_damage(file_of(arrays).span());
+    ASSERT_TRUE(damage);
+    EXPECT_EQ(damage->kind, DamageKind::bad_fact);
+    EXPECT_EQ(damage->section, SectionId::piece_triangles);
+}
+
+}  // namespace
+}  // namespace cdprep::format
