@@ -19,15 +19,16 @@ ALWAYS = {"bounds", "provenance", "verdicts", "findings"}
 SOURCE = {"source_triangle", "source_vertex", "source_face", "group_runs", "group_names",
           "material_runs", "material_names", "instances", "instance_names"}
 PAIR = {"bvh_leaves", "oriented_nodes", "swept_nodes"}
+PIECES = {"pieces", "piece_triangles", "piece_vertices", "piece_facets"}
 # What each effect may hold; sections that would say nothing are left out.
 ALLOWED = {
     "collide": GEOMETRY | PAIR | {"components"}, "inside": GEOMETRY | {"components"},
     "overlap": GEOMETRY | PAIR | SOURCE, "ray": GEOMETRY | SOURCE, "closest": GEOMETRY | SOURCE,
     "distance": GEOMETRY | PAIR | SOURCE, "within": GEOMETRY | PAIR | SOURCE,
-    "response": {"mass_properties"},
+    "response": {"mass_properties"}, "pieces": GEOMETRY | PAIR | SOURCE | PIECES,
 }
 MUST_HAVE = {"collide": {"bvh_nodes", "bvh_leaves", "components"}, "inside": {"components"},
-             "overlap": {"source_triangle"}, "response": {"bounds"}}
+             "overlap": {"source_triangle"}, "response": {"bounds"}, "pieces": PIECES}
 
 
 def sections(program, path):

@@ -199,6 +199,12 @@ void add_bake(CLI::App& app, Exit& exit) {
                      "Mend first, as 'cdprep repair --preset' does: safe, closed or solid. "
                      "Numbers are then those of the mended mesh; the file has the old ones too")
         ->check(CLI::IsMember({"safe", "closed", "solid"}));
+    command
+        ->add_option("--piece-tolerance", arguments->options.piece_tolerance,
+                     "With the effect pieces: let vertices be this much above the triangles of "
+                     "their convex piece, in model units as baked; 0: exact")
+        ->check(is_length())
+        ->capture_default_str();
     command->add_flag("--strict", arguments->options.strict,
                       "Bake nothing of which 'cdprep validate' finds a warning or more: exit 1");
     command

@@ -109,6 +109,10 @@ void BakedArrays::keep(Structures structures) {
     structures_ = std::move(structures);
 }
 
+void BakedArrays::keep(convex::PieceArrays pieces) {
+    pieces_ = std::move(pieces);
+}
+
 std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) const {
     std::vector<write::Section> sections;
     const auto add = [&](SectionId id, std::span<const std::byte> bytes, bool also_empty) {
@@ -142,6 +146,10 @@ std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) con
     add(SectionId::findings, bytes_of(notes_.findings), false);
     add(SectionId::repaired_from, bytes_of(notes_.repaired_from), false);
     add_structures(structures_, add);
+    add(SectionId::pieces, bytes_of(pieces_.pieces), true);
+    add(SectionId::piece_triangles, bytes_of(pieces_.triangles), true);
+    add(SectionId::piece_vertices, bytes_of(pieces_.vertices), true);
+    add(SectionId::piece_facets, bytes_of(pieces_.facets), true);
     return sections;
 }
 

@@ -9,6 +9,7 @@
 #include "cdprep/build_bvh.h"
 #include "cdprep/format/section_set.h"
 #include "cdprep/format/verdict.h"
+#include "convex/piece_arrays.h"
 #include "mesh/mesh.h"
 #include "structures.h"
 #include "write/write_file.h"
@@ -36,6 +37,9 @@ public:
     /// Adds what was built over mesh().
     void keep(Structures structures);
 
+    /// Adds the pieces of mesh()'s surface.
+    void keep(convex::PieceArrays pieces);
+
     /// Views of those sections in `wanted` that have something to say. Valid
     /// while this object lives and stays where it is.
     [[nodiscard]] std::vector<write::Section> sections(format::SectionSet wanted) const;
@@ -60,6 +64,7 @@ private:
     std::vector<format::MassProperties> mass_;
     BakedNotes notes_;
     Structures structures_;
+    convex::PieceArrays pieces_;
     std::vector<format::Float3> floats_;
     std::vector<std::uint32_t> face_;
     std::vector<format::Instance> instances_;

@@ -25,6 +25,9 @@ constexpr SectionSet kSource = {SectionId::source_triangle, SectionId::source_ve
                                 SectionId::instances,       SectionId::instance_names,
                                 SectionId::group_runs,      SectionId::group_names,
                                 SectionId::material_runs,   SectionId::material_names};
+/// Convex pieces of the surface.
+constexpr SectionSet kPieces = {SectionId::pieces, SectionId::piece_triangles,
+                                SectionId::piece_vertices, SectionId::piece_facets};
 /// In every bake, whatever it serves.
 constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance, SectionId::verdicts,
                                 SectionId::findings};
@@ -39,13 +42,14 @@ constexpr SectionSet with(SectionSet a, SectionSet b) {
     return a;
 }
 
-constexpr std::array<Effect, 9> kEffects = {{
+constexpr std::array<Effect, 10> kEffects = {{
     {"closest", with(kGeometry, kSource)},
     {"collide", with(with(kGeometry, kPair), {SectionId::components})},
     {"distance", with(with(kGeometry, kPair), kSource)},
     {"inaccessible", with(kGeometry, kSource)},
     {"inside", with(kGeometry, {SectionId::components})},
     {"overlap", with(with(kGeometry, kPair), kSource)},
+    {"pieces", with(with(with(kGeometry, kPair), kSource), kPieces)},
     {"ray", with(kGeometry, kSource)},
     {"response", {SectionId::mass_properties}},
     {"within", with(with(kGeometry, kPair), kSource)},

@@ -15,6 +15,7 @@
 #include "cdprep/format/checksum.h"
 #include "convex/find_bounds.h"
 #include "convex/mass_properties.h"
+#include "convex/piece_arrays.h"
 #include "interrupt.h"
 #include "load_mesh.h"
 #include "mesh/degenerate.h"
@@ -173,10 +174,11 @@ Mended mend(mesh::TriangleSoup& soup, const std::string& preset, const Threads& 
 }
 
 std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash) {
-    return report::provenance_json(
-        {CDPREP_VERSION, options.effects.names, options.normalize, options.weld_distance,
-         options.repair, report::bounds_name(options.bounds), settings_of(options.structures),
-         options.structures.has_hulls(), source_hash});
+    return report::provenance_json({CDPREP_VERSION, options.effects.names, options.normalize,
+                                    options.weld_distance, options.repair, options.piece_tolerance,
+                                    report::bounds_name(options.bounds),
+                                    settings_of(options.structures), options.structures.has_hulls(),
+                                    source_hash});
 }
 
 /// Builds what was chosen over a mesh in tree order, whose numbers the structures then
@@ -208,6 +210,17 @@ Structures build_structures(const mesh::Mesh& ordered, const build::Frame& frame
         });
     }
     return built;
+}
+
+/// Of the mesh in tree order, as the structures.
+convex::PieceArrays build_pieces(const BakedArrays& arrays, const BakeOptions& options,
+                                 const Threads& threads) {
+    return convex::make_piece_arrays(
+        arrays.mesh(),
+        convex::find_surface_pieces(arrays.mesh(), {.tolerance = options.piece_tolerance,
+                                                    .parallel_for = threads.parallel_for(),
+                                                    .stop = is_interrupted}),
+        threads.parallel_for());
 }
 
 std::vector<report::StructureReport> reports_of(const StructureChoice& choice,
@@ -312,6 +325,9 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
             }
             return built;
         }));
+    }
+    if (options.effects.sections.contains(format::SectionId::pieces)) {
+        arrays.keep(stages.run("pieces", [&] { return build_pieces(arrays, options, threads); }));
     }
     if (is_interrupted()) return interrupted(input);
 

@@ -19,9 +19,10 @@ struct BakeOptions {
     Effects effects;
     StructureChoice structures;
     bool normalize = false;
-    double weld_distance = 0;  ///< model units
-    std::string repair;        ///< a preset of mesh::find_repair_preset(), or empty
-    bool strict = false;       ///< refuse a mesh of which something is found
+    double weld_distance = 0;    ///< model units
+    std::string repair;          ///< a preset of mesh::find_repair_preset(), or empty
+    double piece_tolerance = 0;  ///< of the effect "pieces"; model units, as baked; 0: exact
+    bool strict = false;         ///< refuse a mesh of which something is found
     build::BvhBounds bounds = build::BvhOptions{}.bounds;
     import::ImportOptions import;
 };

@@ -158,7 +158,7 @@ private:
 }  // namespace
 
 void merge_patches(const PatchRules& rules, PatchSet& patches, std::uint64_t work,
-                   ParallelFor parallel_for) {
+                   const mesh::StopCheck& stop, ParallelFor parallel_for) {
     const Schedule schedule(rules, !rules.keeps_inside);
     const std::size_t triangles = rules.mesh.triangles.size();
     std::vector<std::uint32_t> live(triangles, 0);
@@ -168,7 +168,7 @@ void merge_patches(const PatchRules& rules, PatchSet& patches, std::uint64_t wor
             ++live[patches.patch_of(rules.edges.twin[h] / 3)];
         }
     }
-    for (std::size_t step = 0; step < schedule.steps(); ++step) {
+    for (std::size_t step = 0; step < schedule.steps() && !mesh::is_stopped(stop); ++step) {
         const auto run = [&](std::size_t part) {
             const std::size_t size = std::size_t{1} << Schedule::bits(step);
             const std::size_t first = part * size, last = std::min(first + size, triangles);

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "convex/patch_set.h"
+#include "mesh/stop.h"
 
 namespace cdprep::convex {
 
@@ -14,6 +15,6 @@ namespace cdprep::convex {
 /// eight such runs and so on: the parts of a step run side by side, and the result is the
 /// same for any parallel_for. Stops early where a part has done `work` tests a triangle.
 void merge_patches(const PatchRules& rules, PatchSet& patches, std::uint64_t work,
-                   ParallelFor parallel_for);
+                   const mesh::StopCheck& stop, ParallelFor parallel_for);
 
 }  // namespace cdprep::convex

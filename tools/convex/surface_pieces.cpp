@@ -102,7 +102,7 @@ SurfacePieces find_surface_pieces(const mesh::Mesh& mesh, const SurfacePieceOpti
     close_convex_regions(rules, patches, parallel_for);
     if (options.order == PieceOrder::greedy) {
         fill_polygons(rules, patches, parallel_for);
-        merge_patches(rules, patches, options.most_work, parallel_for);
+        merge_patches(rules, patches, options.most_work, options.stop, parallel_for);
     } else {
         grow_patches(rules, patches, options.order, places, options.most_work, options.stop);
     }

@@ -17,6 +17,7 @@ struct Provenance {
     bool normalize = false;
     double weld_distance = 0;
     std::string repair;  ///< the preset, or empty
+    double piece_tolerance = 0;
     std::string bounds;  ///< as --bounds spells it
     std::vector<StructureSettings> structures;
     bool has_hulls = false;
