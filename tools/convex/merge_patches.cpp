@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <queue>
 #include <vector>
 
@@ -29,23 +30,28 @@ double flatness(const PatchRules& rules, HalfEdge h) {
     return std::isfinite(cosine) ? std::clamp(cosine, -1.0, 1.0) : 1.0;
 }
 
-/// The edges to try, each once, by the step in which both its triangles are in one part.
+/// The edges to try, each once, by the step in which both its patches are in one part.
 class Schedule {
 public:
-    Schedule(const PatchRules& rules, bool reflex_too) {
+    Schedule(const PatchRules& rules, PatchSet& patches, bool reflex_too)
+        : extent_of_(extents(patches, rules.mesh.triangles.size())) {
         const std::size_t triangles = rules.mesh.triangles.size();
-        std::vector<std::vector<HalfEdge>> steps(1);
+        std::vector<std::vector<Placed>> steps(1);
         while ((triangles >> bits(steps.size() - 1)) > 0) steps.emplace_back();
         for (HalfEdge h = 0; h < 3 * triangles; ++h) {
             const HalfEdge twin = rules.edges.twin[h];
             if (twin == kNone || twin < h) continue;
             if (rules.edges.kind[h] == EdgeKind::reflex && !reflex_too) continue;
+            const std::uint32_t a = patches.patch_of(h / 3), b = patches.patch_of(twin / 3);
+            if (a == b) continue;
+            const std::uint32_t first = std::min(extent_of_[a].first, extent_of_[b].first);
+            const std::uint32_t last = std::max(extent_of_[a].last, extent_of_[b].last);
             std::size_t step = 0;
-            while (part_of(h, step) != part_of(twin, step)) ++step;
-            steps[step].push_back(h);
+            while (first >> bits(step) != last >> bits(step)) ++step;
+            steps[step].push_back({first >> bits(step), h});
         }
         for (std::size_t step = 0; step < steps.size(); ++step) {
-            add_step(steps[step], step, (triangles >> bits(step)) + 1);
+            add_step(steps[step], (triangles >> bits(step)) + 1);
         }
     }
 
@@ -67,21 +73,36 @@ public:
     }
 
 private:
-    static std::size_t part_of(HalfEdge h, std::size_t step) {
-        return (h / 3) >> bits(step);
-    }
-    // Half-edges ascend, and so do the parts of their triangles.
-    void add_step(const std::vector<HalfEdge>& edges, std::size_t step, std::size_t parts) {
-        std::vector<std::size_t> first = {0};
-        for (std::size_t part = 0; part < parts; ++part) {
-            const auto past = std::partition_point(
-                edges.begin(), edges.end(), [&](HalfEdge h) { return part_of(h, step) <= part; });
-            first.push_back(static_cast<std::size_t>(past - edges.begin()));
+    struct Placed {
+        std::uint32_t part;
+        HalfEdge edge;
+    };
+    /// Of a patch: its lowest and highest triangle. One of several need not lie in one part.
+    struct Extent {
+        std::uint32_t first = kNone;
+        std::uint32_t last = 0;
+    };
+    static std::vector<Extent> extents(PatchSet& patches, std::size_t triangles) {
+        std::vector<Extent> extents(triangles);
+        for (std::uint32_t t = 0; t < triangles; ++t) {
+            Extent& extent = extents[patches.patch_of(t)];
+            extent = {std::min(extent.first, t), std::max(extent.last, t)};
         }
-        edges_.push_back(edges);
+        return extents;
+    }
+    void add_step(std::vector<Placed>& placed, std::size_t parts) {
+        std::stable_sort(placed.begin(), placed.end(),
+                         [](const Placed& a, const Placed& b) { return a.part < b.part; });
+        std::vector<std::size_t> first(parts + 1, 0);
+        for (const Placed& edge : placed) ++first[edge.part + 1];
+        std::partial_sum(first.begin(), first.end(), first.begin());
+        std::vector<HalfEdge>& edges = edges_.emplace_back();
+        edges.reserve(placed.size());
+        for (const Placed& edge : placed) edges.push_back(edge.edge);
         first_.push_back(std::move(first));
     }
 
+    std::vector<Extent> extent_of_;
     std::vector<std::vector<HalfEdge>> edges_;
     std::vector<std::vector<std::size_t>> first_;
 };
@@ -159,7 +180,7 @@ private:
 
 void merge_patches(const PatchRules& rules, PatchSet& patches, std::uint64_t work,
                    const mesh::StopCheck& stop, ParallelFor parallel_for) {
-    const Schedule schedule(rules, !rules.keeps_inside);
+    const Schedule schedule(rules, patches, !rules.keeps_inside);
     const std::size_t triangles = rules.mesh.triangles.size();
     std::vector<std::uint32_t> live(triangles, 0);
     for (const auto& edges : schedule.all()) {

@@ -11,7 +11,9 @@ namespace {
 
 // Hulls of patches with more vertices are kept, others made anew when they are needed.
 constexpr std::size_t kKeepHullFrom = 12;
-constexpr std::size_t kMostHullFacets = 1024;
+// Each merge looks at the whole hull: convex parts larger than this stay in several pieces,
+// unless close_convex_regions() took them.
+constexpr std::size_t kMostHullVertices = 512;
 
 }  // namespace
 
@@ -116,8 +118,11 @@ bool PatchSet::stays_inside(std::uint32_t a, std::uint32_t b, PatchScope& scope)
 }
 
 bool PatchSet::hull_stays_inside(std::uint32_t a, std::uint32_t b, PatchScope& scope) const {
+    const std::uint64_t size = vertices(a).size() + vertices(b).size();
+    const std::uint64_t tests = size * std::min(vertices(a).size(), vertices(b).size());
+    if (size > kMostHullVertices || scope.work < tests) return false;
+    scope.work -= tests;
     make_hull(a, b, scope);
-    if (scope.hull.facets().size() > kMostHullFacets) return false;
     const auto is_own = [&](std::uint32_t t) {
         if (t < scope.first || t >= scope.last) return false;
         const std::uint32_t patch = owner_of(t);

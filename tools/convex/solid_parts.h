@@ -24,17 +24,21 @@ public:
 
     /// True when no triangle but those for which is_own(triangle) has a point strictly
     /// inside the hull of a patch to which `triangle` belongs. Exact. Own triangles lie on
-    /// the hull. False, too, when that takes more than `most_tests` looks at facets, from
-    /// which what was taken is subtracted.
+    /// the hull. False, too, when that takes more than `most_tests` tests of a point against a
+    /// plane, from which what was taken is subtracted.
     template <class IsOwn>
     bool contains(const GrowingHull& hull, std::uint32_t triangle, IsOwn is_own,
                   std::uint64_t& most_tests) const {
         const std::uint32_t component = component_of(triangle);
-        const std::uint64_t facets = hull.facets().size();
+        constexpr std::uint64_t kTestsOfAFacet = 8;  // three corners, exactly
+        const std::uint64_t tests = kTestsOfAFacet * hull.facets().size();
         return boxes_.visit(box_of(hull.points()), [&](std::uint32_t other) {
-            if (is_own(other) || !is_obstacle(other, component)) return true;
-            if (most_tests < facets) return false;
-            most_tests -= facets;
+            if (most_tests < tests) return false;
+            if (is_own(other) || !is_obstacle(other, component)) {
+                --most_tests;
+                return true;
+            }
+            most_tests -= tests;
             return !hull.has_inside(corners_of(other));
         });
     }

@@ -52,7 +52,10 @@ SurfacePieces listed(PatchSet& patches, std::span<const std::uint32_t> place) {
 
 /// The largest height of a vertex of a patch above a plane of it, at most.
 double error_of(const PatchRules& rules, const PatchSet& patches, std::uint32_t patch,
-                FacePlanes::Points& points) {
+                double tolerance, FacePlanes::Points& points) {
+    constexpr std::uint64_t kMostTests = 1U << 24U;  // else what was admitted is what is said
+    const std::uint64_t tests = patches.faces(patch).size() * patches.vertices(patch).size();
+    if (tests > kMostTests) return tolerance;
     rules.planes.gather(patches.vertices(patch), points);
     double most = 0;
     for (const std::uint32_t face : patches.faces(patch)) {
@@ -63,21 +66,21 @@ double error_of(const PatchRules& rules, const PatchSet& patches, std::uint32_t 
 
 /// Says what each piece promises. Without a tolerance it was built to.
 void describe(const PatchRules& rules, PatchSet& patches, std::span<const std::uint32_t> place,
-              SurfacePieces& result, std::uint64_t work, ParallelFor parallel_for) {
+              SurfacePieces& result, const SurfacePieceOptions& options) {
     constexpr std::size_t kAtATime = 256;
     const auto run = [&](std::size_t first, std::size_t last) {
-        PatchScope scope{0, static_cast<std::uint32_t>(place.size()), work * kAtATime};
+        PatchScope scope{0, static_cast<std::uint32_t>(place.size()), options.most_work * kAtATime};
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t patch = patches.patch_of(place[result.of(i)[0]]);
             SurfacePiece& piece = result.pieces[i];
             piece.contained = rules.solids.is_solid(patch);
             if (rules.keeps_inside) continue;
-            piece.outer_error = error_of(rules, patches, patch, scope.points);
+            piece.outer_error = error_of(rules, patches, patch, options.tolerance, scope.points);
             piece.contained =
                 piece.contained && piece.outer_error == 0 && patches.is_contained(patch, scope);
         }
     };
-    build::for_chunks(result.pieces.size(), kAtATime, parallel_for, run);
+    build::for_chunks(result.pieces.size(), kAtATime, options.parallel_for, run);
 }
 
 /// places[order[i]] is i.
@@ -108,7 +111,7 @@ SurfacePieces find_surface_pieces(const mesh::Mesh& mesh, const SurfacePieceOpti
     }
     SurfacePieces result = listed(patches, places);
     result.edges = edges.count;
-    describe(rules, patches, places, result, options.most_work, parallel_for);
+    describe(rules, patches, places, result, options);
     return result;
 }
 

@@ -87,6 +87,27 @@ TEST(SurfacePiecesLaws, ThreadsChangeNothing) {
     }
 }
 
+// A sheet rolled up more than once, of flat strips: many lie in two parts, and whoever merges
+// over their edges must have them to himself.
+TEST(SurfacePiecesLaws, ThreadsChangeNothingAtPolygonsInSeveralParts) {
+    test::TestMesh roll = test::grid_sheet(800, 25);
+    for (Double3& p : roll.positions) {
+        const double angle = 0.02 * p.x, radius = 1 + 0.0002 * p.x;
+        p = {radius * std::cos(angle), radius * std::sin(angle), 0.01 * p.y};
+    }
+    const mesh::Mesh mesh = mesh::weld(test::soup_of(roll)).mesh;
+    const SurfacePieces alone = find_surface_pieces(mesh);
+    EXPECT_GT(alone.pieces.size(), 1U);
+    EXPECT_LT(alone.pieces.size(), 20U);
+    const auto backwards = [](std::size_t count, Task task) {
+        while (count > 0) task(--count);
+    };
+    expect_equal(alone, find_surface_pieces(mesh, {.parallel_for = backwards}));
+    for (int i = 0; i < 10; ++i) {
+        expect_equal(alone, find_surface_pieces(mesh, {.parallel_for = test::run_threads}));
+    }
+}
+
 /// How far the vertices of a piece are above the planes of its triangles, in long double,
 /// whose rounding is 2^-11 of that of double.
 long double measured_error(const mesh::Mesh& mesh, std::span<const std::uint32_t> piece) {
