@@ -25,10 +25,10 @@ struct SurfacePieceOptions {
     /// Model units, 0 or more. A patch is a piece while no vertex of it is known to be more
     /// than this above a plane of its triangles. 0: exact.
     double tolerance = 0;
-    /// Point tests a triangle, about a nanosecond each: a bound that only large surfaces of
-    /// many triangles that are all but convex come near. What is then not joined is more
-    /// pieces, and is counted.
-    std::uint64_t most_work = 20000;
+    /// Tests of a point against a plane for each triangle, some nanoseconds each, so that
+    /// nothing hangs: only large surfaces that are all but convex come near, and then have
+    /// more pieces than they need. The same for any parallel_for.
+    std::uint64_t most_work = 5000;
     ParallelFor parallel_for = serial_for;
     mesh::StopCheck stop = {};  ///< then the result is of no use
 };
