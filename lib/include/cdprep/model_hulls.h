@@ -17,9 +17,6 @@ namespace cdprep {
 
 /// Returns the corners of a hull as queries want them, in the file: valid as long as the
 /// model. `hull` is below model.hulls().size(). One of nothing has the count 0.
-///
-///     const auto whole = cdprep::find_hull(model, cdprep::format::HullScope::whole);
-///     if (whole) ask(cdprep::convex_points(model, *whole));
 [[nodiscard]] ConvexPoints convex_points(const Model& model, std::uint32_t hull) noexcept;
 
 }  // namespace cdprep
