@@ -29,32 +29,40 @@ struct StructurePreset {
 };
 
 /// As in the papers: 512 cells each, 8^3 of the octree and 8 * 4^3 of the tetra-tree.
-inline constexpr StructurePreset kPaperPreset = {"paper", {3, 1},
-                                                 {3, 1},  {3, 1},
-                                                 {3, 1},  format::SplitRule::median,
-                                                 false,   format::TetraBounding::caps};
+inline constexpr StructurePreset kPaperPreset = {
+    .name = "paper",
+    .octree = {3, 1},
+    .hashed_octree = {3, 1},
+    .adaptive_octree = {3, 1},
+    .tetra_tree = {3, 1},
+    .split = format::SplitRule::median,
+    .boxes = false,
+    .bounding = format::TetraBounding::caps,
+};
 
-/// What finds overlaps and collisions soonest. Two trees of large cells win, since what
-/// two cells that meet list is held against each other by blocks of 64 triangles, and many
-/// small cells bring the same blocks again; the hashed octree wants small ones, since it
-/// finds them for single triangles. Microseconds, median of 60 poses of armadillo and
-/// bunny, overlapping triangles, then collisions; the hierarchy of boxes takes 48 and 4:
+/// What finds overlaps and collisions soonest: cells that are small enough to be told apart by
+/// the boxes around what they hold, and no smaller, since what two cells that meet list is held
+/// against each other by blocks of 64 triangles, and many cells bring the same blocks again.
+/// Times the hierarchy of boxes, medians of light and deep poses of twelve pairs of models
+/// (tests/bench/results, structure_queries.csv):
 ///
-///                    octree    adaptive   tetra-tree   hashed
-///     level 2      234, 43     234, 36     319, 74
-///     level 3      185, 30     376, 51     374, 74    269, 66
-///     level 4      195, 20    1502, 182    575, 96
-///     level 8, 64                                     113, 21
+///                      octree       adaptive     hashed       tetra-tree
+///     tuned, collide   2.4, 2.5     2.3, 2.7     5.6, 5.3     3.6, 3.9
+///     tuned, overlap   2.1, 2.3     2.1, 2.2     2.3, 2.2     2.8, 2.7
+///     paper, collide   7.4, 6.5     12, 6.6      18, 19       18, 11
+///     paper, overlap   3.2, 2.3     5.7, 4.0     7.0, 8.5     6.4, 4.9
 ///
-/// All without boxes around what cells hold. With them the tetra-tree takes 3 to 4 times the
-/// hierarchy's time for collisions and 2 to 5 times for overlaps at level 3; at level 4 a
-/// sixth less and half as much more.
-/// Of the eight times larger dragon each wants a level more. To ask what is inside, a deeper
-/// tetra-tree is better: its costs are the triangles of one cone.
-inline constexpr StructurePreset kTunedPreset = {"tuned", {5, 8},
-                                                 {6, 32}, {4, 16},
-                                                 {3, 64}, format::SplitRule::surface_area,
-                                                 true,    format::TetraBounding::boxes};
+/// To ask what is inside, a deeper tetra-tree is better: its costs are the triangles of one cone.
+inline constexpr StructurePreset kTunedPreset = {
+    .name = "tuned",
+    .octree = {5, 8},
+    .hashed_octree = {6, 32},
+    .adaptive_octree = {4, 16},
+    .tetra_tree = {3, 64},
+    .split = format::SplitRule::surface_area,
+    .boxes = true,
+    .bounding = format::TetraBounding::boxes,
+};
 
 inline constexpr std::array<StructurePreset, 2> kStructurePresets = {kPaperPreset, kTunedPreset};
 
