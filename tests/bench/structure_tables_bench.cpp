@@ -88,7 +88,7 @@ constexpr std::array<Source, 9> kSources = {{
 struct Input {
     std::vector<Double3> positions;
     std::vector<format::Triangle> triangles;
-    std::int32_t frame_exponent = 0;
+    build::Frame frame;
 };
 
 std::uint64_t hash_of(std::span<const Double3> positions,
@@ -127,7 +127,7 @@ Input in_tree_order(const test::TestMesh& mesh) {
     constexpr std::uint32_t kUnused = 0xffffffff;
     std::vector<std::uint32_t> number(mesh.positions.size(), kUnused);
     Input input;
-    input.frame_exponent = bvh.frame.exponent;
+    input.frame = bvh.frame;
     for (const std::uint32_t source : bvh.order) {
         format::Triangle triangle = mesh.triangles[source];
         for (std::uint32_t& vertex : triangle.vertex) {
@@ -205,8 +205,10 @@ Built timed(Build build, Describe describe) {
     return {describe(tree), seconds};
 }
 
-Built build_once(const Input& input, Kind kind, const TreeLimits& limits,
+/// With the boxes that `tuned` has, or none.
+Built build_once(const Input& input, Kind kind, const TreeLimits& limits, bool boxes,
                  ParallelFor parallel_for) {
+    const auto boxes_in = boxes ? std::optional(input.frame) : std::nullopt;
     const std::span<const Double3> positions = input.positions;
     const std::span<const format::Triangle> triangles = input.triangles;
     const auto [level, threshold] = limits;
@@ -219,7 +221,10 @@ Built build_once(const Input& input, Kind kind, const TreeLimits& limits,
                                                    {.parallel_for = parallel_for,
                                                     .level = level,
                                                     .threshold = threshold,
-                                                    .frame_exponent = input.frame_exponent});
+                                                    .bounding = boxes ? format::TetraBounding::boxes
+                                                                      : format::TetraBounding::caps,
+                                                    .frame_exponent = input.frame.exponent,
+                                                    .frame_origin = input.frame.origin});
                 },
                 [&](const build::TetraTree& tree) {
                     return tetra_row(tetra_figures(tree, positions, triangles));
@@ -233,7 +238,8 @@ Built build_once(const Input& input, Kind kind, const TreeLimits& limits,
                                                {.parallel_for = parallel_for,
                                                 .level = level,
                                                 .threshold = threshold,
-                                                .hashed = kind == Kind::hashed_octree});
+                                                .hashed = kind == Kind::hashed_octree,
+                                                .boxes_in = boxes_in});
                 },
                 [&](const build::Octree& tree) {
                     return octree_row(octree_figures(tree, triangles.size()));
@@ -249,7 +255,8 @@ Built build_once(const Input& input, Kind kind, const TreeLimits& limits,
                          .level = level,
                          .threshold = threshold,
                          .rule = kind == Kind::adaptive_median ? format::SplitRule::median
-                                                               : format::SplitRule::surface_area});
+                                                               : format::SplitRule::surface_area,
+                         .boxes_in = boxes_in});
                 },
                 [&](const build::AdaptiveOctree& tree) {
                     return octree_row(adaptive_octree_figures(tree, triangles.size()));
@@ -265,6 +272,7 @@ struct Row {
     std::string setting;
     Kind kind;
     TreeLimits limits;
+    bool boxes = false;  ///< around what cells hold
     Figures figures = {};
     std::vector<double> seconds_one = {};
     std::vector<double> seconds_all = {};
@@ -272,8 +280,8 @@ struct Row {
 
 TreeLimits limits_of(const build::StructurePreset& preset, Kind kind) {
     if (kind == Kind::tetra_tree) return preset.tetra_tree;
-    return kind == Kind::octree || kind == Kind::hashed_octree ? preset.octree
-                                                               : preset.adaptive_octree;
+    if (kind == Kind::hashed_octree) return preset.hashed_octree;
+    return kind == Kind::octree ? preset.octree : preset.adaptive_octree;
 }
 
 /// What was published of it; nothing where there is too little to compare: of a model whose
@@ -292,7 +300,7 @@ TreeLimits nearest_limits(const Input& input, Kind kind, const Published& publis
                           ParallelFor parallel_for) {
     constexpr std::uint32_t kMostLevel = 8;
     const auto excess = [&](const TreeLimits& limits) {
-        const Built built = build_once(input, kind, limits, parallel_for);
+        const Built built = build_once(input, kind, limits, false, parallel_for);
         return static_cast<double>(built.figures.formula_all) / kMebibyte - published.mebibytes;
     };
     TreeLimits limits = limits_of(build::kPaperPreset, kind);
@@ -330,7 +338,8 @@ std::vector<Row> rows_of(const Input& input, const PublishedModel& published,
     }
     for (const Kind kind : {Kind::tetra_tree, Kind::octree, Kind::hashed_octree,
                             Kind::adaptive_median, Kind::adaptive_area}) {
-        rows.push_back({"tuned", kind, limits_of(build::kTunedPreset, kind)});
+        rows.push_back(
+            {"tuned", kind, limits_of(build::kTunedPreset, kind), build::kTunedPreset.boxes});
     }
     return rows;
 }
@@ -338,8 +347,8 @@ std::vector<Row> rows_of(const Input& input, const PublishedModel& published,
 void time_rows(const Input& input, int rounds, Crew& crew, std::vector<Row>& rows) {
     for (int round = -1; round < rounds; ++round) {  // the first warms up
         for (Row& row : rows) {
-            const Built one = build_once(input, row.kind, row.limits, serial_for);
-            const Built all = build_once(input, row.kind, row.limits, crew);
+            const Built one = build_once(input, row.kind, row.limits, row.boxes, serial_for);
+            const Built all = build_once(input, row.kind, row.limits, row.boxes, crew);
             row.figures = one.figures;
             if (round < 0) continue;
             row.seconds_one.push_back(one.seconds);
