@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "convex/hull_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "mesh/vectors.h"
+#include "point_triangle_distance.h"
+
+namespace cdprep::convex {
+namespace {
+
+constexpr double kSkin = 0.02;  ///< of the error: what bounds of the inside may add
+
+/// A simplex of 1 to 3 corners; `upper` bounds the distance of its points.
+struct Cell {
+    std::array<Double3, 3> corner;
+    std::size_t count;
+    double upper;
+    std::uint32_t near;  ///< a triangle
+    bool outside;        ///< known to lie outside, all of it
+    bool operator<(const Cell& other) const {
+        return upper < other.upper;
+    }
+};
+
+double apart(const Double3& a, const Double3& b) {
+    const Double3 ab = mesh::minus(a, b);
+    return std::sqrt(mesh::dot(ab, ab));
+}
+
+Double3 middle(const Double3& a, const Double3& b) {
+    return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
+}
+
+Double3 mean(std::span<const Double3> points) {
+    const double share = 1.0 / static_cast<double>(points.size());
+    Double3 sum = {0, 0, 0};
+    for (const Double3& p : points) {
+        sum = {sum.x + p.x * share, sum.y + p.y * share, sum.z + p.z * share};
+    }
+    return sum;
+}
+
+class ErrorSearch {
+public:
+    ErrorSearch(const Solid& solid, const HullErrorOptions& options)
+        : solid_(solid), options_(options) {}
+
+    HullError run(const ConvexHull& hull) {
+        for (Cell& cell : cells_under(hull)) push(std::move(cell));
+        while (!heap_.empty() && !is_good_enough()) {
+            std::pop_heap(heap_.begin(), heap_.end());
+            const Cell cell = heap_.back();
+            heap_.pop_back();
+            halve(cell);
+        }
+        if (!heap_.empty()) error_.upper = std::max(error_.upper, heap_.front().upper);
+        if (hull.dimension == 3 && !options_.surface_alone) look_inside(hull);
+        // Cells meet where a middle was rounded; distances were, too.
+        if (error_.upper > 0) error_.upper += solid_.slack();
+        return error_;
+    }
+
+private:
+    [[nodiscard]] bool is_good_enough() const {
+        const double upper = heap_.front().upper;
+        return error_.lower > options_.too_much || error_.cells >= options_.most_cells ||
+               upper <= prune_below();
+    }
+    /// What is at most this need not be known better.
+    [[nodiscard]] double prune_below() const {
+        return std::max(options_.enough, error_.lower * (1 + options_.relative));
+    }
+
+    [[nodiscard]] std::vector<Cell> cells_under(const ConvexHull& hull) const {
+        constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+        const auto& p = hull.points;
+        std::vector<Cell> cells;
+        if (hull.dimension < 0) return cells;
+        if (hull.dimension < 2) {
+            cells.push_back({{p.front(), p.back()}, p.size(), 0, kNone, false});
+            return cells;
+        }
+        for (const auto& f : hull.facets) {
+            cells.push_back({{p[f[0]], p[f[1]], p[f[2]]}, 3, 0, kNone, false});
+        }
+        return cells;
+    }
+
+    /// Bounds a cell and keeps it unless it is well within what is known.
+    void push(Cell cell) {
+        ++error_.cells;
+        const std::span c = std::span(cell.corner).first(cell.count);
+        const Double3 at = mean(c);
+        double radius = 0;
+        for (const Double3& corner : c) radius = std::max(radius, apart(at, corner));
+        radius += solid_.slack();
+        const TriangleTree::Nearest near = solid_.tree().nearest(at, cell.near);
+        cell.near = near.triangle;
+        const bool one_sided = near.distance > radius + solid_.slack();
+        if (one_sided && !cell.outside) {
+            if (solid_.includes(at)) return;
+            cell.outside = true;
+        }
+        const Corners& t = solid_.tree().corners(near.triangle);
+        cell.upper = point_triangle_distance(at, t).upper + radius;
+        if (cell.upper > prune_below()) {
+            cell.upper = std::min(cell.upper, bound_by_corners(c, near.triangle));
+        }
+        if (near.distance > error_.lower && (cell.outside || !solid_.includes(at))) {
+            error_.lower = near.distance;
+            error_.worst = at;
+        }
+        if (cell.upper <= prune_below()) {
+            error_.upper = std::max(error_.upper, cell.upper);
+            return;
+        }
+        heap_.push_back(cell);
+        std::push_heap(heap_.begin(), heap_.end());
+    }
+
+    /// At least the distance from the surface of any point of these corners' hull. The
+    /// distance to one triangle is convex, and so is the mean of those to two, which the
+    /// nearer one does not exceed: in the middle between two walls it bounds well.
+    [[nodiscard]] double bound_by_corners(std::span<const Double3> corners,
+                                          std::uint32_t triangle) const {
+        const Corners& t = solid_.tree().corners(triangle);
+        std::array<double, 8> to_first{};
+        std::size_t worst = 0;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            to_first[i] = point_triangle_distance(corners[i], t).upper;
+            if (to_first[i] > to_first[worst]) worst = i;
+        }
+        const std::uint32_t other = solid_.tree().nearest(corners[worst], triangle).triangle;
+        if (other == triangle) return to_first[worst];
+        const Corners& u = solid_.tree().corners(other);
+        double of_both = 0;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const double to_second = point_triangle_distance(corners[i], u).upper;
+            of_both = std::max(of_both, to_first[i] / 2 + to_second / 2);
+        }
+        return std::min(to_first[worst], of_both) + solid_.slack();
+    }
+
+    void halve(const Cell& cell) {
+        std::size_t from = 0;
+        std::size_t to = 1;
+        double longest = -1;
+        for (std::size_t i = 0; i < cell.count; ++i) {
+            for (std::size_t k = i + 1; k < cell.count; ++k) {
+                const double length = apart(cell.corner[i], cell.corner[k]);
+                if (length <= longest) continue;
+                longest = length;
+                from = i;
+                to = k;
+            }
+        }
+        const Double3 cut = middle(cell.corner[from], cell.corner[to]);
+        for (const std::size_t end : {from, to}) {
+            Cell half = cell;
+            half.corner[end] = cut;
+            push(half);
+        }
+    }
+
+    /// A cube that may hold points of the hull that are deep in it.
+    struct Cube {
+        Double3 centre;
+        double half;
+        std::vector<std::uint32_t> planes;  ///< that it does not lie well behind
+        std::uint32_t near;
+        bool outside;
+    };
+    struct Plane {
+        Double3 normal;
+        double offset;
+    };
+
+    /// Points within the hull at most `skin` from its surface are not farther from the solid
+    /// than that surface by more; the others lie in cubes, which are cut until their bound
+    /// is no higher. It is only there that a cavity or a pocket is told.
+    void look_inside(const ConvexHull& hull) {
+        const double skin = kSkin * std::max(error_.upper, options_.enough);
+        const double most = error_.upper + skin;
+        mesh::Box box;
+        for (const Double3& p : hull.points) box.add(p);
+        std::vector<Plane> planes;
+        Cube root{middle(box.lower, box.upper), box.diagonal() / 2, {}, 0, false};
+        for (const auto& f : hull.facets) {
+            const Double3& a = hull.points[f[0]];
+            const Double3 n =
+                mesh::cross(mesh::minus(hull.points[f[1]], a), mesh::minus(hull.points[f[2]], a));
+            const double length = std::sqrt(mesh::dot(n, n));
+            // A facet too thin to have a direction keeps nothing out.
+            if (!(length > 0)) continue;
+            const Double3 unit = {n.x / length, n.y / length, n.z / length};
+            root.planes.push_back(static_cast<std::uint32_t>(planes.size()));
+            planes.push_back({unit, mesh::dot(unit, a)});
+        }
+        std::vector<Cube> stack;
+        stack.push_back(std::move(root));
+        double highest = most;
+        while (!stack.empty()) {
+            Cube cube = std::move(stack.back());
+            stack.pop_back();
+            const double bound = bound_of(cube, planes, skin);
+            const double enough =
+                std::max({most, options_.enough, error_.lower * (1 + options_.relative)});
+            if (bound <= enough) {
+                highest = std::max(highest, bound);
+                continue;
+            }
+            if (error_.cells >= options_.most_cells || error_.lower > options_.too_much) {
+                highest = std::max(highest, bound);
+                continue;
+            }
+            const double quarter = cube.half / 2;
+            for (unsigned k = 0; k < 8; ++k) {
+                const Double3& c = cube.centre;
+                stack.push_back({{c.x + ((k & 1U) == 0 ? -quarter : quarter),
+                                  c.y + ((k & 2U) == 0 ? -quarter : quarter),
+                                  c.z + ((k & 4U) == 0 ? -quarter : quarter)},
+                                 quarter,
+                                 cube.planes,
+                                 cube.near,
+                                 cube.outside});
+            }
+        }
+        error_.upper = highest;
+    }
+
+    /// At least the distance of any point of the cube that is deep in the hull; 0 when there
+    /// is none. Drops planes that the cube lies well behind.
+    double bound_of(Cube& cube, std::span<const Plane> planes, double skin) {
+        ++error_.cells;
+        const Double3& c = cube.centre;
+        bool is_within = true;
+        std::vector<std::uint32_t> kept;
+        for (const std::uint32_t i : cube.planes) {
+            const Double3& n = planes[i].normal;
+            const double height = mesh::dot(n, c) - planes[i].offset;
+            const double reach = cube.half * (std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z));
+            if (height - reach > -skin + solid_.slack()) return 0;
+            if (height > 0) is_within = false;
+            if (height + reach > -skin - solid_.slack()) kept.push_back(i);
+        }
+        cube.planes = std::move(kept);
+        const double radius = std::sqrt(3.0) * cube.half + solid_.slack();
+        const TriangleTree::Nearest near = solid_.tree().nearest(c, cube.near);
+        cube.near = near.triangle;
+        if (near.distance > radius + solid_.slack() && !cube.outside) {
+            if (solid_.includes(c)) return 0;
+            cube.outside = true;
+        }
+        if (is_within && near.distance > error_.lower && (cube.outside || !solid_.includes(c))) {
+            error_.lower = near.distance;
+            error_.worst = c;
+        }
+        const double by_radius = near.distance + radius + solid_.slack();
+        if (by_radius <= prune_below()) return by_radius;
+        std::array<Double3, 8> corners;
+        for (unsigned k = 0; k < 8; ++k) {
+            corners[k] = {c.x + ((k & 1U) == 0 ? -cube.half : cube.half),
+                          c.y + ((k & 2U) == 0 ? -cube.half : cube.half),
+                          c.z + ((k & 4U) == 0 ? -cube.half : cube.half)};
+        }
+        return std::min(by_radius, bound_by_corners(corners, near.triangle));
+    }
+
+    const Solid& solid_;
+    const HullErrorOptions& options_;
+    HullError error_;
+    std::vector<Cell> heap_;
+};
+
+}  // namespace
+
+HullError find_hull_error(const ConvexHull& hull, const Solid& solid,
+                          const HullErrorOptions& options) {
+    return ErrorSearch(solid, options).run(hull);
+}
+
+}  // namespace cdprep::convex
