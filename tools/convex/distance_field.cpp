@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "convex/distance_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/vectors.h"
+
+namespace cdprep::convex {
+namespace {
+
+constexpr double kMostNodes = 8e6;
+constexpr double kSampling = 0.7;  ///< of a spacing: sides of the last triangles
+constexpr std::size_t kGroup = 4;  ///< nodes along each axis that are kept out together
+constexpr double kShell = 1.5;     ///< spacings: how thick a layer of nodes is
+constexpr std::size_t kBlock = 8;  ///< nodes along each axis
+
+double apart(const Double3& a, const Double3& b) {
+    const Double3 ab = mesh::minus(a, b);
+    return std::sqrt(mesh::dot(ab, ab));
+}
+
+Double3 middle(const Double3& a, const Double3& b) {
+    return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
+}
+
+}  // namespace
+
+DistanceField::DistanceField(const Solid& solid, double spacing, double beyond,
+                             ParallelFor parallel_for)
+    : spacing_(spacing) {
+    const mesh::Box& box = solid.tree().box();
+    const Double3 size = mesh::minus(box.upper, box.lower);
+    const auto nodes_along = [&](double length) { return std::floor(length / spacing_) + 2; };
+    while (nodes_along(size.x) * nodes_along(size.y) * nodes_along(size.z) > kMostNodes) {
+        spacing_ *= 1.25;
+    }
+    count_ = {static_cast<std::size_t>(nodes_along(size.x)),
+              static_cast<std::size_t>(nodes_along(size.y)),
+              static_cast<std::size_t>(nodes_along(size.z))};
+    // Half a spacing out, so that faces of the box do not lie on nodes.
+    const auto begin = [&](double lower, double length, std::size_t count) {
+        return lower + (length - static_cast<double>(count - 1) * spacing_) / 2;
+    };
+    origin_ = {begin(box.lower.x, size.x, count_[0]), begin(box.lower.y, size.y, count_[1]),
+               begin(box.lower.z, size.z, count_[2])};
+    distance_.resize(count_[0] * count_[1] * count_[2]);
+    std::array<std::size_t, 3> blocks{};
+    for (std::size_t k = 0; k < 3; ++k) blocks[k] = (count_[k] + kBlock - 1) / kBlock;
+    const auto fill_block = [&](std::size_t i) {
+        fill(solid,
+             {{i % blocks[0] * kBlock, i / blocks[0] % blocks[1] * kBlock,
+               i / blocks[0] / blocks[1] * kBlock}},
+             beyond);
+    };
+    parallel_for(blocks[0] * blocks[1] * blocks[2], fill_block);
+}
+
+Double3 DistanceField::node(std::size_t x, std::size_t y, std::size_t z) const {
+    return {origin_.x + static_cast<double>(x) * spacing_,
+            origin_.y + static_cast<double>(y) * spacing_,
+            origin_.z + static_cast<double>(z) * spacing_};
+}
+
+/// Far from the surface the middle stands for all nodes of a block. Elsewhere a node is on
+/// the side of the one before it unless the surface may pass between them.
+void DistanceField::fill(const Solid& solid, const Block& block, double beyond) {
+    const auto [x0, y0, z0] = block.first;
+    const std::size_t x1 = std::min(x0 + kBlock, count_[0]);
+    const std::size_t y1 = std::min(y0 + kBlock, count_[1]);
+    const std::size_t z1 = std::min(z0 + kBlock, count_[2]);
+    const Double3 centre = middle(node(x0, y0, z0), node(x1 - 1, y1 - 1, z1 - 1));
+    const double radius = apart(centre, node(x0, y0, z0)) + spacing_;
+    TriangleTree::Nearest near = solid.tree().nearest(centre);
+    const bool one_sided = near.distance > radius;
+    const bool inside = solid.includes(centre);
+    const bool is_far = one_sided && (inside || near.distance > radius + beyond);
+    double before = one_sided ? 2 * spacing_ : 0;
+    bool is_inside = inside;
+    for (std::size_t z = z0; z < z1; ++z) {
+        for (std::size_t y = y0; y < y1; ++y) {
+            for (std::size_t x = x0; x < x1; ++x) {
+                float& value = distance_[index(x, y, z)];
+                if (is_far) {
+                    value = static_cast<float>(inside ? radius - near.distance
+                                                      : near.distance - radius);
+                    continue;
+                }
+                const Double3 p = node(x, y, z);
+                near = solid.tree().nearest(p, near.triangle);
+                const bool is_new_row = x == x0;
+                if (!one_sided && (is_new_row || std::max(before, near.distance) <= spacing_)) {
+                    is_inside = solid.includes(p);
+                }
+                before = near.distance;
+                value = static_cast<float>(is_inside ? -near.distance : near.distance);
+            }
+        }
+    }
+}
+
+double DistanceField::at(const Double3& p) const {
+    const std::array<double, 3> place = {(p.x - origin_.x) / spacing_, (p.y - origin_.y) / spacing_,
+                                         (p.z - origin_.z) / spacing_};
+    std::array<std::size_t, 3> low{};
+    std::array<double, 3> share{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double last = static_cast<double>(count_[k] - 2);
+        const double floor = std::clamp(std::floor(place[k]), 0.0, last);
+        low[k] = static_cast<std::size_t>(floor);
+        share[k] = place[k] - floor;
+    }
+    const auto along_x = [&](std::size_t y, std::size_t z) {
+        const float* row = &distance_[index(low[0], low[1] + y, low[2] + z)];
+        return static_cast<double>(row[0]) +
+               share[0] * (static_cast<double>(row[1]) - static_cast<double>(row[0]));
+    };
+    const double front = along_x(0, 0) + share[1] * (along_x(1, 0) - along_x(0, 0));
+    const double back = along_x(0, 1) + share[1] * (along_x(1, 1) - along_x(0, 1));
+    return front + share[2] * (back - front);
+}
+
+PointGroups DistanceField::nodes_beyond(double distance) const {
+    PointGroups groups;
+    const auto least = static_cast<float>(distance);
+    const auto most = static_cast<float>(distance + kShell * spacing_);
+    std::vector<Double3> group;
+    for (std::size_t z0 = 0; z0 < count_[2]; z0 += kGroup) {
+        for (std::size_t y0 = 0; y0 < count_[1]; y0 += kGroup) {
+            for (std::size_t x0 = 0; x0 < count_[0]; x0 += kGroup) {
+                group.clear();
+                for (std::size_t z = z0; z < std::min(z0 + kGroup, count_[2]); ++z) {
+                    for (std::size_t y = y0; y < std::min(y0 + kGroup, count_[1]); ++y) {
+                        for (std::size_t x = x0; x < std::min(x0 + kGroup, count_[0]); ++x) {
+                            const float value = distance_[index(x, y, z)];
+                            if (value > least && value <= most) group.push_back(node(x, y, z));
+                        }
+                    }
+                }
+                groups.add(group);
+            }
+        }
+    }
+    return groups;
+}
+
+void DistanceField::sample(std::array<Double3, 3> corners, Estimate& most) const {
+    const double ab = apart(corners[0], corners[1]);
+    const double bc = apart(corners[1], corners[2]);
+    const double ca = apart(corners[2], corners[0]);
+    const double longest = std::max({ab, bc, ca});
+    const Double3 centre = {(corners[0].x + corners[1].x + corners[2].x) / 3,
+                            (corners[0].y + corners[1].y + corners[2].y) / 3,
+                            (corners[0].z + corners[1].z + corners[2].z) / 3};
+    const double here = at(centre);
+    if (here > most.distance) most = {here, centre};
+    // Distances change by no more than the way.
+    if (longest <= kSampling * spacing_ || here + longest * 0.67 <= most.distance) return;
+    if (longest > ab)
+        std::rotate(corners.begin(), corners.begin() + (longest == bc ? 1 : 2), corners.end());
+    const Double3 cut = middle(corners[0], corners[1]);
+    sample({corners[0], cut, corners[2]}, most);
+    sample({cut, corners[1], corners[2]}, most);
+}
+
+Estimate DistanceField::estimate(const ConvexHull& hull) const {
+    Estimate most;
+    if (hull.dimension == 1) sample({hull.points[0], hull.points[1], hull.points[1]}, most);
+    for (const auto& f : hull.facets) {
+        sample({hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]}, most);
+    }
+    return most;
+}
+
+}  // namespace cdprep::convex

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "convex/convex_hull.h"
+#include "convex/separated_points.h"
+#include "convex/solid.h"
+
+namespace cdprep::convex {
+
+/// Where a hull sticks out, as a field tells it.
+struct Estimate {
+    double distance = 0;  ///< from the solid, model units; negative inside
+    Double3 at = {0, 0, 0};
+};
+
+/// Distances from a solid on a grid, negative inside: what the search for pieces goes by.
+/// Rounded and interpolated; results are measured afterwards.
+class DistanceField {
+public:
+    /// `spacing` and `beyond` are model units: up to `beyond` outside, distances are
+    /// measured, what is farther is only known to be. Nodes are at most some millions; the
+    /// grid is coarser where there would be more. The same for any parallel_for.
+    DistanceField(const Solid& solid, double spacing, double beyond, ParallelFor parallel_for);
+
+    [[nodiscard]] double spacing() const {
+        return spacing_;
+    }
+    /// Between the nodes around p; p lies in the solid's box.
+    [[nodiscard]] double at(const Double3& p) const;
+
+    /// The nodes that are farther from the solid than `distance`, and not farther than that
+    /// and about a diagonal of spacings: a hull that reaches farther out passes among them.
+    /// In groups of neighbours.
+    [[nodiscard]] PointGroups nodes_beyond(double distance) const;
+
+    /// The greatest distance on the hull's surface, by samples about a spacing apart.
+    [[nodiscard]] Estimate estimate(const ConvexHull& hull) const;
+
+private:
+    struct Block {
+        std::array<std::size_t, 3> first;
+    };
+    [[nodiscard]] Double3 node(std::size_t x, std::size_t y, std::size_t z) const;
+    [[nodiscard]] std::size_t index(std::size_t x, std::size_t y, std::size_t z) const {
+        return (z * count_[1] + y) * count_[0] + x;
+    }
+    void fill(const Solid& solid, const Block& block, double beyond);
+    void sample(std::array<Double3, 3> corners, Estimate& most) const;
+
+    Double3 origin_{};
+    double spacing_;
+    std::array<std::size_t, 3> count_{};  ///< nodes along each axis
+    std::vector<float> distance_;
+};
+
+}  // namespace cdprep::convex

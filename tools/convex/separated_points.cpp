@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "convex/separated_points.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "convex/convex_hull.h"
+#include "mesh/vectors.h"
+
+namespace cdprep::convex {
+namespace {
+
+using mesh::cross;
+using mesh::dot;
+using mesh::minus;
+
+constexpr int kMostSteps = 40;      ///< of a search for a plane; then the point counts as within
+constexpr double kNothing = 1e-18;  ///< of squares: as near as this is within
+constexpr std::size_t kManyPoints = 96;  ///< of a hull: it is pruned when there are more
+
+/// Up to four points around the origin, and the point of their hull that is nearest to it.
+struct Simplex {
+    std::array<Double3, 4> point;
+    std::size_t count = 0;
+};
+
+Double3 scaled_sum(const Double3& a, double s, const Double3& b) {
+    return {a.x + s * b.x, a.y + s * b.y, a.z + s * b.z};
+}
+
+Double3 nearest_on_segment(Simplex& s) {
+    const Double3 a = s.point[0];
+    const Double3 b = s.point[1];
+    const Double3 ab = minus(b, a);
+    const double t = -dot(a, ab);
+    const double length = dot(ab, ab);
+    if (t <= 0) {
+        s.count = 1;
+        return a;
+    }
+    if (t >= length) {
+        s.point[0] = b;
+        s.count = 1;
+        return b;
+    }
+    return scaled_sum(a, t / length, ab);
+}
+
+/// The better of a triangle's sides.
+Double3 nearest_on_sides(Simplex& s) {
+    const Simplex all = s;
+    Double3 best{};
+    double least = -1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        Simplex side;
+        side.point = {all.point[k], all.point[(k + 1) % 3]};
+        side.count = 2;
+        const Double3 p = nearest_on_segment(side);
+        if (least >= 0 && dot(p, p) >= least) continue;
+        least = dot(p, p);
+        best = p;
+        s = side;
+    }
+    return best;
+}
+
+Double3 nearest_on_triangle(Simplex& s) {
+    const Double3 &a = s.point[0], &b = s.point[1], &c = s.point[2];
+    const Double3 n = cross(minus(b, a), minus(c, a));
+    const double nn = dot(n, n);
+    const bool within =
+        nn > 0 && dot(cross(a, b), n) >= 0 && dot(cross(b, c), n) >= 0 && dot(cross(c, a), n) >= 0;
+    if (!within) return nearest_on_sides(s);
+    const double t = dot(a, n) / nn;
+    return {t * n.x, t * n.y, t * n.z};
+}
+
+/// Over the sides that the origin is beyond; the origin itself when there is none.
+Double3 nearest_on_tetrahedron(Simplex& s) {
+    constexpr std::array<std::array<std::size_t, 4>, 4> kSides = {
+        {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}}};
+    const Simplex all = s;
+    Double3 best = {0, 0, 0};
+    double least = -1;
+    for (const auto& side : kSides) {
+        const Double3& a = all.point[side[0]];
+        const Double3 n = cross(minus(all.point[side[1]], a), minus(all.point[side[2]], a));
+        const double of_origin = -dot(a, n);
+        const double of_other = dot(minus(all.point[side[3]], a), n);
+        if (of_origin * of_other > 0) continue;
+        Simplex triangle;
+        triangle.point = {a, all.point[side[1]], all.point[side[2]]};
+        triangle.count = 3;
+        const Double3 p = nearest_on_triangle(triangle);
+        if (least >= 0 && dot(p, p) >= least) continue;
+        least = dot(p, p);
+        best = p;
+        s = triangle;
+    }
+    return best;
+}
+
+Double3 nearest_to_origin(Simplex& s) {
+    switch (s.count) {
+        case 1:
+            return s.point[0];
+        case 2:
+            return nearest_on_segment(s);
+        case 3:
+            return nearest_on_triangle(s);
+        default:
+            return nearest_on_tetrahedron(s);
+    }
+}
+
+Double3 unit(const Double3& v) {
+    const double length = std::sqrt(dot(v, v));
+    return {v.x / length, v.y / length, v.z / length};
+}
+
+}  // namespace
+
+std::size_t PointRows::farthest(const Double3& along) const {
+    std::size_t best = 0;
+    double most = -std::numeric_limits<double>::infinity();
+    constexpr std::size_t kAtOnce = 16;
+    std::size_t i = 0;
+    for (; i + kAtOnce <= size(); i += kAtOnce) {
+        std::array<double, kAtOnce> value;
+        for (std::size_t k = 0; k < kAtOnce; ++k) {
+            value[k] = along.x * x_[i + k] + along.y * y_[i + k] + along.z * z_[i + k];
+        }
+        double of_block = value[0];
+        for (std::size_t k = 1; k < kAtOnce; ++k) of_block = std::max(of_block, value[k]);
+        if (of_block <= most) continue;
+        most = of_block;
+        best = i;
+        while (value[best - i] != of_block) ++best;
+    }
+    for (; i < size(); ++i) {
+        const double value = along.x * x_[i] + along.y * y_[i] + along.z * z_[i];
+        if (value <= most) continue;
+        most = value;
+        best = i;
+    }
+    return best;
+}
+
+void PointGroups::add(std::span<const Double3> points) {
+    if (points.empty()) return;
+    Double3 lower = points.front();
+    Double3 upper = points.front();
+    for (const Double3& p : points) {
+        lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
+        upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+    }
+    const Double3 centre = {lower.x / 2 + upper.x / 2, lower.y / 2 + upper.y / 2,
+                            lower.z / 2 + upper.z / 2};
+    groups_.push_back({centre, static_cast<std::uint32_t>(points_.size()),
+                       static_cast<std::uint32_t>(points.size())});
+    points_.insert(points_.end(), points.begin(), points.end());
+}
+
+void SeparatedPoints::Planes::resize(std::size_t count) {
+    x.resize(count);
+    y.resize(count);
+    z.resize(count);
+    offset.resize(count);
+}
+
+SeparatedPoints::SeparatedPoints(const PointGroups& kept_out)
+    : kept_out_(kept_out), is_open_(kept_out.groups().size(), 0) {
+    groups_.resize(kept_out.groups().size());
+    single_.resize(kept_out.points().size());
+}
+
+/// A direction in which the point lies beyond the hull of what there is and of more.
+std::optional<SeparatedPoints::Touching> SeparatedPoints::find_plane(
+    const Double3& kept_out, const Double3& first, std::span<const Double3> more) const {
+    Double3 normal = unit(first);
+    Simplex simplex;
+    for (int step = 0; step < kMostSteps; ++step) {
+        Double3 support{};
+        double most = -std::numeric_limits<double>::infinity();
+        if (points_.size() > 0) {
+            support = points_.at(points_.farthest(normal));
+            most = dot(normal, support);
+        }
+        for (const Double3& p : more) {
+            if (dot(normal, p) <= most) continue;
+            most = dot(normal, p);
+            support = p;
+        }
+        const Double3 relative = minus(support, kept_out);
+        if (dot(normal, relative) < 0) return Touching{normal, most};
+        simplex.point[simplex.count++] = relative;
+        const Double3 nearest = nearest_to_origin(simplex);
+        if (dot(nearest, nearest) <= kNothing * dot(relative, relative) || simplex.count == 4) {
+            return std::nullopt;
+        }
+        normal = unit({-nearest.x, -nearest.y, -nearest.z});
+    }
+    return std::nullopt;
+}
+
+/// Whether all of a set stay out, beyond its plane or another one: sets side by side are
+/// often beyond the same.
+bool SeparatedPoints::keep_out(Planes& planes, std::size_t i, std::span<const Double3> kept_out,
+                               const Double3& centre, const Added& added) {
+    const Double3 old = {planes.x[i], planes.y[i], planes.z[i]};
+    if (dot(old, old) > 0) {
+        const double offset = planes.offset[i];
+        const auto is_before = [&](const Double3& p) { return dot(old, p) < offset; };
+        if (std::all_of(added.points.begin(), added.points.end(), is_before)) return true;
+    }
+    const auto try_plane = [&](std::size_t k) {
+        double offset = std::numeric_limits<double>::infinity();
+        for (const Double3& p : kept_out) offset = std::min(offset, dot(found_[k].normal, p));
+        if (offset <= found_[k].offset) return false;
+        changes_.push_back({&planes, i, k, offset});
+        return true;
+    };
+    for (std::size_t k = found_.size(); k-- > 0;) {
+        if (dot(found_[k].normal, centre) > found_[k].offset && try_plane(k)) return true;
+    }
+    const Double3 away = minus(centre, added.centre);
+    const Double3 first = dot(old, old) > 0 ? old : dot(away, away) > 0 ? away : Double3{1, 0, 0};
+    const auto plane = find_plane(centre, first, added.points);
+    if (!plane) return false;
+    found_.push_back(*plane);
+    return try_plane(found_.size() - 1);
+}
+
+bool SeparatedPoints::keep_out_points(const PointGroups::Group& group, const Added& added,
+                                      bool is_new) {
+    for (std::size_t i = group.first; i < group.first + group.count; ++i) {
+        if (!is_new && single_.x[i] * added.centre.x + single_.y[i] * added.centre.y +
+                               single_.z[i] * added.centre.z + added.radius <
+                           single_.offset[i]) {
+            continue;
+        }
+        const Double3& p = kept_out_.points()[i];
+        if (!keep_out(single_, i, {&p, 1}, p, added)) return false;
+    }
+    return true;
+}
+
+bool SeparatedPoints::add(std::span<const Double3> points, const Double3& centre, double radius) {
+    changes_.clear();
+    found_.clear();
+    opened_.clear();
+    const Added added{points, centre, radius};
+    const bool is_first = points_.size() == 0;
+    const auto& groups = kept_out_.groups();
+    constexpr std::size_t kAtOnce = 64;
+    for (std::size_t begin = 0; begin < groups.size(); begin += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, groups.size() - begin);
+        std::array<double, kAtOnce> beyond;
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = begin + k;
+            beyond[k] = groups_.x[i] * centre.x + groups_.y[i] * centre.y +
+                        groups_.z[i] * centre.z + radius - groups_.offset[i];
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = begin + k;
+            const PointGroups::Group& group = groups[i];
+            if (is_open_[i] != 0) {
+                if (!keep_out_points(group, added, false)) return false;
+                continue;
+            }
+            if (beyond[k] < 0 && !is_first) continue;
+            const auto all = std::span(kept_out_.points()).subspan(group.first, group.count);
+            if (keep_out(groups_, i, all, group.centre, added)) continue;
+            if (!keep_out_points(group, added, true)) return false;
+            opened_.push_back(static_cast<std::uint32_t>(i));
+        }
+    }
+    for (const Change& change : changes_) {
+        const Double3& n = found_[change.plane].normal;
+        change.planes->x[change.of] = n.x;
+        change.planes->y[change.of] = n.y;
+        change.planes->z[change.of] = n.z;
+        change.planes->offset[change.of] = change.offset;
+    }
+    for (const std::uint32_t group : opened_) is_open_[group] = 1;
+    for (const Double3& p : points) points_.add(p);
+    if (points_.size() > kManyPoints + 2 * pruned_size_) prune();
+    return true;
+}
+
+void SeparatedPoints::prune() {
+    std::vector<Double3> all;
+    for (std::size_t i = 0; i < points_.size(); ++i) all.push_back(points_.at(i));
+    points_ = {};
+    for (const Double3& p : convex_hull(all).points) points_.add(p);
+    pruned_size_ = points_.size();
+}
+
+}  // namespace cdprep::convex

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cdprep/format/geometry.h"
+
+namespace cdprep::convex {
+
+using format::Double3;
+
+/// Points side by side, for many dot products.
+class PointRows {
+public:
+    void add(const Double3& p) {
+        x_.push_back(p.x);
+        y_.push_back(p.y);
+        z_.push_back(p.z);
+    }
+    [[nodiscard]] std::size_t size() const {
+        return x_.size();
+    }
+    [[nodiscard]] Double3 at(std::size_t i) const {
+        return {x_[i], y_[i], z_[i]};
+    }
+    /// The first of those that lie farthest along a direction. Not of nothing.
+    [[nodiscard]] std::size_t farthest(const Double3& along) const;
+
+private:
+    std::vector<double> x_, y_, z_;
+};
+
+/// Points in groups that lie together.
+class PointGroups {
+public:
+    struct Group {
+        Double3 centre;
+        std::uint32_t first;  ///< of its points
+        std::uint32_t count;
+    };
+    void add(std::span<const Double3> points);
+    [[nodiscard]] const std::vector<Group>& groups() const {
+        return groups_;
+    }
+    [[nodiscard]] const std::vector<Double3>& points() const {
+        return points_;
+    }
+
+private:
+    std::vector<Group> groups_;
+    std::vector<Double3> points_;
+};
+
+/// A growing convex hull and points that it may not take in, each with a plane between: one
+/// for all of a group while that can be, then one for each point.
+///
+/// Rounded: what is decided here is a choice, and the result is measured afterwards. Points
+/// nearer to the hull than about 1e-9 of their distances count as within.
+class SeparatedPoints {
+public:
+    /// `kept_out` outlives this.
+    explicit SeparatedPoints(const PointGroups& kept_out);
+
+    /// Adds points to the hull, or nothing when one that is kept out would be within.
+    /// `centre` and `radius` are of a ball around them.
+    bool add(std::span<const Double3> points, const Double3& centre, double radius);
+
+private:
+    /// A plane that touches the hull: what is beyond is outside.
+    struct Touching {
+        Double3 normal;
+        double offset;
+    };
+    /// Sets of points that are kept out, with a plane each.
+    struct Planes {
+        std::vector<double> x, y, z;  ///< normals, away from the hull
+        std::vector<double> offset;   ///< of the nearest point of the set
+        void resize(std::size_t count);
+    };
+    /// Points that are being added.
+    struct Added {
+        std::span<const Double3> points;
+        Double3 centre;
+        double radius;
+    };
+    struct Change {
+        Planes* planes;
+        std::size_t of;
+        std::size_t plane;
+        double offset;
+    };
+    [[nodiscard]] std::optional<Touching> find_plane(const Double3& kept_out, const Double3& first,
+                                                     std::span<const Double3> more) const;
+    bool keep_out(Planes& planes, std::size_t i, std::span<const Double3> kept_out,
+                  const Double3& centre, const Added& added);
+    bool keep_out_points(const PointGroups::Group& group, const Added& added, bool is_new);
+    void prune();
+
+    const PointGroups& kept_out_;
+    PointRows points_;
+    std::size_t pruned_size_ = 0;
+    Planes groups_;
+    Planes single_;
+    std::vector<std::uint8_t> is_open_;  ///< groups whose points have planes of their own
+    std::vector<std::uint32_t> opened_;  ///< while points are added
+    std::vector<Touching> found_;
+    std::vector<Change> changes_;
+};
+
+}  // namespace cdprep::convex
