@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: MIT
+#include "convex/approximate_pieces.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "mesh/weld.h"
+#include "support/run_threads.h"
+
+#include "predicates.h"
+
+namespace cdprep::convex {
+namespace {
+
+using mesh::Mesh;
+
+/// A prism over a polygon whose corners turn counter-clockwise, given its triangles.
+Mesh prism(const std::vector<std::array<double, 2>>& outline,
+           const std::vector<std::array<std::uint32_t, 3>>& cap, double height) {
+    Mesh mesh;
+    const auto n = static_cast<std::uint32_t>(outline.size());
+    for (const double z : {0.0, height}) {
+        for (const auto& [x, y] : outline) mesh.positions.push_back({x, y, z});
+    }
+    for (const auto& [a, b, c] : cap) {
+        mesh.triangles.push_back({{a + n, b + n, c + n}});
+        mesh.triangles.push_back({{c, b, a}});
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t j = (i + 1) % n;
+        mesh.triangles.push_back({{i, j, j + n}});
+        mesh.triangles.push_back({{i, j + n, i + n}});
+    }
+    return mesh;
+}
+
+Mesh cube(const Double3& at, double side) {
+    Mesh mesh = prism({{0, 0}, {side, 0}, {side, side}, {0, side}}, {{0, 1, 2}, {0, 2, 3}}, side);
+    for (Double3& p : mesh.positions) p = {p.x + at.x, p.y + at.y, p.z + at.z};
+    return mesh;
+}
+
+Mesh l_prism() {
+    return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
+                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}, 1);
+}
+
+/// A block 4 x 2 x 1 with a slot of this width from above, 1.5 deep: a U.
+Mesh slotted(double width) {
+    const double a = 2 - width / 2;
+    const double b = 2 + width / 2;
+    return prism({{0, 0}, {4, 0}, {4, 2}, {b, 2}, {b, 0.5}, {a, 0.5}, {a, 2}, {0, 2}},
+                 {{0, 5, 7}, {7, 5, 6}, {0, 4, 5}, {0, 1, 4}, {1, 2, 4}, {4, 2, 3}}, 1);
+}
+
+void append(Mesh& mesh, const Mesh& more) {
+    const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), more.positions.begin(), more.positions.end());
+    for (const auto& t : more.triangles) {
+        mesh.triangles.push_back({{t.vertex[0] + n, t.vertex[1] + n, t.vertex[2] + n}});
+    }
+}
+
+bool holds(const ConvexHull& hull, const Double3& p) {
+    if (hull.dimension < 3) return false;
+    for (const auto& f : hull.facets) {
+        if (orient3d(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]], p) < 0) return false;
+    }
+    return true;
+}
+
+bool is_held(const ApproximatePieces& found, const Double3& p) {
+    return std::any_of(found.pieces.begin(), found.pieces.end(),
+                       [&](const ApproximatePiece& piece) { return holds(piece.hull, p); });
+}
+
+ApproximatePieces within(const Mesh& mesh, double error) {
+    ApproximateOptions options;
+    options.max_error = error;
+    return find_approximate_pieces(mesh, options);
+}
+
+// Its hull is itself: 8 corners, 12 facets, whatever the error.
+TEST(ApproximatePieces, OfACubeIsTheCubeExactly) {
+    for (const double error : {0.0, 0.01, 10.0}) {
+        const ApproximatePieces found = within(cube({0.1, 0.2, 0.3}, 1), error);
+        ASSERT_EQ(found.pieces.size(), 1u);
+        EXPECT_EQ(found.pieces[0].hull.points.size(), 8u);
+        EXPECT_EQ(found.outer_error, 0.0);
+        EXPECT_EQ(found.proof.outside, 0u);
+        EXPECT_TRUE(found.is_as_asked);
+    }
+}
+
+// 2 boxes do without an error; one hull bridges the corner, half a side away in the middle.
+TEST(ApproximatePieces, OfAnLPrismAreAsManyAsItsErrorDemands) {
+    const ApproximatePieces one = within(l_prism(), 0.6);
+    EXPECT_EQ(one.pieces.size(), 1u);
+    EXPECT_GE(one.outer_error, 0.5 - 1e-9);
+    EXPECT_LE(one.outer_error, 0.5 * 1.05);
+    const ApproximatePieces more = within(l_prism(), 0.2);
+    EXPECT_GE(more.pieces.size(), 2u);
+    EXPECT_LE(more.pieces.size(), 4u);
+    EXPECT_LE(more.outer_error, 0.2);
+    EXPECT_LE(more.outer_lower, more.outer_error);
+    EXPECT_EQ(more.proof.outside, 0u);
+}
+
+// Points of the solid on a grid that hits its faces and edges lie in a hull, exactly: the
+// cuts leave no cracks.
+TEST(ApproximatePieces, LeaveNoCracksInTheSolid) {
+    const ApproximatePieces found = within(l_prism(), 0.2);
+    for (int x = 0; x <= 16; ++x) {
+        for (int y = 0; y <= 16; ++y) {
+            for (int z = 0; z <= 8; ++z) {
+                if (x > 8 && y > 8) continue;
+                EXPECT_TRUE(is_held(found, {x / 8.0, y / 8.0, z / 8.0})) << x << y << z;
+            }
+        }
+    }
+}
+
+// A probe of 0.8 of the slot's width, in its middle, touches no piece when the error is a
+// twentieth of it: no point of a piece is farther from the walls than that.
+TEST(ApproximatePieces, KeepASlotOpenThatIsWiderThanTwiceTheError) {
+    constexpr double kWidth = 1;
+    const ApproximatePieces open = within(slotted(kWidth), 0.05 * kWidth);
+    EXPECT_LE(open.outer_error, 0.05 * kWidth);
+    std::size_t outside = 0;
+    std::size_t asked = 0;
+    for (int x = -8; x <= 8; ++x) {
+        for (int y = 0; y <= 20; ++y) {
+            ++asked;
+            const Double3 p = {2 + x * kWidth / 20, 0.5 + 0.06 * kWidth + y * 0.07, 0.5};
+            outside += is_held(open, p) ? 0 : 1;
+        }
+    }
+    EXPECT_EQ(outside, asked);
+    // And is closed when the error allows one piece.
+    EXPECT_TRUE(is_held(within(slotted(kWidth), 1.2), {2, 1.5, 0.5}));
+}
+
+// Side by side, their common hull would stick out by half the gap, which the error allows.
+TEST(ApproximatePieces, NeverMergeComponentsUnlessAsked) {
+    Mesh two = cube({0, 0, 0}, 1);
+    append(two, cube({1.1, 0, 0}, 1));
+    ApproximateOptions options;
+    options.parts = 1;
+    const ApproximatePieces apart = find_approximate_pieces(two, options);
+    EXPECT_EQ(apart.pieces.size(), 2u);
+    EXPECT_EQ(apart.outer_error, 0.0);
+    EXPECT_FALSE(apart.is_as_asked);
+    options.merge_components = true;
+    const ApproximatePieces merged = find_approximate_pieces(two, options);
+    EXPECT_EQ(merged.pieces.size(), 1u);
+    EXPECT_NEAR(merged.outer_error, 0.05, 0.003);
+    EXPECT_TRUE(merged.is_as_asked);
+}
+
+// Two nodes share a face: one component of the welded mesh, and still apart.
+TEST(ApproximatePieces, NeverMergeNodesThatTouch) {
+    Mesh two = cube({0, 0, 0}, 1);
+    append(two, cube({1, 0, 0}, 1));
+    mesh::TriangleSoup soup;
+    soup.positions = two.positions;
+    soup.triangles = two.triangles;
+    two = mesh::weld(soup).mesh;
+    ASSERT_EQ(two.positions.size(), 12u);
+    std::vector<std::uint32_t> node_of(24, 0);
+    std::fill(node_of.begin() + 12, node_of.end(), 1);
+    ApproximateOptions options;
+    options.max_error = 1;
+    options.node_of = node_of;
+    const ApproximatePieces found = find_approximate_pieces(two, options);
+    ASSERT_EQ(found.pieces.size(), 2u);
+    EXPECT_EQ(found.pieces[0].hull.points.size(), 8u);
+    EXPECT_EQ(found.outer_error, 0.0);
+    EXPECT_EQ(found.pieces[0].node + found.pieces[1].node, 1u);
+}
+
+TEST(ApproximatePieces, OfANodeTaggedConvexAreItsHull) {
+    const std::vector<std::uint32_t> node_of(20, 0);
+    const std::vector<std::uint8_t> tagged = {1};
+    ApproximateOptions options;
+    options.max_error = 0.01;
+    options.node_of = node_of;
+    options.convex_node = tagged;
+    const ApproximatePieces found = find_approximate_pieces(l_prism(), options);
+    ASSERT_EQ(found.pieces.size(), 1u);
+    EXPECT_GE(found.outer_error, 0.5 - 1e-9);
+    EXPECT_FALSE(found.is_as_asked);
+}
+
+// A cube with a cavity: one body. A hull that closes it off is far from the surface, inside.
+TEST(ApproximatePieces, KeepCavitiesOpen) {
+    Mesh hollow = cube({0, 0, 0}, 3);
+    Mesh cavity = cube({1, 1, 1}, 1);
+    for (auto& t : cavity.triangles) std::swap(t.vertex[0], t.vertex[1]);
+    append(hollow, cavity);
+    ApproximateOptions options;
+    options.parts = 1;
+    EXPECT_NEAR(find_approximate_pieces(hollow, options).outer_error, 0.5, 0.03);
+    const ApproximatePieces found = within(hollow, 0.3);
+    EXPECT_GT(found.pieces.size(), 3u);
+    EXPECT_FALSE(is_held(found, {1.5, 1.5, 1.5}));
+    EXPECT_TRUE(is_held(found, {0.5, 1.5, 1.5}));
+}
+
+/// Open, of one side, without volume.
+Mesh moebius() {
+    Mesh mesh;
+    constexpr int kSteps = 48;
+    for (int i = 0; i < kSteps; ++i) {
+        const double t = 2 * std::numbers::pi * i / kSteps;
+        for (const double s : {-0.4, 0.4}) {
+            const double r = 1 + s * std::cos(t / 2);
+            mesh.positions.push_back({r * std::cos(t), r * std::sin(t), s * std::sin(t / 2)});
+        }
+    }
+    for (std::uint32_t i = 0; i < kSteps; ++i) {
+        const std::uint32_t a = 2 * i, b = a + 1;
+        const bool last = i + 1 == kSteps;
+        const std::uint32_t c = last ? 1 : a + 2, d = last ? 0 : a + 3;
+        mesh.triangles.push_back({{a, c, b}});
+        mesh.triangles.push_back({{b, c, d}});
+    }
+    return mesh;
+}
+
+// Surfaces enclose nothing: their pieces hold them, and stay near.
+TEST(ApproximatePieces, OfOpenSurfacesHoldThemAndStayNear) {
+    const ApproximatePieces band = within(moebius(), 0.1);
+    EXPECT_GT(band.pieces.size(), 3u);
+    EXPECT_LT(band.pieces.size(), 40u);
+    EXPECT_LE(band.outer_error, 0.1);
+    EXPECT_EQ(band.proof.outside, 0u);
+    EXPECT_EQ(band.proof.triangles, 96u);
+    EXPECT_GE(band.proof.fragments, 96u);
+    Mesh sheet;
+    sheet.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    sheet.triangles = {{{0, 1, 2}}, {{0, 2, 3}}, {{0, 2, 1}}, {{0, 3, 2}}};
+    const ApproximatePieces flat = within(sheet, 0.01);
+    ASSERT_EQ(flat.pieces.size(), 1u);
+    EXPECT_EQ(flat.pieces[0].hull.dimension, 2);
+    EXPECT_LE(flat.outer_error, 1e-9);
+}
+
+TEST(ApproximatePieces, OfNothingAreNone) {
+    EXPECT_TRUE(within({}, 1).pieces.empty());
+}
+
+// The largest of the limits of engines; errors are of the hulls that come out.
+TEST(ApproximatePieces, HaveNoMoreVerticesThanAllowedAndStillEnclose) {
+    ApproximateOptions options;
+    options.parts = 6;
+    options.max_vertices = 8;
+    const ApproximatePieces found = find_approximate_pieces(moebius(), options);
+    EXPECT_LE(found.pieces.size(), 6u);
+    for (const ApproximatePiece& piece : found.pieces) EXPECT_LE(piece.hull.points.size(), 8u);
+    EXPECT_EQ(found.proof.outside, 0u);
+}
+
+TEST(ApproximatePieces, WithoutWorkAreLooserAndSaySo) {
+    ApproximateOptions options;
+    options.max_error = 0.1;
+    options.work = 1000;
+    const ApproximatePieces found = find_approximate_pieces(moebius(), options);
+    EXPECT_TRUE(found.ran_out_of_work);
+    EXPECT_FALSE(found.is_as_asked);
+    EXPECT_GE(found.pieces.size(), 1u);
+    EXPECT_GT(found.outer_error, 0.1);
+    EXPECT_EQ(found.proof.outside, 0u);
+}
+
+TEST(ApproximatePieces, AreTheSameForAnyThreads) {
+    const auto with_threads = [](std::size_t threads) {
+        // Taken in turns, each thread from its own end.
+        auto run = [threads](std::size_t count, Task task) {
+            test::run_threads(threads, [&](std::size_t thread) {
+                for (std::size_t i = thread; i < count; i += threads) task(count - 1 - i);
+            });
+        };
+        ApproximateOptions options;
+        options.parts = 9;
+        options.parallel_for = run;
+        return find_approximate_pieces(moebius(), options);
+    };
+    const ApproximatePieces alone = with_threads(1);
+    for (const std::size_t threads : {2u, 5u, 8u}) {
+        const ApproximatePieces found = with_threads(threads);
+        ASSERT_EQ(found.pieces.size(), alone.pieces.size());
+        EXPECT_EQ(found.outer_error, alone.outer_error);
+        for (std::size_t i = 0; i < found.pieces.size(); ++i) {
+            EXPECT_EQ(found.pieces[i].hull.points, alone.pieces[i].hull.points);
+            EXPECT_EQ(found.pieces[i].hull.facets, alone.pieces[i].hull.facets);
+            EXPECT_EQ(found.pieces[i].triangles, alone.pieces[i].triangles);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::convex

@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "convex/approximate_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "convex/distance_field.h"
+#include "convex/enclosing_hull.h"
+#include "convex/is_convex.h"
+#include "convex/piece_cover.h"
+#include "convex/piece_points.h"
+#include "convex/solid_cells.h"
+
+namespace cdprep::convex {
+namespace {
+
+constexpr double kCellSize = 4;       ///< of the error: the largest cells
+constexpr double kCellError = 0.5;    ///< of the error: how far a cell's hull may stick out
+constexpr double kSpacing = 0.75;     ///< of the error: of the field's nodes
+constexpr double kReach = 3;          ///< of the error: how far out the field is measured
+constexpr double kReuse = 1.5;        ///< by how much the error may change before all is cut anew
+constexpr double kLeastError = 1e-3;  ///< of the diagonal: smaller ones are not sought
+constexpr double kMeasured = 0.97;    ///< of the error that is asked for: what estimates leave
+constexpr double kRelative =
+    0.02;                          ///< how close bounds of errors are, unless that is too much work
+constexpr std::size_t kTries = 7;  ///< at errors, to come near the number of parts
+constexpr std::size_t kRounds = 16;  ///< of attempts to do with fewer pieces
+constexpr double kFewer = 0.93;      ///< of the pieces: what attempts can spare, as a rule
+
+/// Cells and distances, fit for errors about as large as `error`.
+struct Stage {
+    double error;
+    DistanceField field;
+    SolidCells cells;
+    std::vector<CoverCell> cover;
+};
+
+/// Pieces as sets of cells.
+struct Found {
+    std::shared_ptr<const Stage> stage;
+    double error = 0;  ///< that was sought
+    std::vector<std::vector<std::uint32_t>> pieces;
+    std::vector<std::uint32_t> whole;  ///< bodies that are one piece
+    bool complete = false;
+    [[nodiscard]] std::size_t count() const {
+        return pieces.size() + whole.size();
+    }
+};
+
+/// The mesh with no vertex in two nodes, so that components are of one node.
+mesh::Mesh part_nodes(const mesh::Mesh& mesh, std::span<const std::uint32_t> node_of) {
+    mesh::Mesh parted = mesh;
+    if (node_of.empty()) return parted;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;
+    std::vector<std::uint32_t> first(mesh.positions.size(),
+                                     std::numeric_limits<std::uint32_t>::max());
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        for (std::uint32_t& vertex : parted.triangles[i].vertex) {
+            std::uint32_t& owner = first[vertex];
+            if (owner == std::numeric_limits<std::uint32_t>::max()) owner = node_of[i];
+            if (owner == node_of[i]) continue;
+            const auto [at, is_new] = copies.try_emplace(
+                {vertex, node_of[i]}, static_cast<std::uint32_t>(parted.positions.size()));
+            if (is_new) parted.positions.push_back(mesh.positions[vertex]);
+            vertex = at->second;
+        }
+    }
+    return parted;
+}
+
+class PieceSearch {
+public:
+    PieceSearch(const mesh::Mesh& mesh, const ApproximateOptions& options)
+        : mesh_(part_nodes(mesh, options.node_of)),
+          options_(options),
+          solid_(mesh_, options.reference, options.parallel_for) {
+        label_bodies();
+        measure_bodies();
+    }
+
+    ApproximatePieces run() {
+        Found found = options_.max_error ? find_by_error(*options_.max_error)
+                                         : find_by_parts(options_.parts.value_or(1), 0);
+        const std::size_t most = options_.parts.value_or(std::numeric_limits<std::size_t>::max());
+        if (options_.max_error && found.count() > most) {
+            found = find_by_parts(most, *options_.max_error);
+        }
+        ApproximatePieces result = finish(found);
+        // Estimates may be a little low: what was asked is held to be what is proved.
+        for (int i = 0; i < 4 && options_.max_error && found.count() <= most; ++i) {
+            if (result.outer_error <= *options_.max_error || !found.complete) break;
+            found = cover(0.95 * found.error * *options_.max_error / result.outer_error, 0, true);
+            ran_out_of_work_ = ran_out_of_work_ || !found.complete;
+            if (!found.complete || found.count() > most) break;
+            result = finish(found);
+        }
+        result.is_as_asked = result.pieces.size() <= most &&
+                             (!options_.max_error || result.outer_error <= *options_.max_error);
+        result.ran_out_of_work = ran_out_of_work_;
+        return result;
+    }
+
+private:
+    /// Bodies that may share a piece have one label.
+    void label_bodies() {
+        label_.resize(solid_.body_count());
+        std::map<std::uint32_t, std::uint32_t> label_of_node;
+        node_.assign(solid_.body_count(), 0);
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+            const std::uint32_t body = solid_.body_of(i);
+            if (!options_.node_of.empty()) node_[body] = options_.node_of[i];
+        }
+        label_count_ = 0;
+        for (std::uint32_t body = 0; body < solid_.body_count(); ++body) {
+            const bool one =
+                node_[body] < options_.convex_node.size() && options_.convex_node[node_[body]] != 0;
+            if (one || options_.merge_components) {
+                // Numbers of nodes from 1; 0 is what is merged.
+                const auto key = one ? node_[body] + 1 : 0;
+                const auto [at, is_new] = label_of_node.try_emplace(key, label_count_);
+                label_count_ += is_new ? 1 : 0;
+                label_[body] = at->second;
+                if (one) is_convex_label_.insert(at->second);
+            } else {
+                label_[body] = label_count_++;
+            }
+        }
+    }
+
+    /// How far the hull of each label sticks out when it is one piece.
+    void measure_bodies() {
+        points_of_.resize(label_count_);
+        triangles_of_.resize(label_count_);
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+            triangles_of_[label_[solid_.body_of(i)]].push_back(i);
+        }
+        whole_.resize(label_count_);
+        const auto measure = [&](std::size_t label) {
+            ApproximatePiece& piece = whole_[label];
+            piece.triangles = triangles_of_[label];
+            std::vector<std::uint32_t> vertices;
+            for (const std::uint32_t i : piece.triangles) {
+                const auto& v = mesh_.triangles[i].vertex;
+                vertices.insert(vertices.end(), v.begin(), v.end());
+            }
+            std::sort(vertices.begin(), vertices.end());
+            vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+            for (const std::uint32_t v : vertices) points_of_[label].push_back(mesh_.positions[v]);
+            piece.hull = convex_hull(points_of_[label]);
+            piece.hull.numbers.clear();
+            piece.node = node_[solid_.body_of(piece.triangles.front())];
+            if (options_.reference == Reference::solid &&
+                is_convex(mesh_, piece.triangles, piece.hull)) {
+                return;
+            }
+            HullErrorOptions how;
+            how.relative = kRelative;
+            how.enough = kLeastError * solid_.diagonal();
+            piece.error = find_hull_error(piece.hull, solid_, how);
+        };
+        options_.parallel_for(label_count_, measure);
+    }
+
+    [[nodiscard]] bool is_whole(std::uint32_t label, double error) const {
+        return is_convex_label_.contains(label) || whole_[label].error.upper <= error;
+    }
+
+    const std::shared_ptr<const Stage>& stage_for(double error) {
+        const bool fits =
+            stage_ && error <= stage_->error * kReuse && error >= stage_->error / kReuse;
+        if (fits) return stage_;
+        DistanceField field(solid_, kSpacing * error, kReach * error, options_.parallel_for);
+        SolidCellOptions how;
+        how.size = kCellSize * error;
+        how.error = kCellError * error;
+        how.parallel_for = options_.parallel_for;
+        SolidCells cells = cut_into_cells(mesh_, solid_, field, how);
+        std::vector<CoverCell> cover(cells.cells.size());
+        const auto gather = [&](std::size_t i) {
+            const SolidCell& cell = cells.cells[i];
+            cover[i] = {cell.box, label_[cell.body], extreme_points(cells, cell)};
+        };
+        options_.parallel_for(cover.size(), gather);
+        stage_ = std::make_shared<const Stage>(
+            Stage{error, std::move(field), std::move(cells), std::move(cover)});
+        return stage_;
+    }
+
+    /// Pieces for one error; at most `few_enough` when they are that easily found.
+    Found cover(double error, std::size_t few_enough, bool thorough) {
+        Found found;
+        found.error = std::max(error, kLeastError * solid_.diagonal());
+        std::vector<bool> is_open(label_count_, false);
+        bool is_any_open = false;
+        for (std::uint32_t label = 0; label < label_count_; ++label) {
+            is_open[label] = !is_whole(label, found.error);
+            is_any_open = is_any_open || is_open[label];
+            if (!is_open[label]) found.whole.push_back(label);
+        }
+        found.complete = true;
+        if (!is_any_open) return found;
+        found.stage = stage_for(found.error);
+        std::vector<CoverCell> cells;
+        std::vector<std::uint32_t> numbers;
+        for (std::uint32_t i = 0; i < found.stage->cover.size(); ++i) {
+            if (!is_open[found.stage->cover[i].body]) continue;
+            cells.push_back(found.stage->cover[i]);
+            numbers.push_back(i);
+        }
+        CoverOptions how;
+        how.error = found.error;
+        how.rounds = thorough ? kRounds : 0;
+        how.few_enough = few_enough > found.whole.size() ? few_enough - found.whole.size() : 0;
+        how.most_work = options_.work > work_done_ ? options_.work - work_done_ : 0;
+        how.parallel_for = options_.parallel_for;
+        Cover covered = cover_with_pieces(cells, found.stage->field, how);
+        work_done_ += covered.work;
+        found.complete = covered.complete;
+        found.pieces = std::move(covered.pieces);
+        for (auto& piece : found.pieces) {
+            for (std::uint32_t& cell : piece) cell = numbers[cell];
+        }
+        return found;
+    }
+
+    /// What needs no search: every label is one piece.
+    Found all_whole() {
+        Found found;
+        found.error = solid_.diagonal();
+        for (std::uint32_t label = 0; label < label_count_; ++label) found.whole.push_back(label);
+        return found;
+    }
+
+    Found find_by_error(double max_error) {
+        for (double error = kMeasured * max_error; error < solid_.diagonal(); error *= 1.5) {
+            Found found = cover(error, 0, true);
+            if (found.complete) return found;
+            ran_out_of_work_ = true;
+            // Room for a looser one: it has fewer pieces.
+            work_done_ = options_.work / 2;
+        }
+        return all_whole();
+    }
+
+    /// The least error, not below `least`, at which there are no more pieces than `parts`.
+    Found find_by_parts(std::size_t parts, double least) {
+        Found best = all_whole();
+        if (parts <= label_count_) return best;
+        double error =
+            std::max(least, 0.15 * solid_.diagonal() / std::pow(static_cast<double>(parts), 0.6));
+        double too_small = 0;
+        double good = solid_.diagonal();
+        // Few attempts first: what more of them spare is known well enough.
+        const double aim = static_cast<double>(parts) / kFewer;
+        for (std::size_t i = 0; i < kTries && good > too_small * 1.04; ++i) {
+            Found found = cover(error, parts, false);
+            if (!found.complete) {
+                ran_out_of_work_ = true;
+                return best;
+            }
+            const double count = static_cast<double>(found.count());
+            (count > aim ? too_small : good) = error;
+            if (found.count() <= parts && found.error < best.error) best = found;
+            if (error <= least && count <= aim) break;
+            const double next = error * std::pow(count / aim, 0.6);
+            const double middle = std::sqrt(std::max(too_small, error / 3) * good);
+            error = next > too_small && next < good && i < 3 ? next : middle;
+            error = std::max(error, least);
+        }
+        for (int i = 0; i < 5 && good < best.error; ++i, good *= 1.04) {
+            Found found = cover(good, parts, true);
+            if (!found.complete) {
+                ran_out_of_work_ = true;
+                return best;
+            }
+            if (found.count() > parts) continue;
+            if (found.error < best.error) best = std::move(found);
+            break;
+        }
+        return best;
+    }
+
+    /// No more vertices than an engine takes; as it is where that cannot be.
+    [[nodiscard]] ConvexHull limited(ConvexHull hull) const {
+        hull.numbers.clear();
+        if (options_.max_vertices == 0 || hull.points.size() <= options_.max_vertices) return hull;
+        auto few = enclosing_hull(hull, std::max(options_.max_vertices, kFewestEnclosingVertices));
+        return few ? std::move(few->hull) : hull;
+    }
+
+    /// Hulls, how many corners they hold, and how far they stick out.
+    ApproximatePieces finish(const Found& found) {
+        ApproximatePieces result;
+        std::vector<PiecePoints> points;
+        for (const std::uint32_t label : found.whole) {
+            result.pieces.push_back(whole_[label]);
+            points.push_back(
+                {points_of_[label], whole_[label].triangles, whole_[label].triangles.size()});
+        }
+        const std::size_t first = result.pieces.size();
+        if (!found.pieces.empty()) {
+            auto more = gather_points(found.stage->cells, mesh_, found.pieces);
+            std::move(more.begin(), more.end(), std::back_inserter(points));
+        }
+        result.pieces.resize(points.size());
+        std::vector<EnclosureProof> proofs(points.size());
+        std::vector<double> estimates(points.size(), 0);
+        std::vector<std::uint8_t> is_measured(points.size(), 0);
+        const auto finish_piece = [&](std::size_t i) {
+            ApproximatePiece& piece = result.pieces[i];
+            if (i >= first) {
+                piece.hull = convex_hull(points[i].points);
+                piece.triangles = points[i].triangles;
+                if (!piece.triangles.empty()) {
+                    piece.node = node_[solid_.body_of(piece.triangles.front())];
+                }
+            }
+            const std::size_t exact = piece.hull.points.size();
+            piece.hull = limited(std::move(piece.hull));
+            proofs[i] = prove_points(piece.hull, points[i].points);
+            proofs[i].fragments = points[i].fragments;
+            is_measured[i] = i < first && piece.hull.points.size() == exact ? 1 : 0;
+            estimates[i] = is_measured[i] != 0 ? piece.error.upper
+                           : found.stage       ? found.stage->field.estimate(piece.hull).distance
+                                               : 0;
+        };
+        options_.parallel_for(points.size(), finish_piece);
+        // Bounds closer than the largest error would not make the bound of all any closer.
+        HullErrorOptions how;
+        how.relative = kRelative;
+        how.enough = *std::max_element(estimates.begin(), estimates.end());
+        const auto measure = [&](std::size_t i) {
+            if (is_measured[i] != 0) return;
+            result.pieces[i].error = find_hull_error(result.pieces[i].hull, solid_, how);
+        };
+        options_.parallel_for(points.size(), measure);
+        result.proof.triangles = mesh_.triangles.size();
+        for (std::size_t i = 0; i < proofs.size(); ++i) {
+            result.proof.fragments += proofs[i].fragments;
+            result.proof.tests += proofs[i].tests;
+            result.proof.outside += proofs[i].outside;
+            result.outer_error = std::max(result.outer_error, result.pieces[i].error.upper);
+            result.outer_lower = std::max(result.outer_lower, result.pieces[i].error.lower);
+        }
+        return result;
+    }
+
+    mesh::Mesh mesh_;
+    const ApproximateOptions& options_;
+    Solid solid_;
+    std::uint32_t label_count_ = 0;
+    std::vector<std::uint32_t> label_;  ///< of each body
+    std::vector<std::uint32_t> node_;   ///< of each body
+    std::set<std::uint32_t> is_convex_label_;
+    std::vector<std::vector<Double3>> points_of_;  ///< of each label
+    std::vector<std::vector<std::uint32_t>> triangles_of_;
+    std::vector<ApproximatePiece> whole_;
+    std::shared_ptr<const Stage> stage_;
+    std::size_t work_done_ = 0;
+    bool ran_out_of_work_ = false;
+};
+
+}  // namespace
+
+ApproximatePieces find_approximate_pieces(const mesh::Mesh& mesh,
+                                          const ApproximateOptions& options) {
+    if (mesh.triangles.empty()) return {};
+    return PieceSearch(mesh, options).run();
+}
+
+}  // namespace cdprep::convex
