@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "convex/surface_pieces.h"
+#include "enclose.h"
 #include "import_limits.h"
 #include "interrupt.h"
 #include "load_mesh.h"
@@ -43,6 +44,7 @@ struct Arguments {
     std::size_t threads = 0;
     ImportLimits import;
     LoadOptions load;
+    EncloseOptions enclose;
 };
 
 /// Fails before anything is read when the output could not be written.
@@ -101,7 +103,36 @@ Result<report::SurfacePiecesReport> decompose(const Arguments& arguments, Progre
     return report;
 }
 
+/// Pieces that enclose the mesh, within an error or as many as asked.
+Exit run_enclose(const Arguments& arguments) {
+    const Threads threads(arguments.threads);
+    EncloseOptions options = arguments.enclose;
+    options.output = arguments.output;
+    options.normalize = arguments.load.normalize;
+    options.weld_distance = arguments.load.weld_distance;
+    options.has_table = arguments.table;
+    options.import = arguments.import.options();
+    options.import.parallel_for = threads.parallel_for();
+    Result<report::ApproximateReport> found = enclose(arguments.input, options, threads);
+    const bool is_json = arguments.format == "json";
+    if (!found) {
+        report::ApproximateReport report;
+        report.input = arguments.input.string();
+        report.exit = static_cast<int>(exit_for(found.error().code));
+        report.error = found.error().message;
+        if (is_json) std::cout << report::approximate_json(report);
+        return fail("decompose", found.error());
+    }
+    const bool is_as_asked = found.value().result.is_as_asked;
+    if (!is_as_asked) found.value().exit = static_cast<int>(Exit::findings);
+    std::cout << (is_json ? report::approximate_json(found.value())
+                          : report::approximate_text(found.value()));
+    return is_as_asked ? Exit::success : Exit::findings;
+}
+
 Exit run(const Arguments& arguments) {
+    const EncloseOptions& enclosed = arguments.enclose;
+    if (enclosed.max_error || enclosed.parts || enclosed.max_parts) return run_enclose(arguments);
     const Result<ProgressStyle> style = parse_progress(arguments.progress);
     if (!style) return fail("decompose", style.error());
     Progress progress(style.value(), 1);
@@ -129,7 +160,11 @@ void add_decompose(CLI::App& app, Exit& exit) {
     command->footer(
         "Cuts the surface into patches that lie on the boundary of their convex hulls, exactly\n"
         "or, with --tolerance, nearly. Takes any mesh: borders, edges that are not manifold and\n"
-        "edges whose triangles are wound against each other are never crossed.");
+        "edges whose triangles are wound against each other are never crossed.\n"
+        "With --max-error or --parts, encloses the mesh in few convex pieces instead, which stick\n"
+        "out of the solid by no more than is stated, and proved; components and nodes stay apart.\n"
+        "Writes .obj, .glb, .urdf, .sdf, .mjcf or .xml then. Exits with 1 when it could not be\n"
+        "done as asked; what was found is written all the same.");
     command->add_option("input", arguments->input, "OBJ, STL, PLY, OFF, glTF, ... file")
         ->required();
     command->add_option("-o,--output", arguments->output,
@@ -148,6 +183,32 @@ void add_decompose(CLI::App& app, Exit& exit) {
                      "breadth-first or cresting (patches grow)")
         ->check(CLI::IsMember({"greedy", "depth-first", "breadth-first", "cresting"}))
         ->capture_default_str();
+    EncloseOptions& enclosed = arguments->enclose;
+    command
+        ->add_option("--max-error", enclosed.max_error,
+                     "Enclose, with as few pieces as stick out by no more than this, in model "
+                     "units")
+        ->check(is_length())
+        ->excludes(exact);
+    command
+        ->add_option("--parts", enclosed.parts,
+                     "Enclose in at most so many pieces that stick out as little as is found")
+        ->check(CLI::PositiveNumber)
+        ->excludes(exact);
+    command->add_option("--max-parts", enclosed.max_parts, "An engine's limit, before --max-error")
+        ->check(CLI::PositiveNumber)
+        ->excludes(exact);
+    command
+        ->add_option("--max-vertices", enclosed.max_vertices,
+                     "An engine's limit of vertices a piece, at least 4; 0: none")
+        ->check(CLI::Range(0U, 1U << 30U));
+    command->add_option(
+        "--work", enclosed.work,
+        "How much a search may look at; when that is too little, what is found is looser");
+    command->add_flag("--to-surface", enclosed.to_surface,
+                      "Measure from the surface alone: sheets, hollow bodies");
+    command->add_flag("--merge-components", enclosed.merge_components,
+                      "Pieces may take in several components and nodes");
     command->add_flag("--table", arguments->table, "Report every piece");
     command->add_flag("--normalize", arguments->load.normalize,
                       "Fit to a box of diagonal 1, centred");

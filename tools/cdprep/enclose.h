@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "import/import_file.h"
+#include "parallel.h"
+#include "report/approximate_report.h"
+
+namespace cdprep::cli {
+
+struct EncloseOptions {
+    std::filesystem::path output;     ///< empty: none
+    std::optional<double> max_error;  ///< model units
+    std::optional<std::size_t> parts;
+    std::optional<std::size_t> max_parts;
+    std::uint32_t max_vertices = 0;
+    std::size_t work = convex::ApproximateOptions{}.work;
+    bool to_surface = false;
+    bool merge_components = false;
+    bool normalize = false;
+    bool has_table = false;
+    double weld_distance = 0;  ///< model units
+    import::ImportOptions import;
+};
+
+/// Encloses a file's mesh in convex pieces and writes them. Nodes are kept apart; one whose
+/// name starts with UCX_ or ends in -convcol, -convcolonly, -convex or _convex is one piece.
+[[nodiscard]] Result<report::ApproximateReport> enclose(const std::filesystem::path& input,
+                                                        const EncloseOptions& options,
+                                                        const Threads& threads);
+
+}  // namespace cdprep::cli

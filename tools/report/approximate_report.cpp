@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/approximate_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "report/printable.h"
+
+namespace cdprep::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string number(double value) {
+    std::array<char, 64> text;
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return text.data();
+}
+
+std::size_t most_vertices(const convex::ApproximatePieces& result) {
+    std::size_t most = 0;
+    for (const auto& piece : result.pieces) most = std::max(most, piece.hull.points.size());
+    return most;
+}
+
+Json table_json(const ApproximateReport& report) {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < report.result.pieces.size(); ++i) {
+        const convex::ApproximatePiece& piece = report.result.pieces[i];
+        Json row = {{"piece", i},
+                    {"vertices", piece.hull.points.size()},
+                    {"facets", piece.hull.facets.size()},
+                    {"triangles", piece.triangles.size()},
+                    {"outer_error", piece.error.upper}};
+        if (piece.node < report.node_names.size()) row["node"] = report.node_names[piece.node];
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::string approximate_text(const ApproximateReport& report) {
+    const convex::ApproximatePieces& result = report.result;
+    const double share = report.diagonal > 0 ? 100 * result.outer_error / report.diagonal : 0;
+    std::string text = printable(report.input) + ": " + std::to_string(result.pieces.size()) +
+                       " convex pieces enclose " + std::to_string(report.triangles) +
+                       " triangles (" + number(report.seconds) + " s)\n";
+    text += "  they stick out of the ";
+    text += report.to_surface ? "surface" : "solid";
+    text += " by at most " + number(result.outer_error) + " (" + number(share) +
+            " % of the diagonal; at least " + number(result.outer_lower) + ")\n";
+    text += "  enclosed: " + std::to_string(result.proof.fragments) + " fragments, " +
+            std::to_string(result.proof.outside) + " corners outside of their hull\n";
+    text += "  at most " + std::to_string(most_vertices(result)) + " vertices a piece\n";
+    if (!report.to_surface && report.open_components > 0) {
+        text += "  " + std::to_string(report.open_components) +
+                " components are not closed and were taken as surfaces; close them first with "
+                "repair --preset closed where they are meant to be solid\n";
+    }
+    if (result.ran_out_of_work) text += "  the work allowed did not suffice: looser than asked\n";
+    if (!result.is_as_asked) text += "  not as tight, or not as few, as asked\n";
+    if (report.left_out > 0) {
+        text += "  " + std::to_string(report.left_out) + " flat pieces were not written\n";
+    }
+    if (!report.output.empty()) text += "  written to " + printable(report.output) + "\n";
+    if (!report.has_table) return text;
+    text += "  piece vertices facets triangles outer_error\n";
+    for (std::size_t i = 0; i < result.pieces.size(); ++i) {
+        const convex::ApproximatePiece& piece = result.pieces[i];
+        text += "  " + std::to_string(i) + " " + std::to_string(piece.hull.points.size()) + " " +
+                std::to_string(piece.hull.facets.size()) + " " +
+                std::to_string(piece.triangles.size()) + " " + number(piece.error.upper) + "\n";
+    }
+    return text;
+}
+
+std::string approximate_json(const ApproximateReport& report) {
+    Json json = {{"input", report.input}, {"output", report.output}, {"exit", report.exit}};
+    if (report.error) {
+        json["error"] = *report.error;
+    } else {
+        const convex::ApproximatePieces& result = report.result;
+        json["method"] = "approximate";
+        if (report.max_error) json["max_error"] = *report.max_error;
+        if (report.parts) json["parts"] = *report.parts;
+        json["triangles"] = report.triangles;
+        json["pieces"] = result.pieces.size();
+        json["outer_error"] = result.outer_error;
+        json["outer_error_at_least"] = result.outer_lower;
+        json["inner_error"] = result.inner_error;
+        json["measured_to"] = report.to_surface ? "surface" : "solid";
+        json["open_components"] = report.open_components;
+        json["diagonal"] = report.diagonal;
+        json["proof"] = {{"triangles", result.proof.triangles},
+                         {"fragments", result.proof.fragments},
+                         {"tests", result.proof.tests},
+                         {"outside", result.proof.outside}};
+        json["most_vertices"] = most_vertices(result);
+        json["as_asked"] = result.is_as_asked;
+        json["ran_out_of_work"] = result.ran_out_of_work;
+        json["left_out"] = report.left_out;
+        json["seconds"] = report.seconds;
+        if (report.has_table) json["table"] = table_json(report);
+    }
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace cdprep::report

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "convex/approximate_pieces.h"
+
+namespace cdprep::report {
+
+/// What enclosing one file in convex pieces gave.
+struct ApproximateReport {
+    std::string input;
+    std::string output;               ///< empty: nothing was written
+    std::optional<double> max_error;  ///< asked for, model units
+    std::optional<std::size_t> parts;
+    std::size_t triangles = 0;
+    double diagonal = 0;              ///< of the mesh's box, model units
+    bool to_surface = false;          ///< the error is of the surface, not of the solid
+    std::size_t open_components = 0;  ///< whose surface is meant whatever was asked
+    convex::ApproximatePieces result;
+    std::vector<std::string> node_names;  ///< by ApproximatePiece::node; may be empty
+    std::size_t left_out = 0;             ///< hulls that the output's format has no place for
+    bool has_table = false;
+    double seconds = 0;  ///< of the decomposition alone
+    int exit = 0;
+    std::optional<std::string> error;  ///< the sentence, when it failed
+};
+
+/// A few lines for a person, and with a table a line for each piece.
+[[nodiscard]] std::string approximate_text(const ApproximateReport& report);
+
+/// One object: "pieces" is their number, "outer_error" and "inner_error" are proved, in the
+/// mesh's unit; "proof" is what was tested for it.
+[[nodiscard]] std::string approximate_json(const ApproximateReport& report);
+
+}  // namespace cdprep::report

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "write/hulls_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <vector>
+
+#include "write/mesh_bytes.h"
+#include "write/output_file.h"
+
+namespace cdprep::write {
+namespace {
+
+namespace fs = std::filesystem;
+using format::Double3;
+
+void append_object(std::string& text, const HullArrays& hull, std::uint64_t& first) {
+    text += "o " + hull.name + "\n";
+    for (const Double3& p : hull.points) {
+        text += "v ";
+        append_point_text(text, p, false);
+        text += '\n';
+    }
+    for (const auto& f : hull.facets) append_triangle(text, {f}, "f ", first);
+    first += hull.points.size();
+}
+
+std::string obj_text(std::span<const HullArrays> hulls) {
+    std::string text;
+    std::uint64_t first = 1;
+    for (const HullArrays& hull : hulls) append_object(text, hull, first);
+    return text;
+}
+
+/// A value of JSON with its name: "name":value, with a comma before it unless it is the first.
+void append_member(std::string& json, const char* name, const std::string& value) {
+    if (json.back() != '{') json += ',';
+    json += '"';
+    json += name;
+    json += "\":" + value;
+}
+
+std::string text_of(double value) {
+    std::string text;
+    append_number(text, value, true);
+    return text;
+}
+
+/// [least, greatest] of each axis as glTF wants them, of the floats that are written.
+std::string bound_text(const HullArrays& hull, bool upper) {
+    std::string text = "[";
+    for (const auto axis : {&Double3::x, &Double3::y, &Double3::z}) {
+        float bound = static_cast<float>(hull.points.front().*axis);
+        for (const Double3& p : hull.points) {
+            const auto value = static_cast<float>(p.*axis);
+            bound = upper ? std::max(bound, value) : std::min(bound, value);
+        }
+        if (text.size() > 1) text += ',';
+        text += text_of(static_cast<double>(bound));
+    }
+    return text + "]";
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+    std::string text = "[";
+    for (const std::string& part : parts) {
+        if (text.size() > 1) text += ',';
+        text += part;
+    }
+    return text + "]";
+}
+
+/// The arrays of glTF's document.
+struct GltfLists {
+    std::vector<std::string> nodes, meshes, accessors, views, roots;
+};
+
+void add_view(GltfLists& lists, std::size_t offset, std::size_t length, int target) {
+    std::string view = "{";
+    append_member(view, "buffer", "0");
+    append_member(view, "byteOffset", std::to_string(offset));
+    append_member(view, "byteLength", std::to_string(length));
+    append_member(view, "target", std::to_string(target));
+    lists.views.push_back(view + "}");
+}
+
+std::string accessor(std::size_t view, int component, std::size_t count, const char* type) {
+    std::string text = "{";
+    append_member(text, "bufferView", std::to_string(view));
+    append_member(text, "componentType", std::to_string(component));
+    append_member(text, "count", std::to_string(count));
+    append_member(text, "type", std::string("\"") + type + "\"");
+    return text;
+}
+
+void add_node(GltfLists& lists, std::string& binary, const HullArrays& hull) {
+    constexpr int kFloat = 5126;
+    constexpr int kUnsignedInt = 5125;
+    constexpr int kArrayBuffer = 34962;
+    constexpr int kElementArrayBuffer = 34963;
+    const std::size_t positions = binary.size();
+    for (const Double3& p : hull.points) append_point(binary, p, true);
+    const std::size_t indices = binary.size();
+    for (const auto& f : hull.facets) {
+        for (const std::uint32_t i : f) append_bytes(binary, i);
+    }
+    add_view(lists, positions, indices - positions, kArrayBuffer);
+    std::string places = accessor(lists.views.size() - 1, kFloat, hull.points.size(), "VEC3");
+    append_member(places, "min", bound_text(hull, false));
+    append_member(places, "max", bound_text(hull, true));
+    lists.accessors.push_back(places + "}");
+    std::string primitive = "{\"attributes\":{\"POSITION\":";
+    primitive += std::to_string(lists.accessors.size() - 1) + "}";
+    if (!hull.facets.empty()) {
+        add_view(lists, indices, binary.size() - indices, kElementArrayBuffer);
+        lists.accessors.push_back(
+            accessor(lists.views.size() - 1, kUnsignedInt, 3 * hull.facets.size(), "SCALAR") + "}");
+        append_member(primitive, "indices", std::to_string(lists.accessors.size() - 1));
+    } else {
+        append_member(primitive, "mode", "0");  // points
+    }
+    std::string mesh = "{";
+    append_member(mesh, "name", "\"" + hull.name + "\"");
+    append_member(mesh, "primitives", "[" + primitive + "}]");
+    std::string node = "{";
+    append_member(node, "name", "\"" + hull.name + "\"");
+    append_member(node, "mesh", std::to_string(lists.meshes.size()));
+    lists.roots.push_back(std::to_string(lists.nodes.size()));
+    lists.meshes.push_back(mesh + "}");
+    lists.nodes.push_back(node + "}");
+}
+
+void append_chunk(std::string& bytes, std::string chunk, std::uint32_t type, char padding) {
+    while (chunk.size() % 4 != 0) chunk += padding;
+    append_bytes(bytes, static_cast<std::uint32_t>(chunk.size()));
+    append_bytes(bytes, type);
+    bytes += chunk;
+}
+
+std::string glb_bytes(std::span<const HullArrays> hulls) {
+    GltfLists lists;
+    std::string binary;
+    for (const HullArrays& hull : hulls) add_node(lists, binary, hull);
+    std::string json = "{";
+    append_member(json, "asset", R"({"version":"2.0","generator":"cdprep"})");
+    std::string scene = "{}";
+    if (!lists.roots.empty()) {
+        scene = R"({"nodes":)" + joined(lists.roots) + "}";
+        append_member(json, "nodes", joined(lists.nodes));
+        append_member(json, "meshes", joined(lists.meshes));
+        append_member(json, "accessors", joined(lists.accessors));
+        append_member(json, "bufferViews", joined(lists.views));
+        append_member(json, "buffers", R"([{"byteLength":)" + std::to_string(binary.size()) + "}]");
+    }
+    append_member(json, "scene", "0");
+    append_member(json, "scenes", "[" + scene + "]");
+    json += "}";
+    constexpr std::uint32_t kMagic = 0x46546C67;
+    constexpr std::uint32_t kJson = 0x4E4F534A;
+    constexpr std::uint32_t kBinary = 0x004E4942;
+    std::string chunks;
+    append_chunk(chunks, json, kJson, ' ');
+    if (!binary.empty()) append_chunk(chunks, binary, kBinary, '\0');
+    std::string bytes;
+    append_bytes(bytes, kMagic);
+    append_bytes(bytes, std::uint32_t{2});
+    append_bytes(bytes, static_cast<std::uint32_t>(chunks.size() + 12));
+    return bytes + chunks;
+}
+
+std::string scale_text(double scale) {
+    std::string text;
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0) text += ' ';
+        append_number(text, scale, false);
+    }
+    return text;
+}
+
+/// What XML does not take as it is.
+std::string escaped(const std::string& plain) {
+    std::string text;
+    for (const char c : plain) {
+        switch (c) {
+            case '&':
+                text += "&amp;";
+                break;
+            case '<':
+                text += "&lt;";
+                break;
+            case '"':
+                text += "&quot;";
+                break;
+            default:
+                text += c;
+        }
+    }
+    return text;
+}
+
+std::string mesh_name(const fs::path& path, const HullArrays& hull) {
+    return path.stem().string() + "_" + hull.name + ".obj";
+}
+
+std::string urdf_text(const fs::path& path, std::span<const HullArrays> hulls, double scale) {
+    const std::string name = escaped(path.stem().string());
+    std::string text =
+        "<?xml version=\"1.0\"?>\n<robot name=\"" + name + "\">\n  <link name=\"" + name + "\">\n";
+    for (const HullArrays& hull : hulls) {
+        text += "    <collision name=\"" + hull.name +
+                "\">\n      <origin xyz=\"0 0 0\" rpy=\"0 0 0\"/>\n      <geometry>"
+                "<mesh filename=\"" +
+                escaped(mesh_name(path, hull)) + "\" scale=\"" + scale_text(scale) +
+                "\"/></geometry>\n    </collision>\n";
+    }
+    return text + "  </link>\n</robot>\n";
+}
+
+std::string sdf_text(const fs::path& path, std::span<const HullArrays> hulls, double scale) {
+    const std::string name = escaped(path.stem().string());
+    std::string text = "<?xml version=\"1.0\"?>\n<sdf version=\"1.7\">\n  <model name=\"" + name +
+                       "\">\n    <link name=\"" + name + "\">\n";
+    for (const HullArrays& hull : hulls) {
+        text += "      <collision name=\"" + hull.name + "\">\n        <geometry><mesh><uri>" +
+                escaped(mesh_name(path, hull)) + "</uri><scale>" + scale_text(scale) +
+                "</scale></mesh></geometry>\n      </collision>\n";
+    }
+    return text + "    </link>\n  </model>\n</sdf>\n";
+}
+
+/// Corners stand in the file; MuJoCo takes the hull of them.
+std::string mjcf_text(const fs::path& path, std::span<const HullArrays> hulls, double scale) {
+    const std::string name = escaped(path.stem().string());
+    std::string text = "<mujoco model=\"" + name + "\">\n  <asset>\n";
+    for (const HullArrays& hull : hulls) {
+        text +=
+            "    <mesh name=\"" + hull.name + "\" scale=\"" + scale_text(scale) + "\" vertex=\"";
+        for (std::size_t i = 0; i < hull.points.size(); ++i) {
+            if (i > 0) text += "  ";
+            append_point_text(text, hull.points[i], false);
+        }
+        text += "\"/>\n";
+    }
+    text += "  </asset>\n  <worldbody>\n    <body name=\"" + name + "\">\n";
+    for (const HullArrays& hull : hulls) {
+        text +=
+            "      <geom name=\"" + hull.name + "\" type=\"mesh\" mesh=\"" + hull.name + "\"/>\n";
+    }
+    return text + "    </body>\n  </worldbody>\n</mujoco>\n";
+}
+
+}  // namespace
+
+std::optional<HullsFormat> hulls_format_of(const fs::path& path) {
+    std::string ending = path.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending == ".obj") return HullsFormat::obj;
+    if (ending == ".glb") return HullsFormat::glb;
+    if (ending == ".urdf") return HullsFormat::urdf;
+    if (ending == ".sdf") return HullsFormat::sdf;
+    if (ending == ".mjcf" || ending == ".xml") return HullsFormat::mjcf;
+    return std::nullopt;
+}
+
+Result<std::size_t> write_hulls(const fs::path& path, HullsFormat format,
+                                std::span<const HullArrays> hulls, double metres_per_unit) {
+    const double scale = metres_per_unit > 0 ? metres_per_unit : 1;
+    const bool wants_volume = format != HullsFormat::obj && format != HullsFormat::glb;
+    std::vector<HullArrays> written(hulls.begin(), hulls.end());
+    if (wants_volume) {
+        std::erase_if(written, [](const HullArrays& hull) { return hull.dimension < 3; });
+    }
+    const std::size_t left_out = hulls.size() - written.size();
+    std::string bytes;
+    switch (format) {
+        case HullsFormat::obj:
+            bytes = obj_text(written);
+            break;
+        case HullsFormat::glb:
+            bytes = glb_bytes(written);
+            break;
+        case HullsFormat::urdf:
+            bytes = urdf_text(path, written, scale);
+            break;
+        case HullsFormat::sdf:
+            bytes = sdf_text(path, written, scale);
+            break;
+        case HullsFormat::mjcf:
+            bytes = mjcf_text(path, written, scale);
+            break;
+    }
+    if (format == HullsFormat::urdf || format == HullsFormat::sdf) {
+        for (const HullArrays& hull : written) {
+            const Result<Done> done =
+                write_whole(path.parent_path() / mesh_name(path, hull), obj_text({&hull, 1}));
+            if (!done) return done.error();
+        }
+    }
+    const Result<Done> done = write_whole(path, bytes);
+    if (!done) return done.error();
+    return left_out;
+}
+
+}  // namespace cdprep::write
