@@ -20,16 +20,16 @@
 namespace cdprep::convex {
 namespace {
 
-constexpr double kCellSize = 4;       ///< of the error: the largest cells
+constexpr double kCellSize = 6;       ///< of the error: the largest cells
 constexpr double kCellError = 0.5;    ///< of the error: how far a cell's hull may stick out
 constexpr double kSpacing = 0.75;     ///< of the error: of the field's nodes
 constexpr double kReach = 3;          ///< of the error: how far out the field is measured
 constexpr double kReuse = 1.5;        ///< by how much the error may change before all is cut anew
 constexpr double kLeastError = 1e-3;  ///< of the diagonal: smaller ones are not sought
-constexpr double kMeasured = 0.97;    ///< of the error that is asked for: what estimates leave
+constexpr double kMeasured = 0.92;    ///< of the error that is asked for: what estimates leave
 constexpr double kRelative =
-    0.02;                          ///< how close bounds of errors are, unless that is too much work
-constexpr std::size_t kTries = 7;  ///< at errors, to come near the number of parts
+    0.02;  ///< how close bounds of errors are, unless that is too much work
+constexpr std::size_t kTries = 10;   ///< at errors, to come near the number of parts
 constexpr std::size_t kRounds = 16;  ///< of attempts to do with fewer pieces
 constexpr double kFewer = 0.93;      ///< of the pieces: what attempts can spare, as a rule
 
@@ -258,19 +258,29 @@ private:
         double good = solid_.diagonal();
         // Few attempts first: what more of them spare is known well enough.
         const double aim = static_cast<double>(parts) / kFewer;
-        for (std::size_t i = 0; i < kTries && good > too_small * 1.04; ++i) {
+        for (std::size_t i = 0; i < kTries && good > too_small * 1.05; ++i) {
             Found found = cover(error, parts, false);
             if (!found.complete) {
+                // A larger error takes less work.
                 ran_out_of_work_ = true;
-                return best;
+                if (best.error < solid_.diagonal()) return best;
+                work_done_ = std::min(work_done_, options_.work / 4 * 3);
+                too_small = error;
+                error = std::min(1.6 * error, solid_.diagonal());
+                continue;
             }
             const double count = static_cast<double>(found.count());
             (count > aim ? too_small : good) = error;
             if (found.count() <= parts && found.error < best.error) best = found;
             if (error <= least && count <= aim) break;
-            const double next = error * std::pow(count / aim, 0.6);
-            const double middle = std::sqrt(std::max(too_small, error / 3) * good);
-            error = next > too_small && next < good && i < 3 ? next : middle;
+            const double ratio = std::pow(count / aim, 0.7);
+            if (good == solid_.diagonal()) {
+                error *= std::max(ratio, 1.12);
+            } else if (too_small == 0) {
+                error *= std::min(ratio, 0.88);
+            } else {
+                error = std::sqrt(too_small * good);
+            }
             error = std::max(error, least);
         }
         for (int i = 0; i < 5 && good < best.error; ++i, good *= 1.04) {

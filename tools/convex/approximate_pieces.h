@@ -31,9 +31,9 @@ struct ApproximateOptions {
     std::span<const std::uint32_t> node_of;
     /// Per node, whether it is one piece whatever the error: its hull. Empty: none.
     std::span<const std::uint8_t> convex_node;
-    /// How much the search may look at, in all: some nanoseconds of one core each. What is
+    /// How much the search may look at, in all: some ten nanoseconds of one core each. What is
     /// found with that is looser than asked where it does not suffice, and says so.
-    std::size_t work = 2'000'000'000;
+    std::size_t work = 1'000'000'000;
     ParallelFor parallel_for = serial_for;
 };
 

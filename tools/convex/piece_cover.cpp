@@ -17,7 +17,7 @@ namespace {
 
 using Cells = std::vector<std::uint32_t>;
 
-constexpr std::size_t kSeeds = 12;       ///< growths tried for each piece
+constexpr std::size_t kSeeds = 8;        ///< growths tried for each piece
 constexpr std::size_t kWorkOfTry = 500;  ///< besides looking at each group that is kept out
 constexpr std::size_t kRegrowths = 2;    ///< of one that sticks out too far
 constexpr std::size_t kGivenUp = 4;      ///< pieces that are given up together, at most
@@ -238,7 +238,7 @@ private:
         std::size_t left = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
         while (left > 0 && chosen.size() < limit && work <= options_.most_work) {
             const Cells seeds =
-                choose_seeds(wanted, in_parallel ? kSeeds : kSeeds / 3, salt + chosen.size());
+                choose_seeds(wanted, in_parallel ? kSeeds : kSeeds / 2, salt + chosen.size());
             std::vector<Grown> grown(seeds.size());
             const auto grow_one = [&](std::size_t i) { grown[i] = grow(seeds[i], wanted, far_); };
             if (in_parallel) {
