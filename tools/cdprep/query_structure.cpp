@@ -81,10 +81,11 @@ void add_structure_steps(CLI::App& command, StructureWords& words) {
                     "(b-first), or of both (default). No answer depends on it")
         ->check(CLI::IsMember({"larger", "a-first", "b-first", "both"}));
     command
-        .add_option("--search", words.search,
-                    "How a cell is found, for hashed-octree: in a hash table by a mixed key (default) "
-                    "or by the key's modulus, or among sorted leaves with a top table. No answer "
-                    "depends on it")
+        .add_option(
+            "--search", words.search,
+            "How a cell is found, for hashed-octree: in a hash table by a mixed key (default) "
+            "or by the key's modulus, or among sorted leaves with a top table. No answer "
+            "depends on it")
         ->check(CLI::IsMember({"sorted", "modulus", "mixed"}));
 }
 
