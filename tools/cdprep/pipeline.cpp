@@ -174,11 +174,10 @@ Mended mend(mesh::TriangleSoup& soup, const std::string& preset, const Threads& 
 }
 
 std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash) {
-    return report::provenance_json({CDPREP_VERSION, options.effects.names, options.normalize,
-                                    options.weld_distance, options.repair, options.piece_tolerance,
-                                    report::bounds_name(options.bounds),
-                                    settings_of(options.structures), options.structures.has_hulls(),
-                                    source_hash});
+    return report::provenance_json(
+        {CDPREP_VERSION, options.effects.names, options.normalize, options.weld_distance,
+         options.repair, options.piece_tolerance, report::bounds_name(options.bounds),
+         settings_of(options.structures), options.structures.has_hulls(), source_hash});
 }
 
 /// Builds what was chosen over a mesh in tree order, whose numbers the structures then

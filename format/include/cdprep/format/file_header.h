@@ -91,8 +91,8 @@ enum class SectionId : std::uint32_t {
     hull_neighbours = 49,  ///< uint32: of each larger hull where the neighbours of each point
                            ///< begin, and where the last end; then those
     hull_starts = 60,  ///< uint32: of each larger hull, per cell of directions, a point far in it
-    pieces = 50,           ///< Piece, in the order of their lowest triangle; sections 50 to 53
-                           ///< are in pieces.h
+    pieces = 50,       ///< Piece, in the order of their lowest triangle; sections 50 to 53
+                       ///< are in pieces.h
     piece_triangles = 51,  ///< uint32 per triangle: a triangle, tree order; by piece, rising
     piece_vertices = 52,   ///< uint32: vertices that are corners of hulls; by piece, rising
     piece_facets = 53,     ///< PieceFacet, by piece
