@@ -13,7 +13,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-const Names kEvery = {"octree", "octree-adaptive", "hashed-octree", "tetra-tree"};
+const Names kEvery = {"octree", "octree-adaptive", "hashed-octree", "tetra-tree", "hull"};
 
 Result<StructureChoice> choose(const StructureArguments& arguments,
                                const std::string& effects = "collide") {
@@ -159,7 +159,7 @@ TEST(ChooseStructures, UnknownNamesAreRefusedWithThoseThatAreKnown) {
     }
     EXPECT_EQ(fault({.list = "kd-tree"}),
               "The structure 'kd-tree' cannot be baked; these can: octree octree-adaptive "
-              "hashed-octree tetra-tree, or all, or none.");
+              "hashed-octree tetra-tree hull, or all, or none.");
 }
 
 TEST(ChooseStructures, OptionsOfWhatIsNotBuiltAreRefused) {
