@@ -30,9 +30,6 @@ namespace {
 using Interval = CGAL::Interval_nt<false>;
 using Exact = CGAL::Exact_rational;
 
-using mesh::cross;
-using mesh::dot;
-
 template <class Number>
 using Vector = std::array<Number, 3>;
 
