@@ -288,44 +288,5 @@ TEST(FindAdaptiveOctreeDamage, LooksOnlyAtTreesThatAreWantedWhole) {
     EXPECT_EQ(kind_of(bad, {SectionId::triangles, kSections[1]}), DamageKind{0});
 }
 
-TEST(FindAdaptiveOctreeDamage, SeesBoxesThatAreNone) {
-    const test::TestMesh mesh = test::random_soup(11, 60, 0.5);
-    const AlignedBytes file =
-        test::with_adaptive_octree(test::bake_tiny(mesh.positions, mesh.triangles),
-                                   {.level = 2, .threshold = 4, .boxes_in = build::Frame{}});
-    ASSERT_FALSE(find_damage(file.span()));
-    const SectionEntry entry = find_section(file.span(), SectionId::adaptive_octree_boxes).value();
-    for (const std::uint64_t box : {std::uint64_t{0}, entry.count - 1}) {
-        for (std::size_t number = 0; number < 6; ++number) {
-            const float wrong = number < 3 ? 1.5F : -1.5F;
-            for (const float value : {wrong, -wrong, std::numeric_limits<float>::quiet_NaN()}) {
-                AlignedBytes changed(file.span());
-                std::memcpy(changed.span().data() + entry.offset + 24 * box + 4 * number, &value,
-                            4);
-                test::reseal(changed.span());
-                const auto damage = find_damage(std::as_const(changed).span());
-                ASSERT_TRUE(damage);
-                EXPECT_EQ(damage->kind, DamageKind::bad_box);
-                EXPECT_EQ(damage->section, SectionId::adaptive_octree_boxes);
-            }
-        }
-    }
-}
-
-// Boxes of another tree, and boxes without any.
-TEST(FindAdaptiveOctreeDamage, SeesBoxesThatBelongToNoTree) {
-    const test::TestMesh mesh = test::random_soup(11, 60, 0.5);
-    const AlignedBytes bare = test::bake_tiny(mesh.positions, mesh.triangles);
-    const std::vector<CellBox> boxes(3, CellBox{{-1, -1, -1}, {1, 1, 1}});
-    const auto section = test::as_section(SectionId::adaptive_octree_boxes, std::span(boxes));
-    const auto lost = find_damage(test::with_sections(bare, {section}).span());
-    ASSERT_TRUE(lost);
-    EXPECT_EQ(lost->kind, DamageKind::missing_section);
-    const AlignedBytes tree = test::with_adaptive_octree(bare, {.level = 2, .threshold = 4});
-    const auto few = find_damage(test::with_sections(tree, {section}).span());
-    ASSERT_TRUE(few);
-    EXPECT_EQ(few->kind, DamageKind::bad_count);
-}
-
 }  // namespace
 }  // namespace cdprep::format
