@@ -55,7 +55,7 @@ std::uint32_t farthest_of(const double* blocks, std::size_t count,
 /// Of a value, the sum of three products of a difference and a component: the difference,
 /// the product and two sums are off by u each, of at most the sum of the products' sizes;
 /// and the sum of both here by another u. The sixth covers the roundings of the sizes.
-constexpr double kValueError = 6 * 0x1p-53;
+inline constexpr double kValueError = 6 * 0x1p-53;
 
 template <class D8>
 FarthestPoint farthest_moved_of(const double* blocks, std::size_t count,

@@ -238,12 +238,14 @@ private:
     }
 
     Found find_by_error(double max_error) {
-        for (double error = kMeasured * max_error; error < solid_.diagonal(); error *= 1.5) {
+        double error = kMeasured * max_error;
+        while (error < solid_.diagonal()) {
             Found found = cover(error, 0, true);
             if (found.complete) return found;
             ran_out_of_work_ = true;
             // Room for a looser one: it has fewer pieces.
             work_done_ = options_.work / 2;
+            error *= 1.5;
         }
         return all_whole();
     }

@@ -51,7 +51,7 @@ public:
         : solid_(solid), options_(options) {}
 
     HullError run(const ConvexHull& hull) {
-        for (Cell& cell : cells_under(hull)) push(std::move(cell));
+        for (const Cell& cell : cells_under(hull)) push(cell);
         while (!heap_.empty() && !is_good_enough()) {
             std::pop_heap(heap_.begin(), heap_.end());
             const Cell cell = heap_.back();

@@ -120,6 +120,7 @@ std::vector<Double3> extreme_points(const SolidCells& cells, const SolidCell& ce
     std::sort(chosen.begin(), chosen.end());
     chosen.erase(std::unique(chosen.begin(), chosen.end()), chosen.end());
     std::vector<Double3> extreme;
+    extreme.reserve(chosen.size());
     for (const std::size_t i : chosen) extreme.push_back(points[i]);
     return extreme;
 }

@@ -132,7 +132,7 @@ private:
             const double at = choose_cut(open.box, axis);
             const bool has_room = at > open.box.lower.*axis && at < open.box.upper.*axis;
             if (is_done[i] != 0 || is_full || !has_room) {
-                close(std::move(open));
+                close(open);
                 continue;
             }
             Open below{open.box, {}};
@@ -164,6 +164,7 @@ private:
         std::sort(places.begin(), places.end());
         places.erase(std::unique(places.begin(), places.end()), places.end());
         std::vector<Double3> points;
+        points.reserve(places.size());
         for (const std::uint32_t place : places) points.push_back(cells_.places[place].lower);
         return field_.estimate(convex_hull(points)).distance <= options_.error;
     }
@@ -247,7 +248,7 @@ private:
     }
 
     /// One cell for each body that has a part in the box.
-    void close(Open open) {
+    void close(const Open& open) {
         std::vector<std::uint32_t> bodies = solid_.bodies_around(centre(open.box));
         for (const std::uint32_t fragment : open.fragments) {
             bodies.push_back(solid_.body_of(cells_.fragments[fragment].triangle));
