@@ -19,8 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostThreads = 4096;
-
 struct Arguments {
     std::vector<fs::path> inputs;
     fs::path output;
@@ -91,12 +89,9 @@ Result<report::BakeReport> bake_one(const fs::path& input, const fs::path& outpu
     }
 }
 
-report::BakeReport failed(const fs::path& input, const fs::path& output, const Error& error) {
-    report::BakeReport report;
-    report.input = input.string();
+report::BakeReport failed_bake(const fs::path& input, const fs::path& output, const Error& error) {
+    auto report = failed<report::BakeReport>(input, error);
     report.output = output.string();
-    report.exit = static_cast<int>(exit_for(error.code));
-    report.error = error.message;
     return report;
 }
 
@@ -121,7 +116,7 @@ Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
             input, outputs[i], arguments, threads,
             [&](const char* stage) { progress.show(i, input.filename().string() + ": " + stage); });
         progress.clear();
-        reports.push_back(baked ? baked.value() : failed(input, outputs[i], baked.error()));
+        reports.push_back(baked ? baked.value() : failed_bake(input, outputs[i], baked.error()));
         print(reports.back(), arguments);
         worst = std::max(worst, static_cast<Exit>(reports.back().exit));
     }
@@ -187,13 +182,8 @@ void add_bake(CLI::App& app, Exit& exit) {
     command->add_option("--effects", arguments->effects,
                         "What the file is to serve, with commas, or all, with every structure "
                         "too. Default: collide, overlap, distance, within, ray, closest");
-    command->add_flag("--normalize", arguments->options.normalize,
-                      "Fit to a box of diagonal 1, centred");
-    command
-        ->add_option("--weld", arguments->options.weld_distance,
-                     "Merge vertices this close, in model units")
-        ->check(is_length())
-        ->capture_default_str();
+    add_normalize(*command, arguments->options.normalize);
+    add_weld(*command, arguments->options.weld_distance);
     command
         ->add_option("--repair", arguments->options.repair,
                      "Mend first, as 'cdprep repair --preset' does: safe, closed or solid. "
@@ -216,14 +206,10 @@ void add_bake(CLI::App& app, Exit& exit) {
         ->check(CLI::IsMember({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
         ->capture_default_str();
     add_structure_options(*command, arguments->structures);
-    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
-        ->check(CLI::Range(0, kMostThreads));
+    add_jobs(*command, arguments->threads);
     command->add_flag("--timings", arguments->timings, "Show how long each stage took");
-    command->add_option("--format", arguments->format, "text or json")
-        ->check(CLI::IsMember({"text", "json"}))
-        ->capture_default_str();
-    command->add_option("--progress", arguments->progress, "auto, bar, plain or none")
-        ->capture_default_str();
+    add_report_format(*command, arguments->format);
+    add_progress(*command, arguments->progress);
     add_import_limits(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

@@ -7,6 +7,11 @@
 #include "report/printable.h"
 
 namespace cdprep::cli {
+namespace {
+
+constexpr int kMostThreads = 4096;
+
+}  // namespace
 
 Exit exit_for(ErrorCode code) {
     switch (code) {
@@ -38,6 +43,35 @@ CLI::Validator is_length() {
                 return "'" + report::printable(word) + "' is not a finite number of 0 or more.";
             },
             ""};
+}
+
+void add_input(CLI::App& command, std::filesystem::path& input) {
+    command.add_option("input", input, "OBJ, STL, PLY, OFF, glTF, ... file")->required();
+}
+
+void add_normalize(CLI::App& command, bool& normalize) {
+    command.add_flag("--normalize", normalize, "Fit to a box of diagonal 1, centred");
+}
+
+void add_weld(CLI::App& command, double& distance) {
+    command.add_option("--weld", distance, "Merge vertices this close, in model units")
+        ->check(is_length())
+        ->capture_default_str();
+}
+
+void add_jobs(CLI::App& command, std::size_t& threads) {
+    command.add_option("-j,--jobs", threads, "Threads; 0: one per processor")
+        ->check(CLI::Range(0, kMostThreads));
+}
+
+void add_report_format(CLI::App& command, std::string& format) {
+    command.add_option("--format", format, "text or json")
+        ->check(CLI::IsMember({"text", "json"}))
+        ->capture_default_str();
+}
+
+void add_progress(CLI::App& command, std::string& progress) {
+    command.add_option("--progress", progress, "auto, bar, plain or none")->capture_default_str();
 }
 
 }  // namespace cdprep::cli

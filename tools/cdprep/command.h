@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
 
 #include "cdprep/result.h"
 
@@ -24,9 +26,28 @@ enum class Exit : int {
 /// Prints "cdprep COMMAND: SENTENCE" on stderr; returns the exit code for it.
 Exit fail(const char* command, const Error& error);
 
+/// The report of a run that failed: what went in, the exit code, the sentence.
+template <class Report>
+[[nodiscard]] Report failed(const std::filesystem::path& input, const Error& error) {
+    Report report;
+    report.input = input.string();
+    report.exit = static_cast<int>(exit_for(error.code));
+    report.error = error.message;
+    return report;
+}
+
 /// For options that are a length in model units: a finite number, 0 or more. Refuses in
 /// one sentence what is none.
 [[nodiscard]] CLI::Validator is_length();
+
+/// Options that commands share, each in one wording. What they store into lives as long as
+/// the command.
+void add_input(CLI::App& command, std::filesystem::path& input);
+void add_normalize(CLI::App& command, bool& normalize);
+void add_weld(CLI::App& command, double& distance);
+void add_jobs(CLI::App& command, std::size_t& threads);
+void add_report_format(CLI::App& command, std::string& format);  ///< text or json
+void add_progress(CLI::App& command, std::string& progress);
 
 /// Each adds its subcommand; its callback stores how it went in `exit`.
 void add_bake(CLI::App& app, Exit& exit);

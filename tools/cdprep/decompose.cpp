@@ -4,7 +4,6 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <system_error>
 
 #include "command.h"
 #include "convex/surface_pieces.h"
@@ -12,6 +11,7 @@
 #include "import_limits.h"
 #include "interrupt.h"
 #include "load_mesh.h"
+#include "output_path.h"
 #include "parallel.h"
 #include "progress.h"
 #include "report/pieces_report.h"
@@ -22,8 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-constexpr int kMostThreads = 4096;
 
 const std::map<std::string, convex::PieceOrder> kOrders = {
     {"greedy", convex::PieceOrder::greedy},
@@ -50,32 +48,27 @@ struct Arguments {
 /// Fails before anything is read when the output could not be written.
 std::optional<Error> find_bad_output(const Arguments& arguments) {
     if (arguments.output.empty()) return std::nullopt;
-    std::error_code unknown;  // not there: not the same
-    if (fs::equivalent(arguments.input, arguments.output, unknown)) {
-        return Error{ErrorCode::bad_argument,
-                     arguments.output.string() +
-                         ": is the input and would be replaced. Choose another output."};
-    }
+    if (auto error = find_replaced_input(arguments.input, arguments.output)) return error;
     const auto format = write::mesh_format_of(arguments.output);
     if (format == write::MeshFormat::obj || format == write::MeshFormat::ply) return std::nullopt;
     return Error{ErrorCode::bad_argument,
                  arguments.output.string() + ": pieces can be written as .obj or .ply only."};
 }
 
-Error stopped(const Arguments& arguments) {
-    return {ErrorCode::interrupted, arguments.input.string() + ": stopped; nothing was written."};
+LoadOptions load_options(const Arguments& arguments, const Threads& threads) {
+    LoadOptions load = arguments.load;
+    load.import = arguments.import.options();
+    load.import.parallel_for = threads.parallel_for();
+    return load;
 }
 
 Result<report::SurfacePiecesReport> decompose(const Arguments& arguments, Progress& progress) {
     if (const auto error = find_bad_output(arguments)) return *error;
     const Threads threads(arguments.threads);
-    LoadOptions load = arguments.load;
-    load.import = arguments.import.options();
-    load.import.parallel_for = threads.parallel_for();
     progress.show(0, arguments.input.filename().string() + ": import");
-    const Result<mesh::Mesh> mesh = load_mesh(arguments.input, load);
+    const Result<mesh::Mesh> mesh = load_mesh(arguments.input, load_options(arguments, threads));
     if (!mesh) return mesh.error();
-    if (is_interrupted()) return stopped(arguments);
+    if (is_interrupted()) return interrupted(arguments.input);
 
     progress.show(0, arguments.input.filename().string() + ": decompose");
     const Clock::time_point begin = Clock::now();
@@ -88,7 +81,7 @@ Result<report::SurfacePiecesReport> decompose(const Arguments& arguments, Progre
                                                    .parallel_for = threads.parallel_for(),
                                                    .stop = is_interrupted});
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    if (is_interrupted()) return stopped(arguments);
+    if (is_interrupted()) return interrupted(arguments.input);
     report.input = arguments.input.string();
     report.output = arguments.output.string();
     report.has_table = arguments.table;
@@ -108,19 +101,15 @@ Exit run_enclose(const Arguments& arguments) {
     const Threads threads(arguments.threads);
     EncloseOptions options = arguments.enclose;
     options.output = arguments.output;
-    options.normalize = arguments.load.normalize;
-    options.weld_distance = arguments.load.weld_distance;
+    options.load = load_options(arguments, threads);
     options.has_table = arguments.table;
-    options.import = arguments.import.options();
-    options.import.parallel_for = threads.parallel_for();
     Result<report::ApproximateReport> found = enclose(arguments.input, options, threads);
     const bool is_json = arguments.format == "json";
     if (!found) {
-        report::ApproximateReport report;
-        report.input = arguments.input.string();
-        report.exit = static_cast<int>(exit_for(found.error().code));
-        report.error = found.error().message;
-        if (is_json) std::cout << report::approximate_json(report);
+        if (is_json) {
+            std::cout << report::approximate_json(
+                failed<report::ApproximateReport>(arguments.input, found.error()));
+        }
         return fail("decompose", found.error());
     }
     const bool is_as_asked = found.value().result.is_as_asked;
@@ -140,11 +129,10 @@ Exit run(const Arguments& arguments) {
     progress.clear();
     const bool is_json = arguments.format == "json";
     if (!found) {
-        report::SurfacePiecesReport report;
-        report.input = arguments.input.string();
-        report.exit = static_cast<int>(exit_for(found.error().code));
-        report.error = found.error().message;
-        if (is_json) std::cout << report::pieces_json(report);
+        if (is_json) {
+            std::cout << report::pieces_json(
+                failed<report::SurfacePiecesReport>(arguments.input, found.error()));
+        }
         return fail("decompose", found.error());
     }
     std::cout << (is_json ? report::pieces_json(found.value())
@@ -165,8 +153,7 @@ void add_decompose(CLI::App& app, Exit& exit) {
         "out of the solid by no more than is stated, and proved; components and nodes stay apart.\n"
         "Writes .obj, .glb, .urdf, .sdf, .mjcf or .xml then. Exits with 1 when it could not be\n"
         "done as asked; what was found is written all the same.");
-    command->add_option("input", arguments->input, "OBJ, STL, PLY, OFF, glTF, ... file")
-        ->required();
+    add_input(*command, arguments->input);
     command->add_option("-o,--output", arguments->output,
                         "An .obj file with a group for each piece, or a .ply file with colours");
     CLI::Option* exact = command->add_flag("--exact", arguments->exact,
@@ -210,20 +197,11 @@ void add_decompose(CLI::App& app, Exit& exit) {
     command->add_flag("--merge-components", enclosed.merge_components,
                       "Pieces may take in several components and nodes");
     command->add_flag("--table", arguments->table, "Report every piece");
-    command->add_flag("--normalize", arguments->load.normalize,
-                      "Fit to a box of diagonal 1, centred");
-    command
-        ->add_option("--weld", arguments->load.weld_distance,
-                     "Merge vertices this close, in model units")
-        ->check(is_length())
-        ->capture_default_str();
-    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
-        ->check(CLI::Range(0, kMostThreads));
-    command->add_option("--format", arguments->format, "text or json")
-        ->check(CLI::IsMember({"text", "json"}))
-        ->capture_default_str();
-    command->add_option("--progress", arguments->progress, "auto, bar, plain or none")
-        ->capture_default_str();
+    add_normalize(*command, arguments->load.normalize);
+    add_weld(*command, arguments->load.weld_distance);
+    add_jobs(*command, arguments->threads);
+    add_report_format(*command, arguments->format);
+    add_progress(*command, arguments->progress);
     add_import_limits(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

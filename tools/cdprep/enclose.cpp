@@ -5,13 +5,11 @@
 #include <array>
 #include <chrono>
 #include <string>
-#include <system_error>
 #include <vector>
 
-#include "load_mesh.h"
-#include "mesh/normalize.h"
 #include "mesh/topology.h"
 #include "mesh/weld.h"
+#include "output_path.h"
 #include "write/hulls_file.h"
 
 namespace cdprep::cli {
@@ -44,13 +42,7 @@ std::vector<std::uint32_t> nodes_of(const mesh::TriangleSoup& soup) {
 
 std::optional<Error> find_bad_output(const fs::path& input, const fs::path& output) {
     if (output.empty()) return std::nullopt;
-    std::error_code unknown;  // not there: not the same
-    if (fs::equivalent(input, output, unknown)) {
-        return Error{ErrorCode::bad_argument,
-                     output.string() +
-                         ": is the input and would be replaced. Choose another "
-                         "output."};
-    }
+    if (auto error = find_replaced_input(input, output)) return error;
     if (write::hulls_format_of(output)) return std::nullopt;
     return Error{ErrorCode::bad_argument,
                  output.string() +
@@ -74,12 +66,10 @@ Result<std::size_t> write_pieces(const fs::path& output,
 Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOptions& options,
                                           const Threads& threads) {
     if (const auto error = find_bad_output(input, options.output)) return *error;
-    Result<mesh::TriangleSoup> imported = import::import_file(input, options.import);
-    if (!imported) return imported.error();
-    mesh::TriangleSoup soup = std::move(imported).value();
-    if (const auto error = find_refusal(input, soup)) return *error;
-    if (options.normalize) mesh::normalize(soup);
-    const mesh::Mesh mesh = mesh::weld(soup, {options.weld_distance}).mesh;
+    const Result<mesh::TriangleSoup> loaded = load_soup(input, options.load);
+    if (!loaded) return loaded.error();
+    const mesh::TriangleSoup& soup = loaded.value();
+    const mesh::Mesh mesh = mesh::weld(soup, {options.load.weld_distance}).mesh;
 
     const Clock::time_point begin = Clock::now();
     const std::vector<std::uint32_t> node_of = nodes_of(soup);

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "import/import_file.h"
+#include "load_mesh.h"
 #include "parallel.h"
 #include "report/approximate_report.h"
 
@@ -20,10 +20,8 @@ struct EncloseOptions {
     std::size_t work = convex::ApproximateOptions{}.work;
     bool to_surface = false;
     bool merge_components = false;
-    bool normalize = false;
     bool has_table = false;
-    double weld_distance = 0;  ///< model units
-    import::ImportOptions import;
+    LoadOptions load;
 };
 
 /// Encloses a file's mesh in convex pieces and writes them. Nodes are kept apart; one whose

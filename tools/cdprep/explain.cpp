@@ -41,9 +41,7 @@ void add_explain(CLI::App& app, Exit& exit) {
         app.add_subcommand("explain", "Say what a rule of validate means, and the way out");
     command->add_option("rule", arguments->rule,
                         "An id such as CDP0203, or a name such as sliver; none: list all");
-    command->add_option("--format", arguments->format, "text or json")
-        ->check(CLI::IsMember({"text", "json"}))
-        ->capture_default_str();
+    add_report_format(*command, arguments->format);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 

@@ -4,16 +4,15 @@
 #include <iostream>
 #include <map>
 #include <memory>
-#include <system_error>
 
 #include "command.h"
 #include "convex/enclosing_hull.h"
 #include "convex/mesh_hulls.h"
-#include "import/import_file.h"
 #include "import_limits.h"
 #include "interrupt.h"
 #include "load_mesh.h"
 #include "mesh/weld.h"
+#include "output_path.h"
 #include "parallel.h"
 #include "report/hull_report.h"
 #include "write/mesh_file.h"
@@ -24,7 +23,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostThreads = 4096;
 constexpr std::size_t kLinesShown = 20;  ///< of hulls, in text
 
 const std::map<std::string, convex::HullScope> kScopes = {
@@ -42,22 +40,6 @@ struct Arguments {
     std::size_t threads = 0;
     ImportLimits import;
 };
-
-/// Fails before anything is read when the output could not be written.
-Result<write::MeshFormat> output_format(const Arguments& arguments) {
-    std::error_code unknown;  // not there: not the same
-    if (fs::equivalent(arguments.input, arguments.output, unknown)) {
-        return Error{ErrorCode::bad_argument,
-                     arguments.output.string() +
-                         ": is the input and would be replaced. Choose another output."};
-    }
-    const auto format = write::mesh_format_of(arguments.output);
-    if (format) return *format;
-    return Error{ErrorCode::bad_argument,
-                 arguments.output.string() +
-                     ": the extension names no format that can be written; it must be .obj, "
-                     ".ply, .stl or .off."};
-}
 
 /// What a hull is called: in an OBJ file a name is one word.
 std::string name_of(const mesh::TriangleSoup& soup, convex::HullScope scope, std::size_t number) {
@@ -97,15 +79,15 @@ report::HullFigures figures_of(const convex::MeshHull& found, const std::string&
 }
 
 Result<report::HullReport> find_hulls(const Arguments& arguments) {
-    const Result<write::MeshFormat> format = output_format(arguments);
+    const Result<write::MeshFormat> format = mesh_output(arguments.input, arguments.output);
     if (!format) return format.error();
     const Threads threads(arguments.threads);
-    import::ImportOptions limits = arguments.import.options();
-    limits.parallel_for = threads.parallel_for();
-    const Result<mesh::TriangleSoup> imported = import::import_file(arguments.input, limits);
-    if (!imported) return imported.error();
-    const mesh::TriangleSoup& soup = imported.value();
-    if (const auto error = find_refusal(arguments.input, soup)) return *error;
+    LoadOptions load;
+    load.import = arguments.import.options();
+    load.import.parallel_for = threads.parallel_for();
+    const Result<mesh::TriangleSoup> loaded = load_soup(arguments.input, load);
+    if (!loaded) return loaded.error();
+    const mesh::TriangleSoup& soup = loaded.value();
     const mesh::Mesh mesh = mesh::weld(soup).mesh;
 
     const convex::HullScope scope = kScopes.at(arguments.scope);
@@ -122,10 +104,7 @@ Result<report::HullReport> find_hulls(const Arguments& arguments) {
                          ": an enclosing hull would have coordinates beyond the range of doubles. "
                          "Leave out --max-vertices."};
     }
-    if (is_interrupted()) {
-        return Error{ErrorCode::interrupted,
-                     arguments.input.string() + ": stopped; nothing was written."};
-    }
+    if (is_interrupted()) return interrupted(arguments.input);
     report.input = arguments.input.string();
     report.output = arguments.output.string();
     report.scope = arguments.scope;
@@ -148,11 +127,10 @@ Exit run(const Arguments& arguments) {
     const Result<report::HullReport> found = find_hulls(arguments);
     const bool is_json = arguments.format == "json";
     if (!found) {
-        report::HullReport report;
-        report.input = arguments.input.string();
-        report.exit = static_cast<int>(exit_for(found.error().code));
-        report.error = found.error().message;
-        if (is_json) std::cout << report::hull_json(report);
+        if (is_json) {
+            std::cout << report::hull_json(
+                failed<report::HullReport>(arguments.input, found.error()));
+        }
         return fail("hull", found.error());
     }
     std::cout << (is_json ? report::hull_json(found.value())
@@ -169,8 +147,7 @@ void add_hull(CLI::App& app, Exit& exit) {
         "Exact: its points are vertices of the mesh, and no vertex is outside, not by a bit.\n"
         "With --max-vertices a hull of so many points contains the exact one; how far it is\n"
         "from that at most is proved and stated. Points, segments and polygons are hulls too.");
-    command->add_option("input", arguments->input, "OBJ, STL, PLY, OFF, glTF, ... file")
-        ->required();
+    add_input(*command, arguments->input);
     command
         ->add_option("-o,--output", arguments->output,
                      "An .obj file with a group for each hull, or a .ply, .stl or .off file")
@@ -185,11 +162,8 @@ void add_hull(CLI::App& app, Exit& exit) {
                      "vertices, or for each node of the file")
         ->check(CLI::IsMember({"whole", "component", "node"}))
         ->capture_default_str();
-    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
-        ->check(CLI::Range(0, kMostThreads));
-    command->add_option("--format", arguments->format, "text or json")
-        ->check(CLI::IsMember({"text", "json"}))
-        ->capture_default_str();
+    add_jobs(*command, arguments->threads);
+    add_report_format(*command, arguments->format);
     add_import_limits(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

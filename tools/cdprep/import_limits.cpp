@@ -11,12 +11,14 @@ constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 50;
 
 }  // namespace
 
-import::ImportOptions ImportLimits::options() const {import::ImportOptions options;
-options.memory_bytes = memory_bytes;
-options.file_bytes = file_bytes;
-options.time = std::chrono::seconds(seconds);
-return options;
-}  // namespace cdprep::cli
+// Spelled out: clang-format takes a line that starts with "import" for a module's.
+cdprep::import::ImportOptions ImportLimits::options() const {
+    import::ImportOptions options;
+    options.memory_bytes = memory_bytes;
+    options.file_bytes = file_bytes;
+    options.time = std::chrono::seconds(seconds);
+    return options;
+}
 
 void add_import_limits(CLI::App& command, ImportLimits& limits) {
     command

@@ -64,9 +64,7 @@ void add_info(CLI::App& app, Exit& exit) {
     CLI::App* command = app.add_subcommand("info", "Show what a baked file holds and promises");
     command->add_option("file", arguments->file, "A .cdp.h5 file")->required();
     command->add_flag("--deep", arguments->deep, "Prove that the content is right, not only safe");
-    command->add_option("--format", arguments->format, "text or json")
-        ->check(CLI::IsMember({"text", "json"}))
-        ->capture_default_str();
+    add_report_format(*command, arguments->format);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 

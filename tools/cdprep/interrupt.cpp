@@ -6,19 +6,19 @@
 namespace cdprep::cli {
 namespace {
 
-volatile std::sig_atomic_t interrupted = 0;
+volatile std::sig_atomic_t has_signal = 0;
 
 /// Nobody reads what we write: as if the person had stopped us, but however often.
 void on_closed_pipe(int) {
-    interrupted = 1;
+    has_signal = 1;
 }
 
 void on_signal(int signal) {
-    if (interrupted != 0) {
+    if (has_signal != 0) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
-    interrupted = 1;
+    has_signal = 1;
 }
 
 }  // namespace
@@ -32,7 +32,11 @@ void watch_for_interrupts() {
 }
 
 bool is_interrupted() {
-    return interrupted != 0;
+    return has_signal != 0;
+}
+
+Error interrupted(const std::filesystem::path& input) {
+    return {ErrorCode::interrupted, input.string() + ": stopped; nothing was written."};
 }
 
 }  // namespace cdprep::cli

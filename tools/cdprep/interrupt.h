@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <filesystem>
+
+#include "cdprep/result.h"
+
 namespace cdprep::cli {
 
 /// Turns SIGINT and SIGTERM into a flag, so that work stops between two stages
@@ -9,5 +13,8 @@ namespace cdprep::cli {
 void watch_for_interrupts();
 
 [[nodiscard]] bool is_interrupted();
+
+/// Why nothing came of an input after that.
+[[nodiscard]] Error interrupted(const std::filesystem::path& input);
 
 }  // namespace cdprep::cli

@@ -57,13 +57,20 @@ std::optional<Error> find_refusal(const std::filesystem::path& input,
     return find_too_large(input, soup);
 }
 
-Result<mesh::Mesh> load_mesh(const std::filesystem::path& input, const LoadOptions& options) {
+Result<mesh::TriangleSoup> load_soup(const std::filesystem::path& input,
+                                     const LoadOptions& options) {
     Result<mesh::TriangleSoup> imported = import::import_file(input, options.import);
     if (!imported) return imported.error();
     mesh::TriangleSoup soup = std::move(imported).value();
     if (const auto error = find_refusal(input, soup)) return *error;
     if (options.normalize) mesh::normalize(soup);
-    return mesh::weld(soup, {options.weld_distance}).mesh;
+    return soup;
+}
+
+Result<mesh::Mesh> load_mesh(const std::filesystem::path& input, const LoadOptions& options) {
+    const Result<mesh::TriangleSoup> soup = load_soup(input, options);
+    if (!soup) return soup.error();
+    return mesh::weld(soup.value(), {options.weld_distance}).mesh;
 }
 
 }  // namespace cdprep::cli

@@ -22,7 +22,11 @@ struct LoadOptions {
     import::ImportOptions import;
 };
 
-/// The mesh of a file as bake makes it: imported, normalised when asked to, welded.
+/// What a file holds, normalised when asked to; fails when no mesh can be made of it.
+[[nodiscard]] Result<mesh::TriangleSoup> load_soup(const std::filesystem::path& input,
+                                                   const LoadOptions& options);
+
+/// The mesh of a file as bake makes it: that soup, welded.
 [[nodiscard]] Result<mesh::Mesh> load_mesh(const std::filesystem::path& input,
                                            const LoadOptions& options);
 

@@ -68,10 +68,6 @@ private:
     std::deque<report::StageTime> times_;  ///< a deque: references to its elements stay
 };
 
-Error interrupted(const std::filesystem::path& input) {
-    return {ErrorCode::interrupted, input.string() + ": stopped; nothing was written."};
-}
-
 std::uint64_t hash_of_file(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::vector<char> bytes(std::filesystem::file_size(path));

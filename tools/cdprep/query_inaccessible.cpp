@@ -16,8 +16,6 @@
 namespace cdprep::cli {
 namespace {
 
-constexpr int kMostThreads = 4096;
-
 struct Arguments {
     std::filesystem::path model;
     std::filesystem::path coloured;  ///< empty: none
@@ -84,8 +82,7 @@ void add_inaccessible(CLI::App& query, Exit& exit) {
     command->add_option("--export", arguments->coloured,
                         "Also write the model with those triangles coloured: .ply or .obj");
     command->add_flag("--count", arguments->count, "Count them, do not list them");
-    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
-        ->check(CLI::Range(0, kMostThreads));
+    add_jobs(*command, arguments->threads);
     add_answer_format(*command, arguments->format);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

@@ -13,6 +13,7 @@
 #include "import/import_file.h"
 #include "interrupt.h"
 #include "mesh/repair_goal.h"
+#include "output_path.h"
 #include "parallel.h"
 #include "report/repair_report.h"
 #include "write/mesh_file.h"
@@ -23,7 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMostThreads = 4096;
 constexpr double kMostSeconds = 300;       ///< unless --time says otherwise
 constexpr std::size_t kRefusalsShown = 5;  ///< of each step, in text
 
@@ -106,19 +106,8 @@ void judge(const Arguments& arguments, const mesh::TriangleSoup& input,
 
 Result<report::RepairFileReport> repair_file(const Arguments& arguments,
                                              mesh::RepairOptions options) {
-    std::error_code unknown;  // not there: not the same
-    if (fs::equivalent(arguments.input, arguments.output, unknown)) {
-        return Error{ErrorCode::bad_argument,
-                     arguments.output.string() +
-                         ": is the input and would be replaced. Choose another output."};
-    }
-    const auto format = write::mesh_format_of(arguments.output);
-    if (!format) {
-        return Error{ErrorCode::bad_argument,
-                     arguments.output.string() +
-                         ": the extension names no format that can be written; it must be .obj, "
-                         ".ply, .stl or .off."};
-    }
+    const Result<write::MeshFormat> format = mesh_output(arguments.input, arguments.output);
+    if (!format) return format.error();
     const Clock::time_point begin = Clock::now();
     const Threads threads(arguments.threads);
     options.parallel_for = threads.parallel_for();
@@ -130,12 +119,9 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     const mesh::Repaired repaired = mesh::repair(soup.value(), options);
     report::RepairFileReport report;
     if (!is_interrupted()) judge(arguments, soup.value(), repaired, options.parallel_for, report);
-    if (is_interrupted()) {
-        return Error{ErrorCode::interrupted,
-                     arguments.input.string() + ": stopped; nothing was written."};
-    }
+    if (is_interrupted()) return interrupted(arguments.input);
     const Result<Done> written = write::write_mesh_file(
-        arguments.output, *format,
+        arguments.output, format.value(),
         {repaired.mesh.positions, repaired.mesh.triangles, repaired.mesh.single_precision});
     if (!written) return written.error();
 
@@ -155,11 +141,8 @@ Exit run(const Arguments& arguments) {
     const Result<report::RepairFileReport> repaired = repair_file(arguments, options.value());
     if (!repaired) {
         if (arguments.format == "json") {
-            report::RepairFileReport report;
-            report.input = arguments.input.string();
+            auto report = failed<report::RepairFileReport>(arguments.input, repaired.error());
             report.output = arguments.output.string();
-            report.exit = static_cast<int>(exit_for(repaired.error().code));
-            report.error = repaired.error().message;
             std::cout << report::repair_json(report);
         }
         return fail("repair", repaired.error());
@@ -185,8 +168,7 @@ void add_repair(CLI::App& app, Exit& exit) {
         "left; it is written all the same. 2-manifold is meant by vertex numbers, as the output\n"
         "is stored; validate joins vertices with equal positions first, and may find what was\n"
         "parted here.");
-    command->add_option("input", arguments->input, "OBJ, STL, PLY, OFF, glTF, ... file")
-        ->required();
+    add_input(*command, arguments->input);
     command->add_option("-o,--output", arguments->output, "An .obj, .ply, .stl or .off file")
         ->required();
     CLI::Option* preset =
@@ -198,10 +180,7 @@ void add_repair(CLI::App& app, Exit& exit) {
             ->capture_default_str();
     command->add_option("--steps", arguments->steps, "Steps by name, with commas, not a preset")
         ->excludes(preset);
-    command
-        ->add_option("--weld", arguments->options.weld_distance,
-                     "Merge vertices this close, in model units")
-        ->check(is_length());
+    add_weld(*command, arguments->options.weld_distance);
     command
         ->add_option("--seam-width,--seam", arguments->options.seam_width,
                      "Join boundaries this close, in model units")
@@ -217,11 +196,8 @@ void add_repair(CLI::App& app, Exit& exit) {
                      "Seconds after which crossings are left as they are, and that is said")
         ->check(CLI::NonNegativeNumber)
         ->capture_default_str();
-    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
-        ->check(CLI::Range(0, kMostThreads));
-    command->add_option("--format", arguments->format, "text or json")
-        ->check(CLI::IsMember({"text", "json"}))
-        ->capture_default_str();
+    add_jobs(*command, arguments->threads);
+    add_report_format(*command, arguments->format);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 

@@ -30,7 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 using report::ValidationFormat;
 
-constexpr int kMostThreads = 4096;
 constexpr std::size_t kTextPlaces = 3;       ///< a person reads the first
 constexpr std::size_t kServicePlaces = 100;  ///< services that show SARIF or JUnit cut long lists
 constexpr std::uint64_t kMostPlaces = 100'000'000;
@@ -313,11 +312,9 @@ void add_validate(CLI::App& app, Exit& exit) {
                         "Also write one HTML page that draws the meshes and marks what was "
                         "found; holds all meshes in memory");
     add_judging_options(*command, *arguments);
-    command->add_option("-j,--jobs", arguments->threads, "Threads; 0: one per processor")
-        ->check(CLI::Range(0, kMostThreads));
+    add_jobs(*command, arguments->threads);
     command->add_flag("--timings", arguments->options.run.timings, "Report how long stages took");
-    command->add_option("--progress", arguments->progress, "auto, bar, plain or none")
-        ->capture_default_str();
+    add_progress(*command, arguments->progress);
     add_import_limits(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "cdprep/result.h"
+#include "write/mesh_file.h"
+
+namespace cdprep::cli {
+
+/// Returns why `output` must not be written when it is the file `input`, however they are
+/// spelled.
+[[nodiscard]] std::optional<Error> find_replaced_input(const std::filesystem::path& input,
+                                                       const std::filesystem::path& output);
+
+/// The format that the extension of `output` names. Fails before anything is read: when there
+/// is none, or when `output` is the input.
+[[nodiscard]] Result<write::MeshFormat> mesh_output(const std::filesystem::path& input,
+                                                    const std::filesystem::path& output);
+
+}  // namespace cdprep::cli
