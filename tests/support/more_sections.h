@@ -41,4 +41,15 @@ struct BuilderInput {
 [[nodiscard]] AlignedBytes with_tetra_tree(const AlignedBytes& file,
                                            build::TetraTreeOptions options = {});
 
+/// The same file with the hull around the whole, and the same again as that of component 0: an
+/// enclosing one, so that no point has to name a vertex, with groups, neighbours and starts.
+/// Without hulls where all vertices lie in one plane, and with one of nothing without vertices.
+[[nodiscard]] AlignedBytes with_hulls(const AlignedBytes& file);
+
+/// The same file with every triangle as a convex piece of its own.
+[[nodiscard]] AlignedBytes with_pieces(const AlignedBytes& file);
+
+/// The same file with one piece, all of it, which is contained: for a closed convex mesh.
+[[nodiscard]] AlignedBytes with_one_piece(const AlignedBytes& file);
+
 }  // namespace cdprep::test

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/model_hulls.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "cdprep/find_list_damage.h"
+#include "cdprep/format/find_damage.h"
+#include "find_hull_falsehood.h"
+#include "support/more_sections.h"
+#include "support/open_tiny.h"
+
+namespace cdprep::test {
+namespace {
+
+using format::HullScope;
+
+AlignedBytes baked(const TestMesh& mesh) {
+    return bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true});
+}
+
+OpenModel with_hulls_of(const TestMesh& mesh) {
+    return open_tiny(with_hulls(baked(mesh)));
+}
+
+// By hand: the file has the hull of the whole and of component 0, and no others.
+TEST(FindHull, AnswersByScopeAndNumber) {
+    const OpenModel ball = with_hulls_of(icosphere(2));
+    ASSERT_EQ(ball.model.hulls().size(), 2U);
+    EXPECT_EQ(find_hull(ball.model, HullScope::whole), 0U);
+    EXPECT_EQ(find_hull(ball.model, HullScope::component, 0), 1U);
+    EXPECT_FALSE(find_hull(ball.model, HullScope::whole, 1));
+    EXPECT_FALSE(find_hull(ball.model, HullScope::component, 1));
+    EXPECT_FALSE(find_hull(ball.model, HullScope::instance, 0));
+    EXPECT_FALSE(find_hull(open_tiny(icosphere(2)).model, HullScope::whole));
+}
+
+// A ball's vertices are all corners of its hull, in any order.
+TEST(ConvexPoints, AreThoseOfTheFile) {
+    const TestMesh mesh = icosphere(2);
+    const OpenModel ball = with_hulls_of(mesh);
+    for (std::uint32_t hull = 0; hull < 2; ++hull) {
+        const ConvexPoints points = convex_points(ball.model, hull);
+        ASSERT_EQ(points.count, mesh.positions.size());
+        ASSERT_EQ(points.neighbour_begins.size(), points.count + std::size_t{1});
+        EXPECT_EQ(points.neighbours.size(), points.neighbour_begins[points.count]);
+        EXPECT_EQ(points.starts.size(), std::size_t{kDirectionStarts});
+        std::vector<std::array<double, 3>> expected, found;
+        for (std::uint32_t i = 0; i < points.count; ++i) {
+            const Double3 p = points.point(i);
+            found.push_back({p.x, p.y, p.z});
+        }
+        for (const Double3& p : builder_input(ball.model).positions) {
+            expected.push_back({p.x, p.y, p.z});
+        }
+        std::sort(found.begin(), found.end());
+        std::sort(expected.begin(), expected.end());
+        EXPECT_EQ(found, expected);
+    }
+}
+
+TEST(ConvexPoints, OfNothingAreNone) {
+    const OpenModel nothing = with_hulls_of({});
+    EXPECT_EQ(
+        convex_points(nothing.model, find_hull(nothing.model, HullScope::whole).value()).count, 0U);
+}
+
+// What tests are fed is what the baker would make: nothing false is found in it.
+TEST(TinyBaker, MakesHullsAndPiecesThatAreTrue) {
+    for (const TestMesh& mesh : {TestMesh{}, unit_cube(), icosphere(1), icosphere(2),
+                                 coarse_grid_soup(1, 40, 2), copies_of_one_triangle(20)}) {
+        const AlignedBytes file = baked(mesh);
+        for (const AlignedBytes& more : {with_hulls(file), with_pieces(with_hulls(file))}) {
+            EXPECT_FALSE(format::find_deep_damage(more.span()));
+            const OpenModel open = open_tiny(AlignedBytes(more.span()));
+            EXPECT_FALSE(find_list_damage(more.span(), open.model));
+            EXPECT_FALSE(find_hull_falsehood(more.span(), open.model));
+        }
+    }
+    for (const TestMesh& mesh : {unit_cube(), icosphere(2)}) {
+        const AlignedBytes file = with_one_piece(baked(mesh));
+        EXPECT_FALSE(format::find_deep_damage(file.span()));
+        EXPECT_EQ(open_tiny(AlignedBytes(file.span())).model.pieces().size(), 1U);
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::test
