@@ -59,7 +59,7 @@ int ask_jobs(const cdprep_pair_job* jobs, std::size_t count, cdprep_workspaces* 
             const cdprep_pair_job& job = jobs[i];
             std::optional<Placement> placed;
             if (read_placement(*job.placement, placed, nullptr) != CDPREP_OK) return;
-            CacheCopy copy(job.cache);
+            PairCacheCopy copy(job.cache);
             ask(i, job.a->model, job.b->model, *placed, all[worker], copy.get());
         });
         return CDPREP_OK;

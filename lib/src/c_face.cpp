@@ -3,14 +3,11 @@
 
 #include <array>
 #include <iterator>
-#include <type_traits>
 
 namespace cdprep {
 
 static_assert(sizeof(cdprep_triangle_pair) == sizeof(TrianglePair) &&
               offsetof(cdprep_triangle_pair, b) == offsetof(TrianglePair, b));
-static_assert(sizeof(cdprep_pair_cache) == sizeof(PairCache) &&
-              std::is_trivially_copyable_v<PairCache>);
 static_assert(CDPREP_BAD_ARGUMENT == static_cast<int>(ErrorCode::bad_argument) &&
               CDPREP_UNREADABLE == static_cast<int>(ErrorCode::unreadable) &&
               CDPREP_OVER_BUDGET == static_cast<int>(ErrorCode::over_budget) &&

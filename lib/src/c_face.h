@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
 
 #include "cdprep/cdprep.h"
 #include "cdprep/collide.h"
@@ -25,7 +26,7 @@
 
 // What the parts of the C face share: how they check arguments, fill errors, and turn
 // structs of cdprep.h into ours and back. The parts are c_model.cpp, c_workspace.cpp,
-// c_pairs.cpp, c_rays.cpp, c_shapes.cpp and c_batch.cpp.
+// c_pairs.cpp, c_hulls.cpp, c_rays.cpp, c_shapes.cpp and c_batch.cpp.
 
 struct cdprep_model {
     cdprep::Model model;
@@ -100,9 +101,11 @@ void store(const std::optional<Distance>& result, int& found, cdprep_distance& t
 std::span<TrianglePair> room_of(cdprep_triangle_pair* pairs, std::size_t room) noexcept;
 
 /// Where the C++ questions keep their cache, from and back to the C struct.
+template <class Outer, class Inner>
 class CacheCopy {
 public:
-    explicit CacheCopy(cdprep_pair_cache* cache) noexcept : outer_(cache) {
+    explicit CacheCopy(Outer* cache) noexcept : outer_(cache) {
+        static_assert(sizeof(Outer) == sizeof(Inner) && std::is_trivially_copyable_v<Inner>);
         if (cache != nullptr) std::memcpy(static_cast<void*>(&inner_), cache, sizeof inner_);
     }
     CacheCopy(const CacheCopy&) = delete;
@@ -110,13 +113,15 @@ public:
     ~CacheCopy() {
         if (outer_ != nullptr) std::memcpy(outer_, &inner_, sizeof inner_);
     }
-    [[nodiscard]] PairCache* get() noexcept {
+    [[nodiscard]] Inner* get() noexcept {
         return outer_ == nullptr ? nullptr : &inner_;
     }
 
 private:
-    cdprep_pair_cache* outer_;
-    PairCache inner_;
+    Outer* outer_;
+    Inner inner_;
 };
+
+using PairCacheCopy = CacheCopy<cdprep_pair_cache, PairCache>;
 
 }  // namespace cdprep

@@ -44,7 +44,7 @@ int cdprep_collide(const cdprep_model* a, const cdprep_model* b, const cdprep_pl
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
-            cdprep::CacheCopy copy(cache);
+            cdprep::PairCacheCopy copy(cache);
             cdprep::store(cdprep::collide(ma, mb, placed, scratch, cdprep::contact_options(given),
                                           copy.get()),
                           *collision);
@@ -76,7 +76,7 @@ int cdprep_overlapping_triangles(const cdprep_model* a, const cdprep_model* b,
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
-            cdprep::CacheCopy copy(cache);
+            cdprep::PairCacheCopy copy(cache);
             *count =
                 cdprep::overlapping_triangles(ma, mb, placed, scratch, cdprep::room_of(pairs, room),
                                               cdprep::overlap_options(given), copy.get());
@@ -96,7 +96,7 @@ int cdprep_visit_overlapping_triangles(const cdprep_model* a, const cdprep_model
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
-            cdprep::CacheCopy copy(cache);
+            cdprep::PairCacheCopy copy(cache);
             const auto hand_on = [&](const cdprep::TrianglePair& pair) {
                 const cdprep_triangle_pair found = {pair.a, pair.b};
                 return visit(context, &found) != 0;
@@ -123,7 +123,7 @@ int cdprep_mark_overlapping_triangles(const cdprep_model* a, const cdprep_model*
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
-            cdprep::CacheCopy copy(cache);
+            cdprep::PairCacheCopy copy(cache);
             *count = cdprep::mark_overlapping_triangles(ma, mb, placed, scratch, {bits_a, words_a},
                                                         {bits_b, words_b},
                                                         cdprep::overlap_options(given), copy.get());
@@ -186,7 +186,7 @@ int cdprep_distance_between(const cdprep_model* a, const cdprep_model* b,
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
-            cdprep::CacheCopy copy(cache);
+            cdprep::PairCacheCopy copy(cache);
             cdprep::store(cdprep::distance(ma, mb, placed, scratch, cdprep::distance_options(given),
                                            copy.get()),
                           *found, *distance);
@@ -201,7 +201,7 @@ int cdprep_is_within(const cdprep_model* a, const cdprep_model* b,
     return cdprep::ask_pair(
         a, b, placement, workspace, error,
         [&](const Model& ma, const Model& mb, const Placement& placed, Workspace& scratch) {
-            cdprep::CacheCopy copy(cache);
+            cdprep::PairCacheCopy copy(cache);
             *within = cdprep::is_within(ma, mb, placed, tolerance, scratch, copy.get()) ? 1 : 0;
             return CDPREP_OK;
         });

@@ -9,8 +9,9 @@
  * call C. What a question means, costs and needs stands in the header of the same
  * name: collide.h, overlapping_triangles.h, distance.h, triangles_within.h,
  * cast_ray.h, closest_point.h, containment.h, touching_box.h, touching_sphere.h,
- * touching_capsule.h, touching_triangle.h; batch.h and split_overlap.h for many
- * questions at once and for one on many threads.
+ * touching_capsule.h, touching_triangle.h; convex_distance.h, convex_penetration.h and
+ * model_hulls.h for convex hulls; batch.h and split_overlap.h for many questions at once
+ * and for one on many threads.
  *
  * Every function returns CDPREP_OK or a code, and then fills `error`, which may be
  * null. No exception leaves a function. A struct that may grow starts with its
@@ -271,6 +272,59 @@ int cdprep_triangles_within(const cdprep_model* a, const cdprep_model* b,
                             double tolerance, const cdprep_contact_options* options,
                             cdprep_triangle_pair* pairs, size_t room, size_t* count,
                             cdprep_error* error);
+
+/* --- Two convex hulls ------------------------------------------------------------- */
+
+enum { CDPREP_HULL_WHOLE = 0, CDPREP_HULL_COMPONENT = 1, CDPREP_HULL_INSTANCE = 2 };
+
+/* One convex hull of a baked model; lives as long as that. */
+typedef struct cdprep_hull {
+    const cdprep_model* model;
+    uint32_t number; /* of the hull, as cdprep_find_hull() stores it */
+} cdprep_hull;
+
+/* The hull around the whole model, or around the component or instance of a number, which
+ * is 0 for the whole. `found` is 0, and `hull` is of no use, when none was baked. */
+int cdprep_find_hull(const cdprep_model* model, uint32_t scope, uint32_t number, int* found,
+                     cdprep_hull* hull, cdprep_error* error);
+
+/* Where the last question about two hulls ended: see convex_distance.h. All zero before
+ * the first use; one a pair and thread. */
+typedef struct cdprep_convex_cache {
+    uint32_t words[9];
+} cdprep_convex_cache;
+
+/* The hulls are solid, and no workspace is needed. `cache` may be null, here and below. */
+int cdprep_hulls_collide(const cdprep_hull* a, const cdprep_hull* b,
+                         const cdprep_placement* placement, cdprep_convex_cache* cache, int* hit,
+                         cdprep_error* error);
+
+/* Of the options those that are about errors and max_distance are read; `as` is not. Stores
+ * no triangles: UINT32_MAX. `found` is 0 when nothing is within max_distance. */
+int cdprep_hull_distance(const cdprep_hull* a, const cdprep_hull* b,
+                         const cdprep_placement* placement, const cdprep_distance_options* options,
+                         cdprep_convex_cache* cache, int* found, cdprep_distance* distance,
+                         cdprep_error* error);
+
+int cdprep_hulls_within(const cdprep_hull* a, const cdprep_hull* b,
+                        const cdprep_placement* placement, double tolerance,
+                        cdprep_convex_cache* cache, int* within, cdprep_error* error);
+
+/* How deep two hulls are in each other: see convex_penetration.h. */
+typedef struct cdprep_penetration {
+    double lower;
+    double upper;
+    double normal[3]; /* the way that B goes */
+    double witness_a[3];
+    double witness_b[3];
+} cdprep_penetration;
+
+/* `found` is 0 when they have no common point. Of the options the two errors alone are
+ * read. */
+int cdprep_hull_penetration(const cdprep_hull* a, const cdprep_hull* b,
+                            const cdprep_placement* placement,
+                            const cdprep_distance_options* options, cdprep_convex_cache* cache,
+                            int* found, cdprep_penetration* penetration, cdprep_error* error);
 
 /* --- One model ------------------------------------------------------------------ */
 

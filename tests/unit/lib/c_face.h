@@ -19,6 +19,9 @@ const char* ask_everything(const void* bytes, size_t size, const char* path);
 const char* ask_many(const void* bytes_a, size_t size_a, const void* bytes_b, size_t size_b,
                      const cdprep_parallel_for* threads);
 
+/* Asks every question about hulls of a baked unit cube that has them. Returns likewise. */
+const char* ask_hulls(const void* bytes, size_t size);
+
 #ifdef __cplusplus
 }
 #endif

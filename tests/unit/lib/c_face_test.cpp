@@ -10,6 +10,7 @@
 #include "cdprep/cdprep.h"
 #include "cdprep/collide.h"
 #include "support/meshes.h"
+#include "support/more_sections.h"
 #include "support/run_threads.h"
 #include "support/scratch_folder.h"
 #include "support/tiny_baker.h"
@@ -70,6 +71,13 @@ TEST(CFace, ManyThreadsGetTheAnswersOfOne) {
     const char* wrong = ask_many(a.span().data(), a.size(), b.span().data(), b.size(), &threads);
     EXPECT_EQ(wrong, nullptr) << wrong;
     EXPECT_GT(tasks, 8u * 7u);
+}
+
+TEST(CFace, HullsOfACubeAreAsFarApartAsItIsMoved) {
+    const TestMesh cube = unit_cube();
+    const AlignedBytes file = with_hulls(bake_tiny(cube.positions, cube.triangles));
+    const char* wrong = ask_hulls(file.span().data(), file.size());
+    EXPECT_EQ(wrong, nullptr) << wrong;
 }
 
 TEST(Workspace, MayLiveInTheCallersMemory) {
