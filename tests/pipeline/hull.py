@@ -11,6 +11,7 @@ import fractions
 import json
 import pathlib
 import random
+import re
 import sys
 import tempfile
 
@@ -198,6 +199,12 @@ def check_queries(program, folder):
         must(hull["hit"] == (near["upper"] == 0), f"{hull} but {near}")
         touching += hull["hit"]
     must(4 < touching < 20, f"{touching} of 24 poses touch: a one-sided test")
+    for question in ("collide", "distance"):
+        done = run(program, "query", question, *boxes, "--poses", poses, "--structure", "hull",
+                   "--counts")
+        told = re.fullmatch(r"(\d+) hull pairs, (\d+) steps.* decided (\d+) exactly, in (\d+) "
+                            r"steps\n", done.stderr)
+        must(told and int(told[1]) == 24 and int(told[2]) >= 24, f"{question}: {done.stderr}")
     bare = folder / "bare.cdp.h5"
     run(program, "bake", folder / "a.obj", "-o", bare)
     for arguments in (("collide", bare, bare), ("overlap", *boxes), ("within", *boxes,

@@ -304,14 +304,13 @@ bool asks_hulls(const Arguments& arguments) {
 
 /// Options that say what convex hulls do not know.
 std::optional<Error> find_idle_for_hulls(const Arguments& arguments) {
-    const std::array<std::pair<const char*, bool>, 7> options = {
+    const std::array<std::pair<const char*, bool>, 6> options = {
         {{"--leaf-test", !arguments.structure.leaf_test.empty()},
          {"--descent", !arguments.structure.descent.empty()},
          {"--search", !arguments.structure.search.empty()},
          {"--level-of-detail", arguments.level_of_detail.has_value()},
          {"--contact proper", arguments.contact == "proper"},
-         {"--skip-degenerate", arguments.skip_degenerate},
-         {"--counts", arguments.counts}}};
+         {"--skip-degenerate", arguments.skip_degenerate}}};
     for (const auto& [option, is_given] : options) {
         if (!is_given) continue;
         return Error{ErrorCode::bad_argument,
@@ -331,6 +330,14 @@ Result<Model> open_hulls(const std::filesystem::path& path) {
                      "again with --structures hull."};
 }
 
+std::string hull_counts(const QueryCounts& counts) {
+    std::ostringstream line;
+    line << counts.hull_pairs << " hull pairs, " << counts.hull_steps
+         << " steps, each a farthest point of both; decided " << counts.hulls_by_exact
+         << " exactly, in " << counts.exact_steps << " steps\n";
+    return line.str();
+}
+
 /// About the hulls of the wholes: solid, whatever the models are.
 Exit run_hulls(const Arguments& arguments) {
     if (const auto error = find_idle_for_hulls(arguments)) return fail("query", *error);
@@ -346,6 +353,8 @@ Exit run_hulls(const Arguments& arguments) {
                                            arguments.errors.absolute_error,
                                            arguments.errors.max_distance};
     ConvexCache cache;
+    QueryCounts counts;
+    QueryCounts* const counted = arguments.counts ? &counts : nullptr;
     Stopwatch stopwatch;
     report::Answers answers(std::cout, parse_answer_format(arguments.format));
     for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
@@ -359,14 +368,17 @@ Exit run_hulls(const Arguments& arguments) {
         };
         if (arguments.question == Question::collide) {
             answers.add(report::HullCollideAnswer{
-                i, timed([&] { return convex_collide(of_a, of_b, placement, &cache); })});
+                i, timed([&] { return convex_collide(of_a, of_b, placement, &cache, counted); })});
         } else {
             answers.add(report::HullDistanceAnswer{
-                i, timed([&] { return convex_distance(of_a, of_b, placement, options, &cache); })});
+                i, timed([&] {
+                    return convex_distance(of_a, of_b, placement, options, &cache, counted);
+                })});
         }
     }
     answers.finish();
     if (arguments.timings) std::cerr << stopwatch.line();
+    if (arguments.counts) std::cerr << hull_counts(counts);
     return Exit::success;
 }
 
@@ -542,7 +554,8 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
         ->capture_default_str();
     command->add_flag("--timings", arguments->timings, "What the questions took, to stderr");
     command->add_flag("--counts", arguments->counts,
-                      "Boxes and triangles tested and which stage decided, to stderr");
+                      "What was tested, of boxes and triangles or of hulls, and which stage "
+                      "decided, to stderr");
     if (question == Question::collide || question == Question::overlap) {
         add_contact_options(*command, *arguments);
     } else {
