@@ -55,6 +55,8 @@ public:
     [[nodiscard]] std::uint64_t steps() const noexcept {
         return steps_;
     }
+    /// Where the search ended.
+    void remember(ConvexCache& cache) const noexcept;
 
 private:
     [[nodiscard]] Difference difference(std::uint32_t i, std::uint32_t j) const noexcept {
@@ -87,7 +89,8 @@ private:
     double lower_ = 0;
     std::uint32_t near_a_ = 0;
     std::uint32_t near_b_ = 0;
-    bool is_warm_ = false;  ///< began where another question ended
+    bool is_warm_ = false;       ///< began where another question ended
+    bool ended_by_gap_ = false;  ///< by a proof that they are farther apart than was asked
     std::uint64_t steps_ = 0;
 };
 
@@ -155,7 +158,8 @@ GjkVerdict Search::run() noexcept {
         const double rounding = 16 * kUnit * std::max(largest_corner(simplex_), 0x1p-500);
         if (beyond > goal_.farther + rounding) {
             prove(d);
-            if (lower_ > goal_.farther) return GjkVerdict::apart;
+            ended_by_gap_ = lower_ > goal_.farther;
+            if (ended_by_gap_) return GjkVerdict::apart;
         }
         const double permitted =
             std::max({goal_.relative_error * here * 0.5, goal_.absolute_error * 0.5, rounding});
@@ -166,11 +170,17 @@ GjkVerdict Search::run() noexcept {
     }
 }
 
-void remember(const NearestSimplex& simplex, ConvexCache& cache) {
-    cache.count = static_cast<std::uint32_t>(simplex.count);
-    for (std::size_t i = 0; i < simplex.count; ++i) {
-        cache.a[i] = simplex.corner[i].a;
-        cache.b[i] = simplex.corner[i].b;
+void Search::remember(ConvexCache& cache) const noexcept {
+    cache.count = 0;
+    const auto add = [&](std::uint32_t a, std::uint32_t b) {
+        cache.a[cache.count] = a;
+        cache.b[cache.count++] = b;
+    };
+    // The pair that proved the gap is where the next climb is to begin, and one more corner
+    // for the next simplex.
+    if (ended_by_gap_) add(near_a_, near_b_);
+    for (std::size_t i = 0; i < simplex_.count; ++i) {
+        if (cache.count < 4) add(simplex_.corner[i].a, simplex_.corner[i].b);
     }
 }
 
@@ -189,7 +199,7 @@ GjkResult gjk(const MovedHull& a, const MovedHull& b, const GjkGoal& goal, Conve
     search.start(cache);
     const GjkVerdict verdict = search.run();
     const GjkResult result = search.result(verdict);
-    if (cache != nullptr) remember(result.simplex, *cache);
+    if (cache != nullptr) search.remember(*cache);
     if (counts != nullptr) {
         ++counts->hull_pairs;
         counts->hull_steps += search.steps();
