@@ -3,6 +3,7 @@
 //
 // Checksums would stop nearly every mutation, so each input is also judged after
 // its checksums have been made right again: then only the content can refuse.
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -18,12 +19,14 @@
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
 #include "cdprep/containment.h"
+#include "cdprep/convex_penetration.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
 #include "cdprep/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/includes_through.h"
 #include "cdprep/level_of_detail.h"
+#include "cdprep/model_hulls.h"
 #include "cdprep/octree_figures.h"
 #include "cdprep/overlap_through.h"
 #include "cdprep/tetra_figures.h"
@@ -31,6 +34,7 @@
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
 #include "cdprep/triangles_within.h"
+#include "find_hull_falsehood.h"
 
 namespace {
 
@@ -119,10 +123,65 @@ void ask_structures(const Model& model, Workspace& workspace) {
     }
 }
 
+/// A hull that passes the check may be none, and its neighbours may lead nowhere. The cache
+/// goes from one question to the next about other hulls: any content is allowed.
+void ask_hulls(const Model& model) {
+    constexpr std::size_t kMostHulls = 3;
+    constexpr std::uint32_t kMostPoints = 512;
+    const auto hulls = model.hulls().first(std::min(model.hulls().size(), kMostHulls));
+    const Placement turned =
+        Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {0.25, 0, 0}).value());
+    const Placement apart =
+        Placement::world(Pose::from_quaternion(4, 3, 2, 1, {3, 0.25, 0.5}).value(), Pose());
+    ConvexCache cache;
+    for (std::uint32_t i = 0; i < hulls.size(); ++i) {
+        (void)find_hull(model, hulls[i].scope, hulls[i].number);
+        const ConvexPoints a = convex_points(model, i);
+        const ConvexPoints b =
+            convex_points(model, static_cast<std::uint32_t>(hulls.size()) - 1 - i);
+        if (std::max(a.count, b.count) > kMostPoints) continue;
+        for (const Placement& placement : {Placement::b_moves(Pose()), turned, apart}) {
+            (void)convex_collide(a, b, placement, &cache);
+            (void)convex_distance(a, b, placement, {}, &cache);
+            (void)convex_distance(a, b, placement);
+            (void)convex_is_within(a, b, placement, 0.125, &cache);
+            (void)convex_penetration(a, b, placement, {}, &cache);
+        }
+    }
+}
+
+/// Follows every number that a question would.
+void ask_pieces(const Model& model) {
+    const auto vertex = [&](std::uint32_t v) {
+        if (!model.positions_f64().empty()) return model.positions_f64()[v].x;
+        return double{model.positions_f32()[v].x};
+    };
+    [[maybe_unused]] static volatile double sink = 0;
+    const auto pieces = model.pieces();
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const bool is_last = i + 1 == pieces.size();
+        const std::size_t triangles =
+            is_last ? model.piece_triangles().size() : pieces[i + 1].first_triangle;
+        const std::size_t facets =
+            is_last ? model.piece_facets().size() : pieces[i + 1].first_facet;
+        for (std::size_t t = pieces[i].first_triangle; t < triangles; ++t) {
+            for (const auto v : model.triangles()[model.piece_triangles()[t]].vertex)
+                sink = vertex(v);
+        }
+        for (std::size_t f = pieces[i].first_facet; f < facets; ++f) {
+            for (const std::uint32_t corner : model.piece_facets()[f].corner) {
+                sink = vertex(model.piece_vertices()[pieces[i].first_vertex + corner]);
+            }
+        }
+    }
+}
+
 void ask(const Model& model) {
     static Workspace workspace;
     if (can_answer_pairs(model)) ask_pair(model, workspace);
     ask_structures(model, workspace);
+    ask_hulls(model);
+    ask_pieces(model);
     (void)octree_figures(model);
     (void)adaptive_octree_figures(model);
     (void)tetra_figures(model);
@@ -138,6 +197,7 @@ void judge(const test::AlignedBytes& bytes) {
     if (opened && can_answer(opened.value())) {
         ask(opened.value());
         (void)find_list_damage(bytes.span(), opened.value());
+        (void)find_hull_falsehood(bytes.span(), opened.value());
     }
     if (opened) (void)format::find_deep_damage(bytes.span());
 }
@@ -170,6 +230,16 @@ std::vector<test::AlignedBytes> make_seeds() {
         seeds.push_back(test::with_octree(seeds.back(), {.threshold = 4}));
         seeds.push_back(test::with_adaptive_octree(seeds.back(), {.threshold = 4}));
         seeds.push_back(test::with_tetra_tree(seeds.back(), {.threshold = 4}));
+        seeds.push_back(test::with_pieces(test::bake_tiny(mesh.positions, mesh.triangles)));
+        // Twice: small files, in which a change more often meets what is about hulls.
+        for (const bool is_double : {false, true}) {
+            seeds.push_back(test::with_hulls(
+                test::bake_tiny(mesh.positions, mesh.triangles, {.double_precision = is_double})));
+        }
+        seeds.push_back(test::with_pieces(seeds.back()));
+    }
+    for (const test::TestMesh& mesh : {test::unit_cube(), test::icosphere(1)}) {
+        seeds.push_back(test::with_one_piece(test::bake_tiny(mesh.positions, mesh.triangles)));
     }
     return seeds;
 }
