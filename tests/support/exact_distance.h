@@ -7,6 +7,10 @@
 
 namespace cdprep::test {
 
+inline ExactRational square(double x) {
+    return {ExactNumber(x) * ExactNumber(x), 1.0};
+}
+
 /// The square of the distance from q to the closed triangle, without rounding.
 /// Corners may be collinear or equal.
 [[nodiscard]] ExactRational exact_squared_distance(const Double3& q, const Corners& corners);

@@ -181,6 +181,64 @@ TestMesh geometric_progression(int count) {
     return mesh;
 }
 
+TestMesh klein_bottle(int rows, int columns) {
+    TestMesh bottle;
+    for (int r = 0; r < rows; ++r) {
+        const double u = 2 * std::numbers::pi * r / rows;
+        for (int c = 0; c < columns; ++c) {
+            // A figure of eight that turns by half a turn on its way around.
+            const double v = 2 * std::numbers::pi * c / columns;
+            const double x = std::sin(v), y = std::sin(2 * v);
+            const double reach = 2 + std::cos(u / 2) * x - std::sin(u / 2) * y;
+            bottle.positions.push_back({reach * std::cos(u), reach * std::sin(u),
+                                        std::sin(u / 2) * x + std::cos(u / 2) * y});
+        }
+    }
+    const auto at = [&](int r, int c) {
+        // Past the last row the columns run backwards.
+        const int column = r == rows ? (2 * columns - c) % columns : c % columns;
+        return static_cast<std::uint32_t>(r % rows * columns + column);
+    };
+    for (int r = 0; r < rows; ++r) {
+        for (int c = 0; c < columns; ++c) {
+            bottle.triangles.push_back({{at(r, c), at(r, c + 1), at(r + 1, c)}});
+            bottle.triangles.push_back({{at(r + 1, c), at(r, c + 1), at(r + 1, c + 1)}});
+        }
+    }
+    return bottle;
+}
+
+TestMesh upper_half(TestMesh mesh) {
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+        return std::any_of(t.vertex.begin(), t.vertex.end(),
+                           [&](std::uint32_t v) { return mesh.positions[v].z < 0; });
+    });
+    return mesh;
+}
+
+TestMesh three_sheets() {
+    TestMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},  {1, 1, 0},
+                      {0, 0, 1}, {1, 0, 1}, {0, -1, 0}, {1, -1, 0}};
+    mesh.triangles = {{{0, 1, 3}}, {{0, 3, 2}}, {{0, 1, 5}}, {{0, 5, 4}}, {{1, 0, 6}}, {{1, 6, 7}}};
+    return mesh;
+}
+
+std::vector<Double3> lattice_sphere(int radius) {
+    std::vector<Double3> points;
+    for (int x = -radius; x <= radius; ++x) {
+        for (int y = -radius; y <= radius; ++y) {
+            const int rest = radius * radius - x * x - y * y;
+            if (rest < 0) continue;
+            const int z = static_cast<int>(std::lround(std::sqrt(rest)));
+            if (z * z != rest) continue;
+            points.push_back({double(x), double(y), double(z)});
+            if (z > 0) points.push_back({double(x), double(y), double(-z)});
+        }
+    }
+    return points;
+}
+
 TestMesh joined(const TestMesh& first, const TestMesh& second) {
     TestMesh mesh = first;
     const auto offset = static_cast<std::uint32_t>(first.positions.size());

@@ -26,6 +26,13 @@ struct TestMesh {
 [[nodiscard]] TestMesh icosphere(int level);
 /// About the z axis, centre line of radius `big`, tube of radius `small`.
 [[nodiscard]] TestMesh torus(double big, double small, int n, int m);
+/// The closed surface that has no inside, about the z axis, which passes through itself along
+/// a circle: `rows` rings of `columns` corners, 3 or more of an odd number.
+[[nodiscard]] TestMesh klein_bottle(int rows, int columns);
+/// The triangles of a mesh that have no corner below z = 0.
+[[nodiscard]] TestMesh upper_half(TestMesh mesh);
+/// Three squares, of two triangles each, with an edge in common.
+[[nodiscard]] TestMesh three_sheets();
 /// Unconnected triangles with corners in [-1, 1]^3 within `size` of each other.
 [[nodiscard]] TestMesh random_soup(std::uint32_t seed, int count, double size);
 /// Unconnected triangles with corners on the integer grid [-grid, grid]^3, where
@@ -37,6 +44,9 @@ struct TestMesh {
 [[nodiscard]] TestMesh copies_of_one_triangle(int count);
 /// Tiny triangles at x = 2^-i for i < count.
 [[nodiscard]] TestMesh geometric_progression(int count);
+
+/// The points of the integer lattice at this distance from the origin.
+[[nodiscard]] std::vector<Double3> lattice_sphere(int radius);
 
 /// Both meshes in one, the second's numbers following the first's.
 [[nodiscard]] TestMesh joined(const TestMesh& first, const TestMesh& second);

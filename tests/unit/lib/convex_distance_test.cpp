@@ -10,6 +10,7 @@
 #include "predicates.h"
 #include "support/exact_hull_pair.h"
 #include "support/hull_pairs.h"
+#include "support/meshes.h"
 #include "support/small_hull.h"
 #include "triangle_contact.h"
 
@@ -66,19 +67,8 @@ double width(const Penetration& depth) {
     return depth.upper - depth.lower;
 }
 
-/// Points of the integer lattice at this distance from the origin, times `scale`.
-Points lattice_sphere(int radius, double scale) {
-    Points points;
-    for (int x = -radius; x <= radius; ++x) {
-        for (int y = -radius; y <= radius; ++y) {
-            const int rest = radius * radius - x * x - y * y;
-            if (rest < 0) continue;
-            const int z = static_cast<int>(std::lround(std::sqrt(rest)));
-            if (z * z != rest) continue;
-            points.push_back({scale * x, scale * y, scale * z});
-            if (z > 0) points.push_back({scale * x, scale * y, -scale * z});
-        }
-    }
+Points scaled(Points points, double scale) {
+    for (Double3& p : points) p = {scale * p.x, scale * p.y, scale * p.z};
     return points;
 }
 
@@ -148,7 +138,7 @@ TEST(ConvexDistance, CountsSayWhetherIntegersDecided) {
 
 TEST(ConvexDistance, PermittedErrorsAreKept) {
     std::mt19937 random(7);
-    const SmallHull hull(lattice_sphere(65, 1));
+    const SmallHull hull(lattice_sphere(65));
     for (const double error : {1e-14, 1e-6, 1e-3, 0.1, 1.0}) {
         for (int i = 0; i < 20; ++i) {
             const Placement placement = Placement::b_moves(random_pose(random, 300));
@@ -165,7 +155,7 @@ TEST(ConvexDistance, PermittedErrorsAreKept) {
     }
 }
 
-// The poses that two reports against a widely used library name, where its search for the
+// G01: the poses that two reports against a widely used library name, where its search for the
 // depth denied a contact that its search for the distance had found.
 TEST(ConvexDistance, KissingBoxesHaveTheSignOfTheGivenDoubles) {
     const std::array<double, 9> turn = {
@@ -191,7 +181,7 @@ TEST(ConvexDistance, KissingBoxesHaveTheSignOfTheGivenDoubles) {
     EXPECT_LT(two.meet ? two.depth->upper : two.distance.upper, 1e-14);
 }
 
-// The pose of a report where a face of no area ended the search for the depth.
+// G02: the pose of a report where a face of no area ended the search for the depth.
 TEST(ConvexDistance, PlateAndTiltedBoxHaveADepth) {
     const std::array<double, 9> turn = {
         0.10758262492983036718,  -0.6624881850015212903,  -0.74130653817877356637,
@@ -209,7 +199,7 @@ TEST(ConvexDistance, PlateAndTiltedBoxHaveADepth) {
     EXPECT_LT(width(*answered.depth), 1e-14);
 }
 
-// Displaced along edges and diagonals the origin lies on faces, edges and corners of the
+// G03: displaced along edges and diagonals the origin lies on faces, edges and corners of the
 // difference, and of every simplex within it.
 TEST(ConvexDistance, ContactsOnFacesOfSimplicesAreKept) {
     const Points box = box_corners(1, 1, 1);
@@ -224,7 +214,7 @@ TEST(ConvexDistance, ContactsOnFacesOfSimplicesAreKept) {
     }
 }
 
-// A polytope for which a published implementation of the signed volumes was reported to
+// G04: a polytope for which a published implementation of the signed volumes was reported to
 // answer a wrong distance; its faces are squares, hexagons and rectangles.
 TEST(ConvexDistance, PolytopeOf24CornersIsMeasuredRightly) {
     constexpr double kLong = 0.414213562373, kShort = 0.171572875254;
@@ -280,7 +270,7 @@ bool surfaces_meet(const SmallHull& a, const Points& at_a, const SmallHull& b, c
     return false;
 }
 
-// A library was reported to answer 0 for hulls that were apart. Here whoever is apart has
+// G05: a library was reported to answer 0 for hulls that were apart. Here whoever is apart has
 // a direction between the witnesses that separates without rounding, and whoever is not
 // has triangles that touch, or one hull inside the other.
 TEST(ConvexDistance, NothingIsZeroWithoutACommonPoint) {
@@ -311,7 +301,7 @@ TEST(ConvexDistance, NothingIsZeroWithoutACommonPoint) {
     EXPECT_LT(apart, 2100);
 }
 
-// By construction: the caps are g apart, together, or g in each other.
+// G06, by construction: the caps are g apart, together, or g in each other.
 TEST(ConvexDistance, PrismsOnOneAxisAreAsFarApartAsTheirCaps) {
     const SmallHull hull(prism(1000));
     const ConvexPoints view = hull.view();
@@ -332,7 +322,7 @@ TEST(ConvexDistance, PrismsOnOneAxisAreAsFarApartAsTheirCaps) {
     EXPECT_NEAR(std::fabs(deep->normal.z), 1, 1e-9);
 }
 
-// By hand: a cube turned by 3-4-5 has its foremost edge at x = 7, y = 1.
+// G07, by hand: a cube turned by 3-4-5 has its foremost edge at x = 7, y = 1.
 TEST(ConvexDistance, WitnessesLieOnParallelFacesAndEdges) {
     const Points cube = box_corners(5, 5, 5);
     const Answered faces = ask<Integer128>(cube, cube, shifted({13, 2, 3}));
@@ -352,7 +342,7 @@ TEST(ConvexDistance, WitnessesLieOnParallelFacesAndEdges) {
     EXPECT_NEAR(edges.distance.witness_b.x, 17, 1e-13);
 }
 
-// By symmetry and by hand: a box is as deep in itself as it is thin; the simplex as its
+// G08, by symmetry and by hand: a box is as deep in itself as it is thin; the simplex as its
 // least width, between opposite edges, 2.
 TEST(ConvexDistance, ShapesAreAsDeepInThemselvesAsTheyAreWide) {
     const Points box = box_corners(3, 1, 2);
@@ -361,7 +351,7 @@ TEST(ConvexDistance, ShapesAreAsDeepInThemselvesAsTheyAreWide) {
     EXPECT_NEAR(ask<Integer128>(simplex, simplex, shifted({})).depth->upper, 2, 1e-14);
 }
 
-// A square, a segment and a point through, on and off a cube.
+// G09: a square, a segment and a point through, on and off a cube.
 TEST(ConvexDistance, FlatHullsAreHulls) {
     const Points cube = box_corners(2, 2, 2);
     const std::array<Points, 3> flat = {
@@ -376,11 +366,11 @@ TEST(ConvexDistance, FlatHullsAreHulls) {
     }
 }
 
-// By construction, 1e-9 between two lattice points on the axis; then turned, and held
+// G10, by construction: 1e-9 between two lattice points on the axis; then turned, and held
 // against what the direction between the hulls proves without rounding.
 TEST(ConvexDistance, FineHullsASmallGapApartAreMeasured) {
     constexpr double kScale = 1.0 / 1024;
-    const SmallHull hull(lattice_sphere(1001, kScale));
+    const SmallHull hull(scaled(lattice_sphere(1001), kScale));
     ASSERT_GT(hull.points().size(), 9000u);
     const double top = 1001 * kScale;
     const double shift = 2 * top + 1e-9;
@@ -412,6 +402,7 @@ TEST(ConvexDistance, FineHullsASmallGapApartAreMeasured) {
     EXPECT_TRUE(convex_is_within(hull.view(), hull.view(), placement, small->upper));
 }
 
+// G11: side 1 and 2^-20, and 2^20 sides apart.
 TEST(ConvexDistance, ExtremesOfScaleKeepTheirDigits) {
     constexpr double kSmall = 0x1p-21, kFar = 0x1p20;
     const Points large = box_corners(0.5, 0.5, 0.5), small = box_corners(kSmall, kSmall, kSmall);
@@ -428,6 +419,7 @@ TEST(ConvexDistance, ExtremesOfScaleKeepTheirDigits) {
     }
 }
 
+// G12: the needle is centred, then turned.
 TEST(ConvexDistance, NeedleInACubeIsAsDeepAsByDefinition) {
     const Points needle = box_corners(0.5, 0x1p-11, 0x1p-11);
     const Points cube = box_corners(0.5, 0.5, 0.5);
@@ -440,10 +432,10 @@ TEST(ConvexDistance, NeedleInACubeIsAsDeepAsByDefinition) {
     EXPECT_LE(width(*turned.depth), 1e-14);
 }
 
-// Lattice points on a sphere, asked along the axes of its symmetry: many are as far, and
+// G13: lattice points on a sphere, asked along the axes of its symmetry: many are as far, and
 // it must not matter where a search begins.
 TEST(ConvexDistance, TiesDoNotDependOnTheStart) {
-    const SmallHull hull(lattice_sphere(65, 1));
+    const SmallHull hull(lattice_sphere(65));
     const ConvexPoints view = hull.view();
     std::mt19937 random(13);
     for (const Double3& t : {Double3{130, 0, 0}, Double3{131, 0, 0}, Double3{129, 0, 0},
@@ -468,7 +460,7 @@ TEST(ConvexDistance, TiesDoNotDependOnTheStart) {
     EXPECT_FALSE(convex_collide(view, view, shifted({std::nextafter(130, 200), 0, 0})));
 }
 
-// Support points that all but lie in one plane: heights of 0 and g.
+// G14: support points that all but lie in one plane: heights of 0 and g.
 TEST(ConvexDistance, NearlyFlatSimplicesEndTheSearch) {
     std::mt19937 random(14);
     for (int i = 0; i < 60; ++i) {

@@ -8,18 +8,13 @@
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
 #include "cdprep/query_counts.h"
-#include "support/brute_force.h"
-#include "support/exact_distance.h"
+#include "support/brute_force_distance.h"
 #include "support/hard_triangles.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
 namespace cdprep::test {
 namespace {
-
-ExactRational square(double x) {
-    return {ExactNumber(x) * ExactNumber(x), 1.0};
-}
 
 double largest_coordinate(const TestMesh& a, const TestMesh& b, const Placement& placement) {
     double largest = 0;
@@ -34,47 +29,6 @@ double largest_coordinate(const TestMesh& a, const TestMesh& b, const Placement&
         }
     }
     return largest;
-}
-
-/// Less than the square of the distance of two boxes, rounding included.
-long double below_squared_gap(const Box3& a, const Box3& b) {
-    const auto gap = [](double low, double high, double other_low, double other_high) {
-        return std::max({0.0L, static_cast<long double>(low) - other_high,
-                         static_cast<long double>(other_low) - high});
-    };
-    const long double x = gap(a.lower.x, a.upper.x, b.lower.x, b.upper.x);
-    const long double y = gap(a.lower.y, a.upper.y, b.lower.y, b.upper.y);
-    const long double z = gap(a.lower.z, a.upper.z, b.lower.z, b.upper.z);
-    return (x * x + y * y + z * z) * (1 - 1e-9L);
-}
-
-/// The square of the distance of two small meshes in rational numbers: all pairs but
-/// those whose boxes are farther apart than triangles seen before.
-ExactRational brute_force_distance(const TestMesh& a, const TestMesh& b,
-                                   const Placement& placement) {
-    const Pose* pose_a = placement.a_is_moved() ? &placement.pose_a() : nullptr;
-    const Pose* pose_b = placement.b_is_moved() ? &placement.pose_b() : nullptr;
-    struct Pair {
-        long double squared_gap;
-        Corners a;
-        Corners b;
-    };
-    std::vector<Pair> pairs;
-    for (std::size_t i = 0; i < a.triangles.size(); ++i) {
-        for (std::size_t j = 0; j < b.triangles.size(); ++j) {
-            const Corners s = corners_of(a, i, pose_a), t = corners_of(b, j, pose_b);
-            pairs.push_back({below_squared_gap(box_of(s), box_of(t)), s, t});
-        }
-    }
-    std::sort(pairs.begin(), pairs.end(),
-              [](const Pair& x, const Pair& y) { return x.squared_gap < y.squared_gap; });
-    std::optional<ExactRational> best;
-    for (const Pair& pair : pairs) {
-        if (best && (best->sign() == 0 || pair.squared_gap > best->approximation())) break;
-        const ExactRational d = exact_squared_distance(pair.a, pair.b);
-        if (!best || d < *best) best = d;
-    }
-    return *best;
 }
 
 struct Case {
@@ -358,19 +312,44 @@ TEST(DistanceLaws, ASolidInsideAnotherIsNotApart) {
     }
 }
 
-// X05: four equal corners; the lowest numbers answer.
+// X05: over each other, all numbers are dyadic and many pairs equally near; of four tips over
+// a plate each is as near as the others. By rationals: whoever answers is as near as any, and the
+// same answers again, with a cache too.
 TEST(DistanceLaws, EqualMinimaHaveOneWitness) {
-    const OpenModel cube = open_tiny(unit_cube());
-    Workspace workspace;
+    TestMesh tips;
+    for (const double x : {0.0, 4.0}) {
+        for (const double y : {0.0, 4.0}) {
+            TestMesh tip{{{x, y, 0}, {x + 1, y, 1}, {x, y + 1, 1}}, {{{0, 1, 2}}}};
+            tips = joined(tips, tip);
+        }
+    }
+    const TestMesh plate = moved_by(unit_cube(), 8, {-2, -2, -8});
+    std::mt19937 random(51);
     const Placement above =
         Placement::b_moves(Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 3}).value());
-    const auto first = distance(cube.model, cube.model, above, workspace);
-    PairCache cache;
-    for (int i = 0; i < 3; ++i) {
-        const auto again = distance(cube.model, cube.model, above, workspace, {}, &cache);
-        EXPECT_EQ(again->triangle_a, first->triangle_a);
-        EXPECT_EQ(again->triangle_b, first->triangle_b);
-        EXPECT_EQ(again->upper, first->upper);
+    for (int round = 0; round < 20; ++round) {
+        TestMesh a = round % 2 == 0 ? unit_cube() : plate;
+        TestMesh b = round % 2 == 0 ? unit_cube() : tips;
+        std::shuffle(a.triangles.begin(), a.triangles.end(), random);
+        std::shuffle(b.triangles.begin(), b.triangles.end(), random);
+        const double gap = round % 2 == 0 ? 2 : 3;
+        ASSERT_TRUE(brute_force_distance(a, b, above) == square(gap));
+        const OpenModel model_a = open_tiny(a), model_b = open_tiny(b);
+        Workspace workspace;
+        PairCache cache;
+        const auto first = distance(model_a.model, model_b.model, above, workspace);
+        EXPECT_TRUE(exact_squared_distance(corners_of(a, first->triangle_a, nullptr),
+                                           corners_of(b, first->triangle_b, &above.pose_b())) ==
+                    square(gap));
+        EXPECT_LE(first->lower, gap);
+        EXPECT_GE(first->upper, gap);
+        EXPECT_LE(first->upper - first->lower, 1e-12 * gap + 1e-15 * 8);
+        for (int i = 0; i < 3; ++i) {
+            const auto again = distance(model_a.model, model_b.model, above, workspace, {}, &cache);
+            EXPECT_EQ(again->triangle_a, first->triangle_a);
+            EXPECT_EQ(again->triangle_b, first->triangle_b);
+            EXPECT_EQ(again->upper, first->upper);
+        }
     }
 }
 

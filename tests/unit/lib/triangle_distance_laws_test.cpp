@@ -53,8 +53,8 @@ TEST_P(TriangleDistanceLaws, TheIntervalHoldsTheTruth) {
         ++apart;
         for (const bool tight : {false, true}) {
             const TriangleDistance d = triangle_distance(a, b, tight);
-            const ExactRational lower(ExactNumber(d.lower) * ExactNumber(d.lower), 1.0);
-            const ExactRational upper(ExactNumber(d.upper) * ExactNumber(d.upper), 1.0);
+            const ExactRational lower = square(d.lower);
+            const ExactRational upper = square(d.upper);
             ASSERT_TRUE(lower <= truth) << "round " << round << ": " << d.lower;
             ASSERT_TRUE(truth <= upper) << "round " << round << ": " << d.upper;
             const double dx = d.on_b.x - d.on_a.x, dy = d.on_b.y - d.on_a.y,
@@ -89,6 +89,8 @@ TEST(TriangleDistance, ATriangleWithEqualCornersIsItsSegment) {  // X03
     const Corners segment = {{{2.277, -7.9, 16.318}, {-0.57, -8.1, 16.607}, {-0.57, -8.1, 16.607}}};
     const TriangleDistance d = triangle_distance(point, segment, true);
     EXPECT_NEAR(d.upper, 0.17147936968945224, 1e-14);
+    const ExactRational truth = exact_squared_distance(point, segment);
+    EXPECT_TRUE(square(d.lower) <= truth && truth <= square(d.upper));
     EXPECT_LE(d.upper - d.lower, 1e-12 * d.lower + 1e-15 * 16.607);
 }
 
@@ -97,6 +99,8 @@ TEST(TriangleDistance, NearlyParallelEdges) {  // X02
     const Corners a = {{{-1, 0, 0}, {1, 0, 0}, {0, -1, -1}}};
     const Corners b = {{{-1, -angle, 1}, {1, angle, 1}, {0, 1, 2}}};
     const TriangleDistance d = triangle_distance(a, b, true);
+    // By hand: the edges cross over the origin.
+    EXPECT_TRUE(exact_squared_distance(a, b) == square(1));
     EXPECT_LE(d.lower, 1);
     EXPECT_GE(d.upper, 1);
     EXPECT_LE(d.upper - d.lower, 1e-12);

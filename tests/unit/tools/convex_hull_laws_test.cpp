@@ -29,21 +29,6 @@ Points cube_corners(double size) {
     return corners;
 }
 
-/// The integer points at distance `radius` from the origin.
-Points sphere_points(int radius) {
-    Points points;
-    for (int x = -radius; x <= radius; ++x) {
-        for (int y = -radius; y <= radius; ++y) {
-            const int rest = radius * radius - x * x - y * y;
-            const int z = rest < 0 ? -1 : static_cast<int>(std::lround(std::sqrt(rest)));
-            if (rest < 0 || z * z != rest) continue;
-            points.push_back({double(x), double(y), double(z)});
-            if (z != 0) points.push_back({double(x), double(y), double(-z)});
-        }
-    }
-    return points;
-}
-
 Points shuffled(Points points, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::shuffle(points.begin(), points.end(), random);
@@ -95,13 +80,13 @@ TEST(ConvexHullLaws, PointsOnFacesAreNoCorners) {
 
 // C04: all points of a sphere are extreme, whatever planes they share.
 TEST(ConvexHullLaws, CosphericalPointsAreAllExtreme) {
-    Points points = shuffled(sphere_points(1155), 1);
+    Points points = shuffled(test::lattice_sphere(1155), 1);
     ASSERT_EQ(points.size(), 17'550U);
     points.resize(10'000);
     const ConvexHull hull = convex_hull(points);
     EXPECT_EQ(hull.points.size(), points.size());
     EXPECT_EQ(hull_flaw(points, hull), "");
-    const Points symmetric = sphere_points(15);  // many coplanar faces
+    const Points symmetric = test::lattice_sphere(15);  // many coplanar faces
     const ConvexHull faces = convex_hull(symmetric);
     EXPECT_EQ(faces.points.size(), symmetric.size());
     EXPECT_LT(face_count(faces), faces.facets.size());

@@ -283,25 +283,11 @@ TEST(FindDefects, ThinShellsKnowTheirInsideAndVolumeExactly) {
 
 // D06: the Klein bottle cannot be without crossings; only its edges are asked.
 TEST(FindDefects, KleinBottleCannotBeOriented) {
-    constexpr std::uint32_t kSide = 6;
-    test::TestMesh bottle;
-    for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
-        bottle.positions.push_back({double(i), double(i) * i, double(i) * i * i});
-    }
-    const auto at = [](std::uint32_t row, std::uint32_t column) {
-        // Past the last row the columns run backwards.
-        if (row == kSide) column = kSide - column % kSide;
-        return (row % kSide) * kSide + column % kSide;
-    };
-    for (std::uint32_t r = 0; r < kSide; ++r) {
-        for (std::uint32_t c = 0; c < kSide; ++c) {
-            bottle.triangles.push_back({{at(r, c), at(r, c + 1), at(r + 1, c)}});
-            bottle.triangles.push_back({{at(r + 1, c), at(r, c + 1), at(r + 1, c + 1)}});
-        }
-    }
+    constexpr int kColumns = 7;
+    const test::TestMesh bottle = test::klein_bottle(6, kColumns);
     const DefectReport report = report_of(bottle, {.crossings = false});
     EXPECT_EQ(report.counts.non_orientable_components, 1U);
-    EXPECT_EQ(report.counts.inconsistent_edges, kSide);
+    EXPECT_EQ(report.counts.inconsistent_edges, std::size_t{kColumns});
     const Verdict& verdict = report.verdicts[1];
     EXPECT_EQ(verdict.facts, format::verdict_closed | format::verdict_two_manifold);
     EXPECT_EQ(verdict.euler, 0);
@@ -311,11 +297,7 @@ TEST(FindDefects, KleinBottleCannotBeOriented) {
 
 // D07: half a ball has one border, and its pieces cannot be contained.
 TEST(FindDefects, HemisphereHasOneBorder) {
-    test::TestMesh ball = test::icosphere(3);
-    std::erase_if(ball.triangles, [&ball](const Triangle& t) {
-        return std::any_of(t.vertex.begin(), t.vertex.end(),
-                           [&ball](std::uint32_t v) { return ball.positions[v].z < 0; });
-    });
+    const test::TestMesh ball = test::upper_half(test::icosphere(3));
     const DefectReport report = report_of(ball);
     EXPECT_EQ(report.counts.boundary_loops, 1U);
     EXPECT_EQ(report.verdicts[1].boundary_loops, 1U);

@@ -40,6 +40,28 @@ TEST(PieceArrays, ACubeIsItsOwnHullWithoutVirtualFaces) {
     EXPECT_EQ(count_flag(arrays, facet_first_of_face), 6U);
 }
 
+// D01: what is convex is one piece and its own hull; of a lattice's sphere many faces have
+// more than three corners.
+TEST(PieceArrays, AConvexBodyHasNoVirtualFaces) {
+    std::vector<Double3> points = test::lattice_sphere(1155);
+    points.resize(10'000);
+    const ConvexHull hull = convex_hull(points);
+    test::TestMesh round;
+    round.positions = hull.points;
+    for (const auto& facet : hull.facets) round.triangles.push_back({facet});
+    test::TestMesh box = test::unit_cube();
+    for (Double3& p : box.positions) p = {3 * p.x, p.y, 0.125 * p.z};
+    for (const test::TestMesh& body : {round, box, test::icosphere(4)}) {
+        const PieceArrays arrays = arrays_of(welded(body));
+        ASSERT_EQ(arrays.pieces.size(), 1U);
+        EXPECT_EQ(arrays.pieces[0].flags, format::piece_contained);
+        EXPECT_EQ(arrays.pieces[0].outer_error, 0);
+        EXPECT_EQ(arrays.vertices.size(), body.positions.size());
+        EXPECT_EQ(arrays.facets.size(), body.triangles.size());
+        EXPECT_EQ(count_flag(arrays, facet_virtual), 0U);
+    }
+}
+
 // By hand: without two of its triangles, which are the top, the cube is open there. Without
 // one, the top is covered by half: virtual too.
 TEST(PieceArrays, AFaceThatTrianglesDoNotFillIsVirtual) {

@@ -285,11 +285,7 @@ TEST(SurfacePieces, AGapThinnerThanAnythingIsNotBridged) {
 
 // D05: by hand. Three sheets of two triangles on an edge, which is a barrier.
 TEST(SurfacePieces, AnEdgeOfThreeSheetsIsABarrier) {
-    TestMesh mesh;
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0},  {1, 1, 0},
-                      {0, 0, 1}, {1, 0, 1}, {0, -1, 0}, {1, -1, 0}};
-    mesh.triangles = {{{0, 1, 3}}, {{0, 3, 2}}, {{0, 1, 5}}, {{0, 5, 4}}, {{1, 0, 6}}, {{1, 6, 7}}};
-    const SurfacePieces pieces = find_surface_pieces(welded(mesh));
+    const SurfacePieces pieces = find_surface_pieces(welded(test::three_sheets()));
     EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::non_manifold)], 1U);
     ASSERT_EQ(pieces.pieces.size(), 3U);
     for (std::uint32_t i = 0; i < 3; ++i) {
@@ -324,14 +320,22 @@ TEST(SurfacePieces, AMoebiusStripIsCutAndContainsNothing) {
     expect_sound(mesh, pieces);
 }
 
+// D06: no side of it can be called its outside, and it crosses itself; every triangle is on
+// the hull of its piece all the same.
+TEST(SurfacePieces, AKleinBottleIsCutAndContainsNothing) {
+    const mesh::Mesh mesh = welded(test::klein_bottle(16, 11));
+    for (const PieceOrder order : kOrders) {
+        const SurfacePieces pieces = find_surface_pieces(mesh, {.order = order});
+        EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::border)], 0U);
+        EXPECT_EQ(pieces.edges[static_cast<std::size_t>(EdgeKind::inconsistent)], 11U);
+        for (const SurfacePiece& piece : pieces.pieces) EXPECT_FALSE(piece.contained);
+        expect_sound(mesh, pieces);
+    }
+}
+
 // D07: half a sphere is convex, and bounds no solid.
 TEST(SurfacePieces, AHemisphereIsOneUncontainedPiece) {
-    TestMesh ball = test::icosphere(3);
-    std::erase_if(ball.triangles, [&](const format::Triangle& t) {
-        return std::any_of(t.vertex.begin(), t.vertex.end(),
-                           [&](std::uint32_t v) { return ball.positions[v].z < 0; });
-    });
-    const mesh::Mesh mesh = welded(ball);
+    const mesh::Mesh mesh = welded(test::upper_half(test::icosphere(3)));
     const SurfacePieces pieces = find_surface_pieces(mesh);
     ASSERT_EQ(pieces.pieces.size(), 1U);
     EXPECT_FALSE(pieces.pieces[0].contained);
