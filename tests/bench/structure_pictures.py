@@ -24,6 +24,7 @@ import numpy
 SIZE = 800  # pixels along an edge of a view
 FINER = 2  # times as many are drawn and then mixed, along each edge
 VIEWS = ((0.6, 0.35), (0.6 + numpy.pi, -0.6))  # turn about y, tilt
+LARGE = 32  # pixels drawn: a triangle beyond is drawn on its own
 SHOWN_LEVEL = 3  # cells of the octree have one colour
 SHARED = 0x80000000
 INNER = 0x80000000
@@ -86,7 +87,11 @@ def draw_view(model, colours, turn, tilt):
     steps_of = 2 ** numpy.ceil(numpy.log2(1.5 * numpy.maximum(extent, 1))).astype(int)
     depth = numpy.full(size * size, -numpy.inf)
     samples = []
-    for steps in numpy.unique(steps_of):
+    for large in numpy.flatnonzero(steps_of > LARGE):
+        pixel, z = pixels_of(flat[large], size)
+        numpy.maximum.at(depth, pixel, z)
+        samples.append((pixel, z, numpy.full(len(pixel), large)))
+    for steps in numpy.unique(steps_of[steps_of <= LARGE]):
         chosen = numpy.flatnonzero(steps_of == steps)
         for i in range(steps + 1):
             for j in range(steps + 1 - i):
@@ -102,6 +107,24 @@ def draw_view(model, colours, turn, tilt):
         front = z >= depth[pixel]
         image[pixel[front]] = lit[chosen[front]]
     return image.reshape(SIZE, FINER, SIZE, FINER, 3).mean(axis=(1, 3))
+
+
+def pixels_of(triangle, size):
+    """The pixels whose middle is in a triangle, and its depth there."""
+    a, b, c = triangle
+    low = numpy.floor(triangle.min(axis=0)[:2]).astype(int).clip(0, size - 1)
+    high = numpy.ceil(triangle.max(axis=0)[:2]).astype(int).clip(0, size)
+    x, y = numpy.meshgrid(numpy.arange(low[0], high[0]), numpy.arange(low[1], high[1]))
+    along, up = x.ravel() + 0.5 - a[0], y.ravel() + 0.5 - a[1]
+    area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    if area == 0:
+        return numpy.zeros(0, int), numpy.zeros(0)
+    u = (along * (c[1] - a[1]) - up * (c[0] - a[0])) / area
+    v = ((b[0] - a[0]) * up - (b[1] - a[1]) * along) / area
+    inside = (u >= 0) & (v >= 0) & (u + v <= 1)
+    pixel = (size - 1 - y.ravel()) * size + x.ravel()
+    z = a[2] + u * (b[2] - a[2]) + v * (c[2] - a[2])
+    return pixel[inside], z[inside]
 
 
 def lists(nodes, references, is_leaf):
