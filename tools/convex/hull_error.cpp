@@ -13,6 +13,7 @@
 namespace cdprep::convex {
 namespace {
 
+constexpr std::size_t kMostDepthTests = 20'000'000;  ///< of triangles against planes
 constexpr double kSkin = 0.02;  ///< of the error: what bounds of the inside may add
 
 /// A simplex of 1 to 3 corners; `upper` bounds the distance of its points.
@@ -68,7 +69,8 @@ public:
 private:
     [[nodiscard]] bool is_good_enough() const {
         const double upper = heap_.front().upper;
-        return error_.lower > options_.too_much || error_.cells >= options_.most_cells ||
+        // Half is left for the inside: facets on the surface have a bound above 0 for ever.
+        return error_.lower > options_.too_much || error_.cells >= options_.most_cells / 2 ||
                upper <= prune_below();
     }
     /// What is at most this need not be known better.
@@ -174,6 +176,10 @@ private:
         std::vector<std::uint32_t> planes;  ///< that it does not lie well behind
         std::uint32_t near;
         bool outside;
+        double bound;
+        bool operator<(const Cube& other) const {
+            return bound < other.bound;
+        }
     };
     struct Plane {
         Double3 normal;
@@ -189,7 +195,7 @@ private:
         mesh::Box box;
         for (const Double3& p : hull.points) box.add(p);
         std::vector<Plane> planes;
-        Cube root{middle(box.lower, box.upper), box.diagonal() / 2, {}, 0, false};
+        Cube root{middle(box.lower, box.upper), box.diagonal() / 2, {}, 0, false, 0};
         for (const auto& f : hull.facets) {
             const Double3& a = hull.points[f[0]];
             const Double3 n =
@@ -201,36 +207,80 @@ private:
             root.planes.push_back(static_cast<std::uint32_t>(planes.size()));
             planes.push_back({unit, mesh::dot(unit, a)});
         }
-        std::vector<Cube> stack;
-        stack.push_back(std::move(root));
+        const double shallow = bound_above_surface(hull, planes, box);
+        if (shallow <= std::max(most, prune_below())) {
+            error_.upper = std::max(most, shallow);
+            return;
+        }
+        // The cube with the greatest bound first: what is found there spares most others.
+        std::vector<Cube> heap;
         double highest = most;
-        while (!stack.empty()) {
-            Cube cube = std::move(stack.back());
-            stack.pop_back();
-            const double bound = bound_of(cube, planes, skin);
-            const double enough =
-                std::max({most, options_.enough, error_.lower * (1 + options_.relative)});
-            if (bound <= enough) {
-                highest = std::max(highest, bound);
-                continue;
+        const auto push = [&](Cube cube) {
+            cube.bound = bound_of(cube, planes, skin);
+            if (cube.bound <= std::max(most, prune_below())) {
+                highest = std::max(highest, cube.bound);
+                return;
             }
-            if (error_.cells >= options_.most_cells || error_.lower > options_.too_much) {
-                highest = std::max(highest, bound);
-                continue;
-            }
+            heap.push_back(std::move(cube));
+            std::push_heap(heap.begin(), heap.end());
+        };
+        push(std::move(root));
+        while (!heap.empty() && error_.cells < options_.most_cells &&
+               error_.lower <= options_.too_much &&
+               heap.front().bound > std::max(most, prune_below())) {
+            std::pop_heap(heap.begin(), heap.end());
+            const Cube cube = std::move(heap.back());
+            heap.pop_back();
             const double quarter = cube.half / 2;
             for (unsigned k = 0; k < 8; ++k) {
                 const Double3& c = cube.centre;
-                stack.push_back({{c.x + ((k & 1U) == 0 ? -quarter : quarter),
-                                  c.y + ((k & 2U) == 0 ? -quarter : quarter),
-                                  c.z + ((k & 4U) == 0 ? -quarter : quarter)},
-                                 quarter,
-                                 cube.planes,
-                                 cube.near,
-                                 cube.outside});
+                push({{c.x + ((k & 1U) == 0 ? -quarter : quarter),
+                       c.y + ((k & 2U) == 0 ? -quarter : quarter),
+                       c.z + ((k & 4U) == 0 ? -quarter : quarter)},
+                      quarter,
+                      cube.planes,
+                      cube.near,
+                      cube.outside,
+                      0});
             }
         }
-        error_.upper = highest;
+        if (!heap.empty()) highest = std::max(highest, heap.front().bound);
+        error_.upper = std::min(highest, shallow);
+    }
+
+    /// At least the distance of any point of the hull from the solid, where the surface goes
+    /// into the hull nowhere deeply: what lies deeper than that is all inside then if one
+    /// point is, and what does not is near the hull's own surface. That much holds of a solid
+    /// that is all but convex, however many cubes it would take to fill. Infinite otherwise.
+    [[nodiscard]] double bound_above_surface(const ConvexHull& hull, std::span<const Plane> planes,
+                                             const mesh::Box& box) const {
+        constexpr double kNothing = std::numeric_limits<double>::infinity();
+        if (!solid_.encloses()) return kNothing;
+        const Double3 at = mean(hull.points);
+        const double deepest = depth_of({&at, 1}, planes);
+        double depth = 0;
+        std::size_t tests = 0;
+        solid_.tree().in_box(box, [&](std::uint32_t triangle) {
+            if (depth >= deepest || tests > kMostDepthTests) return;
+            tests += planes.size();
+            depth = std::max(depth, depth_of(solid_.tree().corners(triangle), planes));
+        });
+        depth += 2 * solid_.slack();
+        if (depth >= deepest || tests > kMostDepthTests || !solid_.includes(at)) return kNothing;
+        return error_.upper + depth;
+    }
+
+    /// At least how deep any point of these corners' hull lies behind all planes.
+    static double depth_of(std::span<const Double3> corners, std::span<const Plane> planes) {
+        double depth = std::numeric_limits<double>::infinity();
+        for (const Plane& plane : planes) {
+            double most = -std::numeric_limits<double>::infinity();
+            for (const Double3& p : corners) {
+                most = std::max(most, plane.offset - mesh::dot(plane.normal, p));
+            }
+            depth = std::min(depth, most);
+        }
+        return depth;
     }
 
     /// At least the distance of any point of the cube that is deep in the hull; 0 when there

@@ -46,6 +46,18 @@ public:
             visit);
     }
 
+    /// Calls visit(number) for every triangle whose box meets this one.
+    template <class Visit>
+    void in_box(const mesh::Box& wanted, const Visit& visit) const {
+        visit_boxes(
+            [&wanted](const mesh::Box& box) {
+                return box.lower.x <= wanted.upper.x && wanted.lower.x <= box.upper.x &&
+                       box.lower.y <= wanted.upper.y && wanted.lower.y <= box.upper.y &&
+                       box.lower.z <= wanted.upper.z && wanted.lower.z <= box.upper.z;
+            },
+            visit);
+    }
+
     [[nodiscard]] const Corners& corners(std::uint32_t triangle) const {
         return corners_[place_[triangle]];
     }
