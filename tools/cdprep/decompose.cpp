@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -6,6 +8,7 @@
 #include <memory>
 
 #include "command.h"
+#include "convex/enclosing_hull.h"
 #include "convex/surface_pieces.h"
 #include "enclose.h"
 #include "import_limits.h"
@@ -97,13 +100,14 @@ Result<report::SurfacePiecesReport> decompose(const Arguments& arguments, Progre
 }
 
 /// Pieces that enclose the mesh, within an error or as many as asked.
-Exit run_enclose(const Arguments& arguments) {
+Exit run_enclose(const Arguments& arguments, Progress& progress) {
     const Threads threads(arguments.threads);
     EncloseOptions options = arguments.enclose;
     options.output = arguments.output;
     options.load = load_options(arguments, threads);
     options.has_table = arguments.table;
-    Result<report::ApproximateReport> found = enclose(arguments.input, options, threads);
+    Result<report::ApproximateReport> found = enclose(arguments.input, options, threads, progress);
+    progress.clear();
     const bool is_json = arguments.format == "json";
     if (!found) {
         if (is_json) {
@@ -119,12 +123,39 @@ Exit run_enclose(const Arguments& arguments) {
     return is_as_asked ? Exit::success : Exit::findings;
 }
 
-Exit run(const Arguments& arguments) {
+bool is_enclosing(const Arguments& arguments) {
     const EncloseOptions& enclosed = arguments.enclose;
-    if (enclosed.max_error || enclosed.parts || enclosed.max_parts) return run_enclose(arguments);
+    return enclosed.max_error || enclosed.parts || enclosed.max_parts;
+}
+
+/// An option that would change nothing was meant for something.
+std::optional<Error> find_idle_option(const CLI::App& command, const Arguments& arguments) {
+    constexpr std::array<const char*, 2> kOfSurface = {"--tolerance", "--order"};
+    constexpr std::array<const char*, 6> kOfEnclosing = {"--max-vertices", "--work",
+                                                         "--to-surface",   "--merge-components",
+                                                         "--density",      "--no-visual"};
+    const auto find_given = [&](std::span<const char* const> names) -> const char* {
+        const auto at = std::find_if(names.begin(), names.end(),
+                                     [&](const char* name) { return command.count(name) > 0; });
+        return at == names.end() ? nullptr : *at;
+    };
+    const bool encloses = is_enclosing(arguments);
+    const char* idle = encloses ? find_given(kOfSurface) : find_given(kOfEnclosing);
+    if (idle == nullptr) return std::nullopt;
+    return Error{
+        ErrorCode::bad_argument,
+        idle + std::string(encloses ? " is of pieces of the surface: leave it out, or leave "
+                                      "out --max-error, --parts and --max-parts."
+                                    : " is of pieces that enclose the mesh: add "
+                                      "--max-error, --parts or --max-parts.")};
+}
+
+Exit run(const CLI::App& command, const Arguments& arguments) {
+    if (const auto error = find_idle_option(command, arguments)) return fail("decompose", *error);
     const Result<ProgressStyle> style = parse_progress(arguments.progress);
     if (!style) return fail("decompose", style.error());
     Progress progress(style.value(), 1);
+    if (is_enclosing(arguments)) return run_enclose(arguments, progress);
     const Result<report::SurfacePiecesReport> found = decompose(arguments, progress);
     progress.clear();
     const bool is_json = arguments.format == "json";
@@ -151,11 +182,13 @@ void add_decompose(CLI::App& app, Exit& exit) {
         "edges whose triangles are wound against each other are never crossed.\n"
         "With --max-error or --parts, encloses the mesh in few convex pieces instead, which stick\n"
         "out of the solid by no more than is stated, and proved; components and nodes stay apart.\n"
-        "Writes .obj, .glb, .urdf, .sdf, .mjcf or .xml then. Exits with 1 when it could not be\n"
-        "done as asked; what was found is written all the same.");
+        "Exits with 1 when it could not be done as asked; what was found is written all the\n"
+        "same. Which node of the file a piece is of is in --table.");
     add_input(*command, arguments->input);
     command->add_option("-o,--output", arguments->output,
-                        "An .obj file with a group for each piece, or a .ply file with colours");
+                        "An .obj file with a group for each piece, or a .ply file with colours; "
+                        "of enclosing pieces .obj, .glb, or .urdf, .sdf (with a mesh for each "
+                        "piece beside it), .mjcf, .xml");
     CLI::Option* exact = command->add_flag("--exact", arguments->exact,
                                            "Every triangle lies on its hull exactly (the default)");
     command
@@ -187,8 +220,8 @@ void add_decompose(CLI::App& app, Exit& exit) {
         ->excludes(exact);
     command
         ->add_option("--max-vertices", enclosed.max_vertices,
-                     "An engine's limit of vertices a piece, at least 4; 0: none")
-        ->check(CLI::Range(0U, 1U << 30U));
+                     "An engine's limit of vertices a piece, at least 4")
+        ->check(CLI::Range(convex::kFewestEnclosingVertices, 1U << 30U));
     command->add_option(
         "--work", enclosed.work,
         "How much a search may look at; when that is too little, what is found is looser");
@@ -196,6 +229,13 @@ void add_decompose(CLI::App& app, Exit& exit) {
                       "Measure from the surface alone: sheets, hollow bodies");
     command->add_flag("--merge-components", enclosed.merge_components,
                       "Pieces may take in several components and nodes");
+    command
+        ->add_option("--density", enclosed.density,
+                     "Kilograms per cubic metre, for the mass in .urdf, .sdf, .mjcf")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command->add_flag("!--no-visual", enclosed.has_visual,
+                      ".urdf and .sdf show nothing, instead of a copy of the mesh");
     command->add_flag("--table", arguments->table, "Report every piece");
     add_normalize(*command, arguments->load.normalize);
     add_weld(*command, arguments->load.weld_distance);
@@ -203,7 +243,7 @@ void add_decompose(CLI::App& app, Exit& exit) {
     add_report_format(*command, arguments->format);
     add_progress(*command, arguments->progress);
     add_import_limits(*command, arguments->import);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+    command->callback([command, arguments, &exit] { exit = run(*command, *arguments); });
 }
 
 }  // namespace cdprep::cli

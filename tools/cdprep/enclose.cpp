@@ -2,13 +2,15 @@
 #include "enclose.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <string>
 #include <vector>
 
+#include "body_mass.h"
+#include "interrupt.h"
 #include "mesh/topology.h"
 #include "mesh/weld.h"
+#include "mesh_nodes.h"
 #include "output_path.h"
 #include "write/hulls_file.h"
 
@@ -18,80 +20,114 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// As exporters for engines name what is convex.
-bool is_tagged_convex(const std::string& path) {
-    const std::string name = path.substr(path.find_last_of('/') + 1);
-    constexpr std::array<const char*, 4> kEndings = {"-convcol", "-convcolonly", "-convex",
-                                                     "_convex"};
-    return name.starts_with("UCX_") ||
-           std::any_of(kEndings.begin(), kEndings.end(),
-                       [&](const char* ending) { return name.ends_with(ending); });
-}
-
-/// Per triangle its node; none where there is one at most.
-std::vector<std::uint32_t> nodes_of(const mesh::TriangleSoup& soup) {
-    std::vector<std::uint32_t> node_of;
-    if (soup.instances.empty()) return node_of;
-    node_of.assign(soup.triangles.size(), 0);
-    for (std::uint32_t i = 0; i < soup.instances.size(); ++i) {
-        const format::Instance& instance = soup.instances[i];
-        std::fill_n(node_of.begin() + instance.first_triangle, instance.triangle_count, i);
-    }
-    return node_of;
-}
-
 std::optional<Error> find_bad_output(const fs::path& input, const fs::path& output) {
     if (output.empty()) return std::nullopt;
     if (auto error = find_replaced_input(input, output)) return error;
-    if (write::hulls_format_of(output)) return std::nullopt;
-    return Error{ErrorCode::bad_argument,
-                 output.string() +
-                     ": the extension names no format that pieces can be written "
-                     "in; it must be .obj, .glb, .urdf, .sdf, .mjcf or .xml."};
+    const auto format = write::hulls_format_of(output);
+    if (!format) {
+        return Error{ErrorCode::bad_argument,
+                     output.string() +
+                         ": the extension names no format that pieces can be written "
+                         "in; it must be .obj, .glb, .urdf, .sdf, .mjcf or .xml."};
+    }
+    if (write::may_replace(output, *format, input)) {
+        return Error{ErrorCode::bad_argument,
+                     input.string() + ": is named as a mesh beside " + output.string() +
+                         " would be, and could be replaced. Choose another output."};
+    }
+    return std::nullopt;
 }
 
-Result<std::size_t> write_pieces(const fs::path& output,
-                                 const std::vector<convex::ApproximatePiece>& pieces,
-                                 double metres_per_unit) {
+/// Thrown by a task after a signal: the search has no other way out.
+struct Stopped {};
+
+/// Searches on these threads; nothing after a signal.
+std::optional<convex::ApproximatePieces> search(const mesh::Mesh& mesh,
+                                                convex::ApproximateOptions how,
+                                                const Threads& threads) {
+    const auto run = [&](std::size_t count, Task task) {
+        const auto unless_stopped = [&](std::size_t i) {
+            if (is_interrupted()) throw Stopped{};
+            task(i);
+        };
+        threads.parallel_for()(count, unless_stopped);
+    };
+    how.parallel_for = run;
+    try {
+        return convex::find_approximate_pieces(mesh, how);
+    } catch (const Stopped&) {
+        return std::nullopt;
+    }
+}
+
+convex::ApproximateOptions search_options(const EncloseOptions& options) {
+    convex::ApproximateOptions how;
+    how.max_error = options.max_error;
+    how.parts = options.parts;
+    if (options.max_parts) {
+        how.parts = std::min(options.parts.value_or(*options.max_parts), *options.max_parts);
+    }
+    how.max_vertices = options.max_vertices;
+    how.work = options.work;
+    how.reference = options.to_surface ? convex::Reference::surface : convex::Reference::solid;
+    how.merge_components = options.merge_components;
+    return how;
+}
+
+/// Writes the pieces, and for simulators what the mesh weighs and looks like.
+Result<Done> write_pieces(const mesh::Mesh& mesh, bool is_closed, double metres_per_unit,
+                          const EncloseOptions& options, report::ApproximateReport& report) {
+    const std::vector<convex::ApproximatePiece>& pieces = report.result.pieces;
+    const write::HullsFormat format = *write::hulls_format_of(options.output);
     std::vector<write::HullArrays> hulls;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const convex::ConvexHull& hull = pieces[i].hull;
         hulls.push_back({"piece_" + std::to_string(i), hull.points, hull.facets, hull.dimension});
     }
-    return write::write_hulls(output, *write::hulls_format_of(output), hulls, metres_per_unit);
+    write::HullsFileOptions how;
+    how.metres_per_unit = metres_per_unit;
+    if (write::has_mass(format)) {
+        const auto weighed =
+            weigh(mesh, is_closed && !options.to_surface, pieces, options.density, metres_per_unit);
+        if (weighed) {
+            how.mass = weighed->body;
+            report.mass = weighed->body.mass;
+            report.is_mass_of_pieces = weighed->is_of_pieces;
+        }
+    }
+    if (options.has_visual) {
+        how.visual = {mesh.positions, mesh.triangles, mesh.single_precision};
+    }
+    const Result<std::size_t> left_out = write::write_hulls(options.output, format, hulls, how);
+    if (!left_out) return left_out.error();
+    report.left_out = left_out.value();
+    return Done{};
 }
 
 }  // namespace
 
 Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOptions& options,
-                                          const Threads& threads) {
+                                          const Threads& threads, Progress& progress) {
     if (const auto error = find_bad_output(input, options.output)) return *error;
+    const std::string name = input.filename().string();
+    progress.show(0, name + ": import");
     const Result<mesh::TriangleSoup> loaded = load_soup(input, options.load);
     if (!loaded) return loaded.error();
     const mesh::TriangleSoup& soup = loaded.value();
     const mesh::Mesh mesh = mesh::weld(soup, {options.load.weld_distance}).mesh;
+    if (is_interrupted()) return interrupted(input);
 
+    progress.show(0, name + ": enclose");
     const Clock::time_point begin = Clock::now();
-    const std::vector<std::uint32_t> node_of = nodes_of(soup);
-    std::vector<std::uint8_t> is_convex_node;
+    const MeshNodes nodes = find_nodes(soup, mesh);
     report::ApproximateReport report;
-    for (const format::Instance& instance : soup.instances) {
-        report.node_names.push_back(soup.instance_names[instance.name]);
-        is_convex_node.push_back(is_tagged_convex(report.node_names.back()) ? 1 : 0);
-    }
-    convex::ApproximateOptions how;
-    how.max_error = options.max_error;
-    how.parts = options.parts;
-    if (options.max_parts)
-        how.parts = std::min(options.parts.value_or(*options.max_parts), *options.max_parts);
-    how.max_vertices = options.max_vertices;
-    how.work = options.work;
-    how.reference = options.to_surface ? convex::Reference::surface : convex::Reference::solid;
-    how.merge_components = options.merge_components;
-    how.node_of = node_of;
-    how.convex_node = is_convex_node;
-    how.parallel_for = threads.parallel_for();
-    report.result = convex::find_approximate_pieces(mesh, how);
+    report.node_names = nodes.names;
+    convex::ApproximateOptions how = search_options(options);
+    how.node_of = nodes.node_of;
+    how.convex_node = nodes.is_convex;
+    std::optional<convex::ApproximatePieces> found = search(mesh, how, threads);
+    if (!found || is_interrupted()) return interrupted(input);
+    report.result = std::move(*found);
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     report.input = input.string();
     report.output = options.output.string();
@@ -103,14 +139,15 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     mesh::Box box;
     for (const mesh::Double3& p : mesh.positions) box.add(p);
     report.diagonal = mesh.positions.empty() ? 0 : box.diagonal();
-    for (const format::Component& component : mesh::find_topology(mesh).components) {
+    const mesh::Topology topology = mesh::find_topology(mesh);
+    for (const format::Component& component : topology.components) {
         if ((component.flags & format::component_closed) == 0) ++report.open_components;
     }
     if (options.output.empty()) return report;
-    const Result<std::size_t> left_out =
-        write_pieces(options.output, report.result.pieces, soup.metres_per_unit);
-    if (!left_out) return left_out.error();
-    report.left_out = left_out.value();
+    progress.show(0, name + ": write");
+    const Result<Done> written =
+        write_pieces(mesh, topology.closed, soup.metres_per_unit, options, report);
+    if (!written) return written.error();
     return report;
 }
 

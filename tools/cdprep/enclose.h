@@ -7,6 +7,7 @@
 
 #include "load_mesh.h"
 #include "parallel.h"
+#include "progress.h"
 #include "report/approximate_report.h"
 
 namespace cdprep::cli {
@@ -20,14 +21,17 @@ struct EncloseOptions {
     std::size_t work = convex::ApproximateOptions{}.work;
     bool to_surface = false;
     bool merge_components = false;
+    double density = 1000;   ///< kilograms per cubic metre: of water
+    bool has_visual = true;  ///< URDF and SDF show the mesh itself
     bool has_table = false;
     LoadOptions load;
 };
 
-/// Encloses a file's mesh in convex pieces and writes them. Nodes are kept apart; one whose
-/// name starts with UCX_ or ends in -convcol, -convcolonly, -convex or _convex is one piece.
+/// Encloses a file's mesh in convex pieces and writes them. find_nodes() says what is kept
+/// apart, and what is one piece. Fails with `interrupted` soon after a signal, with nothing
+/// written.
 [[nodiscard]] Result<report::ApproximateReport> enclose(const std::filesystem::path& input,
                                                         const EncloseOptions& options,
-                                                        const Threads& threads);
+                                                        const Threads& threads, Progress& progress);
 
 }  // namespace cdprep::cli

@@ -13,6 +13,7 @@
 #include "convex/distance_field.h"
 #include "convex/enclosing_hull.h"
 #include "convex/is_convex.h"
+#include "convex/part_nodes.h"
 #include "convex/piece_cover.h"
 #include "convex/piece_points.h"
 #include "convex/solid_cells.h"
@@ -52,27 +53,6 @@ struct Found {
         return pieces.size() + whole.size();
     }
 };
-
-/// The mesh with no vertex in two nodes, so that components are of one node.
-mesh::Mesh part_nodes(const mesh::Mesh& mesh, std::span<const std::uint32_t> node_of) {
-    mesh::Mesh parted = mesh;
-    if (node_of.empty()) return parted;
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> copies;
-    std::vector<std::uint32_t> first(mesh.positions.size(),
-                                     std::numeric_limits<std::uint32_t>::max());
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        for (std::uint32_t& vertex : parted.triangles[i].vertex) {
-            std::uint32_t& owner = first[vertex];
-            if (owner == std::numeric_limits<std::uint32_t>::max()) owner = node_of[i];
-            if (owner == node_of[i]) continue;
-            const auto [at, is_new] = copies.try_emplace(
-                {vertex, node_of[i]}, static_cast<std::uint32_t>(parted.positions.size()));
-            if (is_new) parted.positions.push_back(mesh.positions[vertex]);
-            vertex = at->second;
-        }
-    }
-    return parted;
-}
 
 class PieceSearch {
 public:

@@ -34,7 +34,9 @@ Json table_json(const ApproximateReport& report) {
                     {"facets", piece.hull.facets.size()},
                     {"triangles", piece.triangles.size()},
                     {"outer_error", piece.error.upper}};
-        if (piece.node < report.node_names.size()) row["node"] = report.node_names[piece.node];
+        if (piece.node < report.node_names.size() && !report.node_names[piece.node].empty()) {
+            row["node"] = report.node_names[piece.node];
+        }
         rows.push_back(std::move(row));
     }
     return rows;
@@ -64,6 +66,10 @@ std::string approximate_text(const ApproximateReport& report) {
     if (!result.is_as_asked) text += "  not as tight, or not as few, as asked\n";
     if (report.left_out > 0) {
         text += "  " + std::to_string(report.left_out) + " flat pieces were not written\n";
+    }
+    if (report.mass) {
+        text += "  mass " + number(*report.mass) + " kg, of ";
+        text += report.is_mass_of_pieces ? "the pieces, twice where they overlap\n" : "the solid\n";
     }
     if (!report.output.empty()) text += "  written to " + printable(report.output) + "\n";
     if (!report.has_table) return text;
@@ -102,6 +108,10 @@ std::string approximate_json(const ApproximateReport& report) {
         json["as_asked"] = result.is_as_asked;
         json["ran_out_of_work"] = result.ran_out_of_work;
         json["left_out"] = report.left_out;
+        if (report.mass) {
+            json["mass"] = *report.mass;
+            json["mass_of"] = report.is_mass_of_pieces ? "pieces" : "solid";
+        }
         json["seconds"] = report.seconds;
         if (report.has_table) json["table"] = table_json(report);
     }

@@ -22,6 +22,8 @@ struct ApproximateReport {
     convex::ApproximatePieces result;
     std::vector<std::string> node_names;  ///< by ApproximatePiece::node; may be empty
     std::size_t left_out = 0;             ///< hulls that the output's format has no place for
+    std::optional<double> mass;           ///< that was written, kilograms
+    bool is_mass_of_pieces = false;       ///< what counts twice where they overlap; else exact
     bool has_table = false;
     double seconds = 0;  ///< of the decomposition alone
     int exit = 0;

@@ -2,8 +2,8 @@
 #include "write/hulls_file.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <limits>
 #include <vector>
 
 #include "write/mesh_bytes.h"
@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using format::Double3;
+
+constexpr const char* kVisual = "visual";  ///< no hull's name
 
 void append_object(std::string& text, const HullArrays& hull, std::uint64_t& first) {
     text += "o " + hull.name + "\n";
@@ -178,64 +180,135 @@ std::string scale_text(double scale) {
     return text;
 }
 
-/// What XML does not take as it is.
-std::string escaped(const std::string& plain) {
-    std::string text;
-    for (const char c : plain) {
-        switch (c) {
-            case '&':
-                text += "&amp;";
-                break;
-            case '<':
-                text += "&lt;";
-                break;
-            case '"':
-                text += "&quot;";
-                break;
-            default:
-                text += c;
-        }
+/// A name of letters, digits, '_', '-' and '.', which needs no escape in XML, in addresses or
+/// in a shell.
+std::string plain_name(const fs::path& path) {
+    std::string name = path.stem().string();
+    for (char& letter : name) {
+        const bool is_plain =
+            (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') ||
+            (letter >= '0' && letter <= '9') || letter == '_' || letter == '-' || letter == '.';
+        if (!is_plain) letter = '_';
     }
+    return name;
+}
+
+/// Where the names of meshes begin: no two files in a folder have the same, but by extension.
+std::string mesh_stem(const fs::path& path) {
+    const std::string name = plain_name(path);
+    const std::string stem = path.stem().string();
+    if (name == stem) return name;
+    std::uint32_t hash = 2166136261U;  // FNV-1a
+    for (const char letter : stem) {
+        hash = (hash ^ static_cast<unsigned char>(letter)) * 16777619U;
+    }
+    return name + "_" + std::to_string(hash);
+}
+
+std::string mesh_name(const fs::path& path, const std::string& hull) {
+    return mesh_stem(path) + "_" + hull + ".obj";
+}
+
+/// One number behind a name, as XML's attribute.
+std::string attribute(const char* name, double value) {
+    std::string text = std::string(" ") + name + "=\"";
+    append_number(text, value, false);
+    return text + "\"";
+}
+
+std::string point_text(const Double3& p) {
+    std::string text;
+    append_point_text(text, p, false);
     return text;
 }
 
-std::string mesh_name(const fs::path& path, const HullArrays& hull) {
-    return path.stem().string() + "_" + hull.name + ".obj";
+/// The six numbers of an inertia as URDF and SDF call them, and their place in BodyMass.
+struct InertiaName {
+    const char* name;
+    std::size_t place;
+};
+constexpr std::array<InertiaName, 6> kInertiaNames = {
+    {{"ixx", 0}, {"ixy", 3}, {"ixz", 5}, {"iyy", 1}, {"iyz", 4}, {"izz", 2}}};
+
+/// What is the same in every element of a file.
+struct RobotFile {
+    const fs::path& path;
+    std::span<const HullArrays> hulls;
+    const HullsFileOptions& options;
+    std::string scale;
+};
+
+std::string urdf_inertial(const BodyMass& body) {
+    std::string text = "    <inertial>\n      <origin xyz=\"" + point_text(body.centre) +
+                       "\" rpy=\"0 0 0\"/>\n      <mass" + attribute("value", body.mass) +
+                       "/>\n      <inertia";
+    for (const auto& [name, place] : kInertiaNames) text += attribute(name, body.inertia[place]);
+    return text + "/>\n    </inertial>\n";
 }
 
-std::string urdf_text(const fs::path& path, std::span<const HullArrays> hulls, double scale) {
-    const std::string name = escaped(path.stem().string());
+std::string urdf_shape(const RobotFile& file, const char* kind, const std::string& name) {
+    return std::string("    <") + kind + " name=\"" + name +
+           "\">\n      <origin xyz=\"0 0 0\" rpy=\"0 0 0\"/>\n      <geometry><mesh filename=\"" +
+           mesh_name(file.path, name) + "\" scale=\"" + file.scale + "\"/></geometry>\n    </" +
+           kind + ">\n";
+}
+
+std::string urdf_text(const RobotFile& file) {
+    const std::string name = plain_name(file.path);
     std::string text =
         "<?xml version=\"1.0\"?>\n<robot name=\"" + name + "\">\n  <link name=\"" + name + "\">\n";
-    for (const HullArrays& hull : hulls) {
-        text += "    <collision name=\"" + hull.name +
-                "\">\n      <origin xyz=\"0 0 0\" rpy=\"0 0 0\"/>\n      <geometry>"
-                "<mesh filename=\"" +
-                escaped(mesh_name(path, hull)) + "\" scale=\"" + scale_text(scale) +
-                "\"/></geometry>\n    </collision>\n";
-    }
+    if (file.options.mass) text += urdf_inertial(*file.options.mass);
+    if (file.options.visual) text += urdf_shape(file, "visual", kVisual);
+    for (const HullArrays& hull : file.hulls) text += urdf_shape(file, "collision", hull.name);
     return text + "  </link>\n</robot>\n";
 }
 
-std::string sdf_text(const fs::path& path, std::span<const HullArrays> hulls, double scale) {
-    const std::string name = escaped(path.stem().string());
+std::string sdf_inertial(const BodyMass& body) {
+    std::string text = "      <inertial>\n        <pose>" + point_text(body.centre) +
+                       " 0 0 0</pose>\n        <mass>";
+    append_number(text, body.mass, false);
+    text += "</mass>\n        <inertia>";
+    for (const auto& [name, place] : kInertiaNames) {
+        text += std::string("<") + name + ">";
+        append_number(text, body.inertia[place], false);
+        text += std::string("</") + name + ">";
+    }
+    return text + "</inertia>\n      </inertial>\n";
+}
+
+std::string sdf_shape(const RobotFile& file, const char* kind, const std::string& name) {
+    return std::string("      <") + kind + " name=\"" + name +
+           "\">\n        <geometry><mesh><uri>" + mesh_name(file.path, name) + "</uri><scale>" +
+           file.scale + "</scale></mesh></geometry>\n      </" + kind + ">\n";
+}
+
+std::string sdf_text(const RobotFile& file) {
+    const std::string name = plain_name(file.path);
     std::string text = "<?xml version=\"1.0\"?>\n<sdf version=\"1.7\">\n  <model name=\"" + name +
                        "\">\n    <link name=\"" + name + "\">\n";
-    for (const HullArrays& hull : hulls) {
-        text += "      <collision name=\"" + hull.name + "\">\n        <geometry><mesh><uri>" +
-                escaped(mesh_name(path, hull)) + "</uri><scale>" + scale_text(scale) +
-                "</scale></mesh></geometry>\n      </collision>\n";
-    }
+    if (file.options.mass) text += sdf_inertial(*file.options.mass);
+    if (file.options.visual) text += sdf_shape(file, "visual", kVisual);
+    for (const HullArrays& hull : file.hulls) text += sdf_shape(file, "collision", hull.name);
     return text + "    </link>\n  </model>\n</sdf>\n";
 }
 
+std::string mjcf_inertial(const BodyMass& body) {
+    constexpr std::array<std::size_t, 6> kPlaces = {0, 1, 2, 3, 5, 4};  // xx yy zz xy xz yz
+    std::string text = "      <inertial pos=\"" + point_text(body.centre) + "\"" +
+                       attribute("mass", body.mass) + " fullinertia=\"";
+    for (const std::size_t place : kPlaces) {
+        if (text.back() != '"') text += ' ';
+        append_number(text, body.inertia[place], false);
+    }
+    return text + "\"/>\n";
+}
+
 /// Corners stand in the file; MuJoCo takes the hull of them.
-std::string mjcf_text(const fs::path& path, std::span<const HullArrays> hulls, double scale) {
-    const std::string name = escaped(path.stem().string());
+std::string mjcf_text(const RobotFile& file) {
+    const std::string name = plain_name(file.path);
     std::string text = "<mujoco model=\"" + name + "\">\n  <asset>\n";
-    for (const HullArrays& hull : hulls) {
-        text +=
-            "    <mesh name=\"" + hull.name + "\" scale=\"" + scale_text(scale) + "\" vertex=\"";
+    for (const HullArrays& hull : file.hulls) {
+        text += "    <mesh name=\"" + hull.name + "\" scale=\"" + file.scale + "\" vertex=\"";
         for (std::size_t i = 0; i < hull.points.size(); ++i) {
             if (i > 0) text += "  ";
             append_point_text(text, hull.points[i], false);
@@ -243,11 +316,45 @@ std::string mjcf_text(const fs::path& path, std::span<const HullArrays> hulls, d
         text += "\"/>\n";
     }
     text += "  </asset>\n  <worldbody>\n    <body name=\"" + name + "\">\n";
-    for (const HullArrays& hull : hulls) {
+    if (file.options.mass) text += mjcf_inertial(*file.options.mass);
+    for (const HullArrays& hull : file.hulls) {
         text +=
             "      <geom name=\"" + hull.name + "\" type=\"mesh\" mesh=\"" + hull.name + "\"/>\n";
     }
     return text + "    </body>\n  </worldbody>\n</mujoco>\n";
+}
+
+std::string text_in(HullsFormat format, const RobotFile& file) {
+    switch (format) {
+        case HullsFormat::obj:
+            return obj_text(file.hulls);
+        case HullsFormat::glb:
+            return glb_bytes(file.hulls);
+        case HullsFormat::urdf:
+            return urdf_text(file);
+        case HullsFormat::sdf:
+            return sdf_text(file);
+        case HullsFormat::mjcf:
+            return mjcf_text(file);
+    }
+    return {};
+}
+
+constexpr bool has_meshes(HullsFormat format) {
+    return format == HullsFormat::urdf || format == HullsFormat::sdf;
+}
+
+/// The files that a URDF or SDF refers to.
+Result<Done> write_meshes(const RobotFile& file) {
+    const fs::path folder = file.path.parent_path();
+    for (const HullArrays& hull : file.hulls) {
+        const Result<Done> done =
+            write_whole(folder / mesh_name(file.path, hull.name), obj_text({&hull, 1}));
+        if (!done) return done.error();
+    }
+    if (!file.options.visual) return Done{};
+    return write_mesh_file(folder / mesh_name(file.path, kVisual), MeshFormat::obj,
+                           *file.options.visual);
 }
 
 }  // namespace
@@ -264,43 +371,32 @@ std::optional<HullsFormat> hulls_format_of(const fs::path& path) {
     return std::nullopt;
 }
 
+bool may_replace(const fs::path& path, HullsFormat format, const fs::path& file) {
+    if (!has_meshes(format)) return false;
+    const auto folder_of = [](const fs::path& of) {
+        return fs::absolute(of).lexically_normal().parent_path();
+    };
+    const std::string name = file.filename().string();
+    return folder_of(path) == folder_of(file) && name.starts_with(mesh_stem(path) + "_") &&
+           name.ends_with(".obj");
+}
+
 Result<std::size_t> write_hulls(const fs::path& path, HullsFormat format,
-                                std::span<const HullArrays> hulls, double metres_per_unit) {
-    const double scale = metres_per_unit > 0 ? metres_per_unit : 1;
-    const bool wants_volume = format != HullsFormat::obj && format != HullsFormat::glb;
+                                std::span<const HullArrays> hulls,
+                                const HullsFileOptions& options) {
     std::vector<HullArrays> written(hulls.begin(), hulls.end());
-    if (wants_volume) {
+    if (has_mass(format)) {
         std::erase_if(written, [](const HullArrays& hull) { return hull.dimension < 3; });
     }
-    const std::size_t left_out = hulls.size() - written.size();
-    std::string bytes;
-    switch (format) {
-        case HullsFormat::obj:
-            bytes = obj_text(written);
-            break;
-        case HullsFormat::glb:
-            bytes = glb_bytes(written);
-            break;
-        case HullsFormat::urdf:
-            bytes = urdf_text(path, written, scale);
-            break;
-        case HullsFormat::sdf:
-            bytes = sdf_text(path, written, scale);
-            break;
-        case HullsFormat::mjcf:
-            bytes = mjcf_text(path, written, scale);
-            break;
+    const RobotFile file = {path, written, options,
+                            scale_text(options.metres_per_unit > 0 ? options.metres_per_unit : 1)};
+    if (has_meshes(format)) {
+        const Result<Done> done = write_meshes(file);
+        if (!done) return done.error();
     }
-    if (format == HullsFormat::urdf || format == HullsFormat::sdf) {
-        for (const HullArrays& hull : written) {
-            const Result<Done> done =
-                write_whole(path.parent_path() / mesh_name(path, hull), obj_text({&hull, 1}));
-            if (!done) return done.error();
-        }
-    }
-    const Result<Done> done = write_whole(path, bytes);
+    const Result<Done> done = write_whole(path, text_in(format, file));
     if (!done) return done.error();
-    return left_out;
+    return hulls.size() - written.size();
 }
 
 }  // namespace cdprep::write
