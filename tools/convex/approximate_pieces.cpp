@@ -198,9 +198,11 @@ private:
         how.rounds = thorough ? kRounds : 0;
         how.few_enough = few_enough > found.whole.size() ? few_enough - found.whole.size() : 0;
         how.most_work = options_.work > work_done_ ? options_.work - work_done_ : 0;
+        how.known = known_;
         how.parallel_for = options_.parallel_for;
         Cover covered = cover_with_pieces(cells, found.stage->field, how);
         work_done_ += covered.work;
+        known_.insert(known_.end(), covered.found.begin(), covered.found.end());
         found.complete = covered.complete;
         found.pieces = std::move(covered.pieces);
         for (auto& piece : found.pieces) {
@@ -319,7 +321,7 @@ private:
             proofs[i].fragments = points[i].fragments;
             is_measured[i] = i < first && piece.hull.points.size() == exact ? 1 : 0;
             estimates[i] = is_measured[i] != 0 ? piece.error.upper
-                           : found.stage       ? found.stage->field.estimate(piece.hull).distance
+                           : found.stage       ? found.stage->field.estimate(piece.hull, 0).distance
                                                : 0;
         };
         options_.parallel_for(points.size(), finish_piece);
@@ -354,6 +356,7 @@ private:
     std::vector<std::vector<std::uint32_t>> triangles_of_;
     std::vector<ApproximatePiece> whole_;
     std::shared_ptr<const Stage> stage_;
+    std::vector<Estimate> known_;  ///< points far out that pieces tried to take in
     std::size_t work_done_ = 0;
     bool ran_out_of_work_ = false;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "mesh/vectors.h"
 
@@ -10,7 +11,13 @@ namespace cdprep::convex {
 namespace {
 
 constexpr double kMostNodes = 8e6;
-constexpr double kSampling = 0.7;  ///< of a spacing: sides of the last triangles
+constexpr double kSampling = 0.4;        ///< of a spacing: sides of the last triangles
+constexpr double kCentreWay = 0.67;      ///< of the longest side: from the centre to a corner
+constexpr double kInterpolation = 0.87;  ///< of a spacing: the farthest node of a cube's eight
+constexpr double kTooLow = 0.5;          ///< of a spacing: what a field lacks between two walls
+constexpr std::size_t kFiner = 3;        ///< times, the field that is measured when asked for
+constexpr double kMostFine = 6.4e7;      ///< nodes of that
+constexpr float kUnknown = std::numeric_limits<float>::infinity();
 constexpr std::size_t kGroup = 4;  ///< nodes along each axis that are kept out together
 constexpr double kShell = 1.5;     ///< spacings: how thick a layer of nodes is
 constexpr std::size_t kBlock = 8;  ///< nodes along each axis
@@ -24,11 +31,43 @@ Double3 middle(const Double3& a, const Double3& b) {
     return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
 }
 
+/// Where a point lies in a grid: the cube's first node, and how far in.
+struct GridPlace {
+    std::array<std::size_t, 3> low;
+    std::array<double, 3> share;
+};
+
+GridPlace place_on_grid(const Double3& p, const Double3& origin, double spacing,
+                        const std::array<std::size_t, 3>& count) {
+    const std::array<double, 3> place = {(p.x - origin.x) / spacing, (p.y - origin.y) / spacing,
+                                         (p.z - origin.z) / spacing};
+    GridPlace found{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double last = static_cast<double>(count[k] - 2);
+        const double floor = std::clamp(std::floor(place[k]), 0.0, last);
+        found.low[k] = static_cast<std::size_t>(floor);
+        found.share[k] = place[k] - floor;
+    }
+    return found;
+}
+
+template <class Node>
+double interpolated(const GridPlace& place, const Node& node) {
+    const auto& [low, share] = place;
+    const auto along_x = [&](std::size_t y, std::size_t z) {
+        const double first = node(low[0], low[1] + y, low[2] + z);
+        return first + share[0] * (node(low[0] + 1, low[1] + y, low[2] + z) - first);
+    };
+    const double front = along_x(0, 0) + share[1] * (along_x(1, 0) - along_x(0, 0));
+    const double back = along_x(0, 1) + share[1] * (along_x(1, 1) - along_x(0, 1));
+    return front + share[2] * (back - front);
+}
+
 }  // namespace
 
 DistanceField::DistanceField(const Solid& solid, double spacing, double beyond,
                              ParallelFor parallel_for)
-    : spacing_(spacing) {
+    : solid_(&solid), spacing_(spacing) {
     const mesh::Box& box = solid.tree().box();
     const Double3 size = mesh::minus(box.upper, box.lower);
     const auto nodes_along = [&](double length) { return std::floor(length / spacing_) + 2; };
@@ -48,12 +87,21 @@ DistanceField::DistanceField(const Solid& solid, double spacing, double beyond,
     std::array<std::size_t, 3> blocks{};
     for (std::size_t k = 0; k < 3; ++k) blocks[k] = (count_[k] + kBlock - 1) / kBlock;
     const auto fill_block = [&](std::size_t i) {
-        fill(solid,
-             {{i % blocks[0] * kBlock, i / blocks[0] % blocks[1] * kBlock,
+        fill({{i % blocks[0] * kBlock, i / blocks[0] % blocks[1] * kBlock,
                i / blocks[0] / blocks[1] * kBlock}},
              beyond);
     };
     parallel_for(blocks[0] * blocks[1] * blocks[2], fill_block);
+    double fine = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        fine_count_[k] = kFiner * (count_[k] - 1) + 1;
+        fine *= static_cast<double>(fine_count_[k]);
+    }
+    if (fine > kMostFine) return;
+    fine_ = std::make_unique<std::atomic<float>[]>(static_cast<std::size_t>(fine));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(fine); ++i) {
+        fine_[i].store(kUnknown, std::memory_order_relaxed);
+    }
 }
 
 Double3 DistanceField::node(std::size_t x, std::size_t y, std::size_t z) const {
@@ -64,16 +112,16 @@ Double3 DistanceField::node(std::size_t x, std::size_t y, std::size_t z) const {
 
 /// Far from the surface the middle stands for all nodes of a block. Elsewhere a node is on
 /// the side of the one before it unless the surface may pass between them.
-void DistanceField::fill(const Solid& solid, const Block& block, double beyond) {
+void DistanceField::fill(const Block& block, double beyond) {
     const auto [x0, y0, z0] = block.first;
     const std::size_t x1 = std::min(x0 + kBlock, count_[0]);
     const std::size_t y1 = std::min(y0 + kBlock, count_[1]);
     const std::size_t z1 = std::min(z0 + kBlock, count_[2]);
     const Double3 centre = middle(node(x0, y0, z0), node(x1 - 1, y1 - 1, z1 - 1));
     const double radius = apart(centre, node(x0, y0, z0)) + spacing_;
-    TriangleTree::Nearest near = solid.tree().nearest(centre);
+    TriangleTree::Nearest near = solid_->tree().nearest(centre);
     const bool one_sided = near.distance > radius;
-    const bool inside = solid.includes(centre);
+    const bool inside = solid_->includes(centre);
     const bool is_far = one_sided && (inside || near.distance > radius + beyond);
     double before = one_sided ? 2 * spacing_ : 0;
     bool is_inside = inside;
@@ -87,10 +135,10 @@ void DistanceField::fill(const Solid& solid, const Block& block, double beyond) 
                     continue;
                 }
                 const Double3 p = node(x, y, z);
-                near = solid.tree().nearest(p, near.triangle);
+                near = solid_->tree().nearest(p, near.triangle);
                 const bool is_new_row = x == x0;
                 if (!one_sided && (is_new_row || std::max(before, near.distance) <= spacing_)) {
-                    is_inside = solid.includes(p);
+                    is_inside = solid_->includes(p);
                 }
                 before = near.distance;
                 value = static_cast<float>(is_inside ? -near.distance : near.distance);
@@ -100,24 +148,10 @@ void DistanceField::fill(const Solid& solid, const Block& block, double beyond) 
 }
 
 double DistanceField::at(const Double3& p) const {
-    const std::array<double, 3> place = {(p.x - origin_.x) / spacing_, (p.y - origin_.y) / spacing_,
-                                         (p.z - origin_.z) / spacing_};
-    std::array<std::size_t, 3> low{};
-    std::array<double, 3> share{};
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double last = static_cast<double>(count_[k] - 2);
-        const double floor = std::clamp(std::floor(place[k]), 0.0, last);
-        low[k] = static_cast<std::size_t>(floor);
-        share[k] = place[k] - floor;
-    }
-    const auto along_x = [&](std::size_t y, std::size_t z) {
-        const float* row = &distance_[index(low[0], low[1] + y, low[2] + z)];
-        return static_cast<double>(row[0]) +
-               share[0] * (static_cast<double>(row[1]) - static_cast<double>(row[0]));
-    };
-    const double front = along_x(0, 0) + share[1] * (along_x(1, 0) - along_x(0, 0));
-    const double back = along_x(0, 1) + share[1] * (along_x(1, 1) - along_x(0, 1));
-    return front + share[2] * (back - front);
+    return interpolated(place_on_grid(p, origin_, spacing_, count_),
+                        [this](std::size_t x, std::size_t y, std::size_t z) {
+                            return static_cast<double>(distance_[index(x, y, z)]);
+                        });
 }
 
 PointGroups DistanceField::nodes_beyond(double distance) const {
@@ -144,18 +178,50 @@ PointGroups DistanceField::nodes_beyond(double distance) const {
     return groups;
 }
 
+double DistanceField::fine_node(std::size_t x, std::size_t y, std::size_t z) const {
+    std::atomic<float>& value = fine_[(z * fine_count_[1] + y) * fine_count_[0] + x];
+    const float known = value.load(std::memory_order_relaxed);
+    if (known != kUnknown) return static_cast<double>(known);
+    const double step = spacing_ / static_cast<double>(kFiner);
+    const Double3 p = {origin_.x + static_cast<double>(x) * step,
+                       origin_.y + static_cast<double>(y) * step,
+                       origin_.z + static_cast<double>(z) * step};
+    const double distance = solid_->tree().nearest(p).distance;
+    const double by_field = at(p);
+    const bool is_inside =
+        std::fabs(by_field) > kInterpolation * spacing_ ? by_field < 0 : solid_->includes(p);
+    const auto found = static_cast<float>(is_inside ? -distance : distance);
+    value.store(found, std::memory_order_relaxed);
+    return static_cast<double>(found);
+}
+
+double DistanceField::fine_at(const Double3& p) const {
+    const GridPlace place =
+        place_on_grid(p, origin_, spacing_ / static_cast<double>(kFiner), fine_count_);
+    return interpolated(
+        place, [this](std::size_t x, std::size_t y, std::size_t z) { return fine_node(x, y, z); });
+}
+
 void DistanceField::sample(std::array<Double3, 3> corners, Estimate& most) const {
     const double ab = apart(corners[0], corners[1]);
     const double bc = apart(corners[1], corners[2]);
     const double ca = apart(corners[2], corners[0]);
     const double longest = std::max({ab, bc, ca});
+    ++most.samples;
     const Double3 centre = {(corners[0].x + corners[1].x + corners[2].x) / 3,
                             (corners[0].y + corners[1].y + corners[2].y) / 3,
                             (corners[0].z + corners[1].z + corners[2].z) / 3};
-    const double here = at(centre);
-    if (here > most.distance) most = {here, centre};
     // Distances change by no more than the way.
-    if (longest <= kSampling * spacing_ || here + longest * 0.67 <= most.distance) return;
+    const double way = kCentreWay * longest;
+    double here = at(centre);
+    const double too_low = kTooLow * spacing_;
+    if (here + too_low + way <= most.distance) return;
+    if (fine_) {
+        here = fine_at(centre);
+        if (here + too_low / static_cast<double>(kFiner) + way <= most.distance) return;
+    }
+    if (here > most.distance) most = {here, centre, most.samples};
+    if (longest <= kSampling * spacing_) return;
     if (longest > ab)
         std::rotate(corners.begin(), corners.begin() + (longest == bc ? 1 : 2), corners.end());
     const Double3 cut = middle(corners[0], corners[1]);
@@ -163,8 +229,8 @@ void DistanceField::sample(std::array<Double3, 3> corners, Estimate& most) const
     sample({cut, corners[1], corners[2]}, most);
 }
 
-Estimate DistanceField::estimate(const ConvexHull& hull) const {
-    Estimate most;
+Estimate DistanceField::estimate(const ConvexHull& hull, double least) const {
+    Estimate most{least};
     if (hull.dimension == 1) sample({hull.points[0], hull.points[1], hull.points[1]}, most);
     for (const auto& f : hull.facets) {
         sample({hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]}, most);

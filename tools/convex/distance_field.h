@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "convex/convex_hull.h"
@@ -15,15 +17,16 @@ namespace cdprep::convex {
 struct Estimate {
     double distance = 0;  ///< from the solid, model units; negative inside
     Double3 at = {0, 0, 0};
+    std::size_t samples = 0;  ///< looked at
 };
 
 /// Distances from a solid on a grid, negative inside: what the search for pieces goes by.
 /// Rounded and interpolated; results are measured afterwards.
 class DistanceField {
 public:
-    /// `spacing` and `beyond` are model units: up to `beyond` outside, distances are
-    /// measured, what is farther is only known to be. Nodes are at most some millions; the
-    /// grid is coarser where there would be more. The same for any parallel_for.
+    /// Keeps a reference to `solid`. `spacing` and `beyond` are model units: up to `beyond`
+    /// outside, distances are measured, what is farther is only known to be. Nodes are at most some
+    /// millions; the grid is coarser where there would be more. The same for any parallel_for.
     DistanceField(const Solid& solid, double spacing, double beyond, ParallelFor parallel_for);
 
     [[nodiscard]] double spacing() const {
@@ -37,8 +40,11 @@ public:
     /// In groups of neighbours.
     [[nodiscard]] PointGroups nodes_beyond(double distance) const;
 
-    /// The greatest distance on the hull's surface, by samples about a spacing apart.
-    [[nodiscard]] Estimate estimate(const ConvexHull& hull) const;
+    /// The greatest distance on the hull's surface, where it is more than `least`; else
+    /// `least` itself. By samples; the field tells where to look, and a finer one what there
+    /// is, whose nodes are measured when they are first asked for: between two walls the field
+    /// alone is too low by up to half a spacing.
+    [[nodiscard]] Estimate estimate(const ConvexHull& hull, double least) const;
 
 private:
     struct Block {
@@ -48,13 +54,19 @@ private:
     [[nodiscard]] std::size_t index(std::size_t x, std::size_t y, std::size_t z) const {
         return (z * count_[1] + y) * count_[0] + x;
     }
-    void fill(const Solid& solid, const Block& block, double beyond);
+    void fill(const Block& block, double beyond);
     void sample(std::array<Double3, 3> corners, Estimate& most) const;
+    [[nodiscard]] double fine_at(const Double3& p) const;
+    [[nodiscard]] double fine_node(std::size_t x, std::size_t y, std::size_t z) const;
 
+    const Solid* solid_;
     Double3 origin_{};
     double spacing_;
     std::array<std::size_t, 3> count_{};  ///< nodes along each axis
     std::vector<float> distance_;
+    std::array<std::size_t, 3> fine_count_{};
+    /// Unknown until it is asked for; whoever asks finds the same.
+    std::unique_ptr<std::atomic<float>[]> fine_;
 };
 
 }  // namespace cdprep::convex

@@ -2,6 +2,7 @@
 #include "convex/piece_cover.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -17,12 +18,15 @@ namespace {
 
 using Cells = std::vector<std::uint32_t>;
 
-constexpr std::size_t kSeeds = 8;        ///< growths tried for each piece
-constexpr std::size_t kWorkOfTry = 500;  ///< besides looking at each group that is kept out
-constexpr std::size_t kRegrowths = 2;    ///< of one that sticks out too far
-constexpr std::size_t kGivenUp = 4;      ///< pieces that are given up together, at most
-constexpr std::size_t kIdle = 3;         ///< rounds of such attempts without success: the last
-constexpr std::size_t kAtOnce = 8;       ///< such attempts, side by side
+constexpr std::size_t kSeeds = 4;   ///< growths tried for each piece
+constexpr std::size_t kInVain = 8;  ///< cells looked at that are not wanted, one after the other
+constexpr std::size_t kWorkOfTry = 100;  ///< besides looking at what is kept out
+constexpr std::size_t kLooksOfWork = 4;  ///< at planes and points
+constexpr std::size_t kWorkOfSample = 10;
+constexpr std::size_t kRegrowths = 2;  ///< of one that sticks out too far
+constexpr std::size_t kGivenUp = 4;    ///< pieces that are given up together, at most
+constexpr std::size_t kIdle = 3;       ///< rounds of such attempts without success: the last
+constexpr std::size_t kAtOnce = 8;     ///< such attempts, side by side
 
 double squared(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
@@ -37,10 +41,51 @@ std::uint64_t mixed(std::uint64_t x) {
     return x ^ (x >> 31U);
 }
 
+/// Points that lie farthest along a few directions: what spans a hull, for quick looks.
+class Reach {
+public:
+    void add(std::span<const Double3> points) {
+        for (std::size_t k = 0; k < kDirections.size(); ++k) {
+            for (const Double3& p : points) {
+                const double height = mesh::dot(kDirections[k], p);
+                if (height <= height_[k]) continue;
+                height_[k] = height;
+                point_[k] = p;
+            }
+        }
+    }
+
+    /// The segments between what two hulls reach are in their common hull: it holds a point
+    /// farther from the solid than `error` when one of these does.
+    [[nodiscard]] bool bridges_gap(const Reach& other, const DistanceField& field,
+                                   double error) const {
+        for (const Double3& p : other.point_) {
+            for (const Double3& q : point_) {
+                const Double3 middle = {p.x / 2 + q.x / 2, p.y / 2 + q.y / 2, p.z / 2 + q.z / 2};
+                if (field.at(middle) > error) return true;
+            }
+        }
+        return false;
+    }
+
+private:
+    static constexpr std::array<Double3, 8> kDirections = {{{1, 1, 1},
+                                                            {-1, -1, -1},
+                                                            {-1, 1, 1},
+                                                            {1, -1, -1},
+                                                            {1, -1, 1},
+                                                            {-1, 1, -1},
+                                                            {1, 1, -1},
+                                                            {-1, -1, 1}}};
+    static constexpr double kNone = -std::numeric_limits<double>::infinity();
+    std::array<Double3, 8> point_{};
+    std::array<double, 8> height_ = {kNone, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+};
+
 /// A piece as it grew.
 struct Grown {
-    Cells cells;           ///< in the order in which they were taken in
-    bool settled = false;  ///< measured
+    Cells cells;                  ///< in the order in which they were taken in
+    std::vector<Estimate> found;  ///< points too far out that it had taken in on the way
     std::size_t work = 0;
 };
 
@@ -52,22 +97,28 @@ public:
           field_(field),
           options_(options),
           far_(field.nodes_beyond((1 - options.margin) * options.error)) {
+        for (const Estimate& known : options.known) {
+            if (known.distance > options.error) far_.add({&known.at, 1});
+        }
         place_cells();
         find_neighbours();
     }
 
     Cover run() {
-        std::vector<bool> wanted(cells_.size(), true);
+        Progress all = cover_wanted(std::vector<bool>(cells_.size(), true), cells_.size() + 1, 0,
+                                    far_, options_.parallel_for);
+        work_ = all.work;
+        found_ = std::move(all.found);
         Cover cover;
-        cover.pieces = cover_wanted(wanted, cells_.size() + 1, 0, true, work_);
+        cover.pieces = std::move(all.chosen);
         cover.complete = work_ <= options_.most_work;
-        cover.work = work_;
-        if (!cover.complete) {
+        if (cover.complete) {
+            drop_needless(cover.pieces);
+            improve(cover.pieces);
+        } else {
             cover.pieces.clear();
-            return cover;
         }
-        drop_needless(cover.pieces);
-        improve(cover.pieces);
+        cover.found = std::move(found_);
         cover.work = work_;
         return cover;
     }
@@ -82,6 +133,7 @@ private:
                                     box.lower.z / 2 + box.upper.z / 2};
             double radius = 0;
             for (const Double3& p : cell.points) radius = std::max(radius, squared(p, centre));
+            reach_.emplace_back().add(cell.points);
             centre_.push_back(centre);
             radius_.push_back(std::sqrt(radius));
         }
@@ -111,7 +163,7 @@ private:
     }
 
     /// Takes in one cell after the other, the nearest to the seed first: those that are
-    /// wanted, and when no more of them goes in, any.
+    /// wanted, and when no more of them goes in, a few others: there may be more beyond.
     Grown grow(std::uint32_t seed, const std::vector<bool>& wanted,
                const PointGroups& kept_out) const {
         SeparatedPoints hull(kept_out);
@@ -134,20 +186,25 @@ private:
         };
         seen[seed] = true;
         grown.cells.push_back(seed);
+        Reach reach = reach_[seed];
         hull.add(cells_[seed].points, centre_[seed], radius_[seed]);
         see_around(seed);
-        while (!near.empty() || !later.empty()) {
+        std::size_t in_vain = 0;
+        while ((!near.empty() || !later.empty()) && in_vain <= kInVain) {
             if (near.empty()) {
                 for (const Next& next : later) near.push(next);
                 later.clear();
             }
             const std::uint32_t cell = near.top().second;
             near.pop();
-            grown.work += kWorkOfTry + kept_out.groups().size();
+            in_vain = wanted[cell] ? 0 : in_vain + 1;
+            grown.work += kWorkOfTry;
             if (!hull.add(cells_[cell].points, centre_[cell], radius_[cell])) continue;
+            reach.add(cells_[cell].points);
             grown.cells.push_back(cell);
             see_around(cell);
         }
+        grown.work += hull.work() / kLooksOfWork;
         return grown;
     }
 
@@ -156,33 +213,47 @@ private:
         for (const std::uint32_t cell : piece) {
             points.insert(points.end(), cells_[cell].points.begin(), cells_[cell].points.end());
         }
-        return field_.estimate(convex_hull(points));
+        return field_.estimate(convex_hull(points), options_.error);
     }
 
-    /// Sees to it that a piece is within the error: grows it anew with points kept out that
-    /// it had taken in; and gives up what it took in last where that does not help. Returns
-    /// the work that it took.
-    std::size_t settle(Grown& grown, const std::vector<bool>& wanted, PointGroups& kept_out) {
-        grown.settled = true;
-        std::size_t work = 0;
+    /// A piece within the error: grown anew, with points kept out that it had taken in, where
+    /// it is not; and what it took in last is given up where that does not help.
+    Grown grow_within_error(std::uint32_t seed, const std::vector<bool>& wanted,
+                            const PointGroups& far) const {
+        Grown grown = grow(seed, wanted, far);
+        std::vector<Estimate> found;
+        PointGroups kept_out;
+        std::size_t work = grown.work;
         for (std::size_t i = 0; grown.cells.size() > 1; ++i) {
             const Estimate error = measure(grown.cells);
-            if (error.distance <= options_.error) return work;
+            work += error.samples * kWorkOfSample;
+            if (error.distance <= options_.error) break;
+            work += give_up_last(grown.cells);
+            break;
+            if (i == 0) kept_out = far;
             kept_out.add({&error.at, 1});
-            if (i == kRegrowths) break;
-            grown = grow(grown.cells.front(), wanted, kept_out);
-            grown.settled = true;
+            found.push_back(error);
+            grown = grow(seed, wanted, kept_out);
             work += grown.work;
         }
+        grown.found = std::move(found);
+        grown.work = work;
+        return grown;
+    }
+
+    /// Halves what is in question: what follows a prefix that is too much is, too. Returns
+    /// the work that it took.
+    std::size_t give_up_last(Cells& cells) const {
         std::size_t good = 1;
-        std::size_t bad = grown.cells.size();
+        std::size_t bad = cells.size();
+        std::size_t work = 0;
         while (good + 1 < bad) {
             const std::size_t middle = (good + bad) / 2;
-            const bool is_good =
-                measure(std::span(grown.cells).first(middle)).distance <= options_.error;
-            (is_good ? good : bad) = middle;
+            const Estimate error = measure(std::span(cells).first(middle));
+            work += error.samples * kWorkOfSample;
+            (error.distance <= options_.error ? good : bad) = middle;
         }
-        grown.cells.resize(good);
+        cells.resize(good);
         return work;
     }
 
@@ -209,59 +280,60 @@ private:
         return seeds;
     }
 
-    /// The number of the one that takes in most of what is wanted, and is within the error.
-    std::size_t take_best(std::vector<Grown>& pool, const std::vector<bool>& wanted,
-                          bool in_parallel, std::size_t& work) {
-        for (;;) {
-            std::size_t best = 0;
-            std::size_t most = 0;
-            for (std::size_t i = 0; i < pool.size(); ++i) {
-                const auto gain = static_cast<std::size_t>(
-                    std::count_if(pool[i].cells.begin(), pool[i].cells.end(),
-                                  [&](std::uint32_t cell) { return wanted[cell]; }));
-                if (gain > most) {
-                    most = gain;
-                    best = i;
-                }
-            }
-            if (pool[best].settled || !in_parallel) return best;
-            work += settle(pool[best], wanted, far_);
+    /// The number of the one that takes in most of what is wanted.
+    static std::size_t find_best(const std::vector<Grown>& pool, const std::vector<bool>& wanted) {
+        std::size_t best = 0;
+        std::ptrdiff_t most = 0;
+        for (std::size_t i = 0; i < pool.size(); ++i) {
+            const auto gain = std::count_if(pool[i].cells.begin(), pool[i].cells.end(),
+                                            [&](std::uint32_t cell) { return wanted[cell]; });
+            if (gain <= most) continue;
+            most = gain;
+            best = i;
         }
+        return best;
     }
 
-    /// Pieces that take in all cells that are wanted, or `limit` of them when that is not
-    /// enough.
-    std::vector<Cells> cover_wanted(std::vector<bool> wanted, std::size_t limit, std::uint64_t salt,
-                                    bool in_parallel, std::size_t& work) {
+    /// What a cover of some cells has come to.
+    struct Progress {
         std::vector<Cells> chosen;
+        std::vector<Estimate> found;
+        std::size_t work = 0;
+    };
+
+    /// Pieces that take in all cells that are wanted, or more than `limit` when that many are
+    /// not enough.
+    Progress cover_wanted(std::vector<bool> wanted, std::size_t limit, std::uint64_t salt,
+                          PointGroups& far, ParallelFor run) const {
+        Progress progress;
         std::vector<Grown> pool;
         std::size_t left = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
-        while (left > 0 && chosen.size() < limit && work <= options_.most_work) {
-            const Cells seeds =
-                choose_seeds(wanted, in_parallel ? kSeeds : kSeeds / 2, salt + chosen.size());
+        while (left > 0 && progress.chosen.size() < limit &&
+               work_ + progress.work <= options_.most_work) {
+            const Cells seeds = choose_seeds(wanted, kSeeds, salt + progress.chosen.size());
             std::vector<Grown> grown(seeds.size());
-            const auto grow_one = [&](std::size_t i) { grown[i] = grow(seeds[i], wanted, far_); };
-            if (in_parallel) {
-                options_.parallel_for(seeds.size(), grow_one);
-            } else {
-                serial_for(seeds.size(), grow_one);
-            }
+            const auto grow_one = [&](std::size_t i) {
+                grown[i] = grow_within_error(seeds[i], wanted, far);
+            };
+            run(seeds.size(), grow_one);
             for (Grown& one : grown) {
-                work += one.work;
+                progress.work += one.work;
+                for (const Estimate& error : one.found) far.add({&error.at, 1});
+                progress.found.insert(progress.found.end(), one.found.begin(), one.found.end());
                 pool.push_back(std::move(one));
             }
-            const std::size_t best = take_best(pool, wanted, in_parallel, work);
+            const std::size_t best = find_best(pool, wanted);
             for (const std::uint32_t cell : pool[best].cells) {
                 if (!wanted[cell]) continue;
                 wanted[cell] = false;
                 --left;
             }
-            chosen.push_back(std::move(pool[best].cells));
-            std::sort(chosen.back().begin(), chosen.back().end());
+            progress.chosen.push_back(std::move(pool[best].cells));
+            std::sort(progress.chosen.back().begin(), progress.chosen.back().end());
             pool.erase(pool.begin() + static_cast<std::ptrdiff_t>(best));
         }
-        if (left > 0) chosen.resize(limit + 1);  // not enough
-        return chosen;
+        if (left > 0) progress.chosen.resize(limit + 1);  // not enough
+        return progress;
     }
 
     [[nodiscard]] std::vector<std::uint32_t> count_uses(const std::vector<Cells>& pieces) const {
@@ -325,40 +397,29 @@ private:
             if (pieces.size() <= std::max<std::size_t>(options_.few_enough, 1)) return;
             if (work_ > options_.most_work) return;
             const std::vector<std::uint32_t> uses = count_uses(pieces);
-            std::vector<std::vector<Cells>> better(kAtOnce);
-            std::vector<std::size_t> work(kAtOnce, 0);
+            std::vector<Progress> tried(kAtOnce);
             const auto attempt = [&](std::size_t i) {
-                better[i] = try_fewer(pieces, uses, round * kAtOnce + i, work[i]);
+                tried[i] = try_fewer(pieces, uses, round * kAtOnce + i);
             };
             options_.parallel_for(kAtOnce, attempt);
-            work_ = std::accumulate(work.begin(), work.end(), work_);
-            const auto best = std::find_if(better.begin(), better.end(), [this](auto& list) {
-                return !list.empty() && is_within_error(list);
-            });
+            for (const Progress& one : tried) {
+                work_ += one.work;
+                for (const Estimate& error : one.found) far_.add({&error.at, 1});
+                found_.insert(found_.end(), one.found.begin(), one.found.end());
+            }
+            const auto best = std::find_if(tried.begin(), tried.end(),
+                                           [](const Progress& one) { return !one.chosen.empty(); });
             ++idle;
-            if (best == better.end()) continue;
+            if (best == tried.end()) continue;
             idle = 0;
-            pieces = std::move(*best);
+            pieces = std::move(best->chosen);
             drop_needless(pieces);
         }
     }
 
-    /// What was not there before stands at the front of the list; points that it should keep
-    /// out are remembered.
-    bool is_within_error(const std::vector<Cells>& pieces) {
-        for (std::size_t i = 0; i < std::min(pieces.size(), kGivenUp); ++i) {
-            if (pieces[i].size() < 2) continue;
-            const Estimate error = measure(pieces[i]);
-            if (error.distance <= options_.error) continue;
-            far_.add({&error.at, 1});
-            return false;
-        }
-        return true;
-    }
-
-    /// All pieces, fewer than before, or as many that take in more; or nothing.
-    std::vector<Cells> try_fewer(const std::vector<Cells>& pieces, std::vector<std::uint32_t> uses,
-                                 std::size_t number, std::size_t& work) {
+    /// All pieces, fewer than before; or none.
+    Progress try_fewer(const std::vector<Cells>& pieces, std::vector<std::uint32_t> uses,
+                       std::size_t number) const {
         const std::uint64_t salt = mixed(number);
         const std::size_t count = 2 + salt / 7 % (kGivenUp - 1);
         const auto given_up = neighbourhood(pieces, salt % pieces.size(), count);
@@ -369,11 +430,16 @@ private:
         for (const std::size_t i : given_up) {
             for (const std::uint32_t cell : pieces[i]) wanted[cell] = uses[cell] == 0;
         }
-        std::vector<Cells> fresh = cover_wanted(wanted, given_up.size() - 1, salt, false, work);
-        if (fresh.size() >= given_up.size()) return {};
+        PointGroups far = far_;
+        Progress fresh =
+            cover_wanted(std::move(wanted), given_up.size() - 1, salt, far, serial_for);
+        if (fresh.chosen.size() >= given_up.size()) {
+            fresh.chosen.clear();
+            return fresh;
+        }
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             if (std::find(given_up.begin(), given_up.end(), i) == given_up.end()) {
-                fresh.push_back(pieces[i]);
+                fresh.chosen.push_back(pieces[i]);
             }
         }
         return fresh;
@@ -383,6 +449,8 @@ private:
     const DistanceField& field_;
     const CoverOptions& options_;
     PointGroups far_;
+    std::vector<Estimate> found_;
+    std::vector<Reach> reach_;
     std::vector<Double3> centre_;
     std::vector<double> radius_;
     std::vector<Cells> neighbours_;

@@ -20,9 +20,10 @@ struct CoverCell {
 struct CoverOptions {
     double error = 0;      ///< pieces are estimated to stick out by no more than this, model units
     double margin = 0.25;  ///< a share of it: hulls grow among nodes that are nearer by that
-    std::size_t rounds = 16;     ///< of attempts to do with fewer pieces
-    std::size_t few_enough = 0;  ///< no more attempts when there are as few
-    /// Gives up, incomplete, after so much work: looks at a group of points or at a cell.
+    std::size_t rounds = 16;               ///< of attempts to do with fewer pieces
+    std::size_t few_enough = 0;            ///< no more attempts when there are as few
+    std::span<const Estimate> known = {};  ///< points of the space around, and how far out
+    /// Gives up, incomplete, after so much work: some ten nanoseconds of one core each.
     std::size_t most_work = 1'000'000'000;
     ParallelFor parallel_for = serial_for;
 };
@@ -30,6 +31,7 @@ struct CoverOptions {
 struct Cover {
     std::vector<std::vector<std::uint32_t>> pieces;  ///< cells, ascending; every cell is in one
     bool complete = true;                            ///< else there are no pieces
+    std::vector<Estimate> found;                     ///< more of what is known
     std::size_t work = 0;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "convex/convex_hull.h"
 #include "mesh/vectors.h"
@@ -18,6 +19,7 @@ using mesh::minus;
 
 constexpr int kMostSteps = 40;      ///< of a search for a plane; then the point counts as within
 constexpr double kNothing = 1e-18;  ///< of squares: as near as this is within
+constexpr std::uint32_t kClosed = std::numeric_limits<std::uint32_t>::max();
 constexpr std::size_t kManyPoints = 96;  ///< of a hull: it is pruned when there are more
 
 /// Up to four points around the origin, and the point of their hull that is nearest to it.
@@ -115,6 +117,11 @@ Double3 nearest_to_origin(Simplex& s) {
     }
 }
 
+Double3 middle(const mesh::Box& box) {
+    return {box.lower.x / 2 + box.upper.x / 2, box.lower.y / 2 + box.upper.y / 2,
+            box.lower.z / 2 + box.upper.z / 2};
+}
+
 Double3 unit(const Double3& v) {
     const double length = std::sqrt(dot(v, v));
     return {v.x / length, v.y / length, v.z / length};
@@ -150,17 +157,24 @@ std::size_t PointRows::farthest(const Double3& along) const {
 
 void PointGroups::add(std::span<const Double3> points) {
     if (points.empty()) return;
-    Double3 lower = points.front();
-    Double3 upper = points.front();
-    for (const Double3& p : points) {
-        lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
-        upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
-    }
-    const Double3 centre = {lower.x / 2 + upper.x / 2, lower.y / 2 + upper.y / 2,
-                            lower.z / 2 + upper.z / 2};
-    groups_.push_back({centre, static_cast<std::uint32_t>(points_.size()),
-                       static_cast<std::uint32_t>(points.size())});
+    Group group{
+        {}, static_cast<std::uint32_t>(points_.size()), static_cast<std::uint32_t>(points.size())};
+    for (const Double3& p : points) group.box.add(p);
+    groups_.push_back(group);
     points_.insert(points_.end(), points.begin(), points.end());
+}
+
+/// None that a set lies beyond.
+void SeparatedPoints::Planes::forbid(std::size_t i) {
+    x[i] = y[i] = z[i] = 0;
+    offset[i] = -std::numeric_limits<double>::infinity();
+}
+
+void SeparatedPoints::Planes::swap(std::size_t i, std::size_t k) {
+    std::swap(x[i], x[k]);
+    std::swap(y[i], y[k]);
+    std::swap(z[i], z[k]);
+    std::swap(offset[i], offset[k]);
 }
 
 void SeparatedPoints::Planes::resize(std::size_t count) {
@@ -171,17 +185,15 @@ void SeparatedPoints::Planes::resize(std::size_t count) {
 }
 
 SeparatedPoints::SeparatedPoints(const PointGroups& kept_out)
-    : kept_out_(kept_out), is_open_(kept_out.groups().size(), 0) {
-    groups_.resize(kept_out.groups().size());
-    single_.resize(kept_out.points().size());
-}
+    : kept_out_(kept_out), is_near_(kept_out.groups().size(), 0) {}
 
 /// A direction in which the point lies beyond the hull of what there is and of more.
 std::optional<SeparatedPoints::Touching> SeparatedPoints::find_plane(
-    const Double3& kept_out, const Double3& first, std::span<const Double3> more) const {
+    const Double3& kept_out, const Double3& first, std::span<const Double3> more) {
     Double3 normal = unit(first);
     Simplex simplex;
     for (int step = 0; step < kMostSteps; ++step) {
+        work_ += points_.size() + more.size();
         Double3 support{};
         double most = -std::numeric_limits<double>::infinity();
         if (points_.size() > 0) {
@@ -211,6 +223,7 @@ bool SeparatedPoints::keep_out(Planes& planes, std::size_t i, std::span<const Do
                                const Double3& centre, const Added& added) {
     const Double3 old = {planes.x[i], planes.y[i], planes.z[i]};
     if (dot(old, old) > 0) {
+        work_ += added.points.size();
         const double offset = planes.offset[i];
         const auto is_before = [&](const Double3& p) { return dot(old, p) < offset; };
         if (std::all_of(added.points.begin(), added.points.end(), is_before)) return true;
@@ -233,49 +246,100 @@ bool SeparatedPoints::keep_out(Planes& planes, std::size_t i, std::span<const Do
     return try_plane(found_.size() - 1);
 }
 
-bool SeparatedPoints::keep_out_points(const PointGroups::Group& group, const Added& added,
-                                      bool is_new) {
-    for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-        if (!is_new && single_.x[i] * added.centre.x + single_.y[i] * added.centre.y +
-                               single_.z[i] * added.centre.z + added.radius <
-                           single_.offset[i]) {
-            continue;
+/// All points of a group, each beyond a plane of its own.
+bool SeparatedPoints::keep_out_points(const Near& near, const Added& added) {
+    const PointGroups::Group& group = kept_out_.groups()[near.group];
+    constexpr std::size_t kAtOnce = 64;
+    const Double3& c = added.centre;
+    work_ += group.count;
+    for (std::size_t begin = 0; begin < group.count; begin += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, group.count - begin);
+        const std::size_t first = near.single + begin;
+        std::array<double, kAtOnce> beyond;
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = first + k;
+            beyond[k] = single_.x[i] * c.x + single_.y[i] * c.y + single_.z[i] * c.z +
+                        added.radius - single_.offset[i];
         }
-        const Double3& p = kept_out_.points()[i];
-        if (!keep_out(single_, i, {&p, 1}, p, added)) return false;
+        for (std::size_t k = 0; k < count; ++k) {
+            if (beyond[k] < 0) continue;
+            const Double3& p = kept_out_.points()[group.first + begin + k];
+            if (!keep_out(single_, first + k, {&p, 1}, p, added)) return false;
+        }
     }
     return true;
+}
+
+bool SeparatedPoints::keep_out_group(std::size_t i, const Added& added) {
+    if (near_[i].single == kClosed) {
+        const PointGroups::Group& group = kept_out_.groups()[near_[i].group];
+        const auto all = std::span(kept_out_.points()).subspan(group.first, group.count);
+        if (keep_out(planes_, i, all, middle(group.box), added)) return true;
+        if (group.count == 1) return false;
+        opened_.push_back(i);
+        near_[i].single = static_cast<std::uint32_t>(single_.size());
+        single_.resize(single_.size() + group.count);
+    }
+    return keep_out_points(near_[i], added);
+}
+
+/// Groups that the hull's box newly reaches; none of them has a plane.
+void SeparatedPoints::look_around(const mesh::Box& box) {
+    const auto& groups = kept_out_.groups();
+    for (std::uint32_t i = 0; i < groups.size(); ++i) {
+        if (is_near_[i] != 0 || !groups[i].box.meets(box)) continue;
+        is_near_[i] = 1;
+        near_.push_back({i, kClosed});
+    }
+    planes_.resize(near_.size());
+}
+
+bool SeparatedPoints::keep_out_all(const Added& added) {
+    constexpr std::size_t kAtOnce = 64;
+    const Double3& c = added.centre;
+    work_ += near_.size();
+    for (std::size_t begin = 0; begin < near_.size(); begin += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, near_.size() - begin);
+        std::array<double, kAtOnce> beyond;
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t i = begin + k;
+            beyond[k] = planes_.x[i] * c.x + planes_.y[i] * c.y + planes_.z[i] * c.z +
+                        added.radius - planes_.offset[i];
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            if (beyond[k] < 0 || keep_out_group(begin + k, added)) continue;
+            blocking_ = begin + k;
+            return false;
+        }
+    }
+    return true;
+}
+
+/// What was looked at in vain. What blocked the way is looked at sooner the next time.
+void SeparatedPoints::forget(std::size_t near_count, std::size_t single_count) {
+    for (const std::size_t i : opened_) near_[i].single = kClosed;
+    for (std::size_t i = near_count; i < near_.size(); ++i) is_near_[near_[i].group] = 0;
+    near_.resize(near_count);
+    planes_.resize(near_count);
+    single_.resize(single_count);
+    if (blocking_ >= near_count) return;
+    const std::size_t sooner = blocking_ / 2;
+    std::swap(near_[blocking_], near_[sooner]);
+    planes_.swap(blocking_, sooner);
 }
 
 bool SeparatedPoints::add(std::span<const Double3> points, const Double3& centre, double radius) {
     changes_.clear();
     found_.clear();
     opened_.clear();
-    const Added added{points, centre, radius};
-    const bool is_first = points_.size() == 0;
-    const auto& groups = kept_out_.groups();
-    constexpr std::size_t kAtOnce = 64;
-    for (std::size_t begin = 0; begin < groups.size(); begin += kAtOnce) {
-        const std::size_t count = std::min(kAtOnce, groups.size() - begin);
-        std::array<double, kAtOnce> beyond;
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t i = begin + k;
-            beyond[k] = groups_.x[i] * centre.x + groups_.y[i] * centre.y +
-                        groups_.z[i] * centre.z + radius - groups_.offset[i];
-        }
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t i = begin + k;
-            const PointGroups::Group& group = groups[i];
-            if (is_open_[i] != 0) {
-                if (!keep_out_points(group, added, false)) return false;
-                continue;
-            }
-            if (beyond[k] < 0 && !is_first) continue;
-            const auto all = std::span(kept_out_.points()).subspan(group.first, group.count);
-            if (keep_out(groups_, i, all, group.centre, added)) continue;
-            if (!keep_out_points(group, added, true)) return false;
-            opened_.push_back(static_cast<std::uint32_t>(i));
-        }
+    mesh::Box box = box_;
+    for (const Double3& p : points) box.add(p);
+    const std::size_t near_count = near_.size();
+    const std::size_t single_count = single_.size();
+    if (!box_.contains(box.lower) || !box_.contains(box.upper)) look_around(box);
+    if (!keep_out_all({points, centre, radius})) {
+        forget(near_count, single_count);
+        return false;
     }
     for (const Change& change : changes_) {
         const Double3& n = found_[change.plane].normal;
@@ -284,15 +348,22 @@ bool SeparatedPoints::add(std::span<const Double3> points, const Double3& centre
         change.planes->z[change.of] = n.z;
         change.planes->offset[change.of] = change.offset;
     }
-    for (const std::uint32_t group : opened_) is_open_[group] = 1;
+    for (const std::size_t i : opened_) planes_.forbid(i);
+    box_ = box;
     for (const Double3& p : points) points_.add(p);
     if (points_.size() > kManyPoints + 2 * pruned_size_) prune();
     return true;
 }
 
-void SeparatedPoints::prune() {
+std::vector<Double3> SeparatedPoints::outer_points() const {
     std::vector<Double3> all;
+    all.reserve(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) all.push_back(points_.at(i));
+    return all;
+}
+
+void SeparatedPoints::prune() {
+    const std::vector<Double3> all = outer_points();
     points_ = {};
     for (const Double3& p : convex_hull(all).points) points_.add(p);
     pruned_size_ = points_.size();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cdprep/format/geometry.h"
+#include "mesh/point_tree.h"
 
 namespace cdprep::convex {
 
@@ -37,7 +38,7 @@ private:
 class PointGroups {
 public:
     struct Group {
-        Double3 centre;
+        mesh::Box box;
         std::uint32_t first;  ///< of its points
         std::uint32_t count;
     };
@@ -55,7 +56,8 @@ private:
 };
 
 /// A growing convex hull and points that it may not take in, each with a plane between: one
-/// for all of a group while that can be, then one for each point.
+/// for all of a group while that can be, then one for each point. What is beyond the hull's
+/// box needs none.
 ///
 /// Rounded: what is decided here is a choice, and the result is measured afterwards. Points
 /// nearer to the hull than about 1e-9 of their distances count as within.
@@ -68,6 +70,14 @@ public:
     /// `centre` and `radius` are of a ball around them.
     bool add(std::span<const Double3> points, const Double3& centre, double radius);
 
+    /// Of all that were added, those that are not within others' hull, and some that are.
+    [[nodiscard]] std::vector<Double3> outer_points() const;
+
+    /// How many planes and points were looked at.
+    [[nodiscard]] std::size_t work() const {
+        return work_;
+    }
+
 private:
     /// A plane that touches the hull: what is beyond is outside.
     struct Touching {
@@ -78,7 +88,17 @@ private:
     struct Planes {
         std::vector<double> x, y, z;  ///< normals, away from the hull
         std::vector<double> offset;   ///< of the nearest point of the set
+        [[nodiscard]] std::size_t size() const {
+            return x.size();
+        }
         void resize(std::size_t count);
+        void forbid(std::size_t i);
+        void swap(std::size_t i, std::size_t k);
+    };
+    /// A group that the hull's box reaches.
+    struct Near {
+        std::uint32_t group;
+        std::uint32_t single;  ///< the first of its points' planes; kClosed: none
     };
     /// Points that are being added.
     struct Added {
@@ -93,21 +113,29 @@ private:
         double offset;
     };
     [[nodiscard]] std::optional<Touching> find_plane(const Double3& kept_out, const Double3& first,
-                                                     std::span<const Double3> more) const;
+                                                     std::span<const Double3> more);
     bool keep_out(Planes& planes, std::size_t i, std::span<const Double3> kept_out,
                   const Double3& centre, const Added& added);
-    bool keep_out_points(const PointGroups::Group& group, const Added& added, bool is_new);
+    bool keep_out_points(const Near& near, const Added& added);
+    bool keep_out_group(std::size_t i, const Added& added);
+    bool keep_out_all(const Added& added);
+    void look_around(const mesh::Box& box);
+    void forget(std::size_t near_count, std::size_t single_count);
     void prune();
 
     const PointGroups& kept_out_;
     PointRows points_;
+    mesh::Box box_;
     std::size_t pruned_size_ = 0;
-    Planes groups_;
+    std::vector<Near> near_;
+    Planes planes_;  ///< of near groups
     Planes single_;
-    std::vector<std::uint8_t> is_open_;  ///< groups whose points have planes of their own
-    std::vector<std::uint32_t> opened_;  ///< while points are added
+    std::vector<std::uint8_t> is_near_;  ///< of each group
+    std::vector<std::size_t> opened_;    ///< while points are added
     std::vector<Touching> found_;
     std::vector<Change> changes_;
+    std::size_t blocking_ = 0;  ///< the near group that could not be kept out last
+    std::size_t work_ = 0;
 };
 
 }  // namespace cdprep::convex

@@ -166,7 +166,7 @@ private:
         std::vector<Double3> points;
         points.reserve(places.size());
         for (const std::uint32_t place : places) points.push_back(cells_.places[place].lower);
-        return field_.estimate(convex_hull(points)).distance <= options_.error;
+        return field_.estimate(convex_hull(points), options_.error).distance <= options_.error;
     }
 
     static Double3 centre(const Box& box) {
