@@ -15,6 +15,7 @@
 #include "find_hull_damage.h"
 #include "find_octree_damage.h"
 #include "find_piece_damage.h"
+#include "find_piece_tree_damage.h"
 #include "find_tetra_damage.h"
 
 // Every read is a copy of a few bytes at an offset that was proved to lie inside
@@ -368,9 +369,8 @@ bool is_swept_sphere(const SweptNode& node, std::uint32_t box, SweptKind kind) n
     return good;
 }
 
-Found find_bad_swept(const Content& content) {
+Found find_bad_swept(const Content& content, SweptKind kind) {
     if (const Found damage = find_bad_float(content)) return damage;
-    const SweptKind kind = swept_kind(content.header.flags);
     for (std::uint64_t i = 0; i < content.entry.count; ++i) {
         const auto node = content.element<SweptNode>(i);
         for (std::uint32_t box = 0; box < kBvhWidth; ++box) {
@@ -418,12 +418,17 @@ Found find_bad_content(const Content& content) {
         case SectionId::bvh_nodes:
             return counted(bvh_shape(content.header.triangle_count).node_count,
                            [&] { return find_bad_float(content); });
+        case SectionId::piece_nodes:
+            return find_bad_float(content);
+        case SectionId::piece_swept:
+            return find_bad_swept(content, SweptKind::rectangle);
         case SectionId::oriented_nodes:
             return counted(bvh_shape(content.header.triangle_count).node_count,
                            [&] { return find_bad_float(content); });
         case SectionId::swept_nodes:
-            return counted(bvh_shape(content.header.triangle_count).node_count,
-                           [&] { return find_bad_swept(content); });
+            return counted(bvh_shape(content.header.triangle_count).node_count, [&] {
+                return find_bad_swept(content, swept_kind(content.header.flags));
+            });
         case SectionId::bvh_leaves:
             return counted(bvh_shape(content.header.triangle_count).leaf_count,
                            [&] { return find_bad_leaf(content); });
@@ -489,6 +494,8 @@ Found find_bad_content(const Content& content) {
         case SectionId::piece_triangles:
         case SectionId::piece_vertices:
         case SectionId::piece_facets:
+        case SectionId::piece_leaves:
+        case SectionId::piece_node_hulls:
             return nothing_more();
     }
     return nothing_more();
@@ -519,6 +526,7 @@ Found find_missing(Bytes file) {
     if (const Found damage = find_missing_tetra(file)) return damage;
     if (const Found damage = find_missing_hulls(file)) return damage;
     if (const Found damage = find_missing_pieces(file)) return damage;
+    if (const Found damage = find_missing_piece_tree(file)) return damage;
     return std::nullopt;
 }
 
@@ -559,6 +567,7 @@ std::optional<Damage> find_damage(std::span<const std::byte> file, SectionSet wa
     if (const Found damage = find_tetra_damage(file, wanted)) return damage;
     if (const Found damage = find_hull_damage(file, wanted)) return damage;
     if (const Found damage = find_piece_damage(file, wanted)) return damage;
+    if (const Found damage = find_piece_tree_damage(file, wanted)) return damage;
     return std::nullopt;
 }
 

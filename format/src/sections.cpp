@@ -20,7 +20,7 @@ struct Kind {
     const char* name;
 };
 
-constexpr std::array<Kind, 54> kKinds = {{
+constexpr std::array<Kind, 58> kKinds = {{
     {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
     {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
     {SectionId::triangles, sizeof(Triangle), "triangles"},
@@ -75,6 +75,10 @@ constexpr std::array<Kind, 54> kKinds = {{
     {SectionId::piece_triangles, 4, "piece_triangles"},
     {SectionId::piece_vertices, 4, "piece_vertices"},
     {SectionId::piece_facets, sizeof(PieceFacet), "piece_facets"},
+    {SectionId::piece_nodes, sizeof(BvhNode), "piece_nodes"},
+    {SectionId::piece_leaves, sizeof(PieceLeaf), "piece_leaves"},
+    {SectionId::piece_swept, sizeof(SweptNode), "piece_swept"},
+    {SectionId::piece_node_hulls, sizeof(PieceNodeHull), "piece_node_hulls"},
 }};
 
 const Kind* find_kind(SectionId id) noexcept {

@@ -73,6 +73,10 @@ struct Model::State {
     std::span<const std::uint32_t> piece_triangles;
     std::span<const std::uint32_t> piece_vertices;
     std::span<const format::PieceFacet> piece_facets;
+    std::span<const format::BvhNode> piece_nodes;
+    std::span<const format::SweptNode> piece_swept;
+    std::span<const format::PieceLeaf> piece_leaves;
+    std::span<const format::PieceNodeHull> piece_node_hulls;
 
     void find_sections(SectionSet wanted);
 
@@ -147,6 +151,10 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::piece_triangles, wanted, piece_triangles);
     view(SectionId::piece_vertices, wanted, piece_vertices);
     view(SectionId::piece_facets, wanted, piece_facets);
+    view(SectionId::piece_nodes, wanted, piece_nodes);
+    view(SectionId::piece_swept, wanted, piece_swept);
+    view(SectionId::piece_leaves, wanted, piece_leaves);
+    view(SectionId::piece_node_hulls, wanted, piece_node_hulls);
 }
 
 namespace {
@@ -380,6 +388,18 @@ std::span<const std::uint32_t> Model::piece_vertices() const noexcept {
 }
 std::span<const format::PieceFacet> Model::piece_facets() const noexcept {
     return state_->piece_facets;
+}
+std::span<const format::BvhNode> Model::piece_nodes() const noexcept {
+    return state_->piece_nodes;
+}
+std::span<const format::SweptNode> Model::piece_swept() const noexcept {
+    return state_->piece_swept;
+}
+std::span<const format::PieceLeaf> Model::piece_leaves() const noexcept {
+    return state_->piece_leaves;
+}
+std::span<const format::PieceNodeHull> Model::piece_node_hulls() const noexcept {
+    return state_->piece_node_hulls;
 }
 
 std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {

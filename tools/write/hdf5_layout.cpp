@@ -334,6 +334,27 @@ Handle piece_facet_type() {
                      {"flags", offsetof(PieceFacet, flags), H5T_STD_U32LE, {}}});
 }
 
+Handle piece_leaf_type() {
+    using format::PieceLeaf;
+    return compound(sizeof(PieceLeaf),
+                    {{"piece", offsetof(PieceLeaf, piece), H5T_STD_U32LE, {}},
+                     {"first_triangle", offsetof(PieceLeaf, first_triangle), H5T_STD_U32LE, {}},
+                     {"count", offsetof(PieceLeaf, count), H5T_STD_U32LE, {}}});
+}
+
+Handle piece_node_hull_type() {
+    using format::PieceNodeHull;
+    constexpr std::size_t kBlocks = format::kPieceHullCorners / format::kHullLanes;
+    return compound(sizeof(PieceNodeHull),
+                    {{"block",
+                      offsetof(PieceNodeHull, block),
+                      H5T_IEEE_F64LE,
+                      {kBlocks, 3, format::kHullLanes}},
+                     {"slack", offsetof(PieceNodeHull, slack), H5T_IEEE_F64LE, {}},
+                     {"count", offsetof(PieceNodeHull, count), H5T_STD_U32LE, {}},
+                     {"reserved", offsetof(PieceNodeHull, reserved), H5T_STD_U32LE, {13}}});
+}
+
 Handle scalar(hid_t type) {
     return {H5Tcopy(type), H5Tclose};
 }
@@ -453,6 +474,14 @@ const std::vector<Look>& looks() {
          "vertices that are the corners of each piece's hull"},
         {SectionId::piece_facets, piece_facet_type, 0, "1",
          "facets of each piece's hull, over its own corners; flags: 1 virtual, 2 a face begins"},
+        {SectionId::piece_nodes, node_type, 0, "frame coordinates",
+         "boxes of the hierarchy over pieces, eight a node, root first"},
+        {SectionId::piece_swept, swept_type, 0, "frame coordinates",
+         "swept rectangles around what the same boxes of piece_nodes hold"},
+        {SectionId::piece_leaves, piece_leaf_type, 0, "1",
+         "what boxes of the lowest piece_nodes hold: a run of piece_triangles, of one piece"},
+        {SectionId::piece_node_hulls, piece_node_hull_type, 0, "model units",
+         "convex hulls of few corners around what the upper piece_nodes hold"},
     };
     return all;
 }

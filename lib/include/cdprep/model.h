@@ -143,6 +143,11 @@ public:
     [[nodiscard]] std::span<const std::uint32_t> piece_triangles() const noexcept;
     [[nodiscard]] std::span<const std::uint32_t> piece_vertices() const noexcept;
     [[nodiscard]] std::span<const format::PieceFacet> piece_facets() const noexcept;
+    /// The hierarchy over pieces, root first (format/pieces.h); empty when baked without.
+    [[nodiscard]] std::span<const format::BvhNode> piece_nodes() const noexcept;
+    [[nodiscard]] std::span<const format::SweptNode> piece_swept() const noexcept;
+    [[nodiscard]] std::span<const format::PieceLeaf> piece_leaves() const noexcept;
+    [[nodiscard]] std::span<const format::PieceNodeHull> piece_node_hulls() const noexcept;
 
     /// Name number `index` of instance_names, group_names or material_names;
     /// empty when there is none. O(index).

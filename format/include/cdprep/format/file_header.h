@@ -93,9 +93,13 @@ enum class SectionId : std::uint32_t {
     hull_starts = 60,  ///< uint32: of each larger hull, per cell of directions, a point far in it
     pieces = 50,       ///< Piece, in the order of their lowest triangle; sections 50 to 53
                        ///< are in pieces.h
-    piece_triangles = 51,  ///< uint32 per triangle: a triangle, tree order; by piece, rising
-    piece_vertices = 52,   ///< uint32: vertices that are corners of hulls; by piece, rising
-    piece_facets = 53,     ///< PieceFacet, by piece
+    piece_triangles = 51,   ///< uint32 per triangle: a triangle, tree order; by piece, rising
+    piece_vertices = 52,    ///< uint32: vertices that are corners of hulls; by piece, rising
+    piece_facets = 53,      ///< PieceFacet, by piece
+    piece_nodes = 54,       ///< BvhNode: boxes of the hierarchy over pieces, root first
+    piece_leaves = 55,      ///< PieceLeaf
+    piece_swept = 61,       ///< SweptNode per BvhNode of piece_nodes: rectangles
+    piece_node_hulls = 56,  ///< PieceNodeHull per node above the lowest level, and of the root
 };
 
 /// In repaired_from and source_vertex: made by a repair, from nothing in the file.

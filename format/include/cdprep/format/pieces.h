@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "cdprep/format/bvh_shape.h"
+#include "cdprep/format/hull.h"
+
 namespace cdprep::format {
 
 /// Bits of Piece::flags.
@@ -44,6 +47,45 @@ struct PieceFacet {
     std::array<std::uint32_t, 3> corner;  ///< places among the corners of its own piece
     std::uint32_t flags;                  ///< PieceFacetFlags
 };
+
+/// Triangles of one piece that a box of the lowest piece_nodes is around: one after the
+/// other in piece_triangles. Sections 54 to 56 and 61 are all there or none.
+struct PieceLeaf {
+    std::uint32_t piece;
+    std::uint32_t first_triangle;  ///< in piece_triangles
+    std::uint32_t count;           ///< 1 to kBvhWidth
+};
+
+/// Most corners of the hull around a node of the hierarchy of pieces.
+inline constexpr std::uint32_t kPieceHullCorners = 32;
+
+/// A convex hull of few corners around what a node of the hierarchy of pieces holds: every
+/// vertex below is in it, exactly.
+struct PieceNodeHull {
+    std::array<HullBlock, kPieceHullCorners / kHullLanes> block;  ///< corners
+    /// No point of it is farther than this from the exact hull of what is below, model units.
+    double slack;
+    std::uint32_t count;         ///< corners, 1 to kPieceHullCorners; lanes beyond repeat the last
+    std::uint32_t reserved[13];  ///< zero
+};
+
+/// The shape of the hierarchy: as that of a model's boxes, but what a box of level 0 is
+/// around is leaf 8i + j of piece_leaves. `leaves` is at most kMaxPieceLeaves.
+inline constexpr std::uint32_t kMaxPieceLeaves = kMaxTriangles / kBvhWidth;
+[[nodiscard]] constexpr BvhShape piece_tree_shape(std::uint32_t leaves) noexcept {
+    return bvh_shape(leaves * kBvhWidth);
+}
+
+/// How many nodes have hulls, the first ones: all above level 0, and the root.
+[[nodiscard]] constexpr std::uint32_t piece_hull_count(const BvhShape& shape) noexcept {
+    return shape.levels > 1 ? shape.first[0] : shape.node_count;
+}
+
+static_assert(sizeof(PieceLeaf) == 12 && alignof(PieceLeaf) == 4);
+static_assert(sizeof(PieceNodeHull) == 832 && alignof(PieceNodeHull) == 64);
+static_assert(offsetof(PieceNodeHull, slack) == 768 && offsetof(PieceNodeHull, count) == 776);
+static_assert(std::is_trivially_copyable_v<PieceLeaf> &&
+              std::is_trivially_copyable_v<PieceNodeHull>);
 
 static_assert(sizeof(Piece) == 32 && alignof(Piece) == 8);
 static_assert(offsetof(Piece, outer_error) == 16 && offsetof(Piece, dimension) == 24);

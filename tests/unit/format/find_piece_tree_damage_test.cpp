@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/pieces.h"
+#include "cdprep/format/sections.h"
+#include "support/meshes.h"
+#include "support/reseal.h"
+#include "support/tiny_pieces.h"
+
+namespace cdprep::format {
+namespace {
+
+using test::AlignedBytes;
+
+constexpr std::array kIds = {SectionId::piece_nodes, SectionId::piece_leaves,
+                             SectionId::piece_node_hulls, SectionId::piece_swept};
+
+/// A ball with several pieces, leaves and hulls.
+AlignedBytes baked() {
+    const test::TestMesh ball = test::icosphere(3);
+    return test::with_pieces(
+        test::bake_tiny(ball.positions, ball.triangles, {.double_precision = true}));
+}
+
+/// What a file is but for one section, which is gone or has other bytes.
+template <class Change>
+AlignedBytes with_changed(SectionId id, Change change) {
+    const AlignedBytes whole = baked();
+    std::vector<test::TinySection> sections;
+    for (std::uint32_t number = 1; number < 64; ++number) {
+        const auto entry = find_section(whole.span(), SectionId{number});
+        if (!entry) continue;
+        const auto bytes = whole.span().subspan(entry->offset, entry->count * entry->element_size);
+        test::TinySection section{entry->id, {bytes.begin(), bytes.end()}};
+        if (entry->id != id || change(section.bytes)) sections.push_back(std::move(section));
+    }
+    return test::assemble(read_header(whole.span()), sections);
+}
+
+/// After `change` of element `index`, the damage is of this kind, in this section.
+template <class T, class Change>
+void expect(DamageKind kind, SectionId id, std::size_t index, Change change) {
+    const AlignedBytes file = with_changed(id, [&](std::vector<std::byte>& bytes) {
+        T element;
+        std::memcpy(&element, bytes.data() + index * sizeof element, sizeof element);
+        change(element);
+        std::memcpy(bytes.data() + index * sizeof element, &element, sizeof element);
+        return true;
+    });
+    const auto damage = find_damage(file.span(), SectionSet::all());
+    ASSERT_TRUE(damage) << section_name(id);
+    EXPECT_EQ(damage->kind, kind) << section_name(damage->section);
+    EXPECT_EQ(damage->section, id);
+}
+
+TEST(FindPieceTreeDamage, AcceptsASoundHierarchy) {
+    EXPECT_FALSE(find_damage(baked().span(), SectionSet::all()));
+    EXPECT_FALSE(find_deep_damage(baked().span()));
+    const test::TestMesh empty;
+    EXPECT_FALSE(
+        find_damage(test::with_pieces(test::bake_tiny(empty.positions, empty.triangles)).span(),
+                    SectionSet::all()));
+}
+
+TEST(FindPieceTreeDamage, RefusesAHierarchyOfWhichAPartIsMissing) {
+    for (const SectionId missing : kIds) {
+        const AlignedBytes file =
+            with_changed(missing, [](std::vector<std::byte>&) { return false; });
+        const auto damage = find_damage(file.span(), SectionSet::all());
+        ASSERT_TRUE(damage) << section_name(missing);
+        EXPECT_EQ(damage->kind, DamageKind::missing_section);
+        EXPECT_EQ(damage->section, missing);
+    }
+}
+
+TEST(FindPieceTreeDamage, RefusesSectionsOfAnotherLength) {
+    for (const SectionId id : kIds) {
+        const AlignedBytes file = with_changed(id, [&](std::vector<std::byte>& bytes) {
+            bytes.resize(bytes.size() - element_size(id));
+            return true;
+        });
+        const auto damage = find_damage(file.span(), SectionSet::all());
+        ASSERT_TRUE(damage) << section_name(id);
+        EXPECT_EQ(damage->kind, DamageKind::bad_count) << section_name(id);
+    }
+}
+
+TEST(FindPieceTreeDamage, RefusesLeavesThatAreNoRunsOfTheirPiece) {
+    constexpr auto kLeaves = SectionId::piece_leaves;
+    expect<PieceLeaf>(DamageKind::bad_index, kLeaves, 3, [](PieceLeaf& l) { l.piece = ~0U; });
+    expect<PieceLeaf>(DamageKind::bad_count, kLeaves, 3, [](PieceLeaf& l) { l.count = 0; });
+    expect<PieceLeaf>(DamageKind::bad_count, kLeaves, 3, [](PieceLeaf& l) { l.count = 9; });
+    expect<PieceLeaf>(DamageKind::bad_order, kLeaves, 3,
+                      [](PieceLeaf& l) { l.first_triangle = ~0U; });
+    expect<PieceLeaf>(DamageKind::bad_order, kLeaves, 3,
+                      [](PieceLeaf& l) { l.first_triangle += 20; });
+    expect<PieceLeaf>(DamageKind::bad_order, kLeaves, 3,
+                      [](PieceLeaf& l) { l.piece += l.piece == 0 ? 1 : -1; });
+}
+
+TEST(FindPieceTreeDamage, RefusesBoundsThatAreNone) {
+    constexpr auto kHulls = SectionId::piece_node_hulls;
+    constexpr auto kNumber = DamageKind::bad_number;
+    using Hull = PieceNodeHull;
+    expect<Hull>(kNumber, kHulls, 0, [](Hull& h) { h.slack = -1; });
+    expect<Hull>(kNumber, kHulls, 0, [](Hull& h) { h.slack = NAN; });
+    expect<Hull>(kNumber, kHulls, 0, [](Hull& h) { h.count = 0; });
+    expect<Hull>(kNumber, kHulls, 0, [](Hull& h) { h.count = 33; });
+    expect<Hull>(kNumber, kHulls, 0, [](Hull& h) { h.reserved[12] = 1; });
+    expect<Hull>(kNumber, kHulls, 0, [](Hull& h) { h.block[3].at[2][7] = INFINITY; });
+    expect<BvhNode>(kNumber, SectionId::piece_nodes, 1,
+                    [](BvhNode& node) { node.lower[1][2] = NAN; });
+    expect<SweptNode>(kNumber, SectionId::piece_swept, 1,
+                      [](SweptNode& node) { node.radius[2] = -1; });
+}
+
+}  // namespace
+}  // namespace cdprep::format
