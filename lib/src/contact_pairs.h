@@ -4,8 +4,9 @@
 #include <optional>
 
 #include "cdprep/overlapping_triangles.h"
+#include "find_contact.h"
 #include "leaf_batch.h"
-#include "walk_pairs.h"
+#include "walked_trees.h"
 
 namespace cdprep {
 
@@ -71,7 +72,7 @@ private:
 
 /// Calls `found(a, b)`, tree order, for every pair of triangles in contact until it returns false;
 /// returns false when it did.
-template <Search kSearch, class Found>
+template <Search kSearch, class Trees = TriangleTrees, class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
                       Workspace& workspace, const OverlapOptions& options, Found&& found) noexcept {
     Workspace::Storage& scratch = workspace.storage();
@@ -83,15 +84,32 @@ bool for_each_contact(const Model& a, const Model& b, const Placement& placement
         return !(*touch)(at_a, at_b, certain) || static_cast<bool>(found(at_a, at_b));
     };
     const PlacedBoxes placed = place_boxes(a, b, placement);
-    const bool whole = walk_pairs<kSearch>(Tree(a), Tree(b), placed, scratch,
-                                           [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
-                                               if (!batch) batch.emplace(a, b, placed, scratch);
-                                               batch->add(leaf_a, leaf_b);
-                                               if (kSearch == Search::all && !batch->full())
-                                                   return true;
-                                               return batch->flush(decide);
-                                           });
+    const Trees trees(a, b);
+    const auto add = [&](const LeafLanes& in_a, const LeafLanes& in_b) {
+        batch->add(in_a.leaf, in_a.lanes, in_b.leaf, in_b.lanes);
+        return !batch->full() || batch->flush(decide);
+    };
+    const bool whole = walk_pairs<kSearch>(
+        trees.a, trees.b, placed, scratch, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
+            if (!batch) batch.emplace(a, b, placed, scratch);
+            return trees.each_pair(leaf_a, leaf_b, add) &&
+                   (kSearch == Search::all || batch->flush(decide));
+        });
     return whole && (!batch || batch->flush(decide));
+}
+
+/// The first pair of triangles in contact that a walk meets.
+template <class Trees>
+std::optional<TreePair> find_contact_by(const Model& a, const Model& b, const Placement& placement,
+                                        Workspace& workspace,
+                                        const OverlapOptions& options) noexcept {
+    std::optional<TreePair> contact;
+    for_each_contact<Search::first, Trees>(a, b, placement, workspace, options,
+                                           [&](std::uint32_t at_a, std::uint32_t at_b) {
+                                               contact = TreePair{at_a, at_b};
+                                               return false;
+                                           });
+    return contact;
 }
 
 }  // namespace cdprep

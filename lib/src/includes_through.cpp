@@ -295,6 +295,7 @@ Inclusion includes_through(Structure structure, const Model& model, const Double
             if (model.octree_leaf_codes().empty()) break;
             return through_keys(model, p, counts);
         case Structure::bvh:
+        case Structure::pieces:  // nothing is asked of one model through them
             break;
     }
     return includes(model, p, workspace);

@@ -8,6 +8,7 @@
 #include "box_placement.h"
 #include "cdprep/build_bvh.h"
 #include "moved_model.h"
+#include "node_lists.h"
 #include "prefetch.h"
 #include "workspace_storage.h"
 
@@ -131,11 +132,13 @@ public:
         return true;
     }
 
-    /// Triangles of one pair of leaves that may be as near as reach.limit. Valid
+    /// Triangles of parts of two leaves that may be as near as reach.limit. Valid
     /// until the next call.
-    std::span<kernels::TriangleGap> near_triangles(std::uint32_t leaf_a, std::uint32_t leaf_b,
+    std::span<kernels::TriangleGap> near_triangles(const LeafLanes& in_a, const LeafLanes& in_b,
                                                    const kernels::Reach& reach) noexcept {
-        set_pair(0, leaf_a, leaf_b);
+        set_pair(0, in_a.leaf, in_b.leaf);
+        scratch_.leaf_pairs[0].used_a &= in_a.lanes;
+        scratch_.leaf_pairs[0].used_b &= in_b.lanes;
         if (scratch_.counts != nullptr) count_batch(*scratch_.counts, 1);
         const std::size_t found = kernels::active().near_triangles(
             placement_, scratch_.leaf_pairs[0], reach, scratch_.leaf_scratch);

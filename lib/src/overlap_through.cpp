@@ -1,12 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/overlap_through.h"
 
+#include "contact_pairs.h"
 #include "contacts_through.h"
 #include "hashed_overlap.h"
+#include "piece_contact.h"
 #include "smallest_pairs.h"
 
 namespace cdprep {
 namespace {
+
+/// Each pair once: a triangle is in one piece.
+bool visit_contacts_through_pieces(const QuestionThrough& question, ContactVisitor visit) noexcept {
+    const auto found = [&](std::uint32_t at_a, std::uint32_t at_b) { return visit({at_a, at_b}); };
+    return for_each_contact<Search::all, PieceTrees>(question.a, question.b, question.placement,
+                                                     question.workspace, question.options, found);
+}
 
 bool visit_contacts_through(const QuestionThrough& question, ContactVisitor visit) noexcept {
     if (question.a.triangle_count() == 0 || question.b.triangle_count() == 0) return true;
@@ -18,6 +27,8 @@ bool visit_contacts_through(const QuestionThrough& question, ContactVisitor visi
         case Structure::hashed_octree:
         case Structure::hashed_octree_literal:
             return visit_contacts_through_keys(question, visit);
+        case Structure::pieces:
+            return visit_contacts_through_pieces(question, visit);
         default:
             return true;
     }
@@ -41,9 +52,13 @@ std::size_t overlapping_triangles_through(const StructureOptions& through, const
 
 bool any_overlap_through(const StructureOptions& through, const Model& a, const Model& b,
                          const Placement& placement, Workspace& workspace,
-                         const OverlapOptions& options) noexcept {
+                         const OverlapOptions& options, PieceCache* cache) noexcept {
     if (through.structure == Structure::bvh) {
-        return any_contact(a, b, placement, workspace, options, nullptr);
+        PairCache* pair = cache == nullptr ? nullptr : &cache->pair;
+        return any_contact(a, b, placement, workspace, options, pair);
+    }
+    if (through.structure == Structure::pieces) {
+        return any_contact_of_pieces(a, b, placement, workspace, options, cache);
     }
     const QuestionThrough question = {through, a, b, placement, workspace, options, Search::first};
     const auto visit = [](const TreePair& /*pair*/) { return false; };

@@ -23,6 +23,9 @@ format::SectionSet sections_of(Structure structure) noexcept {
         case Structure::tetra_tree:
             return {SectionId::tetra_tree, SectionId::tetra_nodes, SectionId::tetra_references,
                     SectionId::tetra_top};
+        case Structure::pieces:
+            return {SectionId::pieces,       SectionId::piece_triangles,  SectionId::piece_nodes,
+                    SectionId::piece_leaves, SectionId::piece_node_hulls, SectionId::piece_swept};
         default:
             return {};
     }

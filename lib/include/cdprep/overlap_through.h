@@ -5,6 +5,7 @@
 #include <span>
 
 #include "cdprep/overlapping_triangles.h"
+#include "cdprep/piece_cache.h"
 #include "cdprep/structure.h"
 
 namespace cdprep {
@@ -22,10 +23,11 @@ namespace cdprep {
     Workspace& workspace, std::span<TrianglePair> pairs,
     const OverlapOptions& options = {}) noexcept;
 
-/// Returns whether any two triangles overlap; stops at the first pair found.
+/// Returns whether any two triangles overlap; stops at the first pair found. `cache` may be
+/// null; Structure::bvh and Structure::pieces start from it, the others leave it alone.
 [[nodiscard]] bool any_overlap_through(const StructureOptions& through, const Model& a,
                                        const Model& b, const Placement& placement,
-                                       Workspace& workspace,
-                                       const OverlapOptions& options = {}) noexcept;
+                                       Workspace& workspace, const OverlapOptions& options = {},
+                                       PieceCache* cache = nullptr) noexcept;
 
 }  // namespace cdprep

@@ -20,6 +20,7 @@ enum class Structure : std::uint8_t {
     /// so it misses pairs. For studies.
     hashed_octree_literal,
     tetra_tree,  ///< both models' tetra-trees, side by side; the fastest about points
+    pieces,      ///< both models' hierarchies over convex pieces of their surfaces
 };
 
 /// Which exact test decides about two triangles. They agree always.

@@ -13,6 +13,7 @@
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
+#include "support/tiny_pieces.h"
 
 #include "workspace_storage.h"
 
@@ -20,7 +21,7 @@ namespace cdprep::test {
 namespace {
 
 constexpr std::array kStructures = {Structure::octree, Structure::adaptive_octree,
-                                    Structure::tetra_tree};
+                                    Structure::tetra_tree, Structure::pieces};
 constexpr std::array kDescents = {Descent::larger, Descent::a_first, Descent::b_first,
                                   Descent::both};
 constexpr std::array kLeafTests = {LeafTest::guigue_devillers, LeafTest::feito_torres};
@@ -33,7 +34,7 @@ struct Limits {
     bool boxes = false;  ///< around what octrees' cells hold
 };
 
-/// With an octree, an adaptive octree and a tetra-tree.
+/// With an octree, an adaptive octree, a tetra-tree and pieces.
 AlignedBytes with_all(const AlignedBytes& file, const Limits& limits) {
     const auto boxes_in = limits.boxes ? std::optional(build::Frame{}) : std::nullopt;
     const AlignedBytes octree = with_octree(
@@ -42,9 +43,10 @@ AlignedBytes with_all(const AlignedBytes& file, const Limits& limits) {
                                                                 .threshold = limits.threshold,
                                                                 .rule = limits.rule,
                                                                 .boxes_in = boxes_in});
-    return with_tetra_tree(adaptive, {.level = std::min(limits.level, format::kMaxTetraLevel),
-                                      .threshold = limits.threshold,
-                                      .bounding = limits.bounding});
+    return with_pieces(
+        with_tetra_tree(adaptive, {.level = std::min(limits.level, format::kMaxTetraLevel),
+                                   .threshold = limits.threshold,
+                                   .bounding = limits.bounding}));
 }
 
 OpenModel open_all(const TestMesh& mesh, const Limits& limits, const TinyOptions& options = {}) {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cdprep/distance.h"
+#include "cdprep/piece_cache.h"
+#include "cdprep/structure.h"
+
+namespace cdprep {
+
+/// Answers as distance(), bit for bit where the models do not touch, and where they do perhaps by
+/// another pair of triangles that touch, through another structure of both files:
+/// Structure::pieces, which must have the sections that sections_of() names beside those that
+/// distance() needs; a file that lacks them is as one without triangles. Through every other
+/// structure distance() itself answers. Never allocates. `cache` may be null.
+[[nodiscard]] std::optional<Distance> distance_through(const StructureOptions& through,
+                                                       const Model& a, const Model& b,
+                                                       const Placement& placement,
+                                                       Workspace& workspace,
+                                                       const DistanceOptions& options = {},
+                                                       PieceCache* cache = nullptr) noexcept;
+
+/// Answers as is_within(), likewise.
+[[nodiscard]] bool is_within_through(const StructureOptions& through, const Model& a,
+                                     const Model& b, const Placement& placement, double tolerance,
+                                     Workspace& workspace, PieceCache* cache = nullptr) noexcept;
+
+}  // namespace cdprep

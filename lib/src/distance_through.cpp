@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/distance_through.h"
+
+#include "nearest_search.h"
+#include "piece_contact.h"
+
+namespace cdprep {
+namespace {
+
+PairCache* pair_of(PieceCache* cache) noexcept {
+    return cache == nullptr ? nullptr : &cache->pair;
+}
+
+bool have_pieces(const Model& a, const Model& b) noexcept {
+    return !a.piece_leaves().empty() && !b.piece_leaves().empty();
+}
+
+}  // namespace
+
+std::optional<Distance> distance_through(const StructureOptions& through, const Model& a,
+                                         const Model& b, const Placement& placement,
+                                         Workspace& workspace, const DistanceOptions& options,
+                                         PieceCache* cache) noexcept {
+    if (through.structure != Structure::pieces) {
+        return distance(a, b, placement, workspace, options, pair_of(cache));
+    }
+    if (!have_pieces(a, b)) return std::nullopt;
+    if (cache != nullptr && options.as == As::surface && std::isfinite(options.max_distance) &&
+        options.max_distance >= 0 &&
+        hulls_prove_apart(a, b, placement, options.max_distance, *cache,
+                          workspace.storage().counts)) {
+        return std::nullopt;
+    }
+    return distance_by<PieceTrees>(a, b, placement, workspace, options, pair_of(cache));
+}
+
+bool is_within_through(const StructureOptions& through, const Model& a, const Model& b,
+                       const Placement& placement, double tolerance, Workspace& workspace,
+                       PieceCache* cache) noexcept {
+    if (through.structure != Structure::pieces) {
+        return is_within(a, b, placement, tolerance, workspace, pair_of(cache));
+    }
+    if (!(tolerance >= 0) || !have_pieces(a, b)) return false;
+    if (tolerance == 0) return any_contact_of_pieces(a, b, placement, workspace, {}, cache);
+    if (cache != nullptr && std::isfinite(tolerance) &&
+        hulls_prove_apart(a, b, placement, tolerance, *cache, workspace.storage().counts)) {
+        return false;
+    }
+    return is_within_by<PieceTrees>(a, b, placement, tolerance, workspace, pair_of(cache));
+}
+
+}  // namespace cdprep

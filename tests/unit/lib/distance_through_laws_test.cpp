@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/distance_through.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "cdprep/overlap_through.h"
+#include "support/hard_triangles.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+#include "support/tiny_pieces.h"
+
+// The truth in all of these is what distance(), is_within() and overlapping_triangles() answer,
+// whose own laws compare them with rational numbers.
+
+namespace cdprep::test {
+namespace {
+
+constexpr StructureOptions kPieces = {.structure = Structure::pieces};
+
+OpenModel open_pieces(const TestMesh& mesh, const TinyOptions& options = {}) {
+    return open_tiny(with_pieces(bake_tiny(mesh.positions, mesh.triangles, options)));
+}
+
+void expect_same(const std::optional<Distance>& expected, const std::optional<Distance>& found) {
+    ASSERT_EQ(expected.has_value(), found.has_value());
+    if (!expected) return;
+    ASSERT_EQ(expected->lower, found->lower);
+    ASSERT_EQ(expected->upper, found->upper);
+    if (expected->upper == 0) return;  // many pairs touch
+    ASSERT_EQ(expected->triangle_a, found->triangle_a);
+    ASSERT_EQ(expected->triangle_b, found->triangle_b);
+    ASSERT_EQ(expected->witness_a, found->witness_a);
+    ASSERT_EQ(expected->witness_b, found->witness_b);
+}
+
+/// Both models with pieces, and what is asked of them.
+struct Asked {
+    OpenModel a;
+    OpenModel b;
+    Workspace workspace = {};
+    std::size_t asked = 0;
+    std::size_t hits = 0;
+
+    [[nodiscard]] std::vector<TrianglePair> pairs(const StructureOptions& through,
+                                                  const Placement& placement) {
+        std::vector<TrianglePair> found(10'000);
+        found.resize(
+            overlapping_triangles_through(through, a.model, b.model, placement, workspace, found));
+        return found;
+    }
+    /// Every question through pieces as through boxes, with a cache that may be null.
+    void expect_same_answers(const Placement& placement, PieceCache* cache) {
+        const Model &x = a.model, &y = b.model;
+        const auto truth = distance(x, y, placement, workspace);
+        expect_same(truth, distance_through(kPieces, x, y, placement, workspace, {}, cache));
+        if (::testing::Test::HasFatalFailure()) return;
+        const double upper = truth ? truth->upper : 1;
+        for (const double tolerance :
+             {0.0, upper, std::nextafter(upper, 0.0), upper / 2, 2 * upper, -1.0}) {
+            ASSERT_EQ(is_within(x, y, placement, tolerance, workspace),
+                      is_within_through(kPieces, x, y, placement, tolerance, workspace, cache))
+                << tolerance;
+            const DistanceOptions near = {.max_distance = tolerance};
+            expect_same(distance(x, y, placement, workspace, near),
+                        distance_through(kPieces, x, y, placement, workspace, near, cache));
+            if (::testing::Test::HasFatalFailure()) return;
+        }
+        const auto found = pairs({}, placement);
+        ASSERT_EQ(found, pairs(kPieces, placement));
+        ASSERT_EQ(any_overlap_through(kPieces, x, y, placement, workspace, {}, cache),
+                  !found.empty());
+        ++asked;
+        hits += found.empty() ? 0 : 1;
+    }
+};
+
+Placement any_placement(std::mt19937& random, const Pose& p, const Pose& q) {
+    switch (random() % 4) {
+        case 0:
+            return Placement::b_moves(p);
+        case 1:
+            return Placement::a_moves(p);
+        case 2:
+            return Placement::relative(p, q);
+        default:
+            return Placement::world(p, q);
+    }
+}
+
+TEST(DistanceThroughLaws, PiecesAnswerAsBoxesDo) {
+    constexpr std::uint32_t kSeed = 20261121;
+    std::mt19937 random(kSeed);
+    std::size_t asked = 0, hits = 0;
+    for (int round = 0; round < 200; ++round) {
+        const bool coarse = round % 2 == 0;
+        const int count = 1 + static_cast<int>(random() % 90);
+        const auto soup = [&] {
+            return coarse ? coarse_grid_soup(random(), count, 2)
+                          : random_soup(random(), count, 0.2);
+        };
+        Asked pair{open_pieces(soup(), {.double_precision = round % 3 == 0}), open_pieces(soup())};
+        for (int i = 0; i < 5; ++i) {
+            const double reach = std::pow(10, static_cast<int>(random() % 4) - 1);
+            const Pose p =
+                coarse ? Pose::from_rows({0, -1, 0, 1, 0, 0, 0, 0, 1, reach, 0.5, 1}).value()
+                       : random_pose(random, reach);
+            pair.expect_same_answers(any_placement(random, p, random_pose(random, reach)), nullptr);
+            ASSERT_FALSE(HasFatalFailure()) << "seed " << kSeed << ", round " << round;
+        }
+        asked += pair.asked;
+        hits += pair.hits;
+    }
+    EXPECT_GT(hits, asked * 3 / 10);
+    EXPECT_LT(hits, asked * 7 / 10);
+}
+
+// One cache for all questions of a walk through touch, and for walks of other models after it.
+TEST(DistanceThroughLaws, NoCacheChangesAnAnswer) {
+    constexpr std::uint32_t kSeed = 7;
+    std::mt19937 random(kSeed);
+    PieceCache cache;
+    std::size_t asked = 0, hits = 0;
+    for (int round = 0; round < 24; ++round) {
+        const bool coarse = round % 2 == 0;
+        const auto mesh = [&] {
+            return coarse ? coarse_grid_soup(random(), 40, 2) : torus(1, 0.25, 20, 10);
+        };
+        Asked pair{open_pieces(mesh()), open_pieces(coarse ? mesh() : icosphere(2))};
+        const double step = coarse ? 0.375 : 0.25;
+        Double3 at = {coarse ? -7.5 : -5.0, 0, 0};
+        for (int i = 0; i < 40; ++i) {
+            at.x += step;
+            const double turn = i % 3 == 0 ? 0 : 0.002 * i;
+            const Pose pose = Pose::from_quaternion(1, turn, -turn, turn, at).value();
+            pair.expect_same_answers(Placement::b_moves(pose), &cache);
+            ASSERT_FALSE(HasFatalFailure())
+                << "seed " << kSeed << ", round " << round << ", step " << i;
+        }
+        asked += pair.asked;
+        hits += pair.hits;
+    }
+    EXPECT_GT(hits, asked * 3 / 10);
+    EXPECT_LT(hits, asked * 7 / 10);
+}
+
+// A cache with any numbers at all is allowed.
+TEST(DistanceThroughLaws, ACacheOfNonsenseIsHarmless) {
+    std::mt19937 random(11);
+    Asked pair{open_pieces(icosphere(2)), open_pieces(torus(1, 0.25, 20, 10))};
+    for (int round = 0; round < 100; ++round) {
+        PieceCache cache;
+        cache.pair.holds = 1 + 4 * (random() % 2);
+        cache.pair.triangle_a = random();
+        cache.pair.triangle_b = random() % 400;
+        cache.leaf_a = random() % 80;
+        cache.leaf_b = random();
+        cache.hulls.count = random() % 6;
+        for (std::uint32_t& number : cache.hulls.a) number = random() % 16;
+        for (std::uint32_t& number : cache.hulls.b) number = random() % 40;
+        cache.hull_wait = random() % 3;
+        pair.expect_same_answers(Placement::b_moves(random_pose(random, 1.5)), &cache);
+        ASSERT_FALSE(HasFatalFailure()) << round;
+    }
+}
+
+// X01: parallel faces; both in one turned pose.
+TEST(DistanceThroughLaws, ParallelFacesKeepTheirGapWhenTurned) {
+    const Pose pose = Pose::from_quaternion(1, 2, 3, 4, {0.5, -0.25, 2}).value();
+    for (const double gap : {0x1p-3, 0x1p-20, 0x1p-40, 1e-12, 0.0}) {
+        TestMesh beside = unit_cube();
+        for (Double3& p : beside.positions) p.x += p.x == 0 ? 1 + gap : 1;
+        Asked pair{open_pieces(unit_cube(), {.double_precision = true}),
+                   open_pieces(beside, {.double_precision = true})};
+        pair.expect_same_answers(Placement::b_moves(Pose()), nullptr);
+        pair.expect_same_answers(Placement::world(pose, pose), nullptr);
+        const auto found = distance_through(kPieces, pair.a.model, pair.b.model,
+                                            Placement::b_moves(Pose()), pair.workspace);
+        EXPECT_NEAR(found->upper, gap, 1e-14);
+    }
+}
+
+// X03 and X04: the catalogue's touching and degenerate triangles, and one step aside.
+TEST(DistanceThroughLaws, HardTrianglesTouchOrDoNot) {
+    for (const HardPair& hard : hard_triangles()) {
+        const TestMesh a{{hard.a[0], hard.a[1], hard.a[2]}, {{{0, 1, 2}}}};
+        for (const double step : {0.0, 0x1p-20, -0x1p-20}) {
+            TestMesh b{{hard.b[0], hard.b[1], hard.b[2]}, {{{0, 1, 2}}}};
+            for (Double3& p : b.positions) p = {p.x + step, p.y + step, p.z + step};
+            Asked pair{open_pieces(a, {.double_precision = true}),
+                       open_pieces(b, {.double_precision = true})};
+            pair.expect_same_answers(Placement::b_moves(Pose()), nullptr);
+            ASSERT_FALSE(HasFatalFailure()) << hard.id;
+        }
+    }
+}
+
+// X06: a gap of 1e-12 where a coordinate's last bit is 1e-10.
+TEST(DistanceThroughLaws, CancellationChangesNothing) {
+    for (const double gap : {1e-12, 1e-10, 3e-10, 1e-6}) {
+        Asked pair{
+            open_pieces(moved_by(unit_cube(), 1, {1e6, 1e6, 1e6}), {.double_precision = true}),
+            open_pieces(moved_by(unit_cube(), 1, {1e6 + 1 + gap, 1e6 + 0.25, 1e6 + 0.125}),
+                        {.double_precision = true})};
+        PieceCache cache;
+        for (int i = 0; i < 3; ++i) {
+            pair.expect_same_answers(Placement::b_moves(Pose()), &cache);
+            pair.expect_same_answers(
+                Placement::b_moves(Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, gap, 0, 0}).value()),
+                &cache);
+        }
+    }
+}
+
+// X08: whatever is permitted is kept.
+TEST(DistanceThroughLaws, PermittedErrorsAreKept) {
+    std::mt19937 random(2);
+    const OpenModel a = open_pieces(random_soup(random(), 60, 0.2));
+    const OpenModel b = open_pieces(random_soup(random(), 60, 0.2));
+    Workspace workspace;
+    for (int round = 0; round < 50; ++round) {
+        const Placement placement = Placement::b_moves(random_pose(random, 5));
+        const auto best = distance(a.model, b.model, placement, workspace);
+        for (const double error : {1e-6, 1e-3, 0.1, 1.0}) {
+            const auto found = distance_through(kPieces, a.model, b.model, placement, workspace,
+                                                {.relative_error = error});
+            EXPECT_LE(found->lower, best->upper);
+            EXPECT_GE(found->upper, best->lower);
+            EXPECT_LE(found->upper, found->lower * (1 + error) + 1e-12);
+        }
+    }
+}
+
+// X09: by hand, a cube of side 1 in the middle of one of side 3.
+TEST(DistanceThroughLaws, ASolidInsideAnotherIsNotApart) {
+    Asked pair{open_pieces(unit_cube()), open_pieces(moved_by(unit_cube(), 3, {-1, -1, -1}))};
+    const Placement still = Placement::b_moves(Pose());
+    PieceCache cache;
+    pair.expect_same_answers(still, &cache);
+    const auto solids = distance_through(kPieces, pair.a.model, pair.b.model, still, pair.workspace,
+                                         {.max_distance = 0.5, .as = As::solid}, &cache);
+    ASSERT_TRUE(solids);
+    EXPECT_EQ(solids->upper, 0);
+}
+
+TEST(DistanceThroughLaws, SizeDoesNotMatter) {
+    for (const double size : {0x1p-900, 0x1p-100, 1.0, 0x1p100, 0x1p900}) {
+        Asked ball{open_pieces(moved_by(icosphere(2), size, {}), {.double_precision = true}),
+                   open_pieces(moved_by(icosphere(2), size, {}), {.double_precision = true})};
+        PieceCache cache;
+        for (const double far : {3.0, 2.5, 2.4, 1.5}) {
+            const Placement placement = Placement::b_moves(
+                Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, far * size, 0, 0}).value());
+            ball.expect_same_answers(placement, &cache);
+            ASSERT_FALSE(HasFatalFailure()) << size << ", " << far;
+        }
+    }
+}
+
+// By definition: a model without the sections has no pieces.
+TEST(DistanceThroughLaws, NothingIsFarFromAModelWithoutPieces) {
+    const OpenModel plain = open_tiny(unit_cube()), cube = open_pieces(unit_cube());
+    const OpenModel empty = open_pieces(TestMesh{});
+    Workspace workspace;
+    PieceCache cache;
+    const Placement still = Placement::b_moves(Pose());
+    (void)distance_through(kPieces, cube.model, cube.model, still, workspace, {}, &cache);
+    for (const OpenModel* none : {&plain, &empty}) {
+        EXPECT_FALSE(
+            distance_through(kPieces, none->model, cube.model, still, workspace, {}, &cache));
+        EXPECT_FALSE(
+            is_within_through(kPieces, cube.model, none->model, still, 1, workspace, &cache));
+        EXPECT_FALSE(
+            any_overlap_through(kPieces, none->model, none->model, still, workspace, {}, &cache));
+    }
+    EXPECT_EQ(distance_through({}, plain.model, cube.model, still, workspace)->upper, 0);
+}
+
+}  // namespace
+}  // namespace cdprep::test
