@@ -109,8 +109,9 @@ void BakedArrays::keep(Structures structures) {
     structures_ = std::move(structures);
 }
 
-void BakedArrays::keep(convex::PieceArrays pieces) {
+void BakedArrays::keep(convex::PieceArrays pieces, convex::PieceTree tree) {
     pieces_ = std::move(pieces);
+    piece_tree_ = std::move(tree);
 }
 
 std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) const {
@@ -150,6 +151,10 @@ std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) con
     add(SectionId::piece_triangles, bytes_of(pieces_.triangles), true);
     add(SectionId::piece_vertices, bytes_of(pieces_.vertices), true);
     add(SectionId::piece_facets, bytes_of(pieces_.facets), true);
+    add(SectionId::piece_nodes, bytes_of(piece_tree_.nodes), true);
+    add(SectionId::piece_swept, bytes_of(piece_tree_.swept), true);
+    add(SectionId::piece_leaves, bytes_of(piece_tree_.leaves), true);
+    add(SectionId::piece_node_hulls, bytes_of(piece_tree_.hulls), true);
     return sections;
 }
 

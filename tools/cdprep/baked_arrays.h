@@ -10,6 +10,7 @@
 #include "cdprep/format/section_set.h"
 #include "cdprep/format/verdict.h"
 #include "convex/piece_arrays.h"
+#include "convex/piece_tree.h"
 #include "mesh/mesh.h"
 #include "structures.h"
 #include "write/write_file.h"
@@ -37,8 +38,8 @@ public:
     /// Adds what was built over mesh().
     void keep(Structures structures);
 
-    /// Adds the pieces of mesh()'s surface.
-    void keep(convex::PieceArrays pieces);
+    /// Adds the pieces of mesh()'s surface, and the hierarchy over them.
+    void keep(convex::PieceArrays pieces, convex::PieceTree tree);
 
     /// Views of those sections in `wanted` that have something to say. Valid
     /// while this object lives and stays where it is.
@@ -46,6 +47,9 @@ public:
 
     [[nodiscard]] const mesh::Mesh& mesh() const noexcept {
         return mesh_;
+    }
+    [[nodiscard]] const build::Frame& frame() const noexcept {
+        return bvh_.frame;
     }
     [[nodiscard]] const Structures& structures() const noexcept {
         return structures_;
@@ -65,6 +69,7 @@ private:
     BakedNotes notes_;
     Structures structures_;
     convex::PieceArrays pieces_;
+    convex::PieceTree piece_tree_;
     std::vector<format::Float3> floats_;
     std::vector<std::uint32_t> face_;
     std::vector<format::Instance> instances_;

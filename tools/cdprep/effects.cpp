@@ -26,8 +26,10 @@ constexpr SectionSet kSource = {SectionId::source_triangle, SectionId::source_ve
                                 SectionId::group_runs,      SectionId::group_names,
                                 SectionId::material_runs,   SectionId::material_names};
 /// Convex pieces of the surface.
-constexpr SectionSet kPieces = {SectionId::pieces, SectionId::piece_triangles,
-                                SectionId::piece_vertices, SectionId::piece_facets};
+constexpr SectionSet kPieces = {SectionId::pieces,           SectionId::piece_triangles,
+                                SectionId::piece_vertices,   SectionId::piece_facets,
+                                SectionId::piece_nodes,      SectionId::piece_leaves,
+                                SectionId::piece_node_hulls, SectionId::piece_swept};
 /// In every bake, whatever it serves.
 constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance, SectionId::verdicts,
                                 SectionId::findings};

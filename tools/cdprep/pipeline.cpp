@@ -322,7 +322,13 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
         }));
     }
     if (options.effects.sections.contains(format::SectionId::pieces)) {
-        arrays.keep(stages.run("pieces", [&] { return build_pieces(arrays, options, threads); }));
+        convex::PieceArrays pieces =
+            stages.run("pieces", [&] { return build_pieces(arrays, options, threads); });
+        convex::PieceTree tree = stages.run("piece tree", [&] {
+            return convex::make_piece_tree(arrays.mesh(), pieces, arrays.frame(),
+                                           threads.parallel_for());
+        });
+        arrays.keep(std::move(pieces), std::move(tree));
     }
     if (is_interrupted()) return interrupted(input);
 
