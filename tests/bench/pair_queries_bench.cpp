@@ -4,7 +4,8 @@
 // for the others) where it was found at configure time. For each pair of models and each set
 // of poses (light, deep, near) every contender asks the whole set, contenders take
 // turns, and that several times; the time of a pose is the median of its rounds.
-// The cold rounds flush the caches before every question. One thread.
+// The cold rounds flush the caches before every question. One thread. Of bakes with pieces
+// the hierarchy over them is a contender too.
 //
 // Usage: pair_queries_bench BAKES POSES [ROUNDS [PAIR...]]
 // BAKES holds NAME.cdp.h5, baked with --normalize; POSES holds A-B.pose files of 12
@@ -30,8 +31,8 @@
 
 #include "bench_input.h"
 #include "cdprep/collide.h"
-#include "cdprep/distance.h"
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/distance_through.h"
+#include "cdprep/overlap_through.h"
 #include "cdprep/query_counts.h"
 
 #ifdef CDPREP_HAVE_FCL
@@ -65,23 +66,25 @@ public:
 
 class Ours final : public Contender {
 public:
-    Ours(const Model& a, const Model& b) : a_(a), b_(b), pairs_(kMostPairs) {}
+    Ours(const Model& a, const Model& b, Structure structure)
+        : a_(a), b_(b), through_{.structure = structure}, pairs_(kMostPairs) {}
     [[nodiscard]] const char* name() const override {
-        return "cdprep";
+        return through_.structure == Structure::pieces ? "pieces" : "cdprep";
     }
     std::size_t ask(std::size_t question, const Pose& pose) override {
         const Placement placement = Placement::b_moves(pose);
         switch (question) {
             case overlap:
-                return overlapping_triangles(a_, b_, placement, workspace_, pairs_);
+                return overlapping_triangles_through(through_, a_, b_, placement, workspace_,
+                                                     pairs_);
             case collides:
-                return collide(a_, b_, placement, workspace_).hit ? 1 : 0;
+                return any_overlap_through(through_, a_, b_, placement, workspace_) ? 1 : 0;
             case how_far:
-                return distance(a_, b_, placement, workspace_)->upper > 0 ? 1 : 0;
+                return distance_through(through_, a_, b_, placement, workspace_)->upper > 0 ? 1 : 0;
             case within_true:
-                return is_within(a_, b_, placement, kTrueTolerance, workspace_) ? 1 : 0;
+                return is_within(kTrueTolerance, placement) ? 1 : 0;
             default:
-                return is_within(a_, b_, placement, kFalseTolerance, workspace_) ? 1 : 0;
+                return is_within(kFalseTolerance, placement) ? 1 : 0;
         }
     }
 
@@ -94,8 +97,13 @@ public:
     }
 
 private:
+    bool is_within(double tolerance, const Placement& placement) {
+        return is_within_through(through_, a_, b_, placement, tolerance, workspace_);
+    }
+
     const Model& a_;
     const Model& b_;
+    StructureOptions through_;
     Workspace workspace_;
     std::vector<TrianglePair> pairs_;
 };
@@ -267,7 +275,10 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
         const Model b = open_or_stop(bakes / (pair.substr(dash + 1) + ".cdp.h5"));
         const std::vector<Pose> poses = read_poses(poses_folder / (pair + ".pose"));
         std::vector<std::unique_ptr<Contender>> contenders;
-        contenders.push_back(std::make_unique<Ours>(a, b));
+        contenders.push_back(std::make_unique<Ours>(a, b, Structure::bvh));
+        if (!a.piece_nodes().empty() && !b.piece_nodes().empty()) {
+            contenders.push_back(std::make_unique<Ours>(a, b, Structure::pieces));
+        }
 #ifdef CDPREP_HAVE_FCL
         contenders.push_back(std::make_unique<Fcl>(a, b));
 #endif
