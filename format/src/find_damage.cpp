@@ -287,6 +287,16 @@ Found find_bad_names(const Content& content) {
     return content.damage(DamageKind::bad_order, last, end, 0);
 }
 
+/// Two bits for each of three edges.
+Found find_bad_convexity(const Content& content) {
+    constexpr std::uint8_t kMost = (1U << 6) - 1;
+    for (std::uint64_t i = 0; i < content.entry.count; ++i) {
+        const auto bits = content.element<std::uint8_t>(i);
+        if (bits > kMost) return content.damage(DamageKind::bad_number, i, bits, kMost);
+    }
+    return std::nullopt;
+}
+
 Found find_bad_component(const Content& content) {
     std::uint64_t triangles = 0;
     for (std::uint64_t i = 0; i < content.entry.count; ++i) {
@@ -496,7 +506,11 @@ Found find_bad_content(const Content& content) {
         case SectionId::piece_facets:
         case SectionId::piece_leaves:
         case SectionId::piece_node_hulls:
+        case SectionId::piece_adjacency:
+        case SectionId::triangle_piece:
             return nothing_more();
+        case SectionId::edge_convexity:
+            return counted(triangles, [&] { return find_bad_convexity(content); });
     }
     return nothing_more();
 }

@@ -129,20 +129,87 @@ Found find_bad_piece(const Parts& parts, std::uint64_t i) noexcept {
     return std::nullopt;
 }
 
+/// Whether the facet `other` has the edge from `to` to `from`, and `facet` beyond it. Both are
+/// numbered within the piece whose facets begin at `first`.
+bool leads_back(const Parts& parts, const SectionView<PieceAdjacency>& adjacency,
+                std::uint64_t first, std::uint32_t other, std::uint64_t facet, std::uint32_t from,
+                std::uint32_t to) noexcept {
+    const auto& corner = parts.facets[first + other].corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (corner[k] == to && corner[(k + 1) % 3] == from) {
+            return adjacency[first + other].across[k] == facet;
+        }
+    }
+    return false;
+}
+
+/// Pairs the edges of all facets, so that every walk around a corner or a face ends.
+Found find_bad_adjacency(const Parts& parts,
+                         const SectionView<PieceAdjacency>& adjacency) noexcept {
+    if (adjacency.count() != parts.facets.count()) {
+        return adjacency.damage(DamageKind::bad_count, 0, adjacency.count(), parts.facets.count());
+    }
+    for (std::uint64_t i = 0; i < parts.pieces.count(); ++i) {
+        const std::uint64_t first = begins_of(parts, i).facet;
+        const std::uint64_t count = begins_of(parts, i + 1).facet - first;
+        for (std::uint64_t f = 0; f < count; ++f) {
+            const auto& corner = parts.facets[first + f].corner;
+            const auto& across = adjacency[first + f].across;
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (across[k] >= count) {
+                    return adjacency.damage(DamageKind::bad_index, first + f, across[k], count);
+                }
+                if (!leads_back(parts, adjacency, first, across[k], f, corner[k],
+                                corner[(k + 1) % 3])) {
+                    return adjacency.damage(DamageKind::bad_order, first + f, across[k], f);
+                }
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// The piece of each triangle that a piece lists.
+Found find_bad_owner(const Parts& parts, const SectionView<std::uint32_t>& piece_of) noexcept {
+    if (piece_of.count() != parts.triangle_count) {
+        return piece_of.damage(DamageKind::bad_count, 0, piece_of.count(), parts.triangle_count);
+    }
+    for (std::uint64_t t = 0; t < piece_of.count(); ++t) {
+        if (piece_of[t] < parts.pieces.count()) continue;
+        return piece_of.damage(DamageKind::bad_index, t, piece_of[t], parts.pieces.count());
+    }
+    for (std::uint64_t i = 0; i < parts.pieces.count(); ++i) {
+        const std::uint64_t end = begins_of(parts, i + 1).triangle;
+        for (std::uint64_t k = begins_of(parts, i).triangle; k < end; ++k) {
+            const std::uint32_t t = parts.triangles[k];
+            if (piece_of[t] != i) return piece_of.damage(DamageKind::bad_order, t, piece_of[t], i);
+        }
+    }
+    return std::nullopt;
+}
+
+bool is_there(std::span<const std::byte> file, SectionSet wanted, SectionId id) noexcept {
+    return wanted.contains(id) && find_section(file, id).has_value();
+}
+
 }  // namespace
 
 std::optional<Damage> find_missing_pieces(std::span<const std::byte> file) noexcept {
     if (const Found damage = find_gap(file, kIds)) return damage;
-    if (!find_section(file, kIds[0]) || find_section(file, SectionId::triangles)) {
-        return std::nullopt;
+    const bool has_pieces = find_section(file, kIds[0]).has_value();
+    if (!has_pieces && (find_section(file, SectionId::piece_adjacency) ||
+                        find_section(file, SectionId::triangle_piece))) {
+        return missing_section(kIds[0]);
     }
+    const bool needs_triangles = has_pieces || find_section(file, SectionId::edge_convexity);
+    if (!needs_triangles || find_section(file, SectionId::triangles)) return std::nullopt;
     return missing_section(SectionId::triangles);
 }
 
 std::optional<Damage> find_piece_damage(std::span<const std::byte> file,
                                         SectionSet wanted) noexcept {
     for (const SectionId id : kIds) {
-        if (!wanted.contains(id) || !find_section(file, id)) return std::nullopt;
+        if (!is_there(file, wanted, id)) return std::nullopt;
     }
     const Parts parts(file, wanted);
     if (parts.triangles.count() != parts.triangle_count) {
@@ -156,6 +223,12 @@ std::optional<Damage> find_piece_damage(std::span<const std::byte> file,
     for (std::uint64_t i = 0; i < parts.pieces.count(); ++i) {
         if (const Found damage = find_bad_piece(parts, i)) return damage;
     }
+    const SectionView<PieceAdjacency> adjacency(file, SectionId::piece_adjacency, wanted);
+    if (is_there(file, wanted, SectionId::piece_adjacency)) {
+        if (const Found damage = find_bad_adjacency(parts, adjacency)) return damage;
+    }
+    const SectionView<std::uint32_t> piece_of(file, SectionId::triangle_piece, wanted);
+    if (is_there(file, wanted, SectionId::triangle_piece)) return find_bad_owner(parts, piece_of);
     return std::nullopt;
 }
 

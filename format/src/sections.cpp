@@ -20,7 +20,7 @@ struct Kind {
     const char* name;
 };
 
-constexpr std::array<Kind, 58> kKinds = {{
+constexpr std::array<Kind, 61> kKinds = {{
     {SectionId::positions_f32, sizeof(Float3), "positions_f32"},
     {SectionId::positions_f64, sizeof(Double3), "positions_f64"},
     {SectionId::triangles, sizeof(Triangle), "triangles"},
@@ -79,6 +79,9 @@ constexpr std::array<Kind, 58> kKinds = {{
     {SectionId::piece_leaves, sizeof(PieceLeaf), "piece_leaves"},
     {SectionId::piece_swept, sizeof(SweptNode), "piece_swept"},
     {SectionId::piece_node_hulls, sizeof(PieceNodeHull), "piece_node_hulls"},
+    {SectionId::piece_adjacency, sizeof(PieceAdjacency), "piece_adjacency"},
+    {SectionId::edge_convexity, 1, "edge_convexity"},
+    {SectionId::triangle_piece, 4, "triangle_piece"},
 }};
 
 const Kind* find_kind(SectionId id) noexcept {

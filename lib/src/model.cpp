@@ -77,6 +77,9 @@ struct Model::State {
     std::span<const format::SweptNode> piece_swept;
     std::span<const format::PieceLeaf> piece_leaves;
     std::span<const format::PieceNodeHull> piece_node_hulls;
+    std::span<const format::PieceAdjacency> piece_adjacency;
+    std::span<const std::uint8_t> edge_convexity;
+    std::span<const std::uint32_t> triangle_piece;
 
     void find_sections(SectionSet wanted);
 
@@ -155,6 +158,9 @@ void Model::State::find_sections(SectionSet wanted) {
     view(SectionId::piece_swept, wanted, piece_swept);
     view(SectionId::piece_leaves, wanted, piece_leaves);
     view(SectionId::piece_node_hulls, wanted, piece_node_hulls);
+    view(SectionId::piece_adjacency, wanted, piece_adjacency);
+    view(SectionId::edge_convexity, wanted, edge_convexity);
+    view(SectionId::triangle_piece, wanted, triangle_piece);
 }
 
 namespace {
@@ -400,6 +406,15 @@ std::span<const format::PieceLeaf> Model::piece_leaves() const noexcept {
 }
 std::span<const format::PieceNodeHull> Model::piece_node_hulls() const noexcept {
     return state_->piece_node_hulls;
+}
+std::span<const format::PieceAdjacency> Model::piece_adjacency() const noexcept {
+    return state_->piece_adjacency;
+}
+std::span<const std::uint8_t> Model::edge_convexity() const noexcept {
+    return state_->edge_convexity;
+}
+std::span<const std::uint32_t> Model::triangle_piece() const noexcept {
+    return state_->triangle_piece;
 }
 
 std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {

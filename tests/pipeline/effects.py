@@ -20,15 +20,18 @@ SOURCE = {"source_triangle", "source_vertex", "source_face", "group_runs", "grou
           "material_runs", "material_names", "instances", "instance_names"}
 PAIR = {"bvh_leaves", "oriented_nodes", "swept_nodes"}
 PIECES = {"pieces", "piece_triangles", "piece_vertices", "piece_facets"}
+CONTACTS = {"piece_adjacency", "edge_convexity", "triangle_piece"}
 # What each effect may hold; sections that would say nothing are left out.
 ALLOWED = {
     "collide": GEOMETRY | PAIR | {"components"}, "inside": GEOMETRY | {"components"},
     "overlap": GEOMETRY | PAIR | SOURCE, "ray": GEOMETRY | SOURCE, "closest": GEOMETRY | SOURCE,
     "distance": GEOMETRY | PAIR | SOURCE, "within": GEOMETRY | PAIR | SOURCE,
     "response": {"mass_properties"}, "pieces": GEOMETRY | PAIR | SOURCE | PIECES,
+    "contacts": GEOMETRY | PAIR | SOURCE | PIECES | CONTACTS,
 }
 MUST_HAVE = {"collide": {"bvh_nodes", "bvh_leaves", "components"}, "inside": {"components"},
-             "overlap": {"source_triangle"}, "response": {"bounds"}, "pieces": PIECES}
+             "overlap": {"source_triangle"}, "response": {"bounds"}, "pieces": PIECES,
+             "contacts": PIECES | CONTACTS}
 
 
 def sections(program, path):

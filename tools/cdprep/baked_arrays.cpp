@@ -114,6 +114,10 @@ void BakedArrays::keep(convex::PieceArrays pieces, convex::PieceTree tree) {
     piece_tree_ = std::move(tree);
 }
 
+void BakedArrays::keep(convex::ContactArrays contacts) {
+    contacts_ = std::move(contacts);
+}
+
 std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) const {
     std::vector<write::Section> sections;
     const auto add = [&](SectionId id, std::span<const std::byte> bytes, bool also_empty) {
@@ -155,6 +159,9 @@ std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) con
     add(SectionId::piece_swept, bytes_of(piece_tree_.swept), true);
     add(SectionId::piece_leaves, bytes_of(piece_tree_.leaves), true);
     add(SectionId::piece_node_hulls, bytes_of(piece_tree_.hulls), true);
+    add(SectionId::piece_adjacency, bytes_of(contacts_.adjacency), true);
+    add(SectionId::edge_convexity, bytes_of(contacts_.convexity), true);
+    add(SectionId::triangle_piece, bytes_of(contacts_.piece_of), true);
     return sections;
 }
 

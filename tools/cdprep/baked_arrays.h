@@ -9,6 +9,7 @@
 #include "cdprep/build_bvh.h"
 #include "cdprep/format/section_set.h"
 #include "cdprep/format/verdict.h"
+#include "convex/contact_arrays.h"
 #include "convex/piece_arrays.h"
 #include "convex/piece_tree.h"
 #include "mesh/mesh.h"
@@ -40,6 +41,11 @@ public:
 
     /// Adds the pieces of mesh()'s surface, and the hierarchy over them.
     void keep(convex::PieceArrays pieces, convex::PieceTree tree);
+    /// Adds what contacts between pieces need besides them.
+    void keep(convex::ContactArrays contacts);
+    [[nodiscard]] const convex::PieceArrays& pieces() const noexcept {
+        return pieces_;
+    }
 
     /// Views of those sections in `wanted` that have something to say. Valid
     /// while this object lives and stays where it is.
@@ -70,6 +76,7 @@ private:
     Structures structures_;
     convex::PieceArrays pieces_;
     convex::PieceTree piece_tree_;
+    convex::ContactArrays contacts_;
     std::vector<format::Float3> floats_;
     std::vector<std::uint32_t> face_;
     std::vector<format::Instance> instances_;

@@ -30,6 +30,9 @@ constexpr SectionSet kPieces = {SectionId::pieces,           SectionId::piece_tr
                                 SectionId::piece_vertices,   SectionId::piece_facets,
                                 SectionId::piece_nodes,      SectionId::piece_leaves,
                                 SectionId::piece_node_hulls, SectionId::piece_swept};
+/// What tells contacts between them.
+constexpr SectionSet kContacts = {SectionId::piece_adjacency, SectionId::edge_convexity,
+                                  SectionId::triangle_piece};
 /// In every bake, whatever it serves.
 constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance, SectionId::verdicts,
                                 SectionId::findings};
@@ -44,9 +47,10 @@ constexpr SectionSet with(SectionSet a, SectionSet b) {
     return a;
 }
 
-constexpr std::array<Effect, 10> kEffects = {{
+constexpr std::array<Effect, 11> kEffects = {{
     {"closest", with(kGeometry, kSource)},
     {"collide", with(with(kGeometry, kPair), {SectionId::components})},
+    {"contacts", with(with(with(with(kGeometry, kPair), kSource), kPieces), kContacts)},
     {"distance", with(with(kGeometry, kPair), kSource)},
     {"inaccessible", with(kGeometry, kSource)},
     {"inside", with(kGeometry, {SectionId::components})},
@@ -117,9 +121,10 @@ SectionSet sections_for(const std::string& effect) {
 std::string missing_sections(SectionSet needed, SectionSet present) {
     // Only one kind of positions is in a file, and some sections are absent when
     // they would say nothing.
-    constexpr std::array<SectionId, 5> kDemanded = {
-        SectionId::triangles, SectionId::bvh_nodes, SectionId::bvh_leaves,
-        SectionId::source_triangle, SectionId::components};
+    constexpr std::array<SectionId, 7> kDemanded = {
+        SectionId::triangles,       SectionId::bvh_nodes,  SectionId::bvh_leaves,
+        SectionId::source_triangle, SectionId::components, SectionId::pieces,
+        SectionId::triangle_piece};
     std::string names;
     if (needed.contains(SectionId::positions_f32) && !present.contains(SectionId::positions_f32) &&
         !present.contains(SectionId::positions_f64)) {

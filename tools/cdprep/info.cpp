@@ -9,6 +9,7 @@
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model.h"
 #include "command.h"
+#include "convex/contact_arrays.h"
 #include "damage_sentence.h"
 #include "find_hull_falsehood.h"
 #include "mapped_file.h"
@@ -44,6 +45,7 @@ Exit run(const Arguments& arguments) {
         auto damage = format::find_deep_damage(bytes);
         if (!damage) damage = find_list_damage(bytes, opened.value());
         if (!damage) damage = find_hull_falsehood(bytes, opened.value());
+        if (!damage) damage = convex::find_convexity_falsehood(bytes, opened.value());
         if (damage) {
             return fail("info",
                         {ErrorCode::unreadable, damage_sentence(arguments.file.string(), *damage)});

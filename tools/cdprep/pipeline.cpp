@@ -330,6 +330,12 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
         });
         arrays.keep(std::move(pieces), std::move(tree));
     }
+    if (options.effects.sections.contains(format::SectionId::piece_adjacency)) {
+        arrays.keep(stages.run("contacts", [&] {
+            return convex::make_contact_arrays(arrays.mesh(), arrays.pieces(),
+                                               threads.parallel_for());
+        }));
+    }
     if (is_interrupted()) return interrupted(input);
 
     const format::FileHeader facts = facts_of(soup, arrays.mesh(), found, normalization, options);

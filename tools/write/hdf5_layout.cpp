@@ -355,6 +355,12 @@ Handle piece_node_hull_type() {
                      {"reserved", offsetof(PieceNodeHull, reserved), H5T_STD_U32LE, {13}}});
 }
 
+Handle piece_adjacency_type() {
+    using format::PieceAdjacency;
+    return compound(sizeof(PieceAdjacency),
+                    {{"across", offsetof(PieceAdjacency, across), H5T_STD_U32LE, {3}}});
+}
+
 Handle scalar(hid_t type) {
     return {H5Tcopy(type), H5Tclose};
 }
@@ -482,6 +488,12 @@ const std::vector<Look>& looks() {
          "what boxes of the lowest piece_nodes hold: a run of piece_triangles, of one piece"},
         {SectionId::piece_node_hulls, piece_node_hull_type, 0, "model units",
          "convex hulls of few corners around what the upper piece_nodes hold"},
+        {SectionId::piece_adjacency, piece_adjacency_type, 0, "1",
+         "for each facet of a piece's hull the facets beyond its three edges"},
+        {SectionId::edge_convexity, [] { return scalar(H5T_STD_U8LE); }, 0, "1",
+         "two bits for each edge of a triangle: 0 unknown, 1 flat, 2 convex, 3 reflex"},
+        {SectionId::triangle_piece, [] { return scalar(H5T_STD_U32LE); }, 0, "1",
+         "number of the piece that each triangle is in"},
     };
     return all;
 }

@@ -148,6 +148,11 @@ public:
     [[nodiscard]] std::span<const format::SweptNode> piece_swept() const noexcept;
     [[nodiscard]] std::span<const format::PieceLeaf> piece_leaves() const noexcept;
     [[nodiscard]] std::span<const format::PieceNodeHull> piece_node_hulls() const noexcept;
+    [[nodiscard]] std::span<const format::PieceAdjacency> piece_adjacency() const noexcept;
+    /// Per triangle, tree order: format::edge_convexity() reads it; empty when baked without.
+    [[nodiscard]] std::span<const std::uint8_t> edge_convexity() const noexcept;
+    /// The piece of each triangle, tree order; empty when baked without.
+    [[nodiscard]] std::span<const std::uint32_t> triangle_piece() const noexcept;
 
     /// Name number `index` of instance_names, group_names or material_names;
     /// empty when there is none. O(index).

@@ -25,6 +25,9 @@ struct Arrays {
     std::vector<std::uint32_t> triangles;
     std::vector<std::uint32_t> vertices;
     std::vector<PieceFacet> facets;
+    std::vector<PieceAdjacency> adjacency;
+    std::vector<std::uint8_t> convexity;
+    std::optional<std::vector<std::uint32_t>> piece_of;
 };
 
 /// Of two triangles side by side: each is a piece, seen from both sides.
@@ -36,18 +39,31 @@ Arrays two_pieces() {
     for (int i = 0; i < 2; ++i) {
         arrays.facets.push_back({{0, 1, 2}, facet_first_of_face});
         arrays.facets.push_back({{0, 2, 1}, facet_first_of_face | facet_virtual});
+        arrays.adjacency.insert(arrays.adjacency.end(), {{{1, 1, 1}}, {{0, 0, 0}}});
     }
+    arrays.piece_of = {0, 1};
+    // Flat where they meet, from corner 1 of the first to 2 and from 0 of the second to 2.
+    constexpr auto kFlat = EdgeConvexity::flat, kUnknown = EdgeConvexity::unknown;
+    arrays.convexity = {edge_convexity_bits({kUnknown, kFlat, kUnknown}),
+                        edge_convexity_bits({kUnknown, kUnknown, kFlat})};
     return arrays;
 }
 
 AlignedBytes file_of(const Arrays& arrays) {
     const test::TestMesh sheet = test::grid_sheet(1, 1);
+    std::vector<test::TinySection> sections = {
+        test::as_section(SectionId::pieces, std::span(arrays.pieces)),
+        test::as_section(SectionId::piece_triangles, std::span(arrays.triangles)),
+        test::as_section(SectionId::piece_vertices, std::span(arrays.vertices)),
+        test::as_section(SectionId::piece_facets, std::span(arrays.facets)),
+        test::as_section(SectionId::piece_adjacency, std::span(arrays.adjacency)),
+        test::as_section(SectionId::edge_convexity, std::span(arrays.convexity))};
+    if (arrays.piece_of) {
+        sections.push_back(
+            test::as_section(SectionId::triangle_piece, std::span(*arrays.piece_of)));
+    }
     return test::with_sections(
-        test::bake_tiny(sheet.positions, sheet.triangles, {.double_precision = true}),
-        {test::as_section(SectionId::pieces, std::span(arrays.pieces)),
-         test::as_section(SectionId::piece_triangles, std::span(arrays.triangles)),
-         test::as_section(SectionId::piece_vertices, std::span(arrays.vertices)),
-         test::as_section(SectionId::piece_facets, std::span(arrays.facets))});
+        test::bake_tiny(sheet.positions, sheet.triangles, {.double_precision = true}), sections);
 }
 
 std::optional<Damage> check(const Arrays& arrays) {
@@ -133,9 +149,31 @@ TEST(FindPieceDamage, RefusesNumbersThatPointNowhere) {
            [](Arrays& a) { a.facets[2].flags = 0; });
 }
 
+TEST(FindPieceDamage, RefusesEdgesThatAreNotPaired) {
+    constexpr auto kAdjacency = SectionId::piece_adjacency;
+    expect(DamageKind::bad_index, kAdjacency, [](Arrays& a) { a.adjacency[2].across[2] = 2; });
+    expect(DamageKind::bad_order, kAdjacency, [](Arrays& a) { a.adjacency[3].across[2] = 1; });
+    expect(DamageKind::bad_count, kAdjacency, [](Arrays& a) { a.adjacency.pop_back(); });
+    expect(DamageKind::bad_order, kAdjacency, [](Arrays& a) { a.facets[3].corner = {0, 1, 2}; });
+}
+
+TEST(FindPieceDamage, RefusesConvexityThatIsNone) {
+    constexpr auto kConvexity = SectionId::edge_convexity;
+    expect(DamageKind::bad_number, kConvexity, [](Arrays& a) { a.convexity[1] = 64; });
+    expect(DamageKind::bad_count, kConvexity, [](Arrays& a) { a.convexity.push_back(0); });
+}
+
+TEST(FindPieceDamage, RefusesTrianglesOfOtherPieces) {
+    constexpr auto kOwner = SectionId::triangle_piece;
+    expect(DamageKind::bad_index, kOwner, [](Arrays& a) { (*a.piece_of)[1] = 2; });
+    expect(DamageKind::bad_order, kOwner, [](Arrays& a) { (*a.piece_of)[1] = 0; });
+    expect(DamageKind::bad_count, kOwner, [](Arrays& a) { a.piece_of->pop_back(); });
+}
+
 TEST(FindPieceDamage, DeepCheckRefusesATriangleInTwoPieces) {
     Arrays arrays = two_pieces();
     arrays.triangles = {0, 0};
+    arrays.piece_of.reset();  // it would tell without the deep check
     EXPECT_FALSE(check(arrays));
     const auto damage = find_deep_damage(file_of(arrays).span());
     ASSERT_TRUE(damage);

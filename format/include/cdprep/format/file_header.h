@@ -100,6 +100,9 @@ enum class SectionId : std::uint32_t {
     piece_leaves = 55,      ///< PieceLeaf
     piece_swept = 61,       ///< SweptNode per BvhNode of piece_nodes: rectangles
     piece_node_hulls = 56,  ///< PieceNodeHull per node above the lowest level, and of the root
+    piece_adjacency = 57,   ///< PieceAdjacency per PieceFacet
+    edge_convexity = 58,    ///< uint8 per triangle, tree order: edge_convexity() of pieces.h
+    triangle_piece = 59,    ///< uint32 per triangle, tree order: the Piece it is in
 };
 
 /// In repaired_from and source_vertex: made by a repair, from nothing in the file.

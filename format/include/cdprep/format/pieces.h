@@ -87,6 +87,37 @@ static_assert(offsetof(PieceNodeHull, slack) == 768 && offsetof(PieceNodeHull, c
 static_assert(std::is_trivially_copyable_v<PieceLeaf> &&
               std::is_trivially_copyable_v<PieceNodeHull>);
 
+/// The facets beyond a facet's edges, numbered within the piece: across[i] beyond the edge
+/// from corner i to the next. Every edge of a hull has two facets.
+struct PieceAdjacency {
+    std::array<std::uint32_t, 3> across;
+};
+
+/// How the surface bends at an edge of a triangle, by exact signs: convex and reflex seen from
+/// outside, that is from where triangles turn counter-clockwise.
+enum class EdgeConvexity : std::uint8_t {
+    /// No two triangles meet in it that agree what outside is: a border, more than two, two
+    /// wound against each other or one over the other in a plane, one without area.
+    unknown = 0,
+    flat = 1,
+    convex = 2,
+    reflex = 3,
+};
+
+/// Of a triangle's bits in edge_convexity: the edge from its corner `edge`, below 3, to the next.
+[[nodiscard]] constexpr EdgeConvexity edge_convexity(std::uint8_t bits, std::size_t edge) noexcept {
+    return static_cast<EdgeConvexity>((bits >> (2 * edge)) & 3);
+}
+
+/// The bits of three edges.
+[[nodiscard]] constexpr std::uint8_t edge_convexity_bits(
+    const std::array<EdgeConvexity, 3>& edge) noexcept {
+    return static_cast<std::uint8_t>(static_cast<unsigned>(edge[0]) |
+                                     static_cast<unsigned>(edge[1]) << 2 |
+                                     static_cast<unsigned>(edge[2]) << 4);
+}
+
+static_assert(sizeof(PieceAdjacency) == 12 && alignof(PieceAdjacency) == 4);
 static_assert(sizeof(Piece) == 32 && alignof(Piece) == 8);
 static_assert(offsetof(Piece, outer_error) == 16 && offsetof(Piece, dimension) == 24);
 static_assert(sizeof(PieceFacet) == 16 && alignof(PieceFacet) == 4);
