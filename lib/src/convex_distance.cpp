@@ -6,19 +6,10 @@
 
 #include "exact_nearest.h"
 #include "gjk.h"
+#include "hull_nearest.h"
 
 namespace cdprep {
 namespace {
-
-ConvexDistance between(const NearestSimplex& simplex, const DistanceBounds& bounds) {
-    return {bounds.lower, bounds.upper, weighted_sum(simplex, &Difference::at_a),
-            weighted_sum(simplex, &Difference::at_b)};
-}
-
-ConvexDistance touching_at(const NearestSimplex& simplex) {
-    const Double3 common = weighted_sum(simplex, &Difference::at_a);
-    return {0, 0, common, common};
-}
 
 /// Whether the bounds are as near each other as was promised.
 bool is_near_enough(const GjkResult& found, const ConvexDistanceOptions& options) {
@@ -38,6 +29,24 @@ bool is_near_enough(const GjkResult& found, const ConvexDistanceOptions& options
 
 }  // namespace
 
+std::optional<HullNearest> hull_nearest(const MovedHull& a, const MovedHull& b,
+                                        const ConvexDistanceOptions& options, ConvexCache* cache,
+                                        QueryCounts* counts) noexcept {
+    const GjkGoal goal = {options.relative_error, options.absolute_error, options.max_distance};
+    const GjkResult found = gjk(a, b, goal, cache, counts);
+    if (found.lower > options.max_distance) return std::nullopt;
+    if (found.verdict == GjkVerdict::meet) return HullNearest{true, {0, 0}, found.simplex};
+    if (found.verdict == GjkVerdict::apart && is_near_enough(found, options)) {
+        return HullNearest{false, {found.lower, found.upper}, found.simplex};
+    }
+    const ExactNearest exact = exact_nearest(a, b, found.simplex, ExactGoal::nearest, counts);
+    const NearestSimplex simplex = exactly_weighted(exact.corner.data(), exact.count);
+    if (exact.meet) return HullNearest{true, {0, 0}, simplex};
+    const DistanceBounds bounds = bounds_of(exact);
+    if (bounds.lower > options.max_distance) return std::nullopt;
+    return HullNearest{false, bounds, simplex};
+}
+
 bool convex_collide(const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
                     ConvexCache* cache, QueryCounts* counts) noexcept {
     if (a.count == 0 || b.count == 0) return false;
@@ -53,20 +62,12 @@ std::optional<ConvexDistance> convex_distance(const ConvexPoints& a, const Conve
                                               ConvexCache* cache, QueryCounts* counts) noexcept {
     if (a.count == 0 || b.count == 0 || !(options.max_distance >= 0)) return std::nullopt;
     const TwoHulls hulls(a, b, placement);
-    const GjkGoal goal = {options.relative_error, options.absolute_error, options.max_distance};
-    const GjkResult found = gjk(hulls.a, hulls.b, goal, cache, counts);
-    if (found.lower > options.max_distance) return std::nullopt;
-    if (found.verdict == GjkVerdict::meet) return touching_at(found.simplex);
-    if (found.verdict == GjkVerdict::apart && is_near_enough(found, options)) {
-        return between(found.simplex, {found.lower, found.upper});
-    }
-    const ExactNearest exact =
-        exact_nearest(hulls.a, hulls.b, found.simplex, ExactGoal::nearest, counts);
-    const NearestSimplex simplex = exactly_weighted(exact.corner.data(), exact.count);
-    if (exact.meet) return touching_at(simplex);
-    const DistanceBounds bounds = bounds_of(exact);
-    if (bounds.lower > options.max_distance) return std::nullopt;
-    return between(simplex, bounds);
+    const std::optional<HullNearest> found = hull_nearest(hulls.a, hulls.b, options, cache, counts);
+    if (!found) return std::nullopt;
+    const Double3 on_a = weighted_sum(found->simplex, &Difference::at_a);
+    if (found->meet) return ConvexDistance{0, 0, on_a, on_a};
+    return ConvexDistance{found->bounds.lower, found->bounds.upper, on_a,
+                          weighted_sum(found->simplex, &Difference::at_b)};
 }
 
 bool convex_is_within(const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,

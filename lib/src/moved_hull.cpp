@@ -25,8 +25,9 @@ namespace cdprep {
 namespace {
 
 constexpr double kSlack = 24 * 0x1p-53;
-constexpr double kUnderflow = 0x1p-1060;  ///< what products of numbers near 0 may lose
-constexpr std::size_t kMostAlike = 24;    ///< corners of about one height that are looked at
+constexpr double kValueError = 6 * 0x1p-53;  ///< as of the kernel
+constexpr double kUnderflow = 0x1p-1060;     ///< what products of numbers near 0 may lose
+constexpr std::size_t kMostAlike = 24;       ///< corners of about one height that are looked at
 
 double at(const Double3& p, std::size_t axis) {
     return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
@@ -71,7 +72,18 @@ Double3 MovedHull::turned_back(const Double3& d) const noexcept {
             (r[2] * d.x + r[5] * d.y) + r[8] * d.z};
 }
 
+std::uint32_t MovedHull::scan_corners(const Double3& local) const noexcept {
+    std::uint32_t best = 0;
+    double most = dot(local, points_->point(0));
+    for (std::uint32_t i = 1; i < count(); ++i) {
+        const double height = dot(local, points_->point(i));
+        if (height > most) most = height, best = i;
+    }
+    return best;
+}
+
 std::uint32_t MovedHull::scan(const Double3& local) const noexcept {
+    if (!points_->corners.empty()) return scan_corners(local);
     const std::array<double, 3> d = {local.x, local.y, local.z};
     const std::uint32_t number = kernels::active().farthest(points_->blocks[0].at[0].data(),
                                                             points_->blocks.size(), d.data());
@@ -120,8 +132,24 @@ double MovedHull::slack(const Double3& direction) const noexcept {
     return kSlack * sum + kUnderflow;
 }
 
+kernels::FarthestPoint MovedHull::proven_by_corners(const Double3& direction,
+                                                    const Double3& origin) const noexcept {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    kernels::FarthestPoint best = {0, -kInfinity, -kInfinity};
+    each_point([&](std::uint32_t number, const Double3& at) {
+        const Double3 p = at - origin;
+        const double value = dot(p, direction);
+        best.bound = std::max(best.bound, value + kValueError * dot_size(p, direction));
+        if (!(value > best.value)) return;
+        best.number = number;
+        best.value = value;
+    });
+    return best;
+}
+
 kernels::FarthestPoint MovedHull::proven_by_all(const Double3& direction,
                                                 const Double3& origin) const noexcept {
+    if (!points_->corners.empty()) return proven_by_corners(direction, origin);
     const Pose still;
     const Pose& pose = pose_ == nullptr ? still : *pose_;
     kernels::MovedDirection from{};
@@ -144,7 +172,6 @@ kernels::FarthestPoint MovedHull::proven(const Double3& direction, const Double3
     const Double3 top = points_->point(farthest);
     const double least = -2 * slack(direction);
     Alike alike(farthest);
-    constexpr double kValueError = 6 * 0x1p-53;  // as of the kernel
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     kernels::FarthestPoint best = {farthest, -kInfinity, -kInfinity};
     for (std::size_t i = 0; i < alike.size(); ++i) {

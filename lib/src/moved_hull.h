@@ -60,6 +60,9 @@ private:
     }
     [[nodiscard]] Double3 turned_back(const Double3& direction) const noexcept;
     [[nodiscard]] std::uint32_t scan(const Double3& local) const noexcept;
+    [[nodiscard]] std::uint32_t scan_corners(const Double3& local) const noexcept;
+    [[nodiscard]] kernels::FarthestPoint proven_by_corners(const Double3& direction,
+                                                           const Double3& origin) const noexcept;
     [[nodiscard]] std::uint32_t climb(const Double3& local, std::uint32_t from) const noexcept;
     [[nodiscard]] double slack(const Double3& direction) const noexcept;
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "exact_within.h"
+#include "near_triangles.h"
 #include "smallest_pairs.h"
 
 // Both hierarchies are walked as for overlaps, with boxes that are wider by the
@@ -118,6 +119,15 @@ bool for_each_within(const Model& a, const Model& b, const Placement& placement,
 }
 
 }  // namespace
+
+bool visit_near_triangles(const Model& a, const Model& b, const Placement& placement,
+                          double tolerance, Workspace& workspace, PairVisitor visit,
+                          const WithinOptions& options) noexcept {
+    return for_each_within(a, b, placement, tolerance, workspace, options,
+                           [&](std::uint32_t at_a, std::uint32_t at_b) {
+                               return visit({at_a, at_b});
+                           });
+}
 
 std::size_t triangles_within(const Model& a, const Model& b, const Placement& placement,
                              double tolerance, Workspace& workspace, std::span<TrianglePair> pairs,

@@ -34,11 +34,23 @@ struct ConvexPoints {
     /// For each direction_cell() a point that is far in its directions, or empty. Any point
     /// is right; a good one saves steps.
     std::span<const std::uint32_t> starts;
+    /// Instead of blocks, for hulls of few points: point i is number corners[i] of `floats` or,
+    /// where those are empty, of `doubles`. Without neighbours.
+    std::span<const std::uint32_t> corners;
+    std::span<const format::Float3> floats;
+    std::span<const Double3> doubles;
 
     [[nodiscard]] Double3 point(std::uint32_t number) const noexcept {
+        if (!corners.empty()) return corner(corners[number]);
         const auto& at = blocks[number / format::kHullLanes].at;
         const std::size_t lane = number % format::kHullLanes;
         return {at[0][lane], at[1][lane], at[2][lane]};
+    }
+
+private:
+    [[nodiscard]] Double3 corner(std::uint32_t number) const noexcept {
+        if (floats.empty()) return doubles[number];
+        return {floats[number].x, floats[number].y, floats[number].z};
     }
 };
 

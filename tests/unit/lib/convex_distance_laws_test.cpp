@@ -121,6 +121,36 @@ TEST(ConvexDistanceLaws, ThinHullsAreAnsweredAsByDefinition) {
     EXPECT_LT(apart, kPairs * 7 / 10);
 }
 
+// By what must not matter: whether points lie in blocks or are named.
+TEST(ConvexDistanceLaws, PointsByNumberAnswerAsThoseInBlocks) {
+    std::mt19937 random(20240607);
+    int apart = 0;
+    for (int i = 0; i < 2000; ++i) {
+        SCOPED_TRACE(i);
+        const HullPair pair = i % 2 == 0 ? grid_pair(random) : fine_pair(random);
+        const SmallHull a(pair.a, Edges::none), b(pair.b, Edges::none);
+        std::vector<std::uint32_t> numbers(std::max(a.points().size(), b.points().size()));
+        for (std::uint32_t n = 0; n < numbers.size(); ++n) numbers[n] = n;
+        const auto named = [&](const SmallHull& hull) {
+            ConvexPoints points;
+            points.count = static_cast<std::uint32_t>(hull.points().size());
+            points.corners = std::span(numbers).first(points.count);
+            points.doubles = hull.points();
+            return points;
+        };
+        const Placement placement = Placement::b_moves(pair.pose);
+        const auto one = convex_distance(a.view(), b.view(), placement);
+        const auto other = convex_distance(named(a), named(b), placement);
+        ASSERT_TRUE(one && other);
+        ASSERT_EQ(one->lower, other->lower);
+        ASSERT_EQ(one->upper, other->upper);
+        ASSERT_EQ(one->witness_a.x, other->witness_a.x);
+        apart += one->lower > 0 ? 1 : 0;
+    }
+    EXPECT_GT(apart, 600);
+    EXPECT_LT(apart, 1400);
+}
+
 /// Points of a sphere, on a coarse grid or not.
 Points ball_points(std::mt19937& random, std::size_t count, bool coarse) {
     std::normal_distribution<double> normal;

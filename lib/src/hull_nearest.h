@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+
+#include "cdprep/convex_distance.h"
+#include "exact_nearest.h"
+
+namespace cdprep {
+
+/// Where two hulls are nearest to each other, by the corners that say so.
+struct HullNearest {
+    bool meet;              ///< they have a common point
+    DistanceBounds bounds;  ///< 0 and 0 when they meet
+    /// The common point, or the two nearest ones, are sums of its corners' points. When they
+    /// do not meet at most three, with weights above 0.
+    NearestSimplex simplex;
+};
+
+/// What convex_distance() answers, and with the same errors. Neither hull is empty.
+[[nodiscard]] std::optional<HullNearest> hull_nearest(const MovedHull& a, const MovedHull& b,
+                                                      const ConvexDistanceOptions& options,
+                                                      ConvexCache* cache,
+                                                      QueryCounts* counts) noexcept;
+
+}  // namespace cdprep
