@@ -67,6 +67,17 @@ struct OpenStep {
 /// A step takes at least one side a level down.
 inline constexpr std::size_t kMaxOpenSteps = std::size_t{2} * (format::kMaxBvhLevels + 1);
 
+/// Two pieces and their nearest triangles met so far.
+struct NearPieces {
+    std::uint64_t key;  ///< piece of A, then of B
+    double upper;       ///< how far the triangles are apart at most
+    std::uint32_t a;    ///< tree order
+    std::uint32_t b;
+};
+
+/// Pairs of pieces that one walk gathers; twice as many as it keeps.
+inline constexpr std::size_t kMaxNearPieces = 4096;
+
 struct Workspace::Storage {
     // What begins cache lines stands first: nothing is lost between.
     NodeLists<64> node_lists_a;
@@ -88,6 +99,7 @@ struct Workspace::Storage {
     KeptBounds bounds_a;
     KeptBounds bounds_b;
     CandidateNodes candidate_nodes;
+    std::array<NearPieces, kMaxNearPieces> near_pieces;
     QueryCounts* counts = nullptr;  ///< or null: nobody asked
 };
 

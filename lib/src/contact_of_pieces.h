@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "contact_side.h"
+#include "workspace_storage.h"
+
+namespace cdprep {
+
+/// What all pairs of pieces of a question share.
+struct ContactQuestion {
+    const Placement* placement;
+    double tolerance;
+    ContactOptions options;
+    QueryCounts* counts;  ///< or null
+};
+
+/// Answers for one pair of pieces, of which two triangles are within the tolerance: the nearest
+/// ones, with `upper` 0 when, and only when, they touch.
+[[nodiscard]] PieceContact contact_of_pieces(const ContactSide& a, const ContactSide& b,
+                                             const NearPieces& near,
+                                             const ContactQuestion& question) noexcept;
+
+}  // namespace cdprep

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/contacts.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "contact_of_pieces.h"
+#include "contact_pairs.h"
+#include "near_triangles.h"
+#include "triangle_distance.h"
+
+// Triangles within the tolerance say which pieces are, each pair of pieces as often as it has
+// such triangles. A walk keeps the smallest pairs of pieces, each once, as many as there is room
+// for, with their nearest triangles; where there are more, another walk takes the next ones. So
+// answers come in order, and memory does not grow with them.
+
+namespace cdprep {
+namespace {
+
+constexpr std::uint64_t kNoLimit = std::numeric_limits<std::uint64_t>::max();
+
+/// The smallest pairs of pieces above those that were answered before.
+class Gathered {
+public:
+    explicit Gathered(std::span<NearPieces> room) noexcept : room_(room) {}
+
+    /// Forgets all, and from now on takes what is after the last.
+    void begin_after(const std::optional<std::uint64_t>& last) noexcept {
+        count_ = 0;
+        limit_ = kNoLimit;
+        least_ = last ? *last + 1 : 0;
+    }
+    [[nodiscard]] bool takes(std::uint64_t key) const noexcept {
+        return key >= least_ && key <= limit_;
+    }
+    void add(const NearPieces& near) noexcept {
+        room_[count_++] = near;
+        if (count_ == room_.size()) reduce(room_.size() / 2);
+    }
+    /// All that were taken, in order, each once.
+    [[nodiscard]] std::span<const NearPieces> all() noexcept {
+        reduce(room_.size());
+        return room_.first(count_);
+    }
+    /// Whether greater ones were left out.
+    [[nodiscard]] bool is_limited() const noexcept {
+        return limit_ != kNoLimit;
+    }
+
+private:
+    void reduce(std::size_t most) noexcept {
+        const auto begin = room_.begin();
+        const auto end = begin + static_cast<std::ptrdiff_t>(count_);
+        std::sort(begin, end, [](const NearPieces& x, const NearPieces& y) {
+            if (x.key != y.key) return x.key < y.key;
+            if (x.upper != y.upper) return x.upper < y.upper;
+            return x.a != y.a ? x.a < y.a : x.b < y.b;
+        });
+        const auto last = std::unique(
+            begin, end, [](const NearPieces& x, const NearPieces& y) { return x.key == y.key; });
+        count_ = static_cast<std::size_t>(last - begin);
+        if (count_ <= most) return;
+        count_ = most;
+        limit_ = room_[count_ - 1].key;
+    }
+
+    std::span<NearPieces> room_;
+    std::size_t count_ = 0;
+    std::uint64_t limit_ = kNoLimit;  ///< greater ones are not taken
+    std::uint64_t least_ = 0;
+};
+
+class ContactSearch {
+public:
+    ContactSearch(const Model& a, const Model& b, const Placement& placement, double tolerance,
+                  Workspace& workspace, const ContactOptions& options) noexcept
+        : moved_a_(moved_a(a, placement)),
+          moved_b_(moved_b(b, placement)),
+          placement_(placement),
+          tolerance_(tolerance),
+          options_(options),
+          workspace_(workspace),
+          gathered_(workspace.storage().near_pieces) {}
+
+    /// Calls `found` with each contact in order until it returns false; returns false when it did.
+    template <class Found>
+    bool run(Found&& found) noexcept {
+        const ContactQuestion question = {&placement_, tolerance_, options_,
+                                          workspace_.storage().counts};
+        std::optional<std::uint64_t> last;
+        do {
+            gather(last);
+            for (const NearPieces& near : gathered_.all()) {
+                const ContactSide a(moved_a_, static_cast<std::uint32_t>(near.key >> 32));
+                const ContactSide b(moved_b_, static_cast<std::uint32_t>(near.key));
+                if (!found(contact_of_pieces(a, b, near, question))) return false;
+                last = near.key;
+            }
+        } while (gathered_.is_limited());
+        return true;
+    }
+
+private:
+    void gather(const std::optional<std::uint64_t>& last) noexcept {
+        gathered_.begin_after(last);
+        const std::span<const std::uint32_t> piece_a = moved_a_.model->triangle_piece();
+        const std::span<const std::uint32_t> piece_b = moved_b_.model->triangle_piece();
+        const auto visit = [&](const TrianglePair& pair) {
+            const std::uint64_t key = std::uint64_t{piece_a[pair.a]} << 32 | piece_b[pair.b];
+            if (gathered_.takes(key)) gathered_.add({key, apart(pair), pair.a, pair.b});
+            return true;
+        };
+        visit_near_triangles(*moved_a_.model, *moved_b_.model, placement_, tolerance_, workspace_,
+                             visit, {.degenerate = options_.degenerate});
+    }
+    /// 0 when two triangles touch, and only then.
+    [[nodiscard]] double apart(const TrianglePair& pair) const noexcept {
+        const Corners a = moved_a_.corners(pair.a), b = moved_b_.corners(pair.b);
+        if (in_contact(a, b, Contact::closed, nullptr)) return 0;
+        return std::max(triangle_distance(a, b, false).upper, std::numeric_limits<double>::min());
+    }
+
+    MovedModel moved_a_;
+    MovedModel moved_b_;
+    const Placement& placement_;
+    double tolerance_;
+    ContactOptions options_;
+    Workspace& workspace_;
+    Gathered gathered_;
+};
+
+bool is_baked(const Model& model) {
+    return !model.pieces().empty() &&
+           !model.piece_adjacency().empty() == !model.piece_facets().empty() &&
+           !model.triangle_piece().empty() && !model.edge_convexity().empty();
+}
+
+template <class Found>
+bool for_each_piece_contact(const Model& a, const Model& b, const Placement& placement,
+                            double tolerance, Workspace& workspace, const ContactOptions& options,
+                            Found&& found) noexcept {
+    if (!is_baked(a) || !is_baked(b)) return true;
+    return ContactSearch(a, b, placement, tolerance, workspace, options).run(found);
+}
+
+}  // namespace
+
+std::size_t contacts(const Model& a, const Model& b, const Placement& placement, double tolerance,
+                     Workspace& workspace, std::span<PieceContact> contacts,
+                     const ContactOptions& options) noexcept {
+    std::size_t count = 0;
+    for_each_piece_contact(a, b, placement, tolerance, workspace, options,
+                           [&](const PieceContact& contact) {
+                               if (count < contacts.size()) contacts[count] = contact;
+                               ++count;
+                               return true;
+                           });
+    return count;
+}
+
+bool visit_contacts(const Model& a, const Model& b, const Placement& placement, double tolerance,
+                    Workspace& workspace, ContactVisitor visit,
+                    const ContactOptions& options) noexcept {
+    return for_each_piece_contact(a, b, placement, tolerance, workspace, options,
+                                  [&](const PieceContact& contact) { return visit(contact); });
+}
+
+}  // namespace cdprep

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/contacts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "support/brute_force.h"
+#include "unit/tools/with_pieces.h"
+
+namespace cdprep::test {
+namespace {
+
+Placement shifted(const Double3& by) {
+    return Placement::b_moves(
+        Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, by.x, by.y, by.z}).value());
+}
+
+std::vector<PieceContact> all_contacts(const Model& a, const Model& b, const Placement& placement,
+                                       double tolerance, Manifold manifold = Manifold::four) {
+    Workspace workspace;
+    std::vector<PieceContact> found(contacts(a, b, placement, tolerance, workspace, {}));
+    EXPECT_EQ(contacts(a, b, placement, tolerance, workspace, found, {.manifold = manifold}),
+              found.size());
+    return found;
+}
+
+std::vector<PieceContact> all_contacts(const OpenModel& a, const OpenModel& b,
+                                       const Placement& placement, double tolerance) {
+    return all_contacts(a.model, b.model, placement, tolerance);
+}
+
+void expect_near(const Double3& a, const Double3& b, double error = 1e-12) {
+    EXPECT_NEAR(a.x, b.x, error);
+    EXPECT_NEAR(a.y, b.y, error);
+    EXPECT_NEAR(a.z, b.z, error);
+}
+
+/// A convex solid around a square base and an edge on top, along x: a roof.
+TestMesh roof() {
+    TestMesh mesh;
+    mesh.positions = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, 0, 0}, {1, 0, 0}};
+    mesh.triangles = {{{0, 2, 1}}, {{0, 3, 2}}, {{0, 1, 5}}, {{0, 5, 4}},
+                      {{2, 3, 4}}, {{2, 4, 5}}, {{0, 4, 3}}, {{1, 2, 5}}};
+    return mesh;
+}
+
+/// An L with arms 2 long, 1 wide and 1 high; the notch is where x and y are above 1.
+TestMesh l_prism() {
+    TestMesh mesh;
+    for (const double z : {0.0, 1.0}) {
+        for (const auto& [x, y] :
+             {std::array{0., 0.}, {2., 0.}, {2., 1.}, {1., 1.}, {1., 2.}, {0., 2.}}) {
+            mesh.positions.push_back({x, y, z});
+        }
+    }
+    for (const auto& [a, b, c] :
+         {std::array{0U, 1U, 2U}, {0U, 2U, 3U}, {0U, 3U, 4U}, {0U, 4U, 5U}}) {
+        mesh.triangles.push_back({{a + 6, b + 6, c + 6}});
+        mesh.triangles.push_back({{c, b, a}});
+    }
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const std::uint32_t j = (i + 1) % 6;
+        mesh.triangles.push_back({{i, j, j + 6}});
+        mesh.triangles.push_back({{i, j + 6, i + 6}});
+    }
+    return mesh;
+}
+
+// By hand: one cube over the other by a gap, or into it: faces, and the corners of the square
+// that they share.
+TEST(Contacts, CubeOnCubeHasFourPoints) {
+    const OpenModel cube = open_with_pieces(unit_cube());
+    for (const double gap : {0.0625, 0.0, -0.125}) {
+        SCOPED_TRACE(gap);
+        const auto found = all_contacts(cube, cube, shifted({0.25, 0.5, 1 + gap}), 0.1);
+        ASSERT_EQ(found.size(), 1U);
+        const PieceContact& contact = found[0];
+        EXPECT_EQ(contact.flags, gap > 0 ? 0U : +contact_overlap);
+        EXPECT_LE(contact.lower, gap);
+        EXPECT_GE(contact.upper, gap);
+        EXPECT_NEAR(contact.lower, contact.upper, 1e-12);
+        expect_near(contact.normal, {0, 0, 1});
+        ASSERT_EQ(contact.point_count, 4U);
+        double sum_x = 0, sum_y = 0;
+        for (const ManifoldPoint& point : contact.points) {
+            EXPECT_NEAR(point.distance, gap, 1e-12);
+            EXPECT_NEAR(point.on_a.z, 1, 1e-12);
+            EXPECT_NEAR(point.on_b.z, 1 + gap, 1e-12);
+            EXPECT_TRUE(point.on_a.x == 0.25 || point.on_a.x == 1) << point.on_a.x;
+            EXPECT_TRUE(point.on_a.y == 0.5 || point.on_a.y == 1) << point.on_a.y;
+            sum_x += point.on_a.x;
+            sum_y += point.on_a.y;
+        }
+        EXPECT_EQ(sum_x, 2.5);
+        EXPECT_EQ(sum_y, 3);
+    }
+}
+
+TEST(Contacts, BeyondTheToleranceThereIsNone) {
+    const OpenModel cube = open_with_pieces(unit_cube());
+    EXPECT_EQ(all_contacts(cube, cube, shifted({0, 0, 1.25}), 0.25).size(), 1U);
+    EXPECT_EQ(all_contacts(cube, cube, shifted({0, 0, 1.25}), std::nextafter(0.25, 0)).size(), 0U);
+    EXPECT_EQ(all_contacts(cube, cube, shifted({0, 0, 1}), 0).size(), 1U);
+    EXPECT_EQ(all_contacts(cube, cube, shifted({0, 0, 1}), -1).size(), 0U);
+    EXPECT_EQ(all_contacts(cube, cube, shifted({0, 0, 1}), NAN).size(), 0U);
+}
+
+// By hand: ridges along x and along y, one over the other.
+TEST(Contacts, EdgesThatCrossAnswerAsEdges) {
+    const OpenModel roof_a = open_with_pieces(roof());
+    const Pose turn = Pose::from_rows({0, 1, 0, 1, 0, 0, 0, 0, -1, 0.25, 0.5, 0.375}).value();
+    const auto found = all_contacts(roof_a, roof_a, Placement::b_moves(turn), 0.5);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].feature_a.kind, FeatureKind::edge);
+    EXPECT_EQ(found[0].feature_b.kind, FeatureKind::edge);
+    expect_near(found[0].normal, {0, 0, 1});
+    expect_near(found[0].point_a, {0.25, 0, 0});
+    expect_near(found[0].point_b, {0.25, 0, 0.375});
+    ASSERT_EQ(found[0].point_count, 1U);
+    EXPECT_NEAR(found[0].points[0].distance, 0.375, 1e-15);
+    for (const ContactFeature& feature : {found[0].feature_a, found[0].feature_b}) {
+        const auto& vertex = roof().triangles[feature.triangle].vertex;
+        const std::uint32_t from = vertex[feature.edge], to = vertex[(feature.edge + 1) % 3U];
+        EXPECT_EQ(from + to, 9U) << "not the ridge";
+        EXPECT_EQ(feature.vertex, from);
+    }
+}
+
+// By hand: an octahedron's lowest corner over a cube's top.
+TEST(Contacts, AVertexOverAFaceAnswersAsThat) {
+    TestMesh eight = icosphere(0);
+    eight.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+    eight.triangles = {{{0, 2, 4}}, {{2, 1, 4}}, {{1, 3, 4}}, {{3, 0, 4}},
+                       {{2, 0, 5}}, {{1, 2, 5}}, {{3, 1, 5}}, {{0, 3, 5}}};
+    const OpenModel cube = open_with_pieces(unit_cube()), octahedron = open_with_pieces(eight);
+    for (const double gap : {0.125, -0.0625}) {
+        SCOPED_TRACE(gap);
+        const auto found = all_contacts(cube, octahedron, shifted({0.5, 0.25, 2 + gap}), 0.25);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_EQ(found[0].feature_a.kind, FeatureKind::face);
+        EXPECT_EQ(found[0].feature_b.kind, FeatureKind::vertex);
+        EXPECT_EQ(found[0].feature_b.vertex, 5U);
+        for (const std::uint32_t v : unit_cube().triangles[found[0].feature_a.triangle].vertex) {
+            EXPECT_EQ(unit_cube().positions[v].z, 1);
+        }
+        expect_near(found[0].normal, {0, 0, 1});
+        EXPECT_NEAR(found[0].lower, gap, 1e-12);
+        expect_near(found[0].point_b, {0.5, 0.25, 1 + gap});
+        EXPECT_NEAR(found[0].points[0].distance, gap, 1e-12);
+    }
+}
+
+// By hand: a cube in the notch of an L is near one arm on either side, and the virtual faces
+// inside the L answer nothing.
+TEST(Contacts, ACubeInANotchTouchesBothArms) {
+    const OpenModel arms = open_with_pieces(l_prism()), cube = open_with_pieces(unit_cube());
+    ASSERT_GT(arms.model.pieces().size(), 1U);
+    const auto found = all_contacts(arms, cube, shifted({1.0625, 1.125, 0}), 0.25);
+    bool has_x = false, has_y = false;
+    for (const PieceContact& contact : found) {
+        EXPECT_GT(contact.lower, 0.06);
+        EXPECT_LE(contact.upper, 0.25);
+        const bool is_x = std::fabs(contact.normal.x - 1) < 1e-12;
+        const bool is_y = std::fabs(contact.normal.y - 1) < 1e-12;
+        has_x = has_x || (is_x && std::fabs(contact.upper - 0.0625) < 1e-12);
+        has_y = has_y || (is_y && std::fabs(contact.upper - 0.125) < 1e-12);
+    }
+    EXPECT_TRUE(has_x);
+    EXPECT_TRUE(has_y);
+}
+
+// By hand: centres on a line through vertices that lie opposite each other. As deep as the
+// radii say.
+TEST(Contacts, SpheresAnswerAtTheirPoles) {
+    const TestMesh mesh = icosphere(3);
+    const OpenModel sphere = open_with_pieces(mesh);
+    ASSERT_EQ(sphere.model.pieces().size(), 1U);
+    const Double3 pole = mesh.positions[0];
+    const double radius = std::sqrt(pole.x * pole.x + pole.y * pole.y + pole.z * pole.z);
+    const double way = 2 + 0.125 / radius;
+    const auto found =
+        all_contacts(sphere, sphere, shifted({way * pole.x, way * pole.y, way * pole.z}), 0.25);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_NEAR(found[0].lower, 0.125, 1e-12);
+    expect_near(found[0].normal, {pole.x / radius, pole.y / radius, pole.z / radius}, 1e-9);
+    EXPECT_EQ(found[0].feature_a.kind, FeatureKind::vertex);
+    EXPECT_EQ(found[0].feature_a.vertex, 0U);
+
+    const auto deep =
+        all_contacts(sphere, sphere, shifted({1.75 * pole.x, 1.75 * pole.y, 1.75 * pole.z}), 0);
+    ASSERT_EQ(deep.size(), 1U);
+    EXPECT_EQ(deep[0].flags & contact_overlap, +contact_overlap);
+    EXPECT_LT(deep[0].upper, 0);
+    EXPECT_NEAR(deep[0].lower, -0.25 * radius, 0.02 * radius);
+}
+
+// Surfaces far apart do not touch, whatever is inside what.
+TEST(Contacts, NestedSurfacesDoNotTouch) {
+    const OpenModel outer = open_with_pieces(moved_by(unit_cube(), 8, {-4, -4, -4}));
+    const OpenModel inner = open_with_pieces(unit_cube());
+    EXPECT_EQ(all_contacts(outer, inner, shifted({0, 0, 0}), 0.5).size(), 0U);
+    EXPECT_EQ(all_contacts(inner, outer, shifted({0, 0, 0}), 0.5).size(), 0U);
+}
+
+// By hand: a sheet is met from either side.
+TEST(Contacts, ASheetIsMetFromBothSides) {
+    const OpenModel sheet = open_with_pieces(grid_sheet(4, 4)),
+                    cube = open_with_pieces(unit_cube());
+    const auto above = all_contacts(sheet, cube, shifted({1.25, 1.5, 0.0625}), 0.125);
+    ASSERT_EQ(above.size(), 1U);
+    expect_near(above[0].normal, {0, 0, 1});
+    EXPECT_EQ(above[0].point_count, 4U);
+    EXPECT_NEAR(above[0].upper, 0.0625, 1e-13);
+    const auto below = all_contacts(sheet, cube, shifted({1.25, 1.5, -1.0625}), 0.125);
+    ASSERT_EQ(below.size(), 1U);
+    expect_near(below[0].normal, {0, 0, -1});
+    EXPECT_EQ(below[0].point_count, 4U);
+    EXPECT_NEAR(below[0].upper, 0.0625, 1e-13);
+}
+
+// A cube slides over a flat floor whose triangles are pieces by themselves: whatever triangle it
+// is half over or beside, the floor pushes up and nothing else.
+TEST(Contacts, AFlatFloorOnlyPushesUp) {
+    const OpenModel floor = open_with_pieces(grid_sheet(6, 6), PiecesOf::triangles);
+    const OpenModel cube = open_with_pieces(unit_cube());
+    int corrected = 0, plain = 0;
+    for (const double height : {0.03125, 0.0, -0.03125}) {
+        for (int step = 0; step < 40; ++step) {
+            const Double3 at = {1.5 + 0.0517 * step, 1.6 + 0.0311 * step, height};
+            const auto found = all_contacts(floor, cube, shifted(at), 0.125);
+            ASSERT_GT(found.size(), 1U);
+            for (const PieceContact& contact : found) {
+                expect_near(contact.normal, {0, 0, 1}, 1e-9);
+                const bool is_corrected = (contact.flags & contact_internal_edge) != 0;
+                ++(is_corrected ? corrected : plain);
+                EXPECT_LE(contact.lower, contact.upper);
+                if (height > 0) {
+                    EXPECT_GE(contact.upper, height);
+                }
+                if ((contact.flags & contact_overlap) != 0) {
+                    EXPECT_LE(contact.lower, height + 1e-12);
+                }
+            }
+        }
+    }
+    EXPECT_GT(corrected, 100);
+    EXPECT_GT(plain, 100);
+}
+
+// The same where the floor bends up: a reflex edge takes the normals of its faces.
+TEST(Contacts, AValleyPushesAlongItsFaces) {
+    TestMesh valley = grid_sheet(6, 6);
+    for (Double3& p : valley.positions) p.z = 0.75 * std::fabs(p.x - 3);
+    const OpenModel floor = open_with_pieces(valley, PiecesOf::triangles);
+    const OpenModel cube = open_with_pieces(moved_by(unit_cube(), 0.5, {-0.25, -0.25, 0}));
+    int seen = 0;
+    for (int step = 0; step < 60; ++step) {
+        const double x = 2.6 + 0.0137 * step;
+        const double height = 0.75 * (std::fabs(x - 3) + 0.25) + 0.015 * (step % 7) - 0.05;
+        const Double3 at = {x, 1.5 + 0.031 * step, height};
+        for (const PieceContact& contact : all_contacts(floor, cube, shifted(at), 0.1)) {
+            EXPECT_NEAR(contact.normal.z, 0.8, 1e-9);
+            EXPECT_NEAR(std::fabs(contact.normal.x), 0.6, 1e-9);
+            ++seen;
+        }
+    }
+    EXPECT_GT(seen, 30);
+}
+
+// Beyond what one walk keeps there is another: every pair once, in order.
+TEST(Contacts, ManyPairsComeOnceAndInOrder) {
+    const OpenModel a = open_with_pieces(grid_sheet(7, 7), PiecesOf::triangles);
+    const OpenModel b = open_with_pieces(grid_sheet(5, 9), PiecesOf::triangles);
+    const std::size_t expected = a.model.pieces().size() * b.model.pieces().size();
+    ASSERT_GT(expected, 8000U);
+    Workspace workspace;
+    std::vector<PieceContact> found(expected + 1);
+    ASSERT_EQ(contacts(a.model, b.model, shifted({0, 0, 1}), 20, workspace, found), expected);
+    for (std::size_t i = 0; i < expected; ++i) {
+        ASSERT_EQ(found[i].piece_a, i / b.model.pieces().size());
+        ASSERT_EQ(found[i].piece_b, i % b.model.pieces().size());
+    }
+    std::vector<PieceContact> few(3);
+    EXPECT_EQ(contacts(a.model, b.model, shifted({0, 0, 1}), 20, workspace, few), expected);
+    EXPECT_EQ(few[2].piece_b, 2U);
+    std::size_t visited = 0;
+    const auto visit = [&](const PieceContact& contact) {
+        EXPECT_EQ(contact.piece_b, visited);
+        return ++visited < 5;
+    };
+    EXPECT_FALSE(visit_contacts(a.model, b.model, shifted({0, 0, 1}), 20, workspace, visit));
+    EXPECT_EQ(visited, 5U);
+}
+
+TEST(Contacts, WithoutTheirSectionsThereAreNone) {
+    const OpenModel bare = open_tiny(unit_cube()), cube = open_with_pieces(unit_cube());
+    EXPECT_EQ(all_contacts(bare, cube, shifted({0, 0, 1}), 0.5).size(), 0U);
+    EXPECT_EQ(all_contacts(cube, bare, shifted({0, 0, 1}), 0.5).size(), 0U);
+}
+
+// Triangles without area are the segment or point that they are, unless they are skipped.
+TEST(Contacts, DegenerateTrianglesAnswerAsWhatTheyAre) {
+    TestMesh segment;
+    segment.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+    segment.triangles = {{{0, 1, 2}}};
+    TestMesh point;
+    point.positions = {{0, 0, 0}};
+    point.triangles = {{{0, 0, 0}}};
+    const OpenModel cube = open_with_pieces(unit_cube());
+    for (const TestMesh& mesh : {segment, point}) {
+        const OpenModel thin = open_with_pieces(mesh);
+        const auto found = all_contacts(cube, thin, shifted({0.25, 0.25, 1.25}), 0.5);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_NEAR(found[0].lower, 0.25, 1e-15);
+        expect_near(found[0].normal, {0, 0, 1});
+        const auto inside = all_contacts(cube, thin, shifted({0.5, 0.5, 1}), 0);
+        ASSERT_EQ(inside.size(), 1U);
+        EXPECT_EQ(inside[0].upper, 0);
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::test
