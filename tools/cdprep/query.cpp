@@ -20,6 +20,7 @@ void add_query(CLI::App& app, Exit& exit) {
     CLI::App* query = app.add_subcommand("query", "Ask baked files");
     query->require_subcommand(1);
     add_pair_questions(*query, exit);
+    add_contacts(*query, exit);
     add_point_questions(*query, exit);
     add_inaccessible(*query, exit);
 }

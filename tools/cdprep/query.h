@@ -11,6 +11,9 @@ namespace cdprep::cli {
 /// Adds the questions about two models: collide, overlap, distance, within.
 void add_pair_questions(CLI::App& query, Exit& exit);
 
+/// Adds the question how two models touch: contacts.
+void add_contacts(CLI::App& query, Exit& exit);
+
 /// Adds the questions about one model: inside, closest, ray.
 void add_point_questions(CLI::App& query, Exit& exit);
 

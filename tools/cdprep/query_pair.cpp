@@ -24,8 +24,8 @@
 #include "effects.h"
 #include "interrupt.h"
 #include "open_for.h"
-#include "poses_file.h"
 #include "query.h"
+#include "query_placements.h"
 #include "query_structure.h"
 #include "structures.h"
 
@@ -38,11 +38,7 @@ struct Arguments {
     Question question = Question::collide;
     std::filesystem::path a;
     std::filesystem::path b;
-    std::filesystem::path poses;
-    std::string pose;
-    std::string pose_a;
-    std::string pose_b;
-    std::string placement = "relative";
+    PlacementWords placement;
     StructureWords structure;
     std::string format = "text";
     std::string as = "surface";
@@ -58,38 +54,6 @@ struct Arguments {
     bool counts = false;
     bool skip_degenerate = false;
 };
-
-/// A pose of the command line: whatever is wrong with it was asked wrongly.
-Result<Pose> argument_pose(const std::string& text, const char* option) {
-    if (text.empty()) return Pose();
-    Result<Pose> pose = parse_pose(text, option);
-    if (!pose) return Error{ErrorCode::bad_argument, pose.error().message};
-    return pose;
-}
-
-/// All placements that are asked about: one pose of B a line, one pose, two
-/// world poses, or none for B as it stands.
-Result<std::vector<Placement>> placements_of(const Arguments& arguments) {
-    if (!arguments.pose_a.empty() || !arguments.pose_b.empty()) {
-        const Result<Pose> a = argument_pose(arguments.pose_a, "--pose-a");
-        if (!a) return a.error();
-        const Result<Pose> b = argument_pose(arguments.pose_b, "--pose-b");
-        if (!b) return b.error();
-        return std::vector{arguments.placement == "world"
-                               ? Placement::world(a.value(), b.value())
-                               : Placement::relative(a.value(), b.value())};
-    }
-    if (arguments.poses.empty()) {
-        const Result<Pose> pose = argument_pose(arguments.pose, "--pose");
-        if (!pose) return pose.error();
-        return std::vector{Placement::b_moves(pose.value())};
-    }
-    const Result<std::vector<Pose>> poses = read_poses(arguments.poses);
-    if (!poses) return poses.error();
-    std::vector<Placement> placements;
-    for (const Pose& pose : poses.value()) placements.push_back(Placement::b_moves(pose));
-    return placements;
-}
 
 /// Asks `repeat` times and keeps what each time took.
 class Stopwatch {
@@ -345,7 +309,7 @@ Exit run_hulls(const Arguments& arguments) {
     if (!a) return fail("query", a.error());
     const Result<Model> b = open_hulls(arguments.b);
     if (!b) return fail("query", b.error());
-    const Result<std::vector<Placement>> placements = placements_of(arguments);
+    const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
     if (!placements) return fail("query", placements.error());
 
     const ConvexPoints of_a = convex_points(a.value(), 0), of_b = convex_points(b.value(), 0);
@@ -447,7 +411,7 @@ Exit run(const Arguments& arguments) {
     if (!a) return fail("query", a.error());
     const Result<Model> b = open_for(arguments.b, needed, through.value().structure);
     if (!b) return fail("query", b.error());
-    const Result<std::vector<Placement>> placements = placements_of(arguments);
+    const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
     if (!placements) return fail("query", placements.error());
 
     Asker asker(arguments, through.value(), a.value(), b.value());
@@ -514,22 +478,7 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
     CLI::App* command = query.add_subcommand(name, description);
     command->add_option("a", arguments->a, "A baked file")->required();
     command->add_option("b", arguments->b, "A baked file")->required();
-    CLI::Option* poses = command->add_option("--poses", arguments->poses,
-                                             "File of poses of B in A's frame, 12 numbers a line");
-    CLI::Option* pose =
-        command->add_option("--pose", arguments->pose, "One pose: R row by row, then T");
-    poses->excludes(pose);
-    for (CLI::Option* world :
-         {command->add_option("--pose-a", arguments->pose_a, "World pose of A"),
-          command->add_option("--pose-b", arguments->pose_b, "World pose of B")}) {
-        world->excludes(poses);
-        world->excludes(pose);
-    }
-    command
-        ->add_option("--placement", arguments->placement,
-                     "With two world poses: relative moves B, world moves both")
-        ->check(CLI::IsMember({"relative", "world"}))
-        ->capture_default_str();
+    add_placements(*command, arguments->placement);
     if (question == Question::collide || question == Question::overlap) {
         add_structure(*command, arguments->structure,
                       question == Question::collide

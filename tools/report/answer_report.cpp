@@ -230,6 +230,88 @@ std::string as_text(const WithinAnswer& answer) {
     return text + pair_lines(answer.pairs);
 }
 
+const char* word(FeatureKind kind) {
+    switch (kind) {
+        case FeatureKind::vertex:
+            return "vertex";
+        case FeatureKind::edge:
+            return "edge";
+        default:
+            return "face";
+    }
+}
+
+std::string as_json(const ContactFeature& feature) {
+    std::string text = std::string("{\"kind\": \"") + word(feature.kind) +
+                       "\", \"triangle\": " + number(feature.triangle);
+    if (feature.kind == FeatureKind::vertex) text += ", \"vertex\": " + number(feature.vertex);
+    if (feature.kind == FeatureKind::edge) {
+        text += ", \"edge\": " + number(static_cast<unsigned>(feature.edge));
+    }
+    return text + "}";
+}
+
+std::string as_json(const PieceContact& contact) {
+    std::string text =
+        "{\"piece_a\": " + number(contact.piece_a) + ", \"piece_b\": " + number(contact.piece_b) +
+        ", \"lower\": " + number(contact.lower) + ", \"upper\": " + number(contact.upper) +
+        ", \"overlap\": " + word((contact.flags & contact_overlap) != 0) +
+        ", \"internal_edge\": " + word((contact.flags & contact_internal_edge) != 0) +
+        ", \"normal\": [" + place(contact.normal, ", ") +
+        "], \"feature_a\": " + as_json(contact.feature_a) +
+        ", \"feature_b\": " + as_json(contact.feature_b) + ", \"point_a\": [" +
+        place(contact.point_a, ", ") + "], \"point_b\": [" + place(contact.point_b, ", ") + "]";
+    if (contact.point_count == 0) return text + "}";
+    text += ", \"points\": [";
+    for (std::uint32_t i = 0; i < contact.point_count; ++i) {
+        const ManifoldPoint& point = contact.points[i];
+        text += std::string(i > 0 ? ", " : "") + "{\"on_a\": [" + place(point.on_a, ", ") +
+                "], \"on_b\": [" + place(point.on_b, ", ") +
+                "], \"distance\": " + number(point.distance) + "}";
+    }
+    return text + "]}";
+}
+
+std::string as_json(const ContactsAnswer& answer) {
+    std::string text = "{\"pose\": " + number(answer.pose) +
+                       ", \"count\": " + number(answer.contacts.size()) + ", \"contacts\": [";
+    for (std::size_t i = 0; i < answer.contacts.size(); ++i) {
+        text += (i > 0 ? ", " : "") + as_json(answer.contacts[i]);
+    }
+    return text + "]}";
+}
+
+std::string as_text(const ContactFeature& feature) {
+    const std::string triangle = number(feature.triangle);
+    switch (feature.kind) {
+        case FeatureKind::vertex:
+            return "vertex " + number(feature.vertex);
+        case FeatureKind::edge:
+            return "edge " + number(static_cast<unsigned>(feature.edge)) + " of triangle " +
+                   triangle;
+        default:
+            return "triangle " + triangle;
+    }
+}
+
+std::string as_text(const ContactsAnswer& answer) {
+    std::string text =
+        "pose " + number(answer.pose) + ": " + number(answer.contacts.size()) + " contacts";
+    for (const PieceContact& contact : answer.contacts) {
+        text += "\n  pieces " + number(contact.piece_a) + " and " + number(contact.piece_b) +
+                ": distance " + number(contact.lower) + " to " + number(contact.upper) +
+                ", normal " + place(contact.normal, " ") + ", " + as_text(contact.feature_a) +
+                " and " + as_text(contact.feature_b) + ", at " + place(contact.point_a, " ") +
+                " and " + place(contact.point_b, " ");
+        for (std::uint32_t i = 0; i < contact.point_count; ++i) {
+            const ManifoldPoint& point = contact.points[i];
+            text += "\n    " + number(point.distance) + " from " + place(point.on_a, " ") + " to " +
+                    place(point.on_b, " ");
+        }
+    }
+    return text;
+}
+
 std::string as_json(const InsideAnswer& answer) {
     return "{\"point\": " + number(answer.point) + ", \"inside\": \"" +
            word(answer.inclusion.answer) +
@@ -303,6 +385,10 @@ void Answers::add(const HullDistanceAnswer& answer) {
 }
 
 void Answers::add(const WithinAnswer& answer) {
+    write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
+}
+
+void Answers::add(const ContactsAnswer& answer) {
     write(format_ == AnswerFormat::text ? as_text(answer) : as_json(answer));
 }
 

@@ -10,6 +10,7 @@
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/contacts.h"
 #include "cdprep/convex_distance.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
@@ -61,6 +62,12 @@ struct WithinAnswer {
     std::optional<std::span<const TrianglePair>> pairs;  ///< with --pairs
 };
 
+/// How two models touch in one pose.
+struct ContactsAnswer {
+    std::size_t pose = 0;
+    std::span<const PieceContact> contacts;
+};
+
 /// Whether point number `point` is inside.
 struct InsideAnswer {
     std::size_t point = 0;
@@ -95,6 +102,7 @@ public:
     void add(const HullCollideAnswer& answer);
     void add(const HullDistanceAnswer& answer);
     void add(const WithinAnswer& answer);
+    void add(const ContactsAnswer& answer);
     void add(const InsideAnswer& answer);
     void add(const ClosestAnswer& answer);
     void add(const RayAnswer& answer);

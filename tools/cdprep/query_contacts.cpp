@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "cdprep/contacts.h"
+#include "effects.h"
+#include "interrupt.h"
+#include "open_for.h"
+#include "query.h"
+#include "query_placements.h"
+
+namespace cdprep::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path a;
+    std::filesystem::path b;
+    PlacementWords placement;
+    double tolerance = 0;
+    bool manifold = false;
+    bool skip_degenerate = false;
+    std::string format = "text";
+};
+
+std::vector<PieceContact> find_contacts(const Model& a, const Model& b, const Placement& placement,
+                                        const Arguments& arguments, Workspace& workspace) {
+    std::vector<PieceContact> found;
+    const auto keep = [&](const PieceContact& contact) {
+        found.push_back(contact);
+        return true;
+    };
+    visit_contacts(a, b, placement, arguments.tolerance, workspace, keep,
+                   {arguments.manifold ? Manifold::four : Manifold::none,
+                    arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep});
+    return found;
+}
+
+Exit run(const Arguments& arguments) {
+    const format::SectionSet needed = sections_for("contacts");
+    const Result<Model> a = open_for(arguments.a, needed);
+    if (!a) return fail("query", a.error());
+    const Result<Model> b = open_for(arguments.b, needed);
+    if (!b) return fail("query", b.error());
+    const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
+    if (!placements) return fail("query", placements.error());
+
+    Workspace workspace;
+    report::Answers answers(std::cout, parse_answer_format(arguments.format));
+    for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
+        const std::vector<PieceContact> found =
+            find_contacts(a.value(), b.value(), placements.value()[i], arguments, workspace);
+        answers.add(report::ContactsAnswer{i, found});
+    }
+    answers.finish();
+    return Exit::success;
+}
+
+}  // namespace
+
+void add_contacts(CLI::App& query, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = query.add_subcommand(
+        "contacts", "Where and along what normals do A and B touch, or nearly?");
+    command->add_option("a", arguments->a, "A file baked with the effect contacts")->required();
+    command->add_option("b", arguments->b, "A file baked with the effect contacts")->required();
+    add_placements(*command, arguments->placement);
+    command
+        ->add_option("--tolerance", arguments->tolerance,
+                     "The distance of two pieces that still counts, model units")
+        ->check(CLI::NonNegativeNumber)
+        ->required();
+    command->add_flag("--manifold", arguments->manifold,
+                      "Up to four points for each pair of pieces");
+    command->add_flag("--skip-degenerate", arguments->skip_degenerate,
+                      "Leave triangles with collinear corners out of answers");
+    add_answer_format(*command, arguments->format);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli
