@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "hull_edges.h"
 
 namespace cdprep {
 namespace {
@@ -36,73 +37,20 @@ Polygon triangle_polygon(const ContactSide& side, std::uint32_t triangle,
     return polygon;
 }
 
-/// A face of a hull and its edges, by the facets.
-class HullFace {
-public:
-    HullFace(const ContactSide& side, std::uint32_t first) noexcept : side_(&side), first_(first) {
-        last_ = first;
-        const auto facets = side.facets();
-        while (last_ + 1 < facets.size() &&
-               (facets[last_ + 1].flags & format::facet_first_of_face) == 0) {
-            ++last_;
-        }
-    }
-
-    /// Calls visit(corner) around the face.
-    template <class Visit>
-    void each_corner(Visit&& visit) const noexcept {
-        Place begin{first_, 0};
-        while (begin.facet <= last_ && !is_border(begin)) begin = next_place(begin);
-        if (begin.facet > last_) return;
-        Place at = begin;
-        do {
-            visit(side_->facets()[at.facet].corner[at.corner]);
-            at = turned(at);
-        } while (at.facet != begin.facet || at.corner != begin.corner);
-    }
-
-private:
-    /// An edge of a facet, by the corner that it begins at.
-    struct Place {
-        std::uint32_t facet;
-        std::uint32_t corner;
-    };
-    [[nodiscard]] static Place next_place(const Place& p) noexcept {
-        return p.corner == 2 ? Place{p.facet + 1, 0} : Place{p.facet, p.corner + 1};
-    }
-    [[nodiscard]] bool is_border(const Place& p) const noexcept {
-        const std::uint32_t other = side_->adjacency()[p.facet].across[p.corner];
-        return other < first_ || other > last_;
-    }
-    /// The border's edge that begins where this one ends.
-    [[nodiscard]] Place turned(Place p) const noexcept {
-        const std::uint32_t pivot = side_->facets()[p.facet].corner[(p.corner + 1) % 3];
-        p.corner = (p.corner + 1) % 3;
-        while (!is_border(p)) {
-            const std::uint32_t facet = side_->adjacency()[p.facet].across[p.corner];
-            std::uint32_t corner = 0;
-            while (side_->facets()[facet].corner[corner] != pivot) ++corner;
-            p = {facet, corner};
-        }
-        return p;
-    }
-
-    const ContactSide* side_;
-    std::uint32_t first_, last_;
-};
-
 /// All corners, or as many of them, evenly, as there is room for: a part of the face. The
 /// normal may be that of its back.
 Polygon face_polygon(const ContactSide& side, std::uint32_t first, const Double3& normal) {
-    const HullFace face(side, first);
+    const HullEdges edges(side.facets(), side.adjacency());
     std::size_t all = 0;
-    face.each_corner([&](std::uint32_t) { ++all; });
+    edges.each_around_face(first, [&](const FacetPlace&) { ++all; });
     Polygon polygon;
     polygon.normal = normal;
     const std::size_t kept = std::min(all, kMostOutline);
     std::size_t i = 0;
-    face.each_corner([&](std::uint32_t corner) {
-        if (i == 0 || i * kept / all != (i - 1) * kept / all) polygon.add(side.corner(corner));
+    edges.each_around_face(first, [&](const FacetPlace& p) {
+        if (i == 0 || i * kept / all != (i - 1) * kept / all) {
+            polygon.add(side.corner(edges.start(p)));
+        }
         ++i;
     });
     const auto& c = side.facets()[first].corner;

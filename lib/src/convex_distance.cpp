@@ -12,19 +12,17 @@ namespace cdprep {
 namespace {
 
 /// Whether the bounds are as near each other as was promised.
-bool is_near_enough(const GjkResult& found, const ConvexDistanceOptions& options) {
+bool is_good(const GjkResult& found, const ConvexDistanceOptions& options) {
     const double width = found.upper - found.lower;
     if (width <= options.relative_error * found.upper || width <= options.absolute_error) {
         return true;
     }
     if (options.relative_error > 0 || options.absolute_error > 0) return false;
-    constexpr double kRelative = 1e-12;
-    constexpr double kOfCoordinates = 1e-14;
     double most = 0;
     for (std::size_t i = 0; i < found.simplex.count; ++i) {
         most = std::max(most, largest_of(found.simplex.corner[i].at));
     }
-    return width <= kRelative * found.upper + kOfCoordinates * most;
+    return is_near_enough(found.lower, found.upper, most);
 }
 
 }  // namespace
@@ -36,7 +34,7 @@ std::optional<HullNearest> hull_nearest(const MovedHull& a, const MovedHull& b,
     const GjkResult found = gjk(a, b, goal, cache, counts);
     if (found.lower > options.max_distance) return std::nullopt;
     if (found.verdict == GjkVerdict::meet) return HullNearest{true, {0, 0}, found.simplex};
-    if (found.verdict == GjkVerdict::apart && is_near_enough(found, options)) {
+    if (found.verdict == GjkVerdict::apart && is_good(found, options)) {
         return HullNearest{false, {found.lower, found.upper}, found.simplex};
     }
     const ExactNearest exact = exact_nearest(a, b, found.simplex, ExactGoal::nearest, counts);

@@ -23,4 +23,12 @@ struct HullNearest {
                                                       ConvexCache* cache,
                                                       QueryCounts* counts) noexcept;
 
+/// Whether bounds are as near each other as is promised where no error is permitted; `size` is
+/// that of a point of A - B, largest coordinate.
+[[nodiscard]] inline bool is_near_enough(double lower, double upper, double size) noexcept {
+    constexpr double kRelative = 1e-12;
+    constexpr double kOfCoordinates = 1e-14;
+    return upper - lower <= kRelative * upper + kOfCoordinates * size;
+}
+
 }  // namespace cdprep

@@ -7,11 +7,12 @@
 //
 // Usage: gjk_bench [ROUNDS [BAKE...]]
 //
-// Hulls are 1,000 random points of an ellipsoid each; of every baked model that is named,
+// Hulls are 1,000 random points of an ellipsoid each, and 24; of every baked model that is named,
 // the hull of its vertices, against itself. Situations: `near` begins 1 % of the diagonal
 // apart, `far` half of it, `deep` with a tenth of the diagonal in common.
 //
-// Contenders: ours with a cache, without, and without neighbours (a scan); libccd's
+// Contenders: ours with a cache, without, and without neighbours (a scan); the nearest features,
+// which march from the last ones, and without a cache; libccd's
 // ccdGJKIntersect for the flag and, where FCL is installed, its distance on libccd;
 // Bullet's btGjkPairDetector in float, as Debian builds it by default. Each of those with
 // its scan of all points, and climbing along our neighbours from where it was last.
@@ -28,12 +29,14 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "bench_input.h"
+#include "cdprep/closest_features.h"
 #include "cdprep/convex_distance.h"
 #include "support/small_hull.h"
 
@@ -61,6 +64,25 @@ constexpr std::size_t kWalks = 50;
 using Walk = std::vector<Pose>;
 using test::SmallHull;
 
+/// The triangles of a hull as closest_features() wants them, each a face of its own.
+struct Surface {
+    std::vector<format::PieceFacet> facets;
+    std::vector<format::PieceAdjacency> adjacency;
+
+    explicit Surface(const SmallHull& hull) {
+        std::map<std::array<std::uint32_t, 2>, std::uint32_t> left_of;
+        for (const auto& c : hull.triangles()) {
+            const auto facet = static_cast<std::uint32_t>(facets.size());
+            for (std::size_t k = 0; k < 3; ++k) left_of[{c[k], c[(k + 1) % 3]}] = facet;
+            facets.push_back({c, format::facet_first_of_face});
+        }
+        for (const auto& c : hull.triangles()) {
+            adjacency.push_back(
+                {{left_of.at({c[1], c[0]}), left_of.at({c[2], c[1]}), left_of.at({c[0], c[2]})}});
+        }
+    }
+};
+
 /// Two hulls and where B goes.
 struct Scene {
     std::string name;
@@ -68,6 +90,7 @@ struct Scene {
     const SmallHull* b;
     double diagonal;
     std::vector<Walk> walks;
+    Surface surface_a, surface_b;
 };
 
 /// What a contender answered: distances, or 0 and 1 for the flag.
@@ -166,6 +189,22 @@ Contender ours(const std::string& name, Asked asked, bool cached, bool climbs) {
                         ConvexCache* used = cached ? &cache : nullptr;
                         if (asked == Asked::flag) return convex_collide(a, b, placement, used);
                         return convex_distance(a, b, placement, {}, used)->upper;
+                    });
+            }};
+}
+
+/// From the features where the last question ended, or cold: then GJK, and its features.
+Contender features(const std::string& name, bool cached) {
+    return {name, [=](const Scene& scene, Answers& answers) {
+                const FeatureHull a = {scene.a->view(), scene.surface_a.facets,
+                                       scene.surface_a.adjacency};
+                const FeatureHull b = {scene.b->view(), scene.surface_b.facets,
+                                       scene.surface_b.adjacency};
+                along_walks<FeatureCache>(
+                    scene, answers, [&](const Pose& pose, FeatureCache& cache) -> double {
+                        const auto found = closest_features(a, b, Placement::b_moves(pose),
+                                                            cached ? &cache : nullptr);
+                        return found ? found->upper : 0;
                     });
             }};
 }
@@ -311,6 +350,10 @@ std::vector<Contender> contenders(Asked asked) {
     std::vector<Contender> all = {ours("ours", asked, true, true),
                                   ours("ours_uncached", asked, false, true),
                                   ours("ours_scan", asked, true, false)};
+    if (asked == Asked::distance) {
+        all.push_back(features("features", true));
+        all.push_back(features("features_uncached", false));
+    }
 #ifdef CDPREP_HAVE_CCD
     bool asks_ccd = asked == Asked::flag;
 #ifdef CDPREP_HAVE_FCL
@@ -456,7 +499,7 @@ void measure_all(const std::string& name, const SmallHull& a, const SmallHull& b
     const std::array<std::pair<const char*, double>, 3> situations = {
         {{"near", 0.01}, {"far", 0.5}, {"deep", -0.1}}};
     for (const auto& [situation, gap] : situations) {
-        Scene scene = {name + "/" + situation, &a, &b, diagonal, {}};
+        Scene scene = {name + "/" + situation, &a, &b, diagonal, {}, Surface(a), Surface(b)};
         for (std::size_t i = 0; i < kWalks; ++i) {
             scene.walks.push_back(walk_from(a, b, gap * diagonal, diagonal, random));
         }
@@ -477,6 +520,8 @@ int main(int argc, char** argv) {
     std::mt19937 random(5);
     const test::SmallHull a(ellipsoid(1000, random)), b(ellipsoid(1000, random));
     measure_all("ellipsoids", a, b, rounds);
+    const test::SmallHull small_a(ellipsoid(24, random)), small_b(ellipsoid(24, random));
+    measure_all("small", small_a, small_b, rounds);
     for (int i = 2; i < argc; ++i) {
         const std::filesystem::path path = argv[i];
         const test::SmallHull hull(points_of(path));

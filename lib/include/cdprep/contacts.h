@@ -6,12 +6,10 @@
 #include <cstdint>
 #include <span>
 
+#include "cdprep/closest_features.h"
 #include "cdprep/overlapping_triangles.h"
 
 namespace cdprep {
-
-/// A part of a surface.
-enum class FeatureKind : std::uint8_t { vertex, edge, face };
 
 /// Where on the imported mesh a contact is, in its numbering.
 struct ContactFeature {
@@ -92,10 +90,6 @@ struct ContactOptions {
 /// tolerance from its triangles, is no contact: collide() of solids tells. Costs what
 /// triangles_within() does, and about a microsecond for each pair of pieces that is apart.
 /// Never allocates.
-///
-///     std::array<cdprep::PieceContact, 64> found;
-///     const std::size_t count =
-///         cdprep::contacts(a, b, placement, 0.01, workspace, found, {cdprep::Manifold::four});
 [[nodiscard]] std::size_t contacts(const Model& a, const Model& b, const Placement& placement,
                                    double tolerance, Workspace& workspace,
                                    std::span<PieceContact> contacts,
