@@ -64,7 +64,7 @@ format::PieceNodeHull box_around(const std::vector<Double3>& points) {
 
 }  // namespace
 
-AlignedBytes with_pieces(const AlignedBytes& file) {
+AlignedBytes with_piece_tree(const AlignedBytes& file) {
     const Model model = Model::open(file.span()).value();
     const BuilderInput input = builder_input(model);
     const Pieces made = scattered(input.triangles);

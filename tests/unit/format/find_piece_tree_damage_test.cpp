@@ -23,7 +23,7 @@ constexpr std::array kIds = {SectionId::piece_nodes, SectionId::piece_leaves,
 /// A ball with several pieces, leaves and hulls.
 AlignedBytes baked() {
     const test::TestMesh ball = test::icosphere(3);
-    return test::with_pieces(
+    return test::with_piece_tree(
         test::bake_tiny(ball.positions, ball.triangles, {.double_precision = true}));
 }
 
@@ -63,7 +63,7 @@ TEST(FindPieceTreeDamage, AcceptsASoundHierarchy) {
     EXPECT_FALSE(find_deep_damage(baked().span()));
     const test::TestMesh empty;
     EXPECT_FALSE(
-        find_damage(test::with_pieces(test::bake_tiny(empty.positions, empty.triangles)).span(),
+        find_damage(test::with_piece_tree(test::bake_tiny(empty.positions, empty.triangles)).span(),
                     SectionSet::all()));
 }
 

@@ -22,7 +22,7 @@ namespace {
 constexpr StructureOptions kPieces = {.structure = Structure::pieces};
 
 OpenModel open_pieces(const TestMesh& mesh, const TinyOptions& options = {}) {
-    return open_tiny(with_pieces(bake_tiny(mesh.positions, mesh.triangles, options)));
+    return open_tiny(with_piece_tree(bake_tiny(mesh.positions, mesh.triangles, options)));
 }
 
 void expect_same(const std::optional<Distance>& expected, const std::optional<Distance>& found) {

@@ -43,7 +43,7 @@ AlignedBytes with_all(const AlignedBytes& file, const Limits& limits) {
                                                                 .threshold = limits.threshold,
                                                                 .rule = limits.rule,
                                                                 .boxes_in = boxes_in});
-    return with_pieces(
+    return with_piece_tree(
         with_tetra_tree(adaptive, {.level = std::min(limits.level, format::kMaxTetraLevel),
                                    .threshold = limits.threshold,
                                    .bounding = limits.bounding}));
