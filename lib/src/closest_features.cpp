@@ -415,12 +415,31 @@ std::optional<Station> face_over(const Ground& ground, const FacetPlace& corner,
     return best;
 }
 
-Station station_over(const Ground& ground, const CornerSet& set, const Double3& gap) noexcept {
-    const HullEdges& edges = ground.edges();
-    FacetPlace corner{0, 0};
-    while (edges.start(corner) != set.corner[0]) {
-        corner = corner.corner < 2 ? HullEdges::next(corner) : FacetPlace{corner.facet + 1, 0};
+/// A place where a corner is, the first.
+FacetPlace place_of(const HullEdges& edges, std::uint32_t number) noexcept {
+    for (std::uint32_t f = 0; f < edges.facets().size(); ++f) {
+        for (std::uint32_t k = 0; k < 3; ++k) {
+            if (edges.start({f, k}) == number) return {f, k};
+        }
     }
+    return {0, 0};  // no corner of the surface, though all are to be
+}
+
+/// Through a hull that is thin within rounding corners of both sides may hold a point.
+Station nearest_face(const Ground& ground, const Double3& point) noexcept {
+    std::uint32_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t f = 0; f < ground.edges().facets().size(); ++f) {
+        const double distance = point_triangle_distance(point, ground.corners(f)).computed;
+        if (distance < least) least = distance, best = f;
+    }
+    return {FeatureKind::face, {ground.edges().first_of_face(best), 0}};
+}
+
+Station station_over(const Ground& ground, const CornerSet& set, const Double3& gap,
+                     const Double3& witness) noexcept {
+    const HullEdges& edges = ground.edges();
+    const FacetPlace corner = place_of(edges, set.corner[0]);
     if (set.count == 1) return {FeatureKind::vertex, corner};
     std::optional<Station> edge;
     edges.each_from(corner, [&](const FacetPlace& p) {
@@ -428,7 +447,7 @@ Station station_over(const Ground& ground, const CornerSet& set, const Double3& 
     });
     if (edge) return *edge;
     const auto face = face_over(ground, corner, set, gap);
-    return face ? *face : Station{FeatureKind::vertex, corner};
+    return face ? *face : nearest_face(ground, witness);
 }
 
 /// What of a hull is nearest: a corner, an edge along a direction, or a face.
@@ -461,19 +480,29 @@ Level level_of(const Ground& ground, const Station& station, const Double3& gap)
     return level;
 }
 
-bool are_parallel(const Ground& a, const Ground& b, const Station& at_a, const Station& at_b,
-                  const Double3& gap) noexcept {
-    const Level of_a = level_of(a, at_a, gap), of_b = level_of(b, at_b, gap);
+bool are_parallel(const Level& of_a, const Level& of_b) noexcept {
     if (of_a.dimension != 1 || of_b.dimension != 1) return of_a.dimension + of_b.dimension > 2;
     const Double3 across = cross(of_a.along, of_b.along);
     return dot(across, across) <=
            kParallel * kParallel * dot(of_a.along, of_a.along) * dot(of_b.along, of_b.along);
 }
 
+/// What is found of one of the two hulls.
+struct Found {
+    HullFeature feature;
+    Level level;
+};
+
+Found found_at(const Ground& ground, const Station& station, const Double3& gap) noexcept {
+    return {feature_of(ground.edges(), station), level_of(ground, station, gap)};
+}
+
 /// Of a point or a segment.
-HullFeature flat_feature(const CornerSet& set) noexcept {
-    if (set.count == 1) return {FeatureKind::vertex, set.corner[0]};
-    return {FeatureKind::edge, 0};
+Found found_of_flat(const MovedHull& hull, const CornerSet& set, const Double3& gap) noexcept {
+    const Double3 along = hull.point(hull.count() - 1) - hull.point(0);
+    if (set.count > 1) return {{FeatureKind::edge, 0}, {1, along}};
+    const bool lies_along = hull.count() > 1 && is_level(along, gap);
+    return {{FeatureKind::vertex, set.corner[0]}, {lies_along ? 1 : 0, along}};
 }
 
 class FeatureSearch {
@@ -512,8 +541,11 @@ private:
             return std::nullopt;
         }
         if (counts_ != nullptr) ++counts_->hull_pairs;
-        return answer(march.at[0], march.at[1], march.gap, {lower, march.upper}, march.witness[0],
-                      march.witness[1]);
+        remember(march.at[0], 0);
+        remember(march.at[1], 1);
+        return answer(found_at(ground_a_, march.at[0], march.gap),
+                      found_at(ground_b_, march.at[1], -march.gap), {lower, march.upper},
+                      march.witness[0], march.witness[1]);
     }
 
     [[nodiscard]] std::optional<ClosestFeatures> search() noexcept {
@@ -527,39 +559,32 @@ private:
         const Double3 on_a = weighted_sum(simplex, &Difference::at_a);
         const Double3 on_b = weighted_sum(simplex, &Difference::at_b);
         const Double3 gap = -nearest_direction(simplex);
-        if (has_surfaces()) {
-            return answer(station_over(ground_a_, of_a, gap), station_over(ground_b_, of_b, -gap),
-                          gap, found->bounds, on_a, on_b);
-        }
-        return ClosestFeatures{feature_over(ground_a_, of_a, gap),
-                               feature_over(ground_b_, of_b, -gap),
-                               found->bounds.lower,
-                               found->bounds.upper,
-                               on_a,
-                               on_b,
-                               false};
-    }
-    static HullFeature feature_over(const Ground& ground, const CornerSet& set,
-                                    const Double3& gap) noexcept {
-        if (ground.edges().facets().empty()) return flat_feature(set);
-        return feature_of(ground.edges(), station_over(ground, set, gap));
+        const auto found_on = [&](const Ground& ground, const MovedHull& hull, const CornerSet& set,
+                                  const Double3& way, std::size_t side) {
+            if (ground.edges().facets().empty()) return found_of_flat(hull, set, way);
+            const Station at = station_over(ground, set, way, side == 0 ? on_a : on_b);
+            remember(at, side);
+            return found_at(ground, at, way);
+        };
+        return answer(found_on(ground_a_, hulls_.a, of_a, gap, 0),
+                      found_on(ground_b_, hulls_.b, of_b, -gap, 1), found->bounds, on_a, on_b);
     }
 
-    [[nodiscard]] ClosestFeatures answer(const Station& a, const Station& b, const Double3& gap,
-                                         const DistanceBounds& bounds, const Double3& on_a,
-                                         const Double3& on_b) const noexcept {
-        if (cache_ != nullptr) {
-            *cache_ = {true,
-                       {a.kind, b.kind},
-                       {3 * a.place.facet + a.place.corner, 3 * b.place.facet + b.place.corner}};
-        }
-        return {feature_of(ground_a_.edges(), a),
-                feature_of(ground_b_.edges(), b),
+    void remember(const Station& at, std::size_t side) const noexcept {
+        if (cache_ == nullptr) return;
+        cache_->is_set = true;
+        cache_->kind[side] = at.kind;
+        cache_->edge[side] = 3 * at.place.facet + at.place.corner;
+    }
+    static ClosestFeatures answer(const Found& a, const Found& b, const DistanceBounds& bounds,
+                                  const Double3& on_a, const Double3& on_b) noexcept {
+        return {a.feature,
+                b.feature,
                 bounds.lower,
                 bounds.upper,
                 on_a,
                 on_b,
-                are_parallel(ground_a_, ground_b_, a, b, gap)};
+                are_parallel(a.level, b.level)};
     }
 
     TwoHulls hulls_;
