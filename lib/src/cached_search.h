@@ -26,6 +26,15 @@ inline constexpr double kGreatestMargin = 4;
 /// Measured: one lower or higher gains less.
 inline constexpr std::uint32_t kNearHeight = 2;
 
+/// Whether the cached pair of triangles, if there is one that touched, still does.
+inline bool still_touches(const PairCache& cache, const Model& a, const Model& b,
+                          const Placement& placement, const OverlapOptions& options,
+                          QueryCounts* counts) noexcept {
+    if ((cache.holds & held_touch) == 0 || !has_pair(cache, a, b)) return false;
+    const ContactTest touch(a, b, placement, options, counts);
+    return touch(cache.triangle_a, cache.triangle_b, false);
+}
+
 /// Leaves of both hierarchies.
 struct LeafPlaces {
     std::uint32_t a;
@@ -46,7 +55,7 @@ public:
           touch_(a, b, placement, options, scratch_.counts),
           placed_(place_boxes(a, b, placement)),
           batch_(a, b, placed_, scratch_),
-          trees_(a, b) {}
+          trees_(a, b, scratch_) {}
 
     /// Whether anything touches in two leaves, or in two nodes around them.
     bool touches_again(const LeafPlaces& held) noexcept;
@@ -68,8 +77,8 @@ private:
     /// Also where triangles had to be tested for want of room.
     bool add(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
         last_ = {leaf_a, leaf_b};
-        return !trees_.each_pair(leaf_a, leaf_b, [&](const LeafLanes& a, const LeafLanes& b) {
-            batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
+        return !trees_.each_pair(batch_, leaf_a, leaf_b, [&](const LeafView& a, const LeafView& b) {
+            batch_.add(a, b);
             return !batch_.full() || !look_at_batch();
         });
     }
@@ -78,6 +87,8 @@ private:
     }
     bool look_at_batch() noexcept {
         return !batch_.flush([&](std::uint32_t at_a, std::uint32_t at_b, bool certain) {
+            at_a = trees_.triangle_a(at_a);
+            at_b = trees_.triangle_b(at_b);
             if (!touch_(at_a, at_b, certain)) return true;
             remember_pair(cache_, {at_a, at_b});
             cache_.holds |= held_touch;

@@ -79,20 +79,22 @@ bool for_each_contact(const Model& a, const Model& b, const Placement& placement
     // Most that do not touch are apart before any leaf is looked at.
     std::optional<ContactTest> touch;
     std::optional<LeafBatch> batch;
+    const Trees trees(a, b, scratch);
     const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b, bool certain) {
         if (!touch) touch.emplace(a, b, placement, options, scratch.counts);
+        at_a = trees.triangle_a(at_a);
+        at_b = trees.triangle_b(at_b);
         return !(*touch)(at_a, at_b, certain) || static_cast<bool>(found(at_a, at_b));
     };
     const PlacedBoxes placed = place_boxes(a, b, placement);
-    const Trees trees(a, b);
-    const auto add = [&](const LeafLanes& in_a, const LeafLanes& in_b) {
-        batch->add(in_a.leaf, in_a.lanes, in_b.leaf, in_b.lanes);
+    const auto add = [&](const LeafView& in_a, const LeafView& in_b) {
+        batch->add(in_a, in_b);
         return !batch->full() || batch->flush(decide);
     };
     const bool whole = walk_pairs<kSearch>(
         trees.a, trees.b, placed, scratch, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) {
             if (!batch) batch.emplace(a, b, placed, scratch);
-            return trees.each_pair(leaf_a, leaf_b, add) &&
+            return trees.each_pair(*batch, leaf_a, leaf_b, add) &&
                    (kSearch == Search::all || batch->flush(decide));
         });
     return whole && (!batch || batch->flush(decide));

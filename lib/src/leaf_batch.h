@@ -39,6 +39,13 @@ private:
     std::uint8_t used_;
 };
 
+/// Triangles as the kernels take them: of a leaf, or put together like one.
+struct LeafView {
+    const float* leaf;
+    std::uint32_t number;  ///< tells leaves of one model apart
+    std::uint8_t used;     ///< bit set of triangles
+};
+
 /// Collects pairs of leaves and tests their triangles many at a time.
 class LeafBatch {
 public:
@@ -58,11 +65,14 @@ public:
     [[nodiscard]] bool full() const noexcept {
         return count_ == kernels::kLeafBatch;
     }
-    void add(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
+    void prefetch_pair(std::uint32_t leaf_a, std::uint32_t leaf_b) const noexcept {
         prefetch(&leaves_a_[leaf_a]);
         prefetch(&leaves_b_[leaf_b]);
         prefetch_sources(source_a_, leaf_a);
         prefetch_sources(source_b_, leaf_b);
+    }
+    void add(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
+        prefetch_pair(leaf_a, leaf_b);
         set_pair(count_++, leaf_a, leaf_b);
     }
     /// The same of some of their triangles: bit sets.
@@ -72,6 +82,18 @@ public:
         kernels::LeafPair& pair = scratch_.leaf_pairs[count_ - 1];
         pair.used_a &= lanes_a;
         pair.used_b &= lanes_b;
+    }
+    /// Some triangles of a leaf.
+    [[nodiscard]] LeafView view_a(const LeafLanes& in_a) const noexcept {
+        const auto used = static_cast<std::uint8_t>(last_a_.used_lanes(in_a.leaf) & in_a.lanes);
+        return {leaves_a_[in_a.leaf].corner[0][0].data(), in_a.leaf, used};
+    }
+    [[nodiscard]] LeafView view_b(const LeafLanes& in_b) const noexcept {
+        const auto used = static_cast<std::uint8_t>(last_b_.used_lanes(in_b.leaf) & in_b.lanes);
+        return {leaves_b_[in_b.leaf].corner[0][0].data(), in_b.leaf, used};
+    }
+    void add(const LeafView& in_a, const LeafView& in_b) noexcept {
+        scratch_.leaf_pairs[count_++] = pair_of(in_a, in_b);
     }
     /// The pairs that were added since the last flush; the last flush's until then.
     [[nodiscard]] const kernels::LeafPair& pair(std::size_t index) const noexcept {
@@ -101,6 +123,7 @@ public:
     bool flush_numbered(Found&& found) noexcept {
         const std::size_t contacts = kernels::active().find_contacts(
             placement_, scratch_.leaf_pairs.data(), count_, scratch_.leaf_scratch);
+        ++scratch_.leaf_batch;
         if (scratch_.counts != nullptr) count_batch(*scratch_.counts, count_);
         count_ = 0;
         for (std::size_t i = 0; i < contacts; ++i) {
@@ -134,11 +157,10 @@ public:
 
     /// Triangles of parts of two leaves that may be as near as reach.limit. Valid
     /// until the next call.
-    std::span<kernels::TriangleGap> near_triangles(const LeafLanes& in_a, const LeafLanes& in_b,
+    std::span<kernels::TriangleGap> near_triangles(const LeafView& in_a, const LeafView& in_b,
                                                    const kernels::Reach& reach) noexcept {
-        set_pair(0, in_a.leaf, in_b.leaf);
-        scratch_.leaf_pairs[0].used_a &= in_a.lanes;
-        scratch_.leaf_pairs[0].used_b &= in_b.lanes;
+        scratch_.leaf_pairs[0] = pair_of(in_a, in_b);
+        ++scratch_.leaf_batch;
         if (scratch_.counts != nullptr) count_batch(*scratch_.counts, 1);
         const std::size_t found = kernels::active().near_triangles(
             placement_, scratch_.leaf_pairs[0], reach, scratch_.leaf_scratch);
@@ -146,6 +168,9 @@ public:
     }
 
 private:
+    static kernels::LeafPair pair_of(const LeafView& in_a, const LeafView& in_b) noexcept {
+        return {in_a.leaf, in_b.leaf, in_a.number, in_b.number, in_a.used, in_b.used};
+    }
     void set_pair(std::size_t at, std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
         scratch_.leaf_pairs[at] = {leaves_a_[leaf_a].corner[0][0].data(),
                                    leaves_b_[leaf_b].corner[0][0].data(),

@@ -42,7 +42,7 @@ public:
           placed_(place_boxes(a, b, placement)),
           scratch_(workspace.storage()),
           leaves_(a, b, placed_, scratch_),
-          trees_(a, b) {}
+          trees_(a, b, scratch_) {}
 
     [[nodiscard]] TriangleDistance measure(const TreePair& at, bool tight) const noexcept {
         if (scratch_.counts != nullptr) {
@@ -80,7 +80,7 @@ private:
     template <class Near>
     bool look_at_leaves(const PendingPair& pair, Near&& near) noexcept;
     template <class Near>
-    bool look_at_lanes(const LeafLanes& in_a, const LeafLanes& in_b, Near&& near) noexcept;
+    bool look_at_views(const LeafView& in_a, const LeafView& in_b, Near&& near) noexcept;
 
     MovedModel moved_a_;
     MovedModel moved_b_;
@@ -140,15 +140,15 @@ std::size_t NearestSearch<Trees>::push_children(const Tree& a, const Tree& b,
 template <class Trees>
 template <class Near>
 bool NearestSearch<Trees>::look_at_leaves(const PendingPair& pair, Near&& near) noexcept {
-    return trees_.each_pair(pair.a.index, pair.b.index,
-                            [&](const LeafLanes& in_a, const LeafLanes& in_b) {
-                                return look_at_lanes(in_a, in_b, near);
+    return trees_.each_pair(leaves_, pair.a.index, pair.b.index,
+                            [&](const LeafView& in_a, const LeafView& in_b) {
+                                return look_at_views(in_a, in_b, near);
                             });
 }
 
 template <class Trees>
 template <class Near>
-bool NearestSearch<Trees>::look_at_lanes(const LeafLanes& in_a, const LeafLanes& in_b,
+bool NearestSearch<Trees>::look_at_views(const LeafView& in_a, const LeafView& in_b,
                                          Near&& near) noexcept {
     const std::span<kernels::TriangleGap> gaps = leaves_.near_triangles(in_a, in_b, reach_);
     std::sort(gaps.begin(), gaps.end(), [](const auto& x, const auto& y) {
@@ -157,8 +157,9 @@ bool NearestSearch<Trees>::look_at_lanes(const LeafLanes& in_a, const LeafLanes&
     });
     for (const kernels::TriangleGap& gap : gaps) {
         if (gap.lower > reach_.limit) break;
-        const double limit = near(
-            TreePair{in_a.leaf * format::kBvhWidth + gap.a, in_b.leaf * format::kBvhWidth + gap.b});
+        const double limit =
+            near(TreePair{trees_.triangle_a(in_a.number * format::kBvhWidth + gap.a),
+                          trees_.triangle_b(in_b.number * format::kBvhWidth + gap.b)});
         if (limit < 0) return false;
         reach_.limit = in_pair_units(limit);
     }

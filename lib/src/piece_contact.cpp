@@ -63,6 +63,7 @@ bool any_contact_of_pieces(const Model& a, const Model& b, const Placement& plac
     const std::size_t leaves_a = a.piece_leaves().size(), leaves_b = b.piece_leaves().size();
     if (leaves_a == 0 || leaves_b == 0) return false;
     PairCache& pair = cache->pair;
+    if (still_touches(pair, a, b, placement, options, workspace.storage().counts)) return true;
     if (proven_gap(pair, a, b, placement) > 0) return false;
     const bool touched =
         (pair.holds & held_touch) != 0 && cache->leaf_a < leaves_a && cache->leaf_b < leaves_b;

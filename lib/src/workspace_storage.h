@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "candidate_nodes.h"
+#include "cdprep/format/geometry.h"
 #include "cdprep/format/limits.h"
 #include "cdprep/query_counts.h"
 #include "cdprep/workspace.h"
@@ -64,6 +65,14 @@ struct OpenStep {
     }
 };
 
+/// Leaves of pieces that are put together for a walk, by number modulo kLeafPlaces.
+struct GatheredLeaves {
+    std::array<format::BvhLeaf, kernels::kLeafPlaces> leaf;
+    std::array<std::uint32_t, kernels::kLeafPlaces> holds;     ///< number
+    std::array<std::uint64_t, kernels::kLeafPlaces> walk{};    ///< that put it there
+    std::array<std::uint64_t, kernels::kLeafPlaces> wanted{};  ///< until which batch is tested
+};
+
 /// A step takes at least one side a level down.
 inline constexpr std::size_t kMaxOpenSteps = std::size_t{2} * (format::kMaxBvhLevels + 1);
 
@@ -83,6 +92,10 @@ struct Workspace::Storage {
     NodeLists<64> node_lists_a;
     NodeLists<64> node_lists_b;
     kernels::LeafScratch leaf_scratch;
+    GatheredLeaves gathered_a;
+    GatheredLeaves gathered_b;
+    std::uint64_t leaf_batch = 1;   ///< batches of leaves that were tested, and one
+    std::uint64_t piece_walks = 0;  ///< that were begun
     std::array<OpenStep, kMaxOpenSteps> open_steps;
     std::array<std::uint64_t, kMaxPendingPairs> pending;
     std::array<NearPair, kMaxPendingPairs> near;

@@ -3,7 +3,8 @@
 // every pose of a file a walk begins: each step moves B by 1/1000 of the diagonal and
 // turns it by 0.2 degrees about its middle, in one direction a walk. Whole sets of
 // walks are asked with and without a cache, in turns; a cache lives as long as a walk.
-// The first step of a walk is not timed: there the cache is empty. One thread.
+// Processor time. The first step of a walk is not timed: there the cache is empty. One thread. Of
+// bakes with pieces, questions through these follow, with a PieceCache.
 //
 // Usage: coherent_motion_bench BAKES POSES [ROUNDS [PAIR...]]
 // as pair_queries_bench: models normalised, line i of a file is of kind i mod 3.
@@ -12,10 +13,10 @@
 // of their middle half; `times` is the one by the other.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -25,8 +26,8 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
+#include "cdprep/distance_through.h"
+#include "cdprep/overlap_through.h"
 #include "cdprep/overlapping_triangles.h"
 
 namespace cdprep {
@@ -81,14 +82,26 @@ Walk walk_from(const Pose& start, std::mt19937& random) {
     return walk;
 }
 
-bool ask(const Model& a, const Model& b, std::size_t question, const Placement& placement,
-         Workspace& workspace, PairCache* cache) {
-    if (question == collides) return collide(a, b, placement, workspace, {}, cache).hit;
-    if (question == overlaps) {
-        return overlapping_triangles(a, b, placement, workspace, {}, {}, cache) > 0;
+bool ask(const StructureOptions& through, const Model& a, const Model& b, std::size_t question,
+         const Placement& placement, Workspace& workspace, PieceCache* cache) {
+    if (question == collides) {
+        return any_overlap_through(through, a, b, placement, workspace, {}, cache);
     }
-    if (question == within) return is_within(a, b, placement, kTolerance, workspace, cache);
-    return distance(a, b, placement, workspace, {}, cache)->upper == 0;
+    if (question == overlaps) {
+        PairCache* pair = cache == nullptr ? nullptr : &cache->pair;
+        return overlapping_triangles(a, b, placement, workspace, {}, {}, pair) > 0;
+    }
+    if (question == within) {
+        return is_within_through(through, a, b, placement, kTolerance, workspace, cache);
+    }
+    return distance_through(through, a, b, placement, workspace, {}, cache)->upper == 0;
+}
+
+/// The processor time of this thread: walks are short, others' turns among them are not.
+double thread_us() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
 }
 
 /// What one contender took for one set of walks.
@@ -97,19 +110,18 @@ struct Taken {
     std::size_t hits = 0;  ///< questions answered with yes, or with a distance of 0
 };
 
-Taken ask_all(const Model& a, const Model& b, std::size_t question, const std::vector<Walk>& walks,
-              bool cached, Workspace& workspace) {
-    using Clock = std::chrono::steady_clock;
+Taken ask_all(const StructureOptions& through, const Model& a, const Model& b, std::size_t question,
+              const std::vector<Walk>& walks, bool cached, Workspace& workspace) {
     Taken taken;
     for (const Walk& walk : walks) {
-        PairCache cache;
-        PairCache* kept = cached ? &cache : nullptr;
-        ask(a, b, question, walk[0], workspace, kept);
-        const Clock::time_point begun = Clock::now();
+        PieceCache cache;
+        PieceCache* kept = cached ? &cache : nullptr;
+        ask(through, a, b, question, walk[0], workspace, kept);
+        const double begun = thread_us();
         for (std::size_t i = 1; i < walk.size(); ++i) {
-            taken.hits += ask(a, b, question, walk[i], workspace, kept) ? 1 : 0;
+            taken.hits += ask(through, a, b, question, walk[i], workspace, kept) ? 1 : 0;
         }
-        taken.us += std::chrono::duration<double, std::micro>(Clock::now() - begun).count();
+        taken.us += thread_us() - begun;
     }
     taken.us /= static_cast<double>(walks.size() * kSteps);
     return taken;
@@ -117,7 +129,7 @@ Taken ask_all(const Model& a, const Model& b, std::size_t question, const std::v
 
 using Ratios = std::map<std::string, std::vector<double>>;
 
-void compare(const std::string& pair, const Model& a, const Model& b,
+void compare(Structure structure, const std::string& pair, const Model& a, const Model& b,
              const std::vector<Pose>& poses, int rounds, Ratios& ratios) {
     std::mt19937 random(1);
     Workspace workspace;
@@ -128,17 +140,21 @@ void compare(const std::string& pair, const Model& a, const Model& b,
         }
         for (std::size_t question = 0; question < kQuestions.size(); ++question) {
             if (question > overlaps && kind != 2) continue;  // touching: as collide
+            const bool is_pieces = structure == Structure::pieces;
+            if (is_pieces && question == overlaps) continue;  // has no cache
             std::array<std::vector<double>, 2> us;
             std::array<std::size_t, 2> hits{};
             for (int round = 0; round < rounds; ++round) {
                 for (const std::size_t cached : {0, 1}) {
-                    const Taken taken = ask_all(a, b, question, walks, cached == 1, workspace);
+                    const Taken taken = ask_all({.structure = structure}, a, b, question, walks,
+                                                cached == 1, workspace);
                     us[cached].push_back(taken.us);
                     hits[cached] = taken.hits;
                 }
             }
             if (hits[0] != hits[1]) stop("a cache changed an answer");
-            const std::string key = std::string(kQuestions[question]) + "/" + kKinds[kind];
+            const std::string key =
+                std::string(is_pieces ? "pieces/" : "") + kQuestions[question] + "/" + kKinds[kind];
             const double ratio = median(us[0]) / median(us[1]);
             std::printf("%s,%s,%zu,%zu,%.2f,%.2f,%.2f,%.2f,%.2f\n", pair.c_str(), key.c_str(),
                         walks.size() * kSteps, hits[0], median(us[0]), spread(us[0]), median(us[1]),
@@ -160,7 +176,10 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
         const Model a = open_or_stop(bakes / (pair.substr(0, dash) + ".cdp.h5"));
         const Model b = open_or_stop(bakes / (pair.substr(dash + 1) + ".cdp.h5"));
         const std::vector<Pose> poses = read_poses(poses_folder / (pair + ".pose"));
-        compare(pair, a, b, poses, rounds, ratios);
+        compare(Structure::bvh, pair, a, b, poses, rounds, ratios);
+        if (!a.piece_nodes().empty() && !b.piece_nodes().empty()) {
+            compare(Structure::pieces, pair, a, b, poses, rounds, ratios);
+        }
     }
     for (const auto& [key, values] : ratios) {
         std::printf("median of %zu pairs,%s,,,,,,,%.2f\n", values.size(), key.c_str(),

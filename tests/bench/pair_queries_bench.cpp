@@ -7,7 +7,8 @@
 // The cold rounds flush the caches before every question. One thread. Of bakes with pieces
 // the hierarchy over them is a contender too.
 //
-// Usage: pair_queries_bench BAKES POSES [ROUNDS [PAIR...]]
+// Usage: pair_queries_bench [--warm] BAKES POSES [ROUNDS [PAIR...]]
+// --warm leaves the cold rounds out, which take most of the time.
 // BAKES holds NAME.cdp.h5, baked with --normalize; POSES holds A-B.pose files of 12
 // numbers a line, R row by row, then T; line i is of kind i mod 3. PAIR is A-B;
 // without, all files of POSES are taken.
@@ -263,7 +264,7 @@ double bytes_per_triangle(const Model& model) {
 }
 
 void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_folder,
-         const std::vector<std::string>& pairs, int rounds) {
+         const std::vector<std::string>& pairs, int rounds, bool warm_alone) {
     std::printf(
         "pair,question,contender,poses,pairs,median_us,p95_us,times,times_p95,"
         "box_pairs,triangle_pairs,by_kernel,by_corner,by_filter,by_exact\n");
@@ -285,7 +286,7 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
         std::printf("bytes per triangle of %s,,,,,%.1f,,%.1f,\n", pair.c_str(),
                     bytes_per_triangle(a), bytes_per_triangle(b));
         compare(pair, contenders, poses, rounds, false, ratios);
-        compare(pair, contenders, poses, 1, true, ratios);
+        if (!warm_alone) compare(pair, contenders, poses, 1, true, ratios);
     }
     for (const auto& [key, values] : ratios) {
         std::printf("median of %zu pairs,%s,,,,,%.2f,\n", values.size(), key.c_str(),
@@ -299,13 +300,18 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
 }  // namespace cdprep
 
 int main(int count, char** arguments) {
+    const bool warm_alone = count > 1 && std::string(arguments[1]) == "--warm";
+    if (warm_alone) {
+        ++arguments;
+        --count;
+    }
     if (count < 3) {
-        std::fprintf(stderr, "usage: %s BAKES POSES [ROUNDS [PAIR...]]\n", arguments[0]);
+        std::fprintf(stderr, "usage: %s [--warm] BAKES POSES [ROUNDS [PAIR...]]\n", arguments[0]);
         return 2;
     }
     const std::filesystem::path poses = arguments[2];
     const auto pairs =
         cdprep::pairs_or_all({arguments + std::min(count, 4), arguments + count}, poses);
     const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 5;
-    cdprep::run(arguments[1], poses, pairs, rounds);
+    cdprep::run(arguments[1], poses, pairs, rounds, warm_alone);
 }
