@@ -24,15 +24,20 @@ namespace {
 constexpr double kCellSize = 6;       ///< of the error: the largest cells
 constexpr double kCellError = 0.5;    ///< of the error: how far a cell's hull may stick out
 constexpr double kSpacing = 0.75;     ///< of the error: of the field's nodes
-constexpr double kReach = 3;          ///< of the error: how far out the field is measured
+constexpr double kReach = 2.3;        ///< of the error: how far out the field is measured
 constexpr double kReuse = 1.5;        ///< by how much the error may change before all is cut anew
 constexpr double kLeastError = 1e-3;  ///< of the diagonal: smaller ones are not sought
 constexpr double kMeasured = 0.92;    ///< of the error that is asked for: what estimates leave
 constexpr double kRelative =
-    0.02;  ///< how close bounds of errors are, unless that is too much work
-constexpr std::size_t kTries = 10;   ///< at errors, to come near the number of parts
-constexpr std::size_t kRounds = 16;  ///< of attempts to do with fewer pieces
-constexpr double kFewer = 0.93;      ///< of the pieces: what attempts can spare, as a rule
+    0.02;                          ///< how close bounds of errors are, unless that is too much work
+constexpr std::size_t kTries = 8;  ///< at errors, to come near the number of parts
+constexpr double kFirstError = 0.18;   ///< of the diagonal: what one piece may be expected to need
+constexpr double kPower = 0.65;        ///< of the number of pieces: by how much less more need
+constexpr double kCloseErrors = 1.05;  ///< as a ratio: none is sought between
+constexpr double kEnough = 0.95;       ///< of the pieces that are allowed: no more are sought
+constexpr double kLeastShare = 0.6;    ///< of an error that turned out to be too large: the next
+constexpr std::size_t kRounds = 16;    ///< of attempts to do with fewer pieces
+constexpr double kFewer = 0.93;        ///< of the pieces: what attempts can spare, as a rule
 
 /// Cells and distances, fit for errors about as large as `error`.
 struct Stage {
@@ -75,7 +80,8 @@ public:
         // Estimates may be a little low: what was asked is held to be what is proved.
         for (int i = 0; i < 4 && options_.max_error && found.count() <= most; ++i) {
             if (result.outer_error <= *options_.max_error || !found.complete) break;
-            found = cover(0.95 * found.error * *options_.max_error / result.outer_error, 0, true);
+            const double share = 0.95 * *options_.max_error / result.outer_error;
+            found = cover_with_few(std::max(share, kLeastShare) * found.error);
             ran_out_of_work_ = ran_out_of_work_ || !found.complete;
             if (!found.complete || found.count() > most) break;
             result = finish(found);
@@ -172,42 +178,63 @@ private:
         return stage_;
     }
 
-    /// Pieces for one error; at most `few_enough` when they are that easily found.
-    Found cover(double error, std::size_t few_enough, bool thorough) {
+    /// Pieces for one error, as they are first found.
+    Found cover(double error) {
         Found found;
         found.error = std::max(error, kLeastError * solid_.diagonal());
-        std::vector<bool> is_open(label_count_, false);
-        bool is_any_open = false;
         for (std::uint32_t label = 0; label < label_count_; ++label) {
-            is_open[label] = !is_whole(label, found.error);
-            is_any_open = is_any_open || is_open[label];
-            if (!is_open[label]) found.whole.push_back(label);
+            if (is_whole(label, found.error)) found.whole.push_back(label);
         }
         found.complete = true;
-        if (!is_any_open) return found;
+        if (found.whole.size() == label_count_) return found;
         found.stage = stage_for(found.error);
+        search(found, 0, 0);
+        return found;
+    }
+
+    /// Attempts to do with fewer pieces, until there are few enough.
+    void improve(Found& found, std::size_t few_enough) {
+        if (found.complete && found.stage) search(found, kRounds, few_enough);
+    }
+
+    /// Covers what is not one piece, or goes on from the pieces that there are.
+    void search(Found& found, std::size_t rounds, std::size_t few_enough) {
+        const std::vector<CoverCell>& all = found.stage->cover;
         std::vector<CoverCell> cells;
         std::vector<std::uint32_t> numbers;
-        for (std::uint32_t i = 0; i < found.stage->cover.size(); ++i) {
-            if (!is_open[found.stage->cover[i].body]) continue;
-            cells.push_back(found.stage->cover[i]);
+        std::vector<std::uint32_t> place(all.size());
+        for (std::uint32_t i = 0; i < all.size(); ++i) {
+            if (std::binary_search(found.whole.begin(), found.whole.end(), all[i].body)) continue;
+            place[i] = static_cast<std::uint32_t>(cells.size());
+            cells.push_back(all[i]);
             numbers.push_back(i);
         }
+        const auto renumber = [&](const std::vector<std::uint32_t>& name) {
+            for (auto& piece : found.pieces) {
+                for (std::uint32_t& cell : piece) cell = name[cell];
+            }
+        };
+        renumber(place);
         CoverOptions how;
         how.error = found.error;
-        how.rounds = thorough ? kRounds : 0;
+        how.rounds = rounds;
         how.few_enough = few_enough > found.whole.size() ? few_enough - found.whole.size() : 0;
-        how.most_work = options_.work > work_done_ ? options_.work - work_done_ : 0;
+        how.begin_with = found.pieces;
         how.known = known_;
+        how.most_work = options_.work > work_done_ ? options_.work - work_done_ : 0;
         how.parallel_for = options_.parallel_for;
         Cover covered = cover_with_pieces(cells, found.stage->field, how);
         work_done_ += covered.work;
         known_.insert(known_.end(), covered.found.begin(), covered.found.end());
         found.complete = covered.complete;
         found.pieces = std::move(covered.pieces);
-        for (auto& piece : found.pieces) {
-            for (std::uint32_t& cell : piece) cell = numbers[cell];
-        }
+        renumber(numbers);
+    }
+
+    /// As few pieces for one error as are found.
+    Found cover_with_few(double error) {
+        Found found = cover(error);
+        improve(found, 0);
         return found;
     }
 
@@ -222,7 +249,7 @@ private:
     Found find_by_error(double max_error) {
         double error = kMeasured * max_error;
         while (error < solid_.diagonal()) {
-            Found found = cover(error, 0, true);
+            Found found = cover_with_few(error);
             if (found.complete) return found;
             ran_out_of_work_ = true;
             // Room for a looser one: it has fewer pieces.
@@ -232,50 +259,72 @@ private:
         return all_whole();
     }
 
+    /// Errors between which the one lies that is sought, and how many pieces they need:
+    /// about a power of the error.
+    struct Bracket {
+        double too_small = 0;
+        double most_pieces = 0;
+        double good = std::numeric_limits<double>::infinity();
+        double fewest_pieces = 0;
+
+        [[nodiscard]] bool is_closed() const {
+            return too_small > 0 && good <= kCloseErrors * too_small;
+        }
+        /// Where as many pieces may be expected.
+        [[nodiscard]] double guess(double pieces) const {
+            if (too_small == 0) {
+                return good * std::clamp(std::pow(fewest_pieces / pieces, kPower), 0.6, 0.9);
+            }
+            if (std::isinf(good)) {
+                return too_small * std::clamp(std::pow(most_pieces / pieces, kPower), 1.1, 1.7);
+            }
+            const double share = std::log(most_pieces / pieces) /
+                                 std::log(most_pieces / std::max(fewest_pieces, 1.0));
+            return too_small * std::pow(good / too_small, std::clamp(share, 0.2, 0.8));
+        }
+    };
+
     /// The least error, not below `least`, at which there are no more pieces than `parts`.
     Found find_by_parts(std::size_t parts, double least) {
         Found best = all_whole();
         if (parts <= label_count_) return best;
-        double error =
-            std::max(least, 0.15 * solid_.diagonal() / std::pow(static_cast<double>(parts), 0.6));
-        double too_small = 0;
-        double good = solid_.diagonal();
-        // Few attempts first: what more of them spare is known well enough.
+        // Without attempts to do with fewer: what those spare is known well enough.
         const double aim = static_cast<double>(parts) / kFewer;
-        for (std::size_t i = 0; i < kTries && good > too_small * 1.05; ++i) {
-            Found found = cover(error, parts, false);
+        double error = std::max(
+            least, kFirstError * solid_.diagonal() / std::pow(static_cast<double>(parts), kPower));
+        Bracket bracket;
+        Found close;
+        for (std::size_t i = 0; i < kTries && !bracket.is_closed(); ++i) {
+            Found found = cover(error);
             if (!found.complete) {
                 // A larger error takes less work.
                 ran_out_of_work_ = true;
                 if (best.error < solid_.diagonal()) return best;
                 work_done_ = std::min(work_done_, options_.work / 4 * 3);
-                too_small = error;
                 error = std::min(1.6 * error, solid_.diagonal());
                 continue;
             }
             const double count = static_cast<double>(found.count());
-            (count > aim ? too_small : good) = error;
             if (found.count() <= parts && found.error < best.error) best = found;
-            if (error <= least && count <= aim) break;
-            const double ratio = std::pow(count / aim, 0.7);
-            if (good == solid_.diagonal()) {
-                error *= std::max(ratio, 1.12);
-            } else if (too_small == 0) {
-                error *= std::min(ratio, 0.88);
+            if (count > aim) {
+                bracket.too_small = error;
+                bracket.most_pieces = count;
             } else {
-                error = std::sqrt(too_small * good);
+                bracket.good = error;
+                bracket.fewest_pieces = count;
+                close = std::move(found);
+                if (count >= kEnough * static_cast<double>(parts) || error <= least) break;
             }
-            error = std::max(error, least);
+            error = std::max(bracket.guess(static_cast<double>(parts)), least);
         }
-        for (int i = 0; i < 5 && good < best.error; ++i, good *= 1.04) {
-            Found found = cover(good, parts, true);
-            if (!found.complete) {
+        for (int i = 0; i < 5 && close.stage && close.error < best.error; ++i) {
+            improve(close, parts);
+            if (!close.complete) {
                 ran_out_of_work_ = true;
                 return best;
             }
-            if (found.count() > parts) continue;
-            if (found.error < best.error) best = std::move(found);
-            break;
+            if (close.count() <= parts) return close;
+            close = cover(1.04 * close.error);
         }
         return best;
     }
@@ -321,14 +370,15 @@ private:
             proofs[i].fragments = points[i].fragments;
             is_measured[i] = i < first && piece.hull.points.size() == exact ? 1 : 0;
             estimates[i] = is_measured[i] != 0 ? piece.error.upper
-                           : found.stage       ? found.stage->field.estimate(piece.hull, 0).distance
-                                               : 0;
+                           : found.stage
+                               ? found.stage->field.estimate(piece.hull, 0, Detail::fine).distance
+                               : 0;
         };
         options_.parallel_for(points.size(), finish_piece);
         // Bounds closer than the largest error would not make the bound of all any closer.
         HullErrorOptions how;
         how.relative = kRelative;
-        how.enough = *std::max_element(estimates.begin(), estimates.end());
+        how.enough = (1 + kRelative) * *std::max_element(estimates.begin(), estimates.end());
         const auto measure = [&](std::size_t i) {
             if (is_measured[i] != 0) return;
             result.pieces[i].error = find_hull_error(result.pieces[i].hull, solid_, how);

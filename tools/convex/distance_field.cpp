@@ -14,7 +14,7 @@ constexpr double kMostNodes = 8e6;
 constexpr double kSampling = 0.4;        ///< of a spacing: sides of the last triangles
 constexpr double kCentreWay = 0.67;      ///< of the longest side: from the centre to a corner
 constexpr double kInterpolation = 0.87;  ///< of a spacing: the farthest node of a cube's eight
-constexpr double kTooLow = 0.5;          ///< of a spacing: what a field lacks between two walls
+constexpr double kTooLow = 0.35;         ///< of a spacing: what a field mostly lacks at most
 constexpr std::size_t kFiner = 3;        ///< times, the field that is measured when asked for
 constexpr double kMostFine = 6.4e7;      ///< nodes of that
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
@@ -202,7 +202,7 @@ double DistanceField::fine_at(const Double3& p) const {
         place, [this](std::size_t x, std::size_t y, std::size_t z) { return fine_node(x, y, z); });
 }
 
-void DistanceField::sample(std::array<Double3, 3> corners, Estimate& most) const {
+void DistanceField::sample(std::array<Double3, 3> corners, Detail detail, Estimate& most) const {
     const double ab = apart(corners[0], corners[1]);
     const double bc = apart(corners[1], corners[2]);
     const double ca = apart(corners[2], corners[0]);
@@ -214,9 +214,10 @@ void DistanceField::sample(std::array<Double3, 3> corners, Estimate& most) const
     // Distances change by no more than the way.
     const double way = kCentreWay * longest;
     double here = at(centre);
-    const double too_low = kTooLow * spacing_;
+    const bool is_fine = detail == Detail::fine && fine_;
+    const double too_low = is_fine ? kTooLow * spacing_ : 0;
     if (here + too_low + way <= most.distance) return;
-    if (fine_) {
+    if (is_fine) {
         here = fine_at(centre);
         if (here + too_low / static_cast<double>(kFiner) + way <= most.distance) return;
     }
@@ -225,15 +226,15 @@ void DistanceField::sample(std::array<Double3, 3> corners, Estimate& most) const
     if (longest > ab)
         std::rotate(corners.begin(), corners.begin() + (longest == bc ? 1 : 2), corners.end());
     const Double3 cut = middle(corners[0], corners[1]);
-    sample({corners[0], cut, corners[2]}, most);
-    sample({cut, corners[1], corners[2]}, most);
+    sample({corners[0], cut, corners[2]}, detail, most);
+    sample({cut, corners[1], corners[2]}, detail, most);
 }
 
-Estimate DistanceField::estimate(const ConvexHull& hull, double least) const {
+Estimate DistanceField::estimate(const ConvexHull& hull, double least, Detail detail) const {
     Estimate most{least};
-    if (hull.dimension == 1) sample({hull.points[0], hull.points[1], hull.points[1]}, most);
+    if (hull.dimension == 1) sample({hull.points[0], hull.points[1], hull.points[1]}, detail, most);
     for (const auto& f : hull.facets) {
-        sample({hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]}, most);
+        sample({hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]}, detail, most);
     }
     return most;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -19,6 +20,10 @@ struct Estimate {
     Double3 at = {0, 0, 0};
     std::size_t samples = 0;  ///< looked at
 };
+
+/// Between two walls a field is too low, by up to half a spacing. A finer one, whose nodes
+/// are measured when they are first asked for, is asked where that matters.
+enum class Detail : std::uint8_t { coarse, fine };
 
 /// Distances from a solid on a grid, negative inside: what the search for pieces goes by.
 /// Rounded and interpolated; results are measured afterwards.
@@ -41,10 +46,8 @@ public:
     [[nodiscard]] PointGroups nodes_beyond(double distance) const;
 
     /// The greatest distance on the hull's surface, where it is more than `least`; else
-    /// `least` itself. By samples; the field tells where to look, and a finer one what there
-    /// is, whose nodes are measured when they are first asked for: between two walls the field
-    /// alone is too low by up to half a spacing.
-    [[nodiscard]] Estimate estimate(const ConvexHull& hull, double least) const;
+    /// `least` itself. By samples about half a spacing apart.
+    [[nodiscard]] Estimate estimate(const ConvexHull& hull, double least, Detail detail) const;
 
 private:
     struct Block {
@@ -55,7 +58,7 @@ private:
         return (z * count_[1] + y) * count_[0] + x;
     }
     void fill(const Block& block, double beyond);
-    void sample(std::array<Double3, 3> corners, Estimate& most) const;
+    void sample(std::array<Double3, 3> corners, Detail detail, Estimate& most) const;
     [[nodiscard]] double fine_at(const Double3& p) const;
     [[nodiscard]] double fine_node(std::size_t x, std::size_t y, std::size_t z) const;
 

@@ -105,12 +105,15 @@ public:
     }
 
     Cover run() {
-        Progress all = cover_wanted(std::vector<bool>(cells_.size(), true), cells_.size() + 1, 0,
-                                    far_, options_.parallel_for);
-        work_ = all.work;
-        found_ = std::move(all.found);
         Cover cover;
-        cover.pieces = std::move(all.chosen);
+        cover.pieces.assign(options_.begin_with.begin(), options_.begin_with.end());
+        if (cover.pieces.empty()) {
+            Progress all = cover_wanted(std::vector<bool>(cells_.size(), true), cells_.size() + 1,
+                                        0, far_, options_.parallel_for);
+            work_ = all.work;
+            found_ = std::move(all.found);
+            cover.pieces = std::move(all.chosen);
+        }
         cover.complete = work_ <= options_.most_work;
         if (cover.complete) {
             drop_needless(cover.pieces);
@@ -213,7 +216,7 @@ private:
         for (const std::uint32_t cell : piece) {
             points.insert(points.end(), cells_[cell].points.begin(), cells_[cell].points.end());
         }
-        return field_.estimate(convex_hull(points), options_.error);
+        return field_.estimate(convex_hull(points), options_.error, Detail::fine);
     }
 
     /// A piece within the error: grown anew, with points kept out that it had taken in, where

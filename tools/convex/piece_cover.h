@@ -20,8 +20,10 @@ struct CoverCell {
 struct CoverOptions {
     double error = 0;      ///< pieces are estimated to stick out by no more than this, model units
     double margin = 0.25;  ///< a share of it: hulls grow among nodes that are nearer by that
-    std::size_t rounds = 16;               ///< of attempts to do with fewer pieces
-    std::size_t few_enough = 0;            ///< no more attempts when there are as few
+    std::size_t rounds = 16;     ///< of attempts to do with fewer pieces
+    std::size_t few_enough = 0;  ///< no more attempts when there are as few
+    /// Pieces within the error that take in all cells: what is left is to do with fewer.
+    std::span<const std::vector<std::uint32_t>> begin_with = {};
     std::span<const Estimate> known = {};  ///< points of the space around, and how far out
     /// Gives up, incomplete, after so much work: some ten nanoseconds of one core each.
     std::size_t most_work = 1'000'000'000;

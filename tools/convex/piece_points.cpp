@@ -5,6 +5,7 @@
 #include <array>
 #include <limits>
 #include <numeric>
+#include <tuple>
 
 #include "mesh/vectors.h"
 #include "predicates.h"
@@ -96,6 +97,83 @@ bool is_within_polygon(const ConvexHull& hull, const Double3& p) {
     return false;
 }
 
+/// Points in boxes within boxes: what is behind a facet with all corners of its box is
+/// behind it, exactly, for coordinates of boxes are those of points.
+class InsideProof {
+public:
+    InsideProof(const ConvexHull& hull, std::span<const Double3> points)
+        : points_(points.begin(), points.end()) {
+        facets_.reserve(hull.facets.size());
+        for (const auto& f : hull.facets) {
+            facets_.push_back({hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]});
+        }
+    }
+
+    EnclosureProof run() {
+        std::vector<std::uint32_t> all(facets_.size());
+        std::iota(all.begin(), all.end(), 0U);
+        look(points_, all);
+        return proof_;
+    }
+
+private:
+    void look(std::span<Double3> points, std::span<const std::uint32_t> facets) {
+        if (points.size() <= kFew) {
+            for (const Double3& p : points) proof_.outside += is_behind_all(p, facets) ? 0 : 1;
+            return;
+        }
+        mesh::Box box;
+        for (const Double3& p : points) box.add(p);
+        std::vector<std::uint32_t> near;
+        for (const std::uint32_t facet : facets) {
+            if (!is_behind(box, facets_[facet])) near.push_back(facet);
+        }
+        if (near.empty()) return;
+        const Double3 size = {box.upper.x - box.lower.x, box.upper.y - box.lower.y,
+                              box.upper.z - box.lower.z};
+        double Double3::*axis = &Double3::z;
+        if (size.y >= size.z) axis = &Double3::y;
+        if (size.x >= size.y && size.x >= size.z) axis = &Double3::x;
+        const std::size_t half = points.size() / 2;
+        // Ties by all coordinates: the same halves with any standard library's selection.
+        std::nth_element(points.begin(), points.begin() + static_cast<std::ptrdiff_t>(half),
+                         points.end(), [&](const Double3& a, const Double3& b) {
+                             return std::tie(a.*axis, a.x, a.y, a.z) <
+                                    std::tie(b.*axis, b.x, b.y, b.z);
+                         });
+        look(points.first(half), near);
+        look(points.subspan(half), near);
+    }
+
+    bool is_behind_all(const Double3& p, std::span<const std::uint32_t> facets) {
+        for (const std::uint32_t facet : facets) {
+            const ThreePoints& t = facets_[facet];
+            ++proof_.tests;
+            if (orient3d(t[0], t[1], t[2], p) < 0) return false;
+        }
+        return true;
+    }
+
+    bool is_behind(const mesh::Box& box, const ThreePoints& facet) {
+        const auto& [low, high] = box;
+        const std::array<ThreePoints, 3> corners = {
+            {{low, high, {low.x, low.y, high.z}},
+             {{{low.x, high.y, low.z}, {low.x, high.y, high.z}, {high.x, low.y, low.z}}},
+             {{{high.x, low.y, high.z}, {high.x, high.y, low.z}, high}}}};
+        for (const ThreePoints& three : corners) {
+            proof_.tests += 3;
+            for (const int sign : plane_signs(facet, three)) {
+                if (sign < 0) return false;
+            }
+        }
+        return true;
+    }
+
+    std::vector<Double3> points_;
+    std::vector<ThreePoints> facets_;
+    EnclosureProof proof_;
+};
+
 }  // namespace
 
 std::vector<Double3> extreme_points(const SolidCells& cells, const SolidCell& cell) {
@@ -168,22 +246,13 @@ std::vector<PiecePoints> gather_points(const SolidCells& cells, const mesh::Mesh
 }
 
 EnclosureProof prove_points(const ConvexHull& hull, std::span<const Double3> points) {
+    if (hull.dimension == 3) return InsideProof(hull, points).run();
     EnclosureProof proof;
     for (const Double3& p : points) {
-        bool outside = hull.dimension < 2 &&
-                       std::find(hull.points.begin(), hull.points.end(), p) == hull.points.end();
-        if (hull.dimension == 2) outside = !is_within_polygon(hull, p);
-        if (hull.dimension == 3) {
-            for (const auto& f : hull.facets) {
-                ++proof.tests;
-                if (orient3d(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]], p) >= 0) {
-                    continue;
-                }
-                outside = true;
-                break;
-            }
-        }
-        proof.outside += outside ? 1 : 0;
+        const bool within = hull.dimension == 2 ? is_within_polygon(hull, p)
+                                                : std::find(hull.points.begin(), hull.points.end(),
+                                                            p) != hull.points.end();
+        proof.outside += within ? 0 : 1;
     }
     return proof;
 }

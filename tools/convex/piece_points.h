@@ -27,7 +27,8 @@ struct PiecePoints {
     const SolidCells& cells, const mesh::Mesh& mesh,
     std::span<const std::vector<std::uint32_t>> pieces);
 
-/// Counts how many points are outside of a hull, exactly.
+/// Counts how many points are outside of a hull, exactly. Tests of corners of boxes around
+/// points count as such of points.
 [[nodiscard]] EnclosureProof prove_points(const ConvexHull& hull, std::span<const Double3> points);
 
 }  // namespace cdprep::convex

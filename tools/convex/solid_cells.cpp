@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "convex/convex_hull.h"
@@ -17,10 +18,11 @@ using Axis = double Double3::*;
 using Interval = CGAL::Interval_nt<true>;
 
 constexpr std::array<Axis, 3> kAxes = {&Double3::x, &Double3::y, &Double3::z};
-constexpr double kSmallest = 0.125;    ///< of the size: cells are not cut beyond
-constexpr double kUncut = 0.25;        ///< triangles this small against a cell are not cut
-constexpr double kNearMiddle = 0.25;   ///< of a side: how far from its middle a cut may be
-constexpr std::uint32_t kSharing = 3;  ///< vertices with one coordinate that attract a cut
+constexpr double kSmallest = 0.125;        ///< of the size: cells are not cut beyond
+constexpr double kUncut = 0.25;            ///< triangles this small against a cell are not cut
+constexpr double kNearMiddle = 0.25;       ///< of a side: how far from its middle a cut may be
+constexpr std::size_t kChunk = 1U << 14U;  ///< fragments that are looked at in one go
+constexpr std::uint32_t kSharing = 3;      ///< vertices with one coordinate that attract a cut
 
 /// A box that is still to be cut.
 struct Open {
@@ -125,27 +127,64 @@ private:
         std::vector<std::uint8_t> is_done(level.size());
         const auto look = [&](std::size_t i) { is_done[i] = is_small_enough(level[i]) ? 1 : 0; };
         options_.parallel_for(level.size(), look);
-        std::vector<Open> next;
+        std::vector<Cut> cuts;
         for (std::size_t i = 0; i < level.size(); ++i) {
-            Open& open = level[i];
-            const Axis axis = longest_axis(open.box);
-            const double at = choose_cut(open.box, axis);
-            const bool has_room = at > open.box.lower.*axis && at < open.box.upper.*axis;
+            const Box& box = level[i].box;
+            const Axis axis = longest_axis(box);
+            const double at = choose_cut(box, axis);
+            const bool has_room = at > box.lower.*axis && at < box.upper.*axis;
             if (is_done[i] != 0 || is_full || !has_room) {
-                close(open);
-                continue;
+                close(level[i]);
+            } else {
+                cuts.push_back({&level[i], axis, at});
             }
-            Open below{open.box, {}};
-            Open above{open.box, {}};
-            below.box.upper.*axis = at;
-            above.box.lower.*axis = at;
-            for (const std::uint32_t fragment : open.fragments) {
-                share(fragment, axis, at, below, above);
-            }
-            next.push_back(std::move(below));
-            next.push_back(std::move(above));
         }
-        return next;
+        return share_all(cuts);
+    }
+
+    /// A box that is cut in two.
+    struct Cut {
+        const Open* open;
+        Axis axis;
+        double at;
+    };
+    /// Some of its fragments, by the sides on which they are.
+    struct Shared {
+        std::size_t cut;
+        std::size_t first;
+        std::vector<std::uint32_t> below, above, across;
+    };
+
+    /// The two halves of each box. Fragments are looked at side by side, many boxes or many
+    /// parts of one; those that are cut themselves get their numbers one after the other.
+    std::vector<Open> share_all(std::span<const Cut> cuts) {
+        std::vector<Shared> shares;
+        for (std::size_t i = 0; i < cuts.size(); ++i) {
+            const std::size_t count = cuts[i].open->fragments.size();
+            for (std::size_t first = 0; first < count; first += kChunk) {
+                shares.push_back({i, first, {}, {}, {}});
+            }
+        }
+        const auto look = [&](std::size_t i) { share(cuts[shares[i].cut], shares[i]); };
+        options_.parallel_for(shares.size(), look);
+        std::vector<Open> halves;
+        for (const Cut& cut : cuts) {
+            halves.push_back({cut.open->box, {}});
+            halves.back().box.upper.*cut.axis = cut.at;
+            halves.push_back({cut.open->box, {}});
+            halves.back().box.lower.*cut.axis = cut.at;
+        }
+        for (const Shared& shared : shares) {
+            const Cut& cut = cuts[shared.cut];
+            Open& below = halves[2 * shared.cut];
+            Open& above = halves[2 * shared.cut + 1];
+            below.fragments.insert(below.fragments.end(), shared.below.begin(), shared.below.end());
+            above.fragments.insert(above.fragments.end(), shared.above.begin(), shared.above.end());
+            for (const std::uint32_t number : shared.across) {
+                cut_fragment(number, cut.axis, cut.at, below, above);
+            }
+        }
+        return halves;
     }
 
     [[nodiscard]] bool is_small_enough(const Open& open) const {
@@ -166,7 +205,8 @@ private:
         std::vector<Double3> points;
         points.reserve(places.size());
         for (const std::uint32_t place : places) points.push_back(cells_.places[place].lower);
-        return field_.estimate(convex_hull(points), options_.error).distance <= options_.error;
+        return field_.estimate(convex_hull(points), options_.error, Detail::coarse).distance <=
+               options_.error;
     }
 
     static Double3 centre(const Box& box) {
@@ -174,30 +214,33 @@ private:
                 box.lower.z / 2 + box.upper.z / 2};
     }
 
-    /// Hands a fragment to the boxes on either side of a cut, cut where it is large.
-    void share(std::uint32_t number, Axis axis, double at, Open& below, Open& above) {
-        const Fragment fragment = cells_.fragments[number];
-        Box box;
-        int lower = 0;
-        int upper = 0;
-        int unclear = 0;
-        for (const std::uint32_t place : fragment.place) {
-            const Place& p = cells_.places[place];
-            box.add(p.lower);
-            box.add(p.upper);
-            lower += p.upper.*axis <= at ? 1 : 0;
-            upper += p.lower.*axis >= at ? 1 : 0;
-            unclear += p.lower.*axis < at && p.upper.*axis > at ? 1 : 0;
+    /// Hands fragments to the boxes on either side of a cut; large ones across it are left.
+    void share(const Cut& cut, Shared& shared) const {
+        Box half = cut.open->box;
+        half.upper.*cut.axis = cut.at;
+        const double uncut_side = kUncut * longest_side(half);
+        const auto& all = cut.open->fragments;
+        const std::size_t end = std::min(shared.first + kChunk, all.size());
+        for (std::size_t i = shared.first; i < end; ++i) {
+            const std::uint32_t number = all[i];
+            Box around;
+            int lower = 0;
+            int upper = 0;
+            int unclear = 0;
+            for (const std::uint32_t place : cells_.fragments[number].place) {
+                const Place& p = cells_.places[place];
+                around.add(p.lower);
+                around.add(p.upper);
+                lower += p.upper.*cut.axis <= cut.at ? 1 : 0;
+                upper += p.lower.*cut.axis >= cut.at ? 1 : 0;
+                unclear += p.lower.*cut.axis < cut.at && p.upper.*cut.axis > cut.at ? 1 : 0;
+            }
+            const bool is_one_sided = lower == 3 || upper == 3;
+            const bool is_uncut = unclear > 0 || longest_side(around) <= uncut_side;
+            if (lower == 3 || (!is_one_sided && is_uncut)) shared.below.push_back(number);
+            if (upper == 3 || (!is_one_sided && is_uncut)) shared.above.push_back(number);
+            if (!is_one_sided && !is_uncut) shared.across.push_back(number);
         }
-        if (lower == 3) below.fragments.push_back(number);
-        if (upper == 3) above.fragments.push_back(number);
-        if (lower == 3 || upper == 3) return;
-        if (unclear > 0 || longest_side(box) <= kUncut * longest_side(below.box)) {
-            below.fragments.push_back(number);
-            above.fragments.push_back(number);
-            return;
-        }
-        cut(number, axis, at, below, above);
     }
 
     std::uint32_t add_place(const Place& place) {
@@ -206,7 +249,7 @@ private:
     }
 
     /// A side at a time: the corners on it and where the edges cross, as a fan.
-    void cut(std::uint32_t number, Axis axis, double at, Open& below, Open& above) {
+    void cut_fragment(std::uint32_t number, Axis axis, double at, Open& below, Open& above) {
         const Fragment fragment = cells_.fragments[number];
         std::vector<std::uint32_t> low;
         std::vector<std::uint32_t> high;
@@ -251,7 +294,8 @@ private:
     void close(const Open& open) {
         std::vector<std::uint32_t> bodies = solid_.bodies_around(centre(open.box));
         for (const std::uint32_t fragment : open.fragments) {
-            bodies.push_back(solid_.body_of(cells_.fragments[fragment].triangle));
+            const std::uint32_t body = solid_.body_of(cells_.fragments[fragment].triangle);
+            if (bodies.empty() || bodies.back() != body) bodies.push_back(body);
         }
         std::sort(bodies.begin(), bodies.end());
         bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());

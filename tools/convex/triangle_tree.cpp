@@ -39,8 +39,7 @@ double square_to_segment(const Double3& p, const Double3& a, const Double3& b) {
     return square({ap.x - t * ab.x, ap.y - t * ab.y, ap.z - t * ab.z});
 }
 
-/// Rounded; what it names is bounded by point_triangle_distance() where it counts.
-double square_to_triangle(const Double3& p, const Corners& t) {
+double square_to_needle(const Double3& p, const Corners& t) {
     const Double3 ab = minus(t[1], t[0]);
     const Double3 ac = minus(t[2], t[0]);
     const Double3 ap = minus(p, t[0]);
@@ -56,6 +55,46 @@ double square_to_triangle(const Double3& p, const Corners& t) {
     }
     return std::min({square_to_segment(p, t[0], t[1]), square_to_segment(p, t[1], t[2]),
                      square_to_segment(p, t[2], t[0])});
+}
+
+/// From the point where its foot is known to be: a + v ab + w ac.
+double square_to_foot(const Double3& ap, const Double3& ab, double v, const Double3& ac, double w) {
+    return square(
+        {ap.x - v * ab.x - w * ac.x, ap.y - v * ab.y - w * ac.y, ap.z - v * ab.z - w * ac.z});
+}
+
+/// Rounded; what it names is bounded by point_triangle_distance() where it counts. By the
+/// region that the foot is in (Ericson, Real-Time Collision Detection, 5.1.5), which takes
+/// one division; needles, whose regions rounding confuses, by plane and sides.
+double square_to_triangle(const Double3& p, const Corners& t) {
+    constexpr double kNeedle = 0.01;  // of the square of its sine at the first corner
+    const Double3 ab = minus(t[1], t[0]);
+    const Double3 ac = minus(t[2], t[0]);
+    const Double3 ap = minus(p, t[0]);
+    const double ab_ab = square(ab), ac_ac = square(ac), ab_ac = dot(ab, ac);
+    if (!(ab_ab * ac_ac - ab_ac * ab_ac > kNeedle * ab_ab * ac_ac)) return square_to_needle(p, t);
+    const double ab_ap = dot(ab, ap), ac_ap = dot(ac, ap);
+    if (ab_ap <= 0 && ac_ap <= 0) return square(ap);
+    const double ab_bp = ab_ap - ab_ab, ac_bp = ac_ap - ab_ac;
+    if (ab_bp >= 0 && ac_bp <= ab_bp) return square(minus(p, t[1]));
+    const double of_c = ab_ap * ac_bp - ab_bp * ac_ap;
+    if (of_c <= 0 && ab_ap >= 0 && ab_bp <= 0) {
+        return square_to_foot(ap, ab, ab_ap / ab_ab, ac, 0);
+    }
+    const double ab_cp = ab_ap - ab_ac, ac_cp = ac_ap - ac_ac;
+    if (ac_cp >= 0 && ab_cp <= ac_cp) return square(minus(p, t[2]));
+    const double of_b = ab_cp * ac_ap - ab_ap * ac_cp;
+    if (of_b <= 0 && ac_ap >= 0 && ac_cp <= 0) {
+        return square_to_foot(ap, ab, 0, ac, ac_ap / ac_ac);
+    }
+    const double of_a = ab_bp * ac_cp - ab_cp * ac_bp;
+    const double to_c = ac_bp - ab_bp, to_b = ab_cp - ac_cp;
+    if (of_a <= 0 && to_c >= 0 && to_b >= 0) {
+        const double w = to_c / (to_c + to_b);
+        return square_to_foot(ap, ab, 1 - w, ac, w);
+    }
+    const double all = of_a + of_b + of_c;
+    return square_to_foot(ap, ab, of_b / all, ac, of_c / all);
 }
 
 }  // namespace
