@@ -8,6 +8,7 @@
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/content_hash.h"
 #include "cdprep/format/find_damage.h"
+#include "cdprep/format/pieces.h"
 #include "cdprep/format/sections.h"
 
 namespace cdprep::format {
@@ -102,7 +103,7 @@ bool box_holds_node(const BvhNode& node, std::uint32_t box, const BvhNode& child
     return true;
 }
 
-Found find_loose_box(Bytes file, const Tree& tree) {
+Found find_loose_box(Bytes file, SectionId id, const Tree& tree) {
     for (std::uint32_t level = 0; level < tree.shape.levels; ++level) {
         for (std::uint32_t i = 0; i < tree.shape.count[level]; ++i) {
             const std::uint32_t index = tree.shape.first[level] + i;
@@ -115,8 +116,7 @@ Found find_loose_box(Bytes file, const Tree& tree) {
                         : box_holds_node(node, box, tree.nodes[tree.shape.first[level - 1] + below],
                                          tree.shape.used_boxes(level - 1, below));
                 if (!holds) {
-                    return Damage{DamageKind::bad_box, SectionId::bvh_nodes,
-                                  place_of(file, SectionId::bvh_nodes, index), box, 0};
+                    return Damage{DamageKind::bad_box, id, place_of(file, id, index), box, 0};
                 }
             }
         }
@@ -298,9 +298,9 @@ Found find_loose_oriented(Bytes file, const Tree& tree) {
         });
 }
 
-Found find_loose_swept(Bytes file, const Tree& tree) {
+Found find_loose_swept(Bytes file, SectionId id, const Tree& tree) {
     return find_loose_bound<SweptNode>(
-        file, SectionId::swept_nodes, tree,
+        file, id, tree,
         [&](const SweptNode& node, std::uint32_t box, std::uint64_t first, std::uint64_t last) {
             return swept_sphere_holds(tree, swept_sphere(node, box), first, last);
         });
@@ -317,6 +317,41 @@ Found find_repeated(Bytes file, SectionId id) {
         seen[list[i]] = true;
     }
     return std::nullopt;
+}
+
+/// A triangle that is in two leaves of pieces: as many are in leaves as there are.
+Found find_twice_held(Bytes file) {
+    const auto leaves = copy_of<PieceLeaf>(file, SectionId::piece_leaves);
+    std::vector<bool> seen(copy_of<std::uint32_t>(file, SectionId::piece_triangles).size(), false);
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        for (std::uint32_t k = 0; k < leaves[i].count; ++k) {
+            const std::size_t at = std::size_t{leaves[i].first_triangle} + k;
+            if (seen[at]) {
+                return Damage{DamageKind::bad_fact, SectionId::piece_leaves,
+                              place_of(file, SectionId::piece_leaves, i), at, i};
+            }
+            seen[at] = true;
+        }
+    }
+    return std::nullopt;
+}
+
+/// The hierarchy over pieces as one over triangles: eight a leaf, the last as often as it takes.
+Tree piece_tree(Bytes file, const Tree& tree) {
+    const auto leaves = copy_of<PieceLeaf>(file, SectionId::piece_leaves);
+    const auto listed = copy_of<std::uint32_t>(file, SectionId::piece_triangles);
+    Tree pieces{tree.header,
+                piece_tree_shape(static_cast<std::uint32_t>(leaves.size())),
+                tree.positions,
+                {},
+                copy_of<BvhNode>(file, SectionId::piece_nodes)};
+    for (const PieceLeaf& leaf : leaves) {
+        for (std::uint32_t lane = 0; lane < kBvhWidth; ++lane) {
+            const std::uint32_t at = leaf.first_triangle + std::min(lane, leaf.count - 1);
+            pieces.triangles.push_back(tree.triangles[listed[at]]);
+        }
+    }
+    return pieces;
 }
 
 Found find_unmarked_degenerate(Bytes file, const Tree& tree) {
@@ -374,12 +409,22 @@ std::optional<Damage> find_deep_damage(std::span<const std::byte> file) {
     tree.triangles = copy_of<Triangle>(file, SectionId::triangles);
     tree.nodes = copy_of<BvhNode>(file, SectionId::bvh_nodes);
     if (!tree.nodes.empty()) {
-        if (const Found damage = find_loose_box(file, tree)) return damage;
+        if (const Found damage = find_loose_box(file, SectionId::bvh_nodes, tree)) return damage;
     }
     if (const Found damage = find_wrong_leaf(file, tree)) return damage;
     if (const Found damage = find_loose_oriented(file, tree)) return damage;
-    if (const Found damage = find_loose_swept(file, tree)) return damage;
+    if (const Found damage = find_loose_swept(file, SectionId::swept_nodes, tree)) return damage;
     if (const Found damage = find_unmarked_degenerate(file, tree)) return damage;
+    if (find_section(file, SectionId::piece_leaves)) {
+        if (const Found damage = find_twice_held(file)) return damage;
+        const Tree pieces = piece_tree(file, tree);
+        if (const Found damage = find_loose_box(file, SectionId::piece_nodes, pieces)) {
+            return damage;
+        }
+        if (const Found damage = find_loose_swept(file, SectionId::piece_swept, pieces)) {
+            return damage;
+        }
+    }
     return find_outside_bounds(file, tree);
 }
 

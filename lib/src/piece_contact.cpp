@@ -17,15 +17,6 @@ namespace {
 /// Most questions that pass after hulls that proved nothing: 2^this - 1.
 constexpr std::uint32_t kMostHullFailures = 6;
 
-/// A hull has no neighbours to climb by: its reach is not asked for.
-ConvexPoints points_of(const format::PieceNodeHull& hull) noexcept {
-    ConvexPoints points;
-    const std::size_t blocks = (hull.count + format::kHullLanes - 1) / format::kHullLanes;
-    points.blocks = std::span(hull.block).first(blocks);
-    points.count = hull.count;
-    return points;
-}
-
 /// How much less than the hulls the surfaces may be apart.
 double hull_margin(const Model& a, const Model& b, const Placement& placement) noexcept {
     constexpr double kOfSlack = 0x1p-40;
@@ -35,6 +26,15 @@ double hull_margin(const Model& a, const Model& b, const Placement& placement) n
 
 }  // namespace
 
+// A hull has no neighbours to climb by: its reach is not asked for.
+ConvexPoints hull_points(const format::PieceNodeHull& hull) noexcept {
+    ConvexPoints points;
+    const std::size_t blocks = (hull.count + format::kHullLanes - 1) / format::kHullLanes;
+    points.blocks = std::span(hull.block).first(blocks);
+    points.count = hull.count;
+    return points;
+}
+
 bool hulls_prove_apart(const Model& a, const Model& b, const Placement& placement, double distance,
                        PieceCache& cache, QueryCounts* counts) noexcept {
     if (a.piece_node_hulls().empty() || b.piece_node_hulls().empty()) return false;
@@ -43,8 +43,8 @@ bool hulls_prove_apart(const Model& a, const Model& b, const Placement& placemen
         return false;
     }
     const double least = distance + hull_margin(a, b, placement);
-    const ConvexPoints of_a = points_of(a.piece_node_hulls()[0]);
-    const ConvexPoints of_b = points_of(b.piece_node_hulls()[0]);
+    const ConvexPoints of_a = hull_points(a.piece_node_hulls()[0]);
+    const ConvexPoints of_b = hull_points(b.piece_node_hulls()[0]);
     const TwoHulls hulls(of_a, of_b, placement);
     const GjkResult found =
         gjk(hulls.a, hulls.b, {.farther = least, .nearer = least}, &cache.hulls, counts);

@@ -6,6 +6,9 @@
 
 namespace cdprep {
 
+/// The corners of a hull around a node, as questions about hulls want them.
+[[nodiscard]] ConvexPoints hull_points(const format::PieceNodeHull& hull) noexcept;
+
 /// Returns whether the hulls around all pieces of two models prove that the surfaces are more
 /// than `distance` apart, which is not negative; false when they do not, or when they are not
 /// asked because they have failed of late. Counts the question.
