@@ -19,8 +19,9 @@ ALWAYS = {"bounds", "provenance", "verdicts", "findings"}
 SOURCE = {"source_triangle", "source_vertex", "source_face", "group_runs", "group_names",
           "material_runs", "material_names", "instances", "instance_names"}
 PAIR = {"bvh_leaves", "oriented_nodes", "swept_nodes"}
-PIECES = {"pieces", "piece_triangles", "piece_vertices", "piece_facets"}
 CONTACTS = {"piece_adjacency", "edge_convexity", "triangle_piece"}
+PIECES = {"pieces", "piece_triangles", "piece_vertices", "piece_facets", "piece_nodes",
+          "piece_leaves", "piece_node_hulls", "piece_swept"}
 # What each effect may hold; sections that would say nothing are left out.
 ALLOWED = {
     "collide": GEOMETRY | PAIR | {"components"}, "inside": GEOMETRY | {"components"},

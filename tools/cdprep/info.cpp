@@ -12,6 +12,7 @@
 #include "convex/contact_arrays.h"
 #include "damage_sentence.h"
 #include "find_hull_falsehood.h"
+#include "find_piece_falsehood.h"
 #include "mapped_file.h"
 #include "report/info_report.h"
 
@@ -46,6 +47,7 @@ Exit run(const Arguments& arguments) {
         if (!damage) damage = find_list_damage(bytes, opened.value());
         if (!damage) damage = find_hull_falsehood(bytes, opened.value());
         if (!damage) damage = convex::find_convexity_falsehood(bytes, opened.value());
+        if (!damage) damage = find_piece_falsehood(bytes, opened.value());
         if (damage) {
             return fail("info",
                         {ErrorCode::unreadable, damage_sentence(arguments.file.string(), *damage)});

@@ -23,9 +23,10 @@ Result<Model> open_for(const std::filesystem::path& path, SectionSet needed, Str
     }
     const std::string parts = missing_parts(sections_of(through), present);
     if (parts.empty()) return opened;
+    const std::string option = through == Structure::pieces ? "--effects " : "--structures ";
     return Error{ErrorCode::bad_argument, path.string() + ": was baked without what --structure " +
                                               report::structure_name(through) + " needs: " + parts +
-                                              ". Bake it again with --structures " +
+                                              ". Bake it again with " + option +
                                               report::baked_name(through) + "."};
 }
 

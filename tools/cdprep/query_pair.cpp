@@ -16,7 +16,7 @@
 #include "cdprep/collide.h"
 #include "cdprep/convex_distance.h"
 #include "cdprep/crossing_segments.h"
-#include "cdprep/distance.h"
+#include "cdprep/distance_through.h"
 #include "cdprep/model_hulls.h"
 #include "cdprep/overlap_through.h"
 #include "cdprep/query_counts.h"
@@ -89,6 +89,11 @@ private:
     std::vector<double> microseconds_;
 };
 
+/// The hierarchies have none.
+bool has_cells(Structure structure) {
+    return structure != Structure::bvh && structure != Structure::pieces;
+}
+
 /// Answers one placement after the other with buffers that are kept.
 class Asker {
 public:
@@ -105,13 +110,14 @@ public:
     /// Asks one placement, `--repeat` times, and writes the answer once. Every time
     /// starts where the placement before ended.
     void answer(std::size_t number, const Placement& placement, report::Answers& answers) {
-        const PairCache before = cache_;
+        const PieceCache before = cache_;
         switch (arguments_.question) {
             case Question::distance:
                 return answers.add(timed([&] {
                     cache_ = before;
                     return report::DistanceAnswer{
-                        number, distance(a_, b_, placement, workspace_, errors_, &cache_)};
+                        number, distance_through(through_, a_, b_, placement, workspace_, errors_,
+                                                 &cache_)};
                 }));
             case Question::within:
                 return answers.add(timed([&] {
@@ -143,7 +149,7 @@ public:
     [[nodiscard]] std::string counts() const {
         std::ostringstream line;
         line << counts_.box_pairs << " box pairs, ";
-        if (through_.structure != Structure::bvh) line << counts_.cell_pairs << " cell pairs, ";
+        if (has_cells(through_.structure)) line << counts_.cell_pairs << " cell pairs, ";
         line << counts_.leaf_pairs << " leaf pairs, " << counts_.triangle_pairs
              << " triangle pairs; decided " << counts_.by_kernel << " in float, "
              << counts_.by_corner << " by a common corner, " << counts_.by_filter << " in double, "
@@ -185,11 +191,11 @@ private:
     /// the hierarchy of boxes.
     Collision find_collision(const Placement& placement) {
         if (through_.structure == Structure::bvh) {
-            return collide(a_, b_, placement, workspace_, options_, &cache_);
+            return collide(a_, b_, placement, workspace_, options_, &cache_.pair);
         }
         Collision collision;
         collision.hit = any_overlap_through(through_, a_, b_, placement, workspace_,
-                                            {options_.contact, options_.degenerate});
+                                            {options_.contact, options_.degenerate}, &cache_);
         if (collision.hit || options_.as == As::surface) return collision;
         collision.containment = find_containment(a_, b_, placement, workspace_);
         collision.hit = collision.containment.answer == Answer::yes;
@@ -202,7 +208,8 @@ private:
         report::WithinAnswer answer;
         answer.pose = number;
         if (!arguments_.pairs && !arguments_.count) {
-            answer.within = is_within(a_, b_, placement, tolerance, workspace_, &cache_);
+            answer.within =
+                is_within_through(through_, a_, b_, placement, tolerance, workspace_, &cache_);
             return answer;
         }
         answer.count = keep_pairs([&](std::span<TrianglePair> room) {
@@ -257,7 +264,7 @@ private:
     std::vector<TrianglePair> pairs_ = std::vector<TrianglePair>(4096);
     std::vector<Crossing> crossings_;
     QueryCounts counts_;
-    PairCache cache_;
+    PieceCache cache_;
     Stopwatch stopwatch_;
 };
 
@@ -370,13 +377,17 @@ const char* name_of(Question question) {
 
 /// Through what a question can be asked.
 std::span<const Structure> structures_serving(Question question) {
-    static constexpr std::array<Structure, 6> kAll = {
-        Structure::bvh,           Structure::octree,     Structure::adaptive_octree,
-        Structure::hashed_octree, Structure::tetra_tree, Structure::hashed_octree_literal};
+    static constexpr std::array<Structure, 7> kAll = {Structure::bvh,
+                                                      Structure::pieces,
+                                                      Structure::octree,
+                                                      Structure::adaptive_octree,
+                                                      Structure::hashed_octree,
+                                                      Structure::tetra_tree,
+                                                      Structure::hashed_octree_literal};
     const std::span<const Structure> all = kAll;
     if (question == Question::overlap) return all;
     // The talk's algorithm misses pairs: it can count, but not say that there are none.
-    return question == Question::collide ? all.first(5) : all.first(1);
+    return question == Question::collide ? all.first(6) : all.first(2);
 }
 
 /// Fails where a question's other options need what only the hierarchy of boxes does.
@@ -388,6 +399,12 @@ Result<StructureOptions> structure_of(const Arguments& arguments) {
         return Error{ErrorCode::bad_argument,
                      "--segments are found through the bvh alone: leave --structure out, or ask "
                      "for pairs."};
+    }
+    if (arguments.question == Question::within && (arguments.pairs || arguments.count) &&
+        through.value().structure != Structure::bvh) {
+        return Error{ErrorCode::bad_argument,
+                     "--pairs and --count are found through the bvh alone: leave --structure out, "
+                     "or ask whether any is within."};
     }
     if (arguments.level_of_detail && through.value().structure != Structure::tetra_tree) {
         return Error{ErrorCode::bad_argument,
@@ -483,19 +500,22 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
         add_structure(*command, arguments->structure,
                       question == Question::collide
                           ? "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or "
-                            "tetra-tree; bake both with --structures. The answers are the same, "
-                            "but for hull: do the convex hulls touch?"
+                            "tetra-tree, for which bake both with --structures, or pieces, with "
+                            "--effects pieces. The answers are the same, but for hull: do the "
+                            "convex hulls touch?"
                           : "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or "
-                            "tetra-tree, with the same answers, or hashed-octree-literal, which "
-                            "misses pairs and is for studies; bake both with --structures");
+                            "tetra-tree, for which bake both with --structures, or pieces, with "
+                            "--effects pieces; all with the same answers; or "
+                            "hashed-octree-literal, which misses pairs and is for studies");
         add_structure_steps(*command, arguments->structure);
     } else {
         add_structure(
             *command, arguments->structure,
             question == Question::distance
-                ? "Through what to ask: bvh, or hull: how far the convex hulls are apart; "
-                  "bake both with --structures hull"
-                : "bvh: no other serves this question");
+                ? "Through what to ask: bvh, or pieces, with the same answers: bake both with "
+                  "--effects pieces; or hull: how far the convex hulls are apart: --structures hull"
+                : "Through what to ask: bvh, or pieces, with the same answers: bake both with "
+                  "--effects pieces");
     }
     add_answer_format(*command, arguments->format);
     command->add_option("--repeat", arguments->repeat, "Ask each pose this often, for --timings")

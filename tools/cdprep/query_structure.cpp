@@ -33,10 +33,11 @@ std::optional<Error> find_idle_option(const StructureWords& words, Structure str
                                                   ", but --structure is " +
                                                   report::structure_name(structure) + "."};
     };
-    if (!words.leaf_test.empty() && structure == Structure::bvh) {
-        return idle("--leaf-test", "every structure but bvh");
+    const bool is_hierarchy = structure == Structure::bvh || structure == Structure::pieces;
+    if (!words.leaf_test.empty() && is_hierarchy) {
+        return idle("--leaf-test", "every structure but bvh and pieces");
     }
-    if (!words.descent.empty() && (structure == Structure::bvh || is_hashed(structure))) {
+    if (!words.descent.empty() && (is_hierarchy || is_hashed(structure))) {
         return idle("--descent", "octree, octree-adaptive and tetra-tree");
     }
     if (!words.search.empty() && !is_hashed(structure)) {

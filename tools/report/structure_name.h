@@ -13,15 +13,16 @@ namespace cdprep::report {
 struct StructureName {
     const char* name;
     Structure structure;
-    bool is_baked;  ///< --structures may ask for it; the others come of themselves
+    bool is_baked;  ///< --structures may ask for it; the others come of themselves, or with effects
 };
-inline constexpr std::array<StructureName, 6> kStructureNames = {{
+inline constexpr std::array<StructureName, 7> kStructureNames = {{
     {"bvh", Structure::bvh, false},
     {"octree", Structure::octree, true},
     {"octree-adaptive", Structure::adaptive_octree, true},
     {"hashed-octree", Structure::hashed_octree, true},
     {"hashed-octree-literal", Structure::hashed_octree_literal, false},
     {"tetra-tree", Structure::tetra_tree, true},
+    {"pieces", Structure::pieces, false},
 }};
 
 [[nodiscard]] constexpr const char* structure_name(Structure structure) noexcept {
