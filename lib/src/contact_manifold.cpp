@@ -76,10 +76,12 @@ Polygon facing(const ContactSide& side, const PieceFeature& feature, const Doubl
         const Double3 n = unit_normal({side.corner(c[0]), side.corner(c[1]), side.corner(c[2])});
         const double along = dot(n, direction);
         // What nobody's inside is behind of is met from either side.
-        const double facing = side.is_contained() ? along : std::fabs(along);
-        if (facing > most) most = facing, best = f, normal = along < 0 ? -n : n;
+        const double faces = side.is_contained() ? along : std::fabs(along);
+        if (faces > most) most = faces, best = f, normal = along < 0 ? -n : n;
     }
-    return best ? face_polygon(side, *best, normal) : own;
+    if (!best) return own;
+    const Polygon whole = face_polygon(side, *best, normal);
+    return whole.count < 3 ? own : whole;  // flags of a damaged file may leave nothing around it
 }
 
 /// The part of a polygon where dot(inward, p - on) >= 0.

@@ -132,7 +132,7 @@ private:
 
 bool is_baked(const Model& model) {
     return !model.pieces().empty() &&
-           !model.piece_adjacency().empty() == !model.piece_facets().empty() &&
+           model.piece_adjacency().size() == model.piece_facets().size() &&
            !model.triangle_piece().empty() && !model.edge_convexity().empty();
 }
 

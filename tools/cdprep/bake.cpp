@@ -126,11 +126,12 @@ Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
 }
 
 /// What wins for the questions that a bake is to serve: swept rectangles come nearer to
-/// a distance, and nothing else uses them.
+/// a distance, as contacts too ask for, and nothing else uses them.
 build::BvhBounds bounds_for(const Effects& effects) {
     const bool measures =
-        std::any_of(effects.names.begin(), effects.names.end(),
-                    [](const std::string& name) { return name == "distance" || name == "within"; });
+        std::any_of(effects.names.begin(), effects.names.end(), [](const std::string& name) {
+            return name == "distance" || name == "within" || name == "contacts";
+        });
     return measures ? build::BvhBounds::oriented_and_swept : build::BvhBounds::oriented;
 }
 
