@@ -386,11 +386,18 @@ std::vector<std::uint32_t> cull_inside(std::span<const Double3> points, Parallel
     if (points.size() < kFewPoints) return all_numbers(points.size());
     const UnitBox unit = box_of(points);
     if (!unit.usable()) return all_numbers(points.size());
-    Chunks sample = sample_of(points, (points.size() + kSample - 1) / kSample, unit);
+    const std::size_t step = (points.size() + kSample - 1) / kSample;
+    Chunks sample = sample_of(points, step, unit);
     Grown grown;
     grown.corners = first_corners(sample);
     grown.planes = planes_of(points, grown.corners, unit);
     grow(sample, grown, points, unit, kSampleFacets, run);
+    if (step == 1) {  // the sample is all there is
+        if (count_of(sample) < kFewPoints) return numbers_of(sample);
+        grown.planes = planes_of(points, grown.corners, unit);
+        grow(sample, grown, points, unit, kMostFacets, run);
+        return numbers_of(sample);
+    }
     if (grown.planes.empty()) return all_numbers(points.size());
     Chunks outer = first_pass(points, grown, unit, run);
     grown.planes = planes_of(points, grown.corners, unit);
