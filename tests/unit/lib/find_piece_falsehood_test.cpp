@@ -15,7 +15,7 @@ namespace {
 
 AlignedBytes baked() {
     const TestMesh ball = icosphere(3);
-    return with_pieces(bake_tiny(ball.positions, ball.triangles, {.double_precision = true}));
+    return with_piece_tree(bake_tiny(ball.positions, ball.triangles, {.double_precision = true}));
 }
 
 /// What is found after a change of the last hull, whose corners are those of a box around all.
