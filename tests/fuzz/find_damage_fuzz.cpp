@@ -230,7 +230,7 @@ std::vector<test::AlignedBytes> make_seeds() {
         seeds.push_back(test::with_octree(seeds.back(), {.threshold = 4}));
         seeds.push_back(test::with_adaptive_octree(seeds.back(), {.threshold = 4}));
         seeds.push_back(test::with_tetra_tree(seeds.back(), {.threshold = 4}));
-        seeds.push_back(test::with_pieces(test::bake_tiny(mesh.positions, mesh.triangles)));
+        seeds.push_back(test::with_piece_tree(test::bake_tiny(mesh.positions, mesh.triangles)));
         // Twice: small files, in which a change more often meets what is about hulls.
         for (const bool is_double : {false, true}) {
             seeds.push_back(test::with_hulls(
