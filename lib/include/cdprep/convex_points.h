@@ -36,9 +36,9 @@ struct ConvexPoints {
     std::span<const std::uint32_t> starts;
     /// Instead of blocks, for hulls of few points: point i is number corners[i] of `floats` or,
     /// where those are empty, of `doubles`. Without neighbours.
-    std::span<const std::uint32_t> corners;
-    std::span<const format::Float3> floats;
-    std::span<const Double3> doubles;
+    std::span<const std::uint32_t> corners{};
+    std::span<const format::Float3> floats{};
+    std::span<const Double3> doubles{};
 
     [[nodiscard]] Double3 point(std::uint32_t number) const noexcept {
         if (!corners.empty()) return corner(corners[number]);
