@@ -35,11 +35,14 @@ class Pieces:
 
     def pulled_apart(self):
         middle = (self.corners.min(axis=(0, 1)) + self.corners.max(axis=(0, 1))) / 2
+        order = numpy.argsort(self.piece, kind="stable")
+        _, first, counts = numpy.unique(self.piece[order], return_index=True, return_counts=True)
+        sorted_corners = self.corners[order]
+        low = numpy.minimum.reduceat(sorted_corners.min(axis=1), first)
+        high = numpy.maximum.reduceat(sorted_corners.max(axis=1), first)
         moved = self.corners.copy()
-        for piece in numpy.unique(self.piece):
-            chosen = self.piece == piece
-            part = self.corners[chosen]
-            moved[chosen] += APART * ((part.min(axis=(0, 1)) + part.max(axis=(0, 1))) / 2 - middle)
+        ways = numpy.repeat(APART * ((low + high) / 2 - middle), counts, axis=0)
+        moved[order] += ways[:, None, :]
         return Pieces(moved, self.piece)
 
     def colours(self):
