@@ -41,7 +41,8 @@ void collect(const aiScene& scene, const aiNode& node, Json& parts) {
         }
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             const aiFace& face = mesh.mFaces[f];
-            facets.push_back(std::vector<unsigned>(face.mIndices, face.mIndices + face.mNumIndices));
+            facets.push_back(
+                std::vector<unsigned>(face.mIndices, face.mIndices + face.mNumIndices));
         }
         parts.push_back({{"name", node.mName.C_Str()},
                          {"vertices", std::move(vertices)},
@@ -90,9 +91,8 @@ Json shape(const std::string& name, const sdf::Geometry& geometry) {
     const sdf::Mesh* mesh = geometry.MeshShape();
     if (mesh == nullptr) refuse(name + " is no mesh");
     const auto& scale = mesh->Scale();
-    return {{"name", name},
-            {"file", mesh->Uri()},
-            {"scale", point(scale.X(), scale.Y(), scale.Z())}};
+    return {
+        {"name", name}, {"file", mesh->Uri()}, {"scale", point(scale.X(), scale.Y(), scale.Z())}};
 }
 
 Json read_by_sdformat(const fs::path& path) {

@@ -13,7 +13,7 @@ struct QueryCounts;
 /// Scratch memory for queries, owned by the caller: queries never allocate.
 ///
 /// One workspace serves any number of queries, models and questions, one at a
-/// time; threads need one each. Allocates once, when made; about 830 KiB, of which
+/// time; threads need one each. Allocates once, when made; about 880 KiB, of which
 /// questions through octrees and tetra-trees alone touch the half.
 class Workspace {
 public:
