@@ -202,6 +202,7 @@ private:
             near.pop();
             in_vain = wanted[cell] ? 0 : in_vain + 1;
             grown.work += kWorkOfTry;
+            if (reach.bridges_gap(reach_[cell], field_, options_.error)) continue;
             if (!hull.add(cells_[cell].points, centre_[cell], radius_[cell])) continue;
             reach.add(cells_[cell].points);
             grown.cells.push_back(cell);
@@ -231,8 +232,10 @@ private:
             const Estimate error = measure(grown.cells);
             work += error.samples * kWorkOfSample;
             if (error.distance <= options_.error) break;
-            work += give_up_last(grown.cells);
-            break;
+            if (i == kRegrowths) {
+                work += give_up_last(grown.cells);
+                break;
+            }
             if (i == 0) kept_out = far;
             kept_out.add({&error.at, 1});
             found.push_back(error);
