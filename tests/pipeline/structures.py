@@ -294,7 +294,7 @@ def asked_wrongly(program, mesh, folder):
         (["bake", mesh, "--structures", "octree", "--bounding", "caps"], ["tetra-tree"]),
         (["bake", mesh, "--structures", "tetra-tree", "--bounding", "box"], ["box", "caps"]),
         (["query", "overlap", *pair, "--structure", "kd-tree"], ["'kd-tree'", "tetra-tree"]),
-        (["query", "overlap", *pair, "--structure", "pieces"], ["'pieces'", "version"]),
+        (["query", "overlap", *pair, "--structure", "pieces"], ["piece_nodes", "--effects pieces"]),
         (["query", "collide", *pair, "--structure", "sphere-tree"],
          ["'sphere-tree'", "collide", "version"]),
         (["query", "collide", *pair, "--structure", "hashed-octree-literal"],
