@@ -11,6 +11,14 @@
 
 #include "convex/exact_hull.h"
 
+// Also compiled for AVX2; which one runs is chosen while the program is loaded. The thread
+// sanitizer is not there yet by then, but is called by the choice.
+#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
+#define CDPREP_WITH_AVX2 [[gnu::target_clones("avx2", "default")]]
+#else
+#define CDPREP_WITH_AVX2
+#endif
+
 // Polytopes inside the hull, each with some points of the input as corners, the next with
 // the points farthest outside the facets of the one before; the first few of a sample. What is
 // strictly inside one of them is strictly inside the hull, and no corner of it; the corners
@@ -115,11 +123,8 @@ private:
 };
 
 /// Four points are three vectors of four coordinates: the loop over twelve is over vectors.
-#if defined(__x86_64__)
-[[gnu::target_clones("avx2", "default")]]
-#endif
-UnitBox
-box_of(std::span<const Double3> points) {
+CDPREP_WITH_AVX2
+UnitBox box_of(std::span<const Double3> points) {
     constexpr std::size_t kRow = 12;
     const double* const coordinates = &points[0].x;
     const std::size_t count = points.size() * 3;
@@ -149,9 +154,7 @@ using Flags = std::array<std::int32_t, kLanes>;
 
 /// Adds to `kept`, per point, whether the plane leaves it; returns the largest height
 /// along the plane's normal.
-#if defined(__x86_64__)
-[[gnu::target_clones("avx2", "default")]]
-#endif
+CDPREP_WITH_AVX2
 float weigh(std::span<const Block> blocks, const Plane& plane, Flags* kept) {
     Lanes most = Lanes{} - std::numeric_limits<float>::infinity();
     for (std::size_t b = 0; b < blocks.size(); ++b) {
