@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+#include "write/hulls_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <sstream>
+
+#include "support/scratch_folder.h"
+#include "unit/tools/image_sections.h"
+
+namespace cdprep::write {
+namespace {
+
+using format::Double3;
+
+constexpr std::array<Double3, 4> kCorners = {{{0, 0, 0}, {1, 0, 0}, {0, 0.1, 0}, {0, 0, -1e-7}}};
+constexpr std::array<std::array<std::uint32_t, 3>, 4> kFacets = {
+    {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}};
+constexpr std::array<std::array<std::uint32_t, 3>, 2> kBothSides = {{{0, 1, 2}, {0, 2, 1}}};
+
+/// A tetrahedron and a triangle.
+std::vector<HullArrays> solid_and_flat() {
+    return {{"solid", kCorners, kFacets, 3}, {"flat", std::span(kCorners).first(3), kBothSides, 2}};
+}
+
+std::size_t count(const std::string& text, const std::string& word) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+        ++found;
+    }
+    return found;
+}
+
+TEST(HullsFile, FormatsAreTheirExtensionsInAnyCase) {
+    EXPECT_EQ(hulls_format_of("a.OBJ"), HullsFormat::obj);
+    EXPECT_EQ(hulls_format_of("a.b.Glb"), HullsFormat::glb);
+    EXPECT_EQ(hulls_format_of("a.xml"), HullsFormat::mjcf);
+    EXPECT_EQ(hulls_format_of("a.mjcf"), HullsFormat::mjcf);
+    EXPECT_EQ(hulls_format_of("a.urdf"), HullsFormat::urdf);
+    EXPECT_EQ(hulls_format_of("a.sdf"), HullsFormat::sdf);
+    EXPECT_FALSE(hulls_format_of("obj"));
+    EXPECT_FALSE(hulls_format_of("a.stl"));
+}
+
+// Read back as doubles, coordinates are the same to the last bit.
+TEST(HullsFile, AnObjHasEveryBit) {
+    const test::ScratchFolder folder;
+    const auto path = folder.path() / "x.obj";
+    ASSERT_EQ(write_hulls(path, HullsFormat::obj, solid_and_flat()).value(), 0U);
+    std::istringstream lines(test::content_of(path.string()));
+    std::vector<Double3> points;
+    std::size_t facets = 0;
+    for (std::string word; lines >> word;) {
+        Double3 p;
+        if (word == "v" && lines >> p.x >> p.y >> p.z) points.push_back(p);
+        facets += word == "f" ? 1 : 0;
+    }
+    ASSERT_EQ(points.size(), 7U);
+    EXPECT_EQ(facets, 6U);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Double3& wanted = kCorners[i % 4];
+        EXPECT_TRUE(points[i].x == wanted.x && points[i].y == wanted.y && points[i].z == wanted.z);
+    }
+}
+
+// A reader for volumes gets no flat hull, and the caller is told how many were left out.
+TEST(HullsFile, FlatHullsAreLeftOutWhereAVolumeIsWanted) {
+    const test::ScratchFolder folder;
+    for (const HullsFormat format : {HullsFormat::urdf, HullsFormat::sdf, HullsFormat::mjcf}) {
+        const auto path = folder.path() / "x.xml";
+        ASSERT_EQ(write_hulls(path, format, solid_and_flat()).value(), 1U);
+        const std::string text = test::content_of(path.string());
+        EXPECT_EQ(count(text, "flat"), 0U);
+        EXPECT_GE(count(text, "solid"), 1U);
+        EXPECT_EQ(count(text, "inertia"), 0U);
+        EXPECT_EQ(count(text, "visual"), 0U);
+    }
+}
+
+// Its chunks fill the file, begin at multiples of 4, and bounds are those of the floats.
+TEST(HullsFile, AGlbIsAsLongAsItSays) {
+    const test::ScratchFolder folder;
+    const auto path = folder.path() / "x.glb";
+    ASSERT_EQ(write_hulls(path, HullsFormat::glb, solid_and_flat()).value(), 0U);
+    const std::string bytes = test::content_of(path.string());
+    const auto word = [&](std::size_t at) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, bytes.data() + at, sizeof value);
+        return value;
+    };
+    ASSERT_GE(bytes.size(), 28U);
+    EXPECT_EQ(bytes.substr(0, 4), "glTF");
+    EXPECT_EQ(word(4), 2U);
+    EXPECT_EQ(word(8), bytes.size());
+    const std::size_t json = word(12);
+    EXPECT_EQ(json % 4, 0U);
+    // 7 points of 3 floats, 6 facets of 3 numbers.
+    ASSERT_EQ(word(20 + json), 7U * 12 + 6U * 12);
+    EXPECT_EQ(28 + json + word(20 + json), bytes.size());
+    EXPECT_EQ(count(bytes.substr(20, json), "\"name\":\"flat\""), 2U);
+    EXPECT_EQ(count(bytes.substr(20, json), R"("min":[0,0,-1e-07])"), 1U);
+}
+
+// Names of meshes need no escape, and no two files of a folder share them.
+TEST(HullsFile, MeshesAreNamedPlainly) {
+    const test::ScratchFolder folder;
+    std::vector<std::string> names;
+    for (const char* stem : {"a b", "a_b", "a&b", "a\"b"}) {
+        const auto path = folder.path() / (std::string(stem) + ".urdf");
+        ASSERT_TRUE(write_hulls(path, HullsFormat::urdf, solid_and_flat()).ok());
+        const std::string text = test::content_of(path.string());
+        const std::size_t at = text.find("filename=\"") + 10;
+        const std::string name = text.substr(at, text.find('"', at) - at);
+        EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
+        EXPECT_EQ(std::count(names.begin(), names.end(), name), 0) << name;
+        EXPECT_TRUE(may_replace(path, HullsFormat::urdf, folder.path() / name));
+        EXPECT_FALSE(may_replace(path, HullsFormat::obj, folder.path() / name));
+        EXPECT_FALSE(may_replace(path, HullsFormat::sdf, folder.path() / "other.obj"));
+        names.push_back(name);
+    }
+}
+
+TEST(HullsFile, NothingIsWrittenWhereThereIsNoFolder) {
+    const test::ScratchFolder folder;
+    for (const char* name : {"x.obj", "x.glb", "x.urdf", "x.sdf", "x.mjcf"}) {
+        const auto path = folder.path() / "none" / name;
+        const auto done = write_hulls(path, *hulls_format_of(path), solid_and_flat());
+        ASSERT_FALSE(done.ok());
+        EXPECT_EQ(done.error().code, ErrorCode::unwritable);
+    }
+}
+
+// A body is what it is told to be: numbers stand where each format has them.
+TEST(HullsFile, MassStandsInEveryFormatThatHasIt) {
+    const test::ScratchFolder folder;
+    HullsFileOptions options;
+    options.mass = BodyMass{7, {1, 2, 3}, {11, 22, 33, 12, 23, 31}};
+    const auto text_of = [&](HullsFormat format) {
+        const auto path = folder.path() / "m.xml";
+        EXPECT_TRUE(write_hulls(path, format, solid_and_flat(), options).ok());
+        return test::content_of(path.string());
+    };
+    EXPECT_EQ(count(text_of(HullsFormat::urdf),
+                    R"(ixx="11" ixy="12" ixz="31" iyy="22" iyz="23" izz="33")"),
+              1U);
+    EXPECT_EQ(count(text_of(HullsFormat::sdf), "<ixz>31</ixz><iyy>22</iyy>"), 1U);
+    EXPECT_EQ(count(text_of(HullsFormat::mjcf), R"(fullinertia="11 22 33 12 31 23")"), 1U);
+}
+
+}  // namespace
+}  // namespace cdprep::write
