@@ -108,8 +108,8 @@ Found find_bad_facts(const Parts& parts, std::uint64_t i, const Hull& hull) noex
     const auto bad = [&](DamageKind kind, std::uint64_t found, std::uint64_t limit) {
         return parts.hulls.damage(kind, i, found, limit);
     };
-    if (hull.scope > HullScope::instance) {
-        return bad(DamageKind::bad_index, static_cast<std::uint32_t>(hull.scope), 2);
+    if (hull.scope > HullScope::part) {
+        return bad(DamageKind::bad_index, static_cast<std::uint32_t>(hull.scope), 3);
     }
     if (hull.dimension < -1 || hull.dimension > 3) {
         return bad(DamageKind::bad_index, static_cast<std::uint32_t>(hull.dimension), 3);

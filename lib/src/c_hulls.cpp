@@ -11,7 +11,8 @@ using ConvexCacheCopy = CacheCopy<cdprep_convex_cache, ConvexCache>;
 
 static_assert(CDPREP_HULL_WHOLE == static_cast<int>(format::HullScope::whole) &&
               CDPREP_HULL_COMPONENT == static_cast<int>(format::HullScope::component) &&
-              CDPREP_HULL_INSTANCE == static_cast<int>(format::HullScope::instance));
+              CDPREP_HULL_INSTANCE == static_cast<int>(format::HullScope::instance) &&
+              CDPREP_HULL_PART == static_cast<int>(format::HullScope::part));
 
 /// A hull's corners, or nothing where it names none.
 std::optional<ConvexPoints> points_of(const cdprep_hull& hull) noexcept {
@@ -75,8 +76,8 @@ using cdprep::Placement;
 int cdprep_find_hull(const cdprep_model* model, uint32_t scope, uint32_t number, int* found,
                      cdprep_hull* hull, cdprep_error* error) {
     if (cdprep::any_null(model, found, hull)) return cdprep::null_argument(error);
-    if (scope > CDPREP_HULL_INSTANCE) {
-        return cdprep::fail(error, CDPREP_BAD_ARGUMENT, "The scope of a hull is not 0 to 2.");
+    if (scope > CDPREP_HULL_PART) {
+        return cdprep::fail(error, CDPREP_BAD_ARGUMENT, "The scope of a hull is not 0 to 3.");
     }
     const auto at = cdprep::find_hull(model->model, cdprep::format::HullScope{scope}, number);
     *found = at ? 1 : 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cdprep/convex_distance.h"
 #include "cdprep/model_hulls.h"
 #include "list_places.h"
 #include "predicates.h"
@@ -77,7 +78,63 @@ public:
         return find_outside(number, hull, points);
     }
 
+    /// A vertex that no part holds, where there are parts; exact.
+    [[nodiscard]] Found find_left_out() const {
+        const auto first = find_hull(model_, format::HullScope::part);
+        if (!first) return std::nullopt;
+        std::vector<ConvexPoints> parts;
+        std::vector<Bounds> bounds;
+        for (std::uint32_t i = *first; i < model_.hulls().size(); ++i) {
+            if (model_.hulls()[i].point_count == 0) continue;
+            parts.push_back(convex_points(model_, i));
+            bounds.push_back(bounds_of(parts.back()));
+        }
+        std::size_t last = 0;  // the next vertex is often in the same one
+        for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
+            const auto is_in = [&](std::size_t i) {
+                return i < parts.size() && bounds[i].contains(vertices_[v]) &&
+                       holds(parts[i], vertices_[v]);
+            };
+            if (is_in(last)) continue;
+            last = 0;
+            while (last < parts.size() && !is_in(last)) ++last;
+            if (last == parts.size()) return wrong_fact(file_, SectionId::hulls, *first, v, 0);
+        }
+        return std::nullopt;
+    }
+
 private:
+    struct Bounds {
+        Double3 lower, upper;
+        [[nodiscard]] bool contains(const Double3& p) const {
+            return lower.x <= p.x && p.x <= upper.x && lower.y <= p.y && p.y <= upper.y &&
+                   lower.z <= p.z && p.z <= upper.z;
+        }
+    };
+
+    static Bounds bounds_of(const ConvexPoints& points) {
+        Bounds bounds = {points.point(0), points.point(0)};
+        auto& [low, high] = bounds;
+        for (std::uint32_t i = 1; i < points.count; ++i) {
+            const Double3 p = points.point(i);
+            low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        }
+        return bounds;
+    }
+
+    static bool holds(const ConvexPoints& hull, const Double3& p) {
+        format::HullBlock block;
+        block.at[0].fill(p.x);
+        block.at[1].fill(p.y);
+        block.at[2].fill(p.z);
+        ConvexPoints point;
+        point.blocks = {&block, 1};
+        point.count = 1;
+        point.reach = {std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)};
+        return convex_collide(hull, point, Placement::b_moves(Pose()));
+    }
+
     [[nodiscard]] std::span<const HullFacet> facets(const Hull& hull) const {
         return model_.hull_facets().subspan(hull.first_facet, hull.facet_count);
     }
@@ -190,7 +247,7 @@ std::optional<format::Damage> find_hull_falsehood(std::span<const std::byte> fil
     for (std::uint32_t i = 0; i < model.hulls().size(); ++i) {
         if (const Found damage = check.find_falsehood(i)) return damage;
     }
-    return std::nullopt;
+    return check.find_left_out();
 }
 
 }  // namespace cdprep

@@ -13,10 +13,12 @@ namespace cdprep {
 /// Proves, of a file in which format::find_damage() finds nothing, that its hulls are hulls:
 /// every edge convex, or flat within a group, by exact signs; points of exact hulls the
 /// vertices that they name; neighbours those of the facets; no point in front of a facet,
-/// nor any vertex in front of one of the whole's. Not looked at: vertices of a part beside the
-/// part's hull, and those beside a segment or a polygon in its plane. Returns nothing when all is
-/// well, also without hulls. O(vertices * facets), about a nanosecond each; allocates. `model` is
-/// this file, opened with all its sections.
+/// nor any vertex in front of one of the whole's; every vertex in one part or more, exactly,
+/// where there are parts. Not looked at: vertices of a component or an instance beside its hull,
+/// those beside a segment or a polygon in its plane, and whether a triangle with corners in
+/// several parts leaves them all in between, which the bake proved as it made them. Returns
+/// nothing when all is well, also without hulls. O(vertices * facets), about a nanosecond each,
+/// and up to vertices * parts steps; allocates. `model` is this file, opened with all its sections.
 [[nodiscard]] std::optional<format::Damage> find_hull_falsehood(std::span<const std::byte> file,
                                                                 const Model& model);
 

@@ -375,6 +375,37 @@ def check_progress_and_interrupt(program, folder):
         must("stopped" in rest and not list(empty.iterdir()), f"left {list(empty.iterdir())}")
 
 
+def check_baked(program, folder):
+    """Parts in a baked file are those of decompose, and --deep proves that they hold all."""
+    bracket, baked = SAMPLES / "bracket.obj", folder / "bracket.cdp.h5"
+    limits = ["--parts", 6]
+    found = decompose(program, bracket, *limits, "--max-vertices", 16)
+    done = run(program, "bake", bracket, "-o", baked, "--structures", "hull", *limits,
+               "--hull-vertices", 16, "--format", "json")
+    must(done.returncode == 0, done.stderr)
+    parts = json.loads(done.stdout)["models"][0]["parts"]
+    must(parts["count"] == found["pieces"] and parts["as_asked"], f"{parts}, {found}")
+    must(parts["outer_error"] == found["outer_error"], f"{parts}, {found}")
+    proof = {key: found["proof"][key] for key in ("fragments", "outside")}
+    must(parts["proof"] == proof and proof["outside"] == 0, f"{parts}, {proof}")
+    done = run(program, "info", baked, "--deep", "--format", "json")
+    must(done.returncode == 0, done.stderr)
+    hulls = json.loads(done.stdout)["hulls"]
+    must([h["around"] for h in hulls] == ["whole"] + ["part"] * found["pieces"], f"{hulls}")
+    must(all(h["points"] <= 16 for h in hulls), f"{hulls}")
+    must(max(h["distance"] for h in hulls[1:]) == found["outer_error"], f"{hulls}")
+    again = folder / "again.cdp.h5"
+    run(program, "bake", bracket, "-o", again, "--structures", "hull", *limits,
+        "--hull-vertices", 16, "-j", 1)
+    must(again.read_bytes() == baked.read_bytes(), "threads change nothing")
+    done = run(program, "bake", bracket, "-o", again, "--structures", "hull", "--max-error", 1,
+               "--parts", 2)
+    must(done.returncode in (0, 1), done.stderr)
+    for option in ("--parts", "--max-error", "--hull-vertices"):
+        done = run(program, "bake", bracket, "-o", again, option, 8)
+        must(done.returncode == 2 and option in done.stderr, f"{option}: {done.stderr}")
+
+
 def check_asked_wrongly(program, folder):
     bolt = SAMPLES / "bolt.obj"
 
@@ -423,6 +454,7 @@ def main():
         check_enclosure(program, folder)
         check_budget_and_report(program, folder)
         check_progress_and_interrupt(program, folder)
+        check_baked(program, folder)
         check_asked_wrongly(program, folder)
 
 

@@ -41,25 +41,6 @@ std::optional<Error> find_bad_output(const fs::path& input, const fs::path& outp
 /// Thrown by a task after a signal: the search has no other way out.
 struct Stopped {};
 
-/// Searches on these threads; nothing after a signal.
-std::optional<convex::ApproximatePieces> search(const mesh::Mesh& mesh,
-                                                convex::ApproximateOptions how,
-                                                const Threads& threads) {
-    const auto run = [&](std::size_t count, Task task) {
-        const auto unless_stopped = [&](std::size_t i) {
-            if (is_interrupted()) throw Stopped{};
-            task(i);
-        };
-        threads.parallel_for()(count, unless_stopped);
-    };
-    how.parallel_for = run;
-    try {
-        return convex::find_approximate_pieces(mesh, how);
-    } catch (const Stopped&) {
-        return std::nullopt;
-    }
-}
-
 convex::ApproximateOptions search_options(const EncloseOptions& options) {
     convex::ApproximateOptions how;
     how.max_error = options.max_error;
@@ -106,6 +87,32 @@ Result<Done> write_pieces(const mesh::Mesh& mesh, bool is_closed, double metres_
 
 }  // namespace
 
+Error hull_beyond_range(const fs::path& input, const char* option) {
+    return {ErrorCode::bad_argument,
+            input.string() +
+                ": an enclosing hull would have coordinates beyond the range of doubles. Leave "
+                "out " +
+                option + "."};
+}
+
+std::optional<convex::ApproximatePieces> search_pieces(const mesh::Mesh& mesh,
+                                                       convex::ApproximateOptions how,
+                                                       const Threads& threads) {
+    const auto run = [&](std::size_t count, Task task) {
+        const auto unless_stopped = [&](std::size_t i) {
+            if (is_interrupted()) throw Stopped{};
+            task(i);
+        };
+        threads.parallel_for()(count, unless_stopped);
+    };
+    how.parallel_for = run;
+    try {
+        return convex::find_approximate_pieces(mesh, how);
+    } catch (const Stopped&) {
+        return std::nullopt;
+    }
+}
+
 Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOptions& options,
                                           const Threads& threads, Progress& progress) {
     if (const auto error = find_bad_output(input, options.output)) return *error;
@@ -125,7 +132,7 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     convex::ApproximateOptions how = search_options(options);
     how.node_of = nodes.node_of;
     how.convex_node = nodes.is_convex;
-    std::optional<convex::ApproximatePieces> found = search(mesh, how, threads);
+    std::optional<convex::ApproximatePieces> found = search_pieces(mesh, how, threads);
     if (!found || is_interrupted()) return interrupted(input);
     report.result = std::move(*found);
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();

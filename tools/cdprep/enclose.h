@@ -27,6 +27,14 @@ struct EncloseOptions {
     LoadOptions load;
 };
 
+/// Why there is no enclosing hull; `option` asked for it.
+[[nodiscard]] Error hull_beyond_range(const std::filesystem::path& input, const char* option);
+
+/// Searches on these threads; nothing soon after a signal.
+[[nodiscard]] std::optional<convex::ApproximatePieces> search_pieces(const mesh::Mesh& mesh,
+                                                                     convex::ApproximateOptions how,
+                                                                     const Threads& threads);
+
 /// Encloses a file's mesh in convex pieces and writes them. find_nodes() says what is kept
 /// apart, and what is one piece. Fails with `interrupted` soon after a signal, with nothing
 /// written.

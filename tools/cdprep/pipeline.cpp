@@ -16,6 +16,7 @@
 #include "convex/find_bounds.h"
 #include "convex/mass_properties.h"
 #include "convex/piece_arrays.h"
+#include "enclose.h"
 #include "interrupt.h"
 #include "load_mesh.h"
 #include "mesh/degenerate.h"
@@ -25,6 +26,7 @@
 #include "mesh/topology.h"
 #include "mesh/tree_order.h"
 #include "mesh/weld.h"
+#include "mesh_nodes.h"
 #include "report/bounds_name.h"
 #include "report/provenance.h"
 #include "report/verdict_words.h"
@@ -173,7 +175,9 @@ std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash)
     return report::provenance_json(
         {CDPREP_VERSION, options.effects.names, options.normalize, options.weld_distance,
          options.repair, options.piece_tolerance, report::bounds_name(options.bounds),
-         settings_of(options.structures), options.structures.has_hulls(), source_hash});
+         settings_of(options.structures), options.structures.has_hulls(),
+         options.structures.hulls.max_vertices, options.structures.hulls.parts,
+         options.structures.hulls.max_error, source_hash});
 }
 
 /// Builds what was chosen over a mesh in tree order, whose numbers the structures then
@@ -205,6 +209,31 @@ Structures build_structures(const mesh::Mesh& ordered, const build::Frame& frame
         });
     }
     return built;
+}
+
+/// Hulls, and the parts that enclose the mesh where they were asked for, which are reported.
+/// Of the mesh in source order, in which components and instances are numbered.
+Result<convex::HullSections> build_hulls(const std::filesystem::path& input,
+                                         const mesh::TriangleSoup& soup, const mesh::Mesh& mesh,
+                                         const HullChoice& choice, const Threads& threads,
+                                         std::optional<report::BakedParts>& parts) {
+    auto sections = convex::make_hull_sections(mesh, soup.instances, choice.max_vertices,
+                                               threads.parallel_for());
+    if (!sections) return hull_beyond_range(input, "--hull-vertices");
+    if (!choice.has_parts()) return std::move(*sections);
+    const MeshNodes nodes = find_nodes(soup, mesh);
+    convex::ApproximateOptions how;
+    how.max_error = choice.max_error;
+    how.parts = choice.parts;
+    how.max_vertices = choice.max_vertices;
+    how.node_of = nodes.node_of;
+    how.convex_node = nodes.is_convex;
+    const auto found = search_pieces(mesh, how, threads);
+    if (!found) return interrupted(input);
+    convex::add_parts(*sections, found->pieces);
+    parts = {found->pieces.size(), found->outer_error, found->is_as_asked, found->proof.fragments,
+             found->proof.outside};
+    return std::move(*sections);
 }
 
 /// Of the mesh in tree order, as the structures.
@@ -308,18 +337,19 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
              provenance_of(options, found.source_hash), mended.triangle_from}};
     });
     if (!options.structures.names.empty()) {
-        arrays.keep(stages.run("structures", [&] {
-            Structures built = build_structures(arrays.mesh(), found.bvh.frame, options.structures,
-                                                threads, stages);
-            // Of the mesh in source order, in which components and instances are numbered.
-            if (options.structures.has_hulls()) {
-                built.hulls = stages.run("  hull", [&] {
-                    return convex::make_hull_sections(welded.mesh, soup.instances,
-                                                      threads.parallel_for());
-                });
-            }
-            return built;
-        }));
+        Structures built = stages.run("structures", [&] {
+            return build_structures(arrays.mesh(), found.bvh.frame, options.structures, threads,
+                                    stages);
+        });
+        if (options.structures.has_hulls()) {
+            Result<convex::HullSections> hulls = stages.run("hull", [&] {
+                return build_hulls(input, soup, welded.mesh, options.structures.hulls, threads,
+                                   report.parts);
+            });
+            if (!hulls) return hulls.error();
+            built.hulls = std::move(hulls).value();
+        }
+        arrays.keep(std::move(built));
     }
     if (options.effects.sections.contains(format::SectionId::pieces)) {
         convex::PieceArrays pieces =
@@ -359,6 +389,9 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
         report.structures = stages.run("describe", [&] {
             return reports_of(options.structures, arrays.structures(), arrays.mesh());
         });
+    }
+    if (report.parts && !report.parts->is_as_asked) {
+        report.exit = static_cast<int>(Exit::findings);
     }
     report.bytes = std::filesystem::file_size(output);
     report.stages = stages.times();

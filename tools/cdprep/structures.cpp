@@ -7,6 +7,7 @@
 
 #include "cdprep/format/limits.h"
 #include "cdprep/structure_presets.h"
+#include "convex/enclosing_hull.h"
 #include "report/structure_name.h"
 
 namespace cdprep::cli {
@@ -63,7 +64,7 @@ std::optional<Error> find_idle_option(const StructureArguments& arguments,
         bool is_used;
         const char* user;
     };
-    const std::array<Use, 7> uses = {{
+    const std::array<Use, 10> uses = {{
         {"--octree-level", arguments.octree_level.has_value(), has_some_octree, "octree"},
         {"--octree-threshold", arguments.octree_threshold.has_value(), has_some_octree, "octree"},
         {"--tetra-level", arguments.tetra_level.has_value(), choice.has_tetra_tree(), "tetra-tree"},
@@ -72,6 +73,9 @@ std::optional<Error> find_idle_option(const StructureArguments& arguments,
         {"--split", !arguments.split.empty(), choice.has_adaptive_octree(), "octree-adaptive"},
         {"--octree-bounding", !arguments.octree_bounding.empty(), has_some_octree, "octree"},
         {"--bounding", !arguments.bounding.empty(), choice.has_tetra_tree(), "tetra-tree"},
+        {"--hull-vertices", arguments.hulls.max_vertices > 0, choice.has_hulls(), "hull"},
+        {"--parts", arguments.hulls.parts.has_value(), choice.has_hulls(), "hull"},
+        {"--max-error", arguments.hulls.max_error.has_value(), choice.has_hulls(), "hull"},
     }};
     for (const Use& use : uses) {
         if (!use.is_given || use.is_used) continue;
@@ -121,6 +125,7 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
         }
     }
     if (choice.has_hulls()) choice.names.emplace_back(kHull);
+    choice.hulls = arguments.hulls;
     if (const auto error = find_idle_option(arguments, choice)) return *error;
 
     choice.octree.hashed = choice.sections.contains(format::SectionId::octree_leaf_codes);
@@ -219,6 +224,20 @@ void add_structure_options(CLI::App& command, StructureArguments& arguments) {
                     "from the nearest to the farthest; or tetra, from the centre, as in the paper; "
                     "else the preset's: boxes of tuned, caps of paper")
         ->check(CLI::IsMember({"boxes", "caps", "tetra"}));
+    command
+        .add_option("--hull-vertices", arguments.hulls.max_vertices,
+                    "Hulls contain the exact ones and have at most so many vertices, 4 or more")
+        ->check(CLI::Range(convex::kFewestEnclosingVertices, format::kMaxTriangles));
+    command
+        .add_option("--parts", arguments.hulls.parts,
+                    "With the hulls: at most so many convex parts that enclose the mesh, as "
+                    "decompose --parts finds them")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option("--max-error", arguments.hulls.max_error,
+                    "With the hulls: convex parts that enclose the mesh and stick out by no more "
+                    "than this, in model units as baked")
+        ->check(is_length());
 }
 
 }  // namespace cdprep::cli

@@ -18,6 +18,17 @@
 
 namespace cdprep::cli {
 
+/// How convex hulls are built.
+struct HullChoice {
+    std::uint32_t max_vertices = 0;        ///< of each; 0: any number, exact
+    std::optional<std::size_t> parts;      ///< at most so many enclose the mesh; else none,
+    std::optional<double> max_error = {};  ///< unless they may stick out this far, model units
+
+    [[nodiscard]] bool has_parts() const noexcept {
+        return parts || max_error;
+    }
+};
+
 /// What the command line says of structures.
 struct StructureArguments {
     std::string list = {};  ///< --structures; empty: not given
@@ -29,6 +40,7 @@ struct StructureArguments {
     std::string split = {};            ///< empty: not given
     std::string octree_bounding = {};  ///< empty: not given
     std::string bounding = {};         ///< empty: not given
+    HullChoice hulls = {};
 };
 
 /// What --structures hull stores, and --structure hull needs.
@@ -48,6 +60,7 @@ struct StructureChoice {
     build::OctreeOptions octree;     ///< of the hashed octree too
     build::AdaptiveOctreeOptions adaptive_octree;
     build::TetraTreeOptions tetra_tree;
+    HullChoice hulls;
 
     [[nodiscard]] bool has_octree() const noexcept {
         return sections.contains(format::SectionId::octree_nodes);

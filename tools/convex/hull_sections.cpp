@@ -146,15 +146,18 @@ void HullSections::add(format::HullScope scope, std::uint32_t number, const Mesh
     hulls.push_back(entry);
 }
 
-HullSections make_hull_sections(const mesh::Mesh& mesh, std::span<const format::Instance> instances,
-                                ParallelFor run) {
+std::optional<HullSections> make_hull_sections(const mesh::Mesh& mesh,
+                                               std::span<const format::Instance> instances,
+                                               std::uint32_t max_vertices, ParallelFor run) {
     constexpr std::array<std::pair<HullScope, format::HullScope>, 3> kScopes = {
         {{HullScope::whole, format::HullScope::whole},
          {HullScope::component, format::HullScope::component},
          {HullScope::node, format::HullScope::instance}}};
     HullSections sections;
     for (const auto& [scope, stored] : kScopes) {
-        const auto found = find_mesh_hulls(mesh, instances, {.scope = scope, .parallel_for = run});
+        const auto found = find_mesh_hulls(
+            mesh, instances, {.scope = scope, .max_vertices = max_vertices, .parallel_for = run});
+        if (!found) return std::nullopt;
         const bool is_part = scope != HullScope::whole;
         if (is_part && found->size() < 2) continue;
         if (scope == HullScope::component && found->size() > kMostComponentHulls) continue;
@@ -163,6 +166,12 @@ HullSections make_hull_sections(const mesh::Mesh& mesh, std::span<const format::
         }
     }
     return sections;
+}
+
+void add_parts(HullSections& sections, std::span<const ApproximatePiece> pieces) {
+    for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+        sections.add(format::HullScope::part, i, {pieces[i].hull, pieces[i].error.upper}, {});
+    }
 }
 
 }  // namespace cdprep::convex

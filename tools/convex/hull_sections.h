@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cdprep/format/hulls.h"
+#include "convex/approximate_pieces.h"
 #include "convex/mesh_hulls.h"
 
 namespace cdprep::convex {
@@ -28,11 +29,15 @@ struct HullSections {
 /// Components of a mesh with more of them have no hulls of their own in a file.
 inline constexpr std::size_t kMostComponentHulls = 1 << 16;
 
-/// The exact hulls of a mesh: of the whole, of its components where there are several, but
-/// no more than kMostComponentHulls, and of its instances where there are several.
-/// `instances` are runs of `mesh`'s triangles.
-[[nodiscard]] HullSections make_hull_sections(const mesh::Mesh& mesh,
-                                              std::span<const format::Instance> instances,
-                                              ParallelFor run);
+/// The hulls of a mesh: of the whole, of its components where there are several, but no
+/// more than kMostComponentHulls, and of its instances where there are several. They are
+/// exact, or have at most `max_vertices` points unless that is 0; nothing when one would
+/// leave the range of double. `instances` are runs of `mesh`'s triangles.
+[[nodiscard]] std::optional<HullSections> make_hull_sections(
+    const mesh::Mesh& mesh, std::span<const format::Instance> instances, std::uint32_t max_vertices,
+    ParallelFor run);
+
+/// Adds pieces as parts, behind all other hulls, with their errors as distances.
+void add_parts(HullSections& sections, std::span<const ApproximatePiece> pieces);
 
 }  // namespace cdprep::convex

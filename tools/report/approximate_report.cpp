@@ -2,22 +2,15 @@
 #include "report/approximate_report.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "report/fixed.h"
 #include "report/printable.h"
 
 namespace cdprep::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::string number(double value) {
-    std::array<char, 64> text;
-    std::snprintf(text.data(), text.size(), "%.6g", value);
-    return text.data();
-}
 
 std::size_t most_vertices(const convex::ApproximatePieces& result) {
     std::size_t most = 0;
@@ -49,11 +42,11 @@ std::string approximate_text(const ApproximateReport& report) {
     const double share = report.diagonal > 0 ? 100 * result.outer_error / report.diagonal : 0;
     std::string text = printable(report.input) + ": " + std::to_string(result.pieces.size()) +
                        " convex pieces enclose " + std::to_string(report.triangles) +
-                       " triangles (" + number(report.seconds) + " s)\n";
+                       " triangles (" + in_six_digits(report.seconds) + " s)\n";
     text += "  they stick out of the ";
     text += report.to_surface ? "surface" : "solid";
-    text += " by at most " + number(result.outer_error) + " (" + number(share) +
-            " % of the diagonal; at least " + number(result.outer_lower) + ")\n";
+    text += " by at most " + in_six_digits(result.outer_error) + " (" + in_six_digits(share) +
+            " % of the diagonal; at least " + in_six_digits(result.outer_lower) + ")\n";
     text += "  enclosed: " + std::to_string(result.proof.fragments) + " fragments, " +
             std::to_string(result.proof.outside) + " corners outside of their hull\n";
     text += "  at most " + std::to_string(most_vertices(result)) + " vertices a piece\n";
@@ -68,7 +61,7 @@ std::string approximate_text(const ApproximateReport& report) {
         text += "  " + std::to_string(report.left_out) + " flat pieces were not written\n";
     }
     if (report.mass) {
-        text += "  mass " + number(*report.mass) + " kg, of ";
+        text += "  mass " + in_six_digits(*report.mass) + " kg, of ";
         text += report.is_mass_of_pieces ? "the pieces, twice where they overlap\n" : "the solid\n";
     }
     if (!report.output.empty()) text += "  written to " + printable(report.output) + "\n";
@@ -78,7 +71,8 @@ std::string approximate_text(const ApproximateReport& report) {
         const convex::ApproximatePiece& piece = result.pieces[i];
         text += "  " + std::to_string(i) + " " + std::to_string(piece.hull.points.size()) + " " +
                 std::to_string(piece.hull.facets.size()) + " " +
-                std::to_string(piece.triangles.size()) + " " + number(piece.error.upper) + "\n";
+                std::to_string(piece.triangles.size()) + " " + in_six_digits(piece.error.upper) +
+                "\n";
     }
     return text;
 }

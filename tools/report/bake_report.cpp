@@ -27,6 +27,14 @@ nlohmann::ordered_json to_json(const BakeReport& report) {
     json["warnings"] = report.warnings;
     json["precision"] = report.single_precision ? "f32" : "f64";
     if (!report.structures.empty()) json["structures"] = structures_json(report.structures);
+    if (report.parts) {
+        json["parts"] = {
+            {"count", report.parts->count},
+            {"outer_error", report.parts->outer_error},
+            {"as_asked", report.parts->is_as_asked},
+            {"proof",
+             {{"fragments", report.parts->fragments}, {"outside", report.parts->outside}}}};
+    }
     json["bytes"] = report.bytes;
     json["seconds"] = report.seconds;
     for (const StageTime& stage : report.stages) json["stages"][stage.stage] = stage.seconds;
@@ -48,6 +56,12 @@ std::string bake_text(const BakeReport& report, Timings timings) {
                 " defects; 'cdprep info' lists them\n";
     }
     text += structures_text(report.structures);
+    if (report.parts) {
+        text += "  " + std::to_string(report.parts->count) +
+                " convex parts enclose it and stick out by at most " +
+                in_six_digits(report.parts->outer_error) +
+                (report.parts->is_as_asked ? "\n" : ", not as tight, or not as few, as asked\n");
+    }
     if (timings == Timings::hide) return text;
     for (const StageTime& stage : report.stages) {
         text += "  " + stage.stage +

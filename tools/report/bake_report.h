@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,6 +15,15 @@ namespace cdprep::report {
 struct StageTime {
     std::string stage;
     double seconds;
+};
+
+/// Convex parts that enclose the mesh.
+struct BakedParts {
+    std::size_t count = 0;
+    double outer_error = 0;  ///< proved: no point of one is farther from the solid, model units
+    bool is_as_asked = true;
+    std::uint64_t fragments = 0;  ///< of triangles, each proved to lie in one
+    std::uint64_t outside = 0;    ///< corners of fragments that do not: 0
 };
 
 /// What baking one file gave.
@@ -31,6 +41,7 @@ struct BakeReport {
     std::uint64_t warnings = 0;         ///< rules that found a warning or more
     bool single_precision = false;
     std::vector<StructureReport> structures;
+    std::optional<BakedParts> parts;
     std::uint64_t bytes = 0;
     double seconds = 0;
     std::vector<StageTime> stages;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "report/fixed.h"
+
 namespace cdprep::report {
 namespace {
 
@@ -11,6 +13,7 @@ using format::HullScope;
 
 const char* scope_name(HullScope scope) {
     if (scope == HullScope::whole) return "whole";
+    if (scope == HullScope::part) return "part";
     return scope == HullScope::component ? "component" : "instance";
 }
 
@@ -44,7 +47,8 @@ std::string baked_hulls_text(const Model& model, std::size_t most_lines) {
         text += ": dimension " + std::to_string(hull.dimension) + ", " +
                 std::to_string(hull.point_count) + " points, " + std::to_string(hull.facet_count) +
                 " facets in " + std::to_string(hull.group_count) + " faces" +
-                (is_exact(hull) ? ", exact\n" : ", enclosing\n");
+                (is_exact(hull) ? ", exact\n"
+                                : ", enclosing within " + in_six_digits(hull.distance) + "\n");
     }
     if (hulls.size() > most_lines) {
         text += "  and " + std::to_string(hulls.size() - most_lines) + " more\n";

@@ -15,4 +15,12 @@ namespace cdprep::report {
     return text;
 }
 
+/// The number with at most six digits.
+[[nodiscard]] inline std::string in_six_digits(double value) {
+    std::string text(32, '\0');
+    const int size = std::snprintf(text.data(), text.size(), "%.6g", value);
+    text.resize(static_cast<std::size_t>(size));
+    return text;
+}
+
 }  // namespace cdprep::report

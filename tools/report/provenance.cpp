@@ -30,7 +30,7 @@ nlohmann::json structures_json(const std::vector<StructureSettings>& structures)
 }  // namespace
 
 std::string provenance_json(const Provenance& provenance) {
-    const nlohmann::json json = {
+    nlohmann::json json = {
         {"tool", {{"name", "cdprep"}, {"version", provenance.tool_version}}},
         // Raised whenever a stage gives other bytes for the same input.
         {"algorithms",
@@ -58,6 +58,10 @@ std::string provenance_json(const Provenance& provenance) {
           {"weld", provenance.weld_distance}}},
         {"source", {{"xxh3_64", hexadecimal(provenance.source_hash)}}},
     };
+    nlohmann::json& options = json["options"];
+    if (provenance.hull_vertices > 0) options["hull_vertices"] = provenance.hull_vertices;
+    if (provenance.parts) options["parts"] = *provenance.parts;
+    if (provenance.max_error) options["max_error"] = *provenance.max_error;
     return json.dump();
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +23,10 @@ struct Provenance {
     std::string bounds;  ///< as --bounds spells it
     std::vector<StructureSettings> structures;
     bool has_hulls = false;
-    std::uint64_t source_hash = 0;  ///< format::checksum() of the input file
+    std::uint32_t hull_vertices = 0;  ///< 0: exact hulls
+    std::optional<std::size_t> parts;
+    std::optional<double> max_error;  ///< of parts
+    std::uint64_t source_hash = 0;    ///< format::checksum() of the input file
 };
 
 /// Canonical JSON: keys sorted, no blanks, shortest numbers.

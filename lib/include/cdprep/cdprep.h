@@ -275,7 +275,12 @@ int cdprep_triangles_within(const cdprep_model* a, const cdprep_model* b,
 
 /* --- Two convex hulls ------------------------------------------------------------- */
 
-enum { CDPREP_HULL_WHOLE = 0, CDPREP_HULL_COMPONENT = 1, CDPREP_HULL_INSTANCE = 2 };
+enum {
+    CDPREP_HULL_WHOLE = 0,
+    CDPREP_HULL_COMPONENT = 1,
+    CDPREP_HULL_INSTANCE = 2,
+    CDPREP_HULL_PART = 3
+};
 
 /* One convex hull of a baked model; lives as long as that. */
 typedef struct cdprep_hull {
@@ -283,7 +288,7 @@ typedef struct cdprep_hull {
     uint32_t number; /* of the hull, as cdprep_find_hull() stores it */
 } cdprep_hull;
 
-/* The hull around the whole model, or around the component or instance of a number, which
+/* The hull around the whole model, or around the component, instance or part of a number, which
  * is 0 for the whole. `found` is 0, and `hull` is of no use, when none was baked. */
 int cdprep_find_hull(const cdprep_model* model, uint32_t scope, uint32_t number, int* found,
                      cdprep_hull* hull, cdprep_error* error);

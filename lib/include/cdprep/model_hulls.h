@@ -10,8 +10,9 @@
 namespace cdprep {
 
 /// Returns the number, in Model::hulls(), of the hull around the whole of a model, around a
-/// component or an instance; nothing when none was baked. `number` is 0 for the whole.
-/// O(log n).
+/// component, an instance or a part; nothing when none was baked. `number` is 0 for the
+/// whole. Parts are the last hulls, from number 0 on: no point of the model is outside all
+/// of them. O(log n).
 [[nodiscard]] std::optional<std::uint32_t> find_hull(const Model& model, format::HullScope scope,
                                                      std::uint32_t number = 0) noexcept;
 

@@ -68,8 +68,10 @@ static const char* ask_wrongly(const cdprep_model* model, const cdprep_hull* cub
     cdprep_distance distance;
     cdprep_penetration depth;
     int answer = -1;
-    MUST(cdprep_find_hull(model, 3, 0, &answer, &none, &error) == CDPREP_BAD_ARGUMENT);
+    MUST(cdprep_find_hull(model, 4, 0, &answer, &none, &error) == CDPREP_BAD_ARGUMENT);
     MUST(cdprep_find_hull(NULL, 0, 0, &answer, &none, NULL) == CDPREP_BAD_ARGUMENT);
+    MUST(cdprep_find_hull(model, CDPREP_HULL_PART, 0, &answer, &none, NULL) == CDPREP_OK);
+    MUST(answer == 0);
     MUST(cdprep_find_hull(model, CDPREP_HULL_INSTANCE, 0, &answer, &none, NULL) == CDPREP_OK);
     MUST(answer == 0);
     MUST(cdprep_hulls_collide(cube, &none, &placement, NULL, &answer, &error) ==

@@ -46,7 +46,7 @@ test::TestMesh two_of(test::TestMesh mesh, double apart) {
 }
 
 HullSections sections_of(const test::TestMesh& mesh) {
-    return make_hull_sections(test::mesh_of(mesh), {}, serial_for);
+    return *make_hull_sections(test::mesh_of(mesh), {}, 0, serial_for);
 }
 
 std::vector<test::TinySection> tiny_sections(const HullSections& hulls) {

@@ -16,6 +16,7 @@ enum class HullScope : std::uint32_t {
     whole = 0,      ///< the whole mesh
     component = 1,  ///< a connected component
     instance = 2,   ///< an instance of the imported file
+    part = 3,       ///< some of the surface and of what it encloses; all parts hold all of it
 };
 
 /// Bits of Hull::flags.
@@ -24,12 +25,13 @@ enum HullFlags : std::uint32_t {
 };
 
 /// A convex hull: of dimension 3 a closed polyhedron, 2 a polygon seen from both sides, 1 a
-/// segment, 0 a point, -1 of nothing. The parts of hulls follow each other in their
-/// sections without gaps, in the order of the hulls; numbers in them count from the hull's
-/// own first part.
+/// segment, 0 a point, -1 of nothing. No point of it is farther than `distance`, in model
+/// units, from the exact hull; of a part, from the surface and what it encloses. What belongs to
+/// hulls follows each other in their sections without gaps, in the order of the hulls; numbers in
+/// them count from the hull's own first one.
 struct Hull {
     HullScope scope;
-    std::uint32_t number;  ///< of the component or instance; 0 for the whole
+    std::uint32_t number;  ///< of the component, instance or part; 0 for the whole
     std::int32_t dimension;
     std::uint32_t flags;        ///< HullFlags
     std::uint32_t first_block;  ///< HullBlock, and eight times as many hull_vertices
@@ -42,7 +44,7 @@ struct Hull {
     std::uint32_t neighbour_count;  ///< 0: neither, as for small hulls, which are scanned
     std::uint32_t first_start;
     std::uint32_t start_count;  ///< kHullStarts where there are neighbours, else 0
-    double distance;            ///< no point is farther from the exact hull, model units
+    double distance;            ///< see below
     Double3 reach;              ///< at least |x|, |y|, |z| of every point
 };
 

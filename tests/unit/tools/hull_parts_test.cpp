@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Convex parts in files: they hold the whole mesh, so that no touch is missed through them.
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <random>
+
+#include "cdprep/collide.h"
+#include "cdprep/convex_distance.h"
+#include "cdprep/format/find_damage.h"
+#include "cdprep/model_hulls.h"
+#include "convex/hull_sections.h"
+#include "find_hull_falsehood.h"
+#include "support/meshes.h"
+#include "support/more_sections.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+#include "unit/tools/soup_of.h"
+
+namespace cdprep::convex {
+namespace {
+
+using format::SectionId;
+using test::as_section;
+
+test::AlignedBytes baked(const test::TestMesh& mesh, const HullSections& hulls) {
+    return test::with_sections(
+        test::bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}),
+        {as_section(SectionId::hulls, std::span(hulls.hulls)),
+         as_section(SectionId::hull_blocks, std::span(hulls.blocks)),
+         as_section(SectionId::hull_vertices, std::span(hulls.vertices)),
+         as_section(SectionId::hull_facets, std::span(hulls.facets)),
+         as_section(SectionId::hull_groups, std::span(hulls.groups)),
+         as_section(SectionId::hull_neighbours, std::span(hulls.neighbours)),
+         as_section(SectionId::hull_starts, std::span(hulls.starts))});
+}
+
+/// The whole's hull, and this many parts at most.
+HullSections with_parts(const test::TestMesh& mesh, std::size_t parts, std::uint32_t vertices = 0) {
+    const mesh::Mesh welded = test::mesh_of(mesh);
+    HullSections sections = *make_hull_sections(welded, {}, vertices, serial_for);
+    ApproximateOptions how;
+    how.parts = parts;
+    how.max_vertices = vertices;
+    add_parts(sections, find_approximate_pieces(welded, how).pieces);
+    return sections;
+}
+
+std::uint32_t part_count(const Model& model) {
+    const auto first = find_hull(model, format::HullScope::part);
+    return first ? static_cast<std::uint32_t>(model.hulls().size()) - *first : 0;
+}
+
+bool parts_meet(const Model& a, const Model& b, const Placement& placement) {
+    const std::uint32_t first_a = *find_hull(a, format::HullScope::part);
+    const std::uint32_t first_b = *find_hull(b, format::HullScope::part);
+    for (std::uint32_t i = first_a; i < a.hulls().size(); ++i) {
+        for (std::uint32_t k = first_b; k < b.hulls().size(); ++k) {
+            if (convex_collide(convex_points(a, i), convex_points(b, k), placement)) return true;
+        }
+    }
+    return false;
+}
+
+const test::TestMesh& ring() {
+    static const test::TestMesh mesh = test::torus(1, 0.3, 32, 16);
+    return mesh;
+}
+
+// By the builder's own figures, and by exact arithmetic on the file.
+TEST(HullParts, AreSoundAndHoldEveryVertex) {
+    for (const std::uint32_t vertices : {0U, 8U}) {
+        const test::AlignedBytes file = baked(ring(), with_parts(ring(), 12, vertices));
+        ASSERT_FALSE(format::find_damage(file.span()));
+        const auto opened = test::open_tiny(test::AlignedBytes(file.span()));
+        const Model& model = opened.model;
+        EXPECT_FALSE(find_hull_falsehood(file.span(), model));
+        EXPECT_GE(part_count(model), 4U);
+        EXPECT_LE(part_count(model), 12U);
+        EXPECT_EQ(find_hull(model, format::HullScope::part, 2), 3U);
+        EXPECT_FALSE(find_hull(model, format::HullScope::part, 12));
+        for (const format::Hull& hull : model.hulls()) {
+            EXPECT_TRUE(vertices == 0 || hull.point_count <= vertices);
+            EXPECT_EQ((hull.flags & format::hull_exact) != 0,
+                      vertices == 0 && hull.scope == format::HullScope::whole);
+            EXPECT_EQ(hull.distance > 0, (hull.flags & format::hull_exact) == 0);
+        }
+    }
+}
+
+// Every part of a ring holds a vertex that no other does: without it the check must tell.
+TEST(HullParts, ThatLeaveAVertexOutAreFound) {
+    HullSections sections = *make_hull_sections(test::mesh_of(ring()), {}, 0, serial_for);
+    ApproximateOptions how;
+    how.parts = 8;
+    auto pieces = find_approximate_pieces(test::mesh_of(ring()), how).pieces;
+    pieces.pop_back();
+    add_parts(sections, pieces);
+    const test::AlignedBytes file = baked(ring(), sections);
+    EXPECT_FALSE(format::find_damage(file.span()));
+    const auto opened = test::open_tiny(test::AlignedBytes(file.span()));
+    EXPECT_TRUE(find_hull_falsehood(file.span(), opened.model));
+}
+
+// The oracle is the hierarchy of triangles, which is exact. A yes of the parts may be wrong:
+// how often is printed.
+TEST(HullPartsLaws, MissNoTouch) {
+    const auto a = test::open_tiny(baked(ring(), with_parts(ring(), 16)));
+    const test::TestMesh small = test::moved_by(test::torus(1, 0.4, 20, 10), 0.5, {0.1, 0.2, 0.3});
+    const auto b = test::open_tiny(baked(small, with_parts(small, 8)));
+    std::mt19937 random(11);
+    int touching = 0, through_parts = 0;
+    constexpr int kRounds = 2'000;
+    Workspace workspace;
+    for (int round = 0; round < kRounds; ++round) {
+        const Placement placement = Placement::b_moves(test::random_pose(random, 1.3));
+        const bool solids_touch =
+            collide(a.model, b.model, placement, workspace, {.as = As::solid}).hit;
+        const bool parts_touch = parts_meet(a.model, b.model, placement);
+        EXPECT_TRUE(parts_touch || !solids_touch) << round;
+        touching += solids_touch ? 1 : 0;
+        through_parts += parts_touch ? 1 : 0;
+    }
+    std::cout << part_count(a.model) << " and " << part_count(b.model) << " parts: " << touching
+              << " of " << kRounds << " poses touch, " << through_parts - touching
+              << " more by parts\n";
+    EXPECT_GT(touching, kRounds * 3 / 10);
+    EXPECT_LT(touching, kRounds * 7 / 10);
+}
+
+}  // namespace
+}  // namespace cdprep::convex
