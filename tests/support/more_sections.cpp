@@ -10,7 +10,8 @@
 
 namespace cdprep::test {
 
-AlignedBytes with_sections(const AlignedBytes& file, std::vector<TinySection> sections) {
+AlignedBytes with_sections(const AlignedBytes& file, std::vector<TinySection> sections,
+                           std::uint64_t section_alignment) {
     const std::span<const std::byte> bytes = file.span();
     std::vector<TinySection> all;
     for (std::uint32_t id = 1; id < 64; ++id) {
@@ -22,7 +23,12 @@ AlignedBytes with_sections(const AlignedBytes& file, std::vector<TinySection> se
     for (TinySection& section : sections) all.push_back(std::move(section));
     std::sort(all.begin(), all.end(),
               [](const TinySection& a, const TinySection& b) { return a.id < b.id; });
-    return assemble(format::read_header(bytes), all);
+    return assemble(format::read_header(bytes), all, section_alignment);
+}
+
+AlignedBytes on_pages(const AlignedBytes& file) {
+    constexpr std::uint64_t kPage = 4096;
+    return with_sections(file, {}, kPage);
 }
 
 BuilderInput builder_input(const Model& model) {

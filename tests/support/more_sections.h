@@ -21,8 +21,12 @@ TinySection as_section(SectionId id, std::span<const T> elements) {
 }
 
 /// The same file with these sections too, which it does not have.
-[[nodiscard]] AlignedBytes with_sections(const AlignedBytes& file,
-                                         std::vector<TinySection> sections);
+[[nodiscard]] AlignedBytes with_sections(
+    const AlignedBytes& file, std::vector<TinySection> sections,
+    std::uint64_t section_alignment = format::kSectionAlignment);
+
+/// The same file, its sections on pages of their own (GuardedPages).
+[[nodiscard]] AlignedBytes on_pages(const AlignedBytes& file);
 
 /// What builders take, of a model that is open: tree order, double precision.
 struct BuilderInput {
@@ -51,5 +55,9 @@ struct BuilderInput {
 
 /// The same file with one piece, all of it, which is contained: for a closed convex mesh.
 [[nodiscard]] AlignedBytes with_one_piece(const AlignedBytes& file);
+
+/// The same file, which has pieces, with what contacts need besides. How edges bend is made up:
+/// every way occurs.
+[[nodiscard]] AlignedBytes with_contacts(const AlignedBytes& file);
 
 }  // namespace cdprep::test

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -79,6 +81,27 @@ void add_triangle(Sections& made, const std::vector<Double3>& at, const Triangle
     made.facets.push_back({{corner[0], corner[2], corner[1]}, facet_first_of_face | facet_virtual});
 }
 
+/// Where the facets of a piece begin, or those of the last one end.
+std::size_t first_facet(const Model& model, std::size_t i) {
+    const auto pieces = model.pieces();
+    return i < pieces.size() ? pieces[i].first_facet : model.piece_facets().size();
+}
+
+/// The facets beyond the edges of one hull's facets.
+void add_adjacency(std::span<const format::PieceFacet> facets,
+                   std::vector<format::PieceAdjacency>& adjacency) {
+    std::map<std::array<std::uint32_t, 2>, std::uint32_t> left_of;
+    for (std::uint32_t f = 0; f < facets.size(); ++f) {
+        const auto& c = facets[f].corner;
+        for (std::size_t k = 0; k < 3; ++k) left_of[{c[k], c[(k + 1) % 3]}] = f;
+    }
+    for (const format::PieceFacet& facet : facets) {
+        const auto& c = facet.corner;
+        adjacency.push_back(
+            {{left_of.at({c[1], c[0]}), left_of.at({c[2], c[1]}), left_of.at({c[0], c[2]})}});
+    }
+}
+
 }  // namespace
 
 AlignedBytes with_pieces(const AlignedBytes& file) {
@@ -117,6 +140,32 @@ AlignedBytes with_one_piece(const AlignedBytes& file) {
         made.facets.push_back(facet);
     }
     return with(file, made);
+}
+
+AlignedBytes with_contacts(const AlignedBytes& file) {
+    const Model model = Model::open(file.span()).value();
+    std::vector<format::PieceAdjacency> adjacency;
+    for (std::size_t i = 0; i < model.pieces().size(); ++i) {
+        const std::size_t begin = first_facet(model, i);
+        add_adjacency(model.piece_facets().subspan(begin, first_facet(model, i + 1) - begin),
+                      adjacency);
+    }
+    std::vector<std::uint8_t> convexity(model.triangle_count());
+    for (std::size_t t = 0; t < convexity.size(); ++t) {
+        convexity[t] = static_cast<std::uint8_t>(t * 37 % 64);
+    }
+    std::vector<std::uint32_t> piece_of(model.triangle_count());
+    for (std::uint32_t i = 0; i < model.pieces().size(); ++i) {
+        const bool is_last = i + 1 == model.pieces().size();
+        const std::size_t end = is_last ? piece_of.size() : model.pieces()[i + 1].first_triangle;
+        for (std::size_t t = model.pieces()[i].first_triangle; t < end; ++t) {
+            piece_of[model.piece_triangles()[t]] = i;
+        }
+    }
+    return with_sections(file,
+                         {as_section<format::PieceAdjacency>(SectionId::piece_adjacency, adjacency),
+                          as_section<std::uint8_t>(SectionId::edge_convexity, convexity),
+                          as_section<std::uint32_t>(SectionId::triangle_piece, piece_of)});
 }
 
 }  // namespace cdprep::test

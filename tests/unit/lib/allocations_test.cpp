@@ -10,9 +10,11 @@
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/contacts.h"
 #include "cdprep/convex_penetration.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
+#include "cdprep/distance_through.h"
 #include "cdprep/includes_through.h"
 #include "cdprep/overlap_through.h"
 #include "cdprep/refit_bvh.h"
@@ -27,6 +29,7 @@
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 #include "support/small_hull.h"
+#include "support/tiny_pieces.h"
 
 #include "workspace_storage.h"
 
@@ -260,6 +263,110 @@ TEST(Allocations, NoQuestionThroughAHashedOctreeAllocates) {
     EXPECT_EQ(allocations, before);
     EXPECT_GT(hits, 8U);
     EXPECT_GT(misses, 8U);
+}
+
+/// Near, far, touching and nested.
+std::vector<Placement> some_placements() {
+    std::vector<Placement> placements = {Placement::b_moves(Pose())};
+    std::mt19937 random(4);
+    for (const double reach : {0.1, 1.0, 1.5, 3.0, 100.0}) {
+        const Pose p = random_pose(random, reach), q = random_pose(random, reach);
+        placements.push_back(Placement::b_moves(p));
+        placements.push_back(Placement::world(p, q));
+    }
+    return placements;
+}
+
+TEST(Allocations, NoQuestionThroughPiecesAllocates) {
+    const TestMesh sphere = icosphere(3), ring = torus(1, 0.25, 24, 12);
+    const OpenModel a = open_tiny(with_piece_tree(bake_tiny(sphere.positions, sphere.triangles)));
+    const OpenModel b = open_tiny(
+        with_piece_tree(bake_tiny(ring.positions, ring.triangles, {.double_precision = true})));
+    const StructureOptions through = {.structure = Structure::pieces};
+    const std::vector<Placement> placements = some_placements();
+    Workspace workspace;
+    PieceCache cache;
+    std::vector<TrianglePair> pairs(10'000);
+    std::size_t hits = 0, misses = 0;
+    const std::size_t before = allocations;
+    for (const Placement& placement : placements) {
+        for (PieceCache* from : {static_cast<PieceCache*>(nullptr), &cache}) {
+            const bool hit =
+                any_overlap_through(through, a.model, b.model, placement, workspace, {}, from);
+            (hit ? hits : misses) += 1;
+            static_cast<void>(
+                distance_through(through, a.model, b.model, placement, workspace, {}, from));
+            static_cast<void>(distance_through(through, a.model, b.model, placement, workspace,
+                                               {.relative_error = 0.1}, from));
+            static_cast<void>(
+                is_within_through(through, a.model, b.model, placement, 0.5, workspace, from));
+        }
+        static_cast<void>(
+            overlapping_triangles_through(through, a.model, b.model, placement, workspace, pairs));
+        static_cast<void>(overlapping_triangles_through(through, a.model, b.model, placement,
+                                                        workspace, std::span(pairs).first(10)));
+    }
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(hits, 2U);
+    EXPECT_GT(misses, 2U);
+}
+
+// More pairs of pieces than are gathered at once, single triangles and all of a ball.
+TEST(Allocations, NoContactAllocates) {
+    const TestMesh ball = icosphere(1), ring = torus(1, 0.25, 24, 12);
+    const OpenModel a =
+        open_tiny(with_contacts(with_one_piece(bake_tiny(ball.positions, ball.triangles))));
+    const OpenModel b =
+        open_tiny(with_contacts(with_pieces(bake_tiny(ring.positions, ring.triangles))));
+    const std::vector<Placement> placements = some_placements();
+    Workspace workspace;
+    std::vector<PieceContact> room(20);
+    std::size_t found = 0, most = 0, overlapping = 0;
+    const auto visit = [&](const PieceContact& contact) {
+        ++found;
+        overlapping += contact.flags & contact_overlap;
+        return true;
+    };
+    const std::size_t before = allocations;
+    for (const Placement& placement : placements) {
+        for (const Manifold manifold : {Manifold::none, Manifold::four}) {
+            for (const OpenModel* other : {&a, &b}) {
+                most = std::max(most, contacts(other->model, b.model, placement, 0.25, workspace,
+                                               room, {.manifold = manifold}));
+                visit_contacts(b.model, other->model, placement, 0.25, workspace, visit,
+                               {.manifold = manifold});
+            }
+        }
+    }
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(most, workspace.storage().near_pieces.size());
+    EXPECT_GT(overlapping, found / 20);
+    EXPECT_LT(overlapping, found * 19 / 20);
+}
+
+// From a cache and without, in every state of nearness.
+TEST(Allocations, NoClosestFeatureAllocates) {
+    const TestMesh ball = icosphere(1);
+    const OpenModel open =
+        open_tiny(with_contacts(with_one_piece(bake_tiny(ball.positions, ball.triangles))));
+    const Model& model = open.model;
+    ConvexPoints points;
+    points.count = static_cast<std::uint32_t>(model.piece_vertices().size());
+    points.corners = model.piece_vertices();
+    points.floats = model.positions_f32();
+    const FeatureHull hull = {points, model.piece_facets(), model.piece_adjacency()};
+    FeatureCache cache;
+    int apart = 0;
+    const std::size_t before = allocations;
+    for (int i = 0; i < 40; ++i) {
+        const Pose pose = Pose::from_quaternion(5, i % 3, 0.01 * i, 0, {0.1 * i, 0.5, 0}).value();
+        const Placement placement = Placement::b_moves(pose);
+        apart += closest_features(hull, hull, placement) ? 1 : 0;
+        static_cast<void>(closest_features(hull, hull, placement, &cache));
+    }
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(apart, 12);
+    EXPECT_LT(apart, 28);
 }
 
 // Apart, touching and deep, climbing and not: integers and the polytope are asked too.

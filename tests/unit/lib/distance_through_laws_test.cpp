@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "cdprep/overlap_through.h"
+#include "support/guarded_pages.h"
 #include "support/hard_triangles.h"
+#include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 #include "support/tiny_pieces.h"
@@ -277,6 +279,41 @@ TEST(DistanceThroughLaws, NothingIsFarFromAModelWithoutPieces) {
             any_overlap_through(kPieces, none->model, none->model, still, workspace, {}, &cache));
     }
     EXPECT_EQ(distance_through({}, plain.model, cube.model, still, workspace)->upper, 0);
+}
+
+// On read-only pages, with every section closed that is neither what distance() needs nor named
+// by sections_of().
+TEST(DistanceThroughLaws, PiecesReadOnlyTheSectionsThatTheyName) {
+    const TestMesh mesh = icosphere(3);
+    const AlignedBytes file = on_pages(with_piece_tree(bake_tiny(mesh.positions, mesh.triangles)));
+    const OpenModel whole = open_tiny(AlignedBytes(file.span()));
+    format::SectionSet wanted = {SectionId::bvh_nodes, SectionId::bvh_leaves,
+                                 SectionId::source_triangle, SectionId::positions_f32,
+                                 SectionId::triangles};
+    wanted.insert(sections_of(Structure::pieces));
+    const GuardedPages pages(file.span(), wanted);
+    EXPECT_GE(pages.guarded(), 3);
+    const auto opened = Model::open(pages.bytes(), wanted);
+    ASSERT_TRUE(opened) << opened.error().message;
+    const Model& model = opened.value();
+    Workspace workspace;
+    PieceCache cache;
+    std::mt19937 random(5);
+    std::size_t apart = 0;
+    for (int i = 0; i < 40; ++i) {
+        const Placement placement = Placement::b_moves(random_pose(random, 2));
+        const auto truth = distance(whole.model, whole.model, placement, workspace);
+        for (PieceCache* from : {static_cast<PieceCache*>(nullptr), &cache}) {
+            expect_same(truth,
+                        distance_through(kPieces, model, model, placement, workspace, {}, from));
+            ASSERT_FALSE(HasFatalFailure());
+            EXPECT_TRUE(
+                is_within_through(kPieces, model, model, placement, truth->upper, workspace, from));
+        }
+        apart += truth->lower > 0 ? 1 : 0;
+    }
+    EXPECT_GT(apart, 12U);
+    EXPECT_LT(apart, 28U);
 }
 
 }  // namespace

@@ -390,19 +390,6 @@ TEST(OverlapThroughLaws, FilesWithoutTheStructureOverlapNothing) {
               all_pairs(with.model, without.model, still, workspace));
 }
 
-/// The file again, its sections on pages of their own.
-AlignedBytes on_pages(const AlignedBytes& file) {
-    const std::span<const std::byte> bytes = file.span();
-    std::vector<TinySection> all;
-    for (std::uint32_t id = 1; id < 64; ++id) {
-        const auto entry = format::find_section(bytes, SectionId{id});
-        if (!entry) continue;
-        const auto content = bytes.subspan(entry->offset, entry->count * entry->element_size);
-        all.push_back({entry->id, {content.begin(), content.end()}});
-    }
-    return assemble(format::read_header(bytes), all, 4096);
-}
-
 // The mapped file is what is asked: on read-only pages, with every section that
 // sections_of() does not name closed.
 TEST(OverlapThroughLaws, ReadOnlyTheSectionsThatTheyName) {
@@ -416,8 +403,9 @@ TEST(OverlapThroughLaws, ReadOnlyTheSectionsThatTheyName) {
     const Pairs expected = all_pairs(whole.model, whole.model, placement, workspace);
     ASSERT_FALSE(expected.empty());
     bool with_more = false;
-    for (const Structure structure : {Structure::octree, Structure::adaptive_octree,
-                                      Structure::tetra_tree, Structure::tetra_tree}) {
+    for (const Structure structure :
+         {Structure::octree, Structure::adaptive_octree, Structure::tetra_tree,
+          Structure::tetra_tree, Structure::pieces}) {
         format::SectionSet wanted = {SectionId::bvh_nodes, SectionId::bvh_leaves,
                                      SectionId::source_triangle, SectionId::positions_f32,
                                      SectionId::triangles};
