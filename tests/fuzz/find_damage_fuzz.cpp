@@ -4,6 +4,7 @@
 // Checksums would stop nearly every mutation, so each input is also judged after
 // its checksums have been made right again: then only the content can refuse.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -14,14 +15,17 @@
 #include "support/more_sections.h"
 #include "support/reseal.h"
 #include "support/tiny_baker.h"
+#include "support/tiny_pieces.h"
 
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/collide.h"
+#include "cdprep/contacts.h"
 #include "cdprep/containment.h"
 #include "cdprep/convex_penetration.h"
 #include "cdprep/crossing_segments.h"
 #include "cdprep/distance.h"
+#include "cdprep/distance_through.h"
 #include "cdprep/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/includes_through.h"
@@ -150,27 +154,103 @@ void ask_hulls(const Model& model) {
     }
 }
 
+/// Part `i` of a list whose parts begin where the pieces say.
+template <class T>
+std::span<const T> part(const Model& model, std::span<const T> all,
+                        std::uint32_t format::Piece::*first, std::size_t i) {
+    const auto pieces = model.pieces();
+    const std::size_t end = i + 1 < pieces.size() ? pieces[i + 1].*first : all.size();
+    return all.subspan(pieces[i].*first, end - pieces[i].*first);
+}
+
 /// Follows every number that a question would.
 void ask_pieces(const Model& model) {
+    using format::Piece;
     const auto vertex = [&](std::uint32_t v) {
         if (!model.positions_f64().empty()) return model.positions_f64()[v].x;
         return double{model.positions_f32()[v].x};
     };
     [[maybe_unused]] static volatile double sink = 0;
-    const auto pieces = model.pieces();
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const bool is_last = i + 1 == pieces.size();
-        const std::size_t triangles =
-            is_last ? model.piece_triangles().size() : pieces[i + 1].first_triangle;
-        const std::size_t facets =
-            is_last ? model.piece_facets().size() : pieces[i + 1].first_facet;
-        for (std::size_t t = pieces[i].first_triangle; t < triangles; ++t) {
-            for (const auto v : model.triangles()[model.piece_triangles()[t]].vertex)
-                sink = vertex(v);
+    for (std::size_t i = 0; i < model.pieces().size(); ++i) {
+        for (const std::uint32_t t :
+             part(model, model.piece_triangles(), &Piece::first_triangle, i)) {
+            for (const auto v : model.triangles()[t].vertex) sink = vertex(v);
         }
-        for (std::size_t f = pieces[i].first_facet; f < facets; ++f) {
-            for (const std::uint32_t corner : model.piece_facets()[f].corner) {
-                sink = vertex(model.piece_vertices()[pieces[i].first_vertex + corner]);
+        const auto vertices = part(model, model.piece_vertices(), &Piece::first_vertex, i);
+        for (const auto& facet : part(model, model.piece_facets(), &Piece::first_facet, i)) {
+            for (const std::uint32_t corner : facet.corner) sink = vertex(vertices[corner]);
+        }
+    }
+}
+
+const std::array<Placement, 4>& piece_placements() {
+    static const std::array<Placement, 4> placements = {
+        Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {0.25, 0, 0}).value()),
+        Placement::world(Pose::from_quaternion(4, 3, 2, 1, {3, 0.25, 0.5}).value(), Pose()),
+        Placement::b_moves(Pose()),
+        Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {0.25, 0, 0.001}).value())};
+    return placements;
+}
+
+/// Boxes and hulls that pass the check may be around nothing that is below them; the cache
+/// begins with triangles, leaves and corners that no model has.
+void ask_through_pieces(const Model& model, Workspace& workspace) {
+    constexpr StructureOptions kThrough = {.structure = Structure::pieces};
+    static std::vector<TrianglePair> pairs(256);
+    PieceCache cache;
+    cache.pair.holds = 7;
+    cache.pair.triangle_a = model.triangle_count();
+    cache.pair.triangle_b = 0xffffffffU;
+    cache.hulls = {4, {0xffffffffU, 32, 7, 0}, {0, 1, 0xffffffffU, 32}};
+    cache.leaf_a = 0xfffffff0U;
+    cache.leaf_b = static_cast<std::uint32_t>(model.piece_leaves().size());
+    for (const Placement& placement : piece_placements()) {
+        (void)overlapping_triangles_through(kThrough, model, model, placement, workspace, pairs);
+        (void)any_overlap_through(kThrough, model, model, placement, workspace);
+        (void)any_overlap_through(kThrough, model, model, placement, workspace, {}, &cache);
+        (void)distance_through(kThrough, model, model, placement, workspace);
+        (void)distance_through(kThrough, model, model, placement, workspace, {}, &cache);
+        (void)is_within_through(kThrough, model, model, placement, 0.125, workspace);
+        (void)is_within_through(kThrough, model, model, placement, 0.5, workspace, &cache);
+    }
+}
+
+/// Hulls may have nothing to do with the triangles of their pieces.
+void ask_contacts(const Model& model, Workspace& workspace) {
+    constexpr std::size_t kMostContacts = 64;
+    for (const Placement& placement : piece_placements()) {
+        for (const Manifold manifold : {Manifold::none, Manifold::four}) {
+            std::size_t count = 0;
+            const auto visit = [&](const PieceContact&) { return ++count < kMostContacts; };
+            visit_contacts(model, model, placement, 0.0625, workspace, visit,
+                           {.manifold = manifold});
+        }
+    }
+}
+
+/// Every hull of some against the next ones. Caches go from one question to the next about
+/// other hulls, and begin at an edge that no hull has.
+void ask_features(const Model& model) {
+    using format::Piece;
+    constexpr std::size_t kMostHulls = 6;
+    constexpr std::uint32_t kMostPoints = 128;
+    if (model.piece_adjacency().size() != model.piece_facets().size()) return;
+    std::vector<FeatureHull> hulls;
+    for (std::size_t i = 0; i < std::min(model.pieces().size(), kMostHulls); ++i) {
+        ConvexPoints points;
+        points.corners = part(model, model.piece_vertices(), &Piece::first_vertex, i);
+        points.count = static_cast<std::uint32_t>(points.corners.size());
+        points.floats = model.positions_f32();
+        points.doubles = model.positions_f64();
+        if (points.count > kMostPoints) continue;
+        hulls.push_back({points, part(model, model.piece_facets(), &Piece::first_facet, i),
+                         part(model, model.piece_adjacency(), &Piece::first_facet, i)});
+    }
+    FeatureCache cache = {true, {FeatureKind::face, FeatureKind::edge}, {0xffffffffU, 0}};
+    for (const FeatureHull& a : hulls) {
+        for (const FeatureHull& b : hulls) {
+            for (const Placement& placement : piece_placements()) {
+                (void)closest_features(a, b, placement, &cache);
             }
         }
     }
@@ -178,10 +258,15 @@ void ask_pieces(const Model& model) {
 
 void ask(const Model& model) {
     static Workspace workspace;
-    if (can_answer_pairs(model)) ask_pair(model, workspace);
+    if (can_answer_pairs(model)) {
+        ask_pair(model, workspace);
+        ask_through_pieces(model, workspace);
+        ask_contacts(model, workspace);
+    }
     ask_structures(model, workspace);
     ask_hulls(model);
     ask_pieces(model);
+    ask_features(model);
     (void)octree_figures(model);
     (void)adaptive_octree_figures(model);
     (void)tetra_figures(model);
@@ -237,9 +322,14 @@ std::vector<test::AlignedBytes> make_seeds() {
                 test::bake_tiny(mesh.positions, mesh.triangles, {.double_precision = is_double})));
         }
         seeds.push_back(test::with_pieces(seeds.back()));
+        for (const auto& with : {test::with_pieces, test::with_piece_tree}) {
+            seeds.push_back(
+                test::with_contacts(with(test::bake_tiny(mesh.positions, mesh.triangles))));
+        }
     }
     for (const test::TestMesh& mesh : {test::unit_cube(), test::icosphere(1)}) {
         seeds.push_back(test::with_one_piece(test::bake_tiny(mesh.positions, mesh.triangles)));
+        seeds.push_back(test::with_contacts(seeds.back()));
     }
     return seeds;
 }
