@@ -195,7 +195,7 @@ std::string plain_name(const fs::path& path) {
 
 /// Where the names of meshes begin: no two files in a folder have the same, but by extension.
 std::string mesh_stem(const fs::path& path) {
-    const std::string name = plain_name(path);
+    std::string name = plain_name(path);
     const std::string stem = path.stem().string();
     if (name == stem) return name;
     std::uint32_t hash = 2166136261U;  // FNV-1a
