@@ -53,7 +53,8 @@ GridPlace place_on_grid(const Double3& p, const Double3& origin, double spacing,
 
 template <class Node>
 double interpolated(const GridPlace& place, const Node& node) {
-    const auto& [low, share] = place;
+    const auto& low = place.low;
+    const auto& share = place.share;
     const auto along_x = [&](std::size_t y, std::size_t z) {
         const double first = node(low[0], low[1] + y, low[2] + z);
         return first + share[0] * (node(low[0] + 1, low[1] + y, low[2] + z) - first);
