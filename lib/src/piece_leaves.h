@@ -67,6 +67,14 @@ public:
         return test(view_of(lanes));
     }
 
+    /// A view that outlives a test, which may have emptied the batch, is wanted by the next one
+    /// too: else its room could be given to another leaf while a pair in the batch points to it.
+    static void keep(const LeafView& view, GatheredLeaves& gathered,
+                     const Workspace::Storage& scratch) noexcept {
+        if ((view.number & kOwn) == 0) return;
+        gathered.wanted[view.number % kernels::kLeafPlaces] = scratch.leaf_batch;
+    }
+
     /// By what a LeafBatch calls a triangle of a view: its number in the tree order.
     [[nodiscard]] std::uint32_t triangle(std::uint32_t named) const noexcept {
         const std::uint32_t number = named / format::kBvhWidth;

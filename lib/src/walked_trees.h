@@ -59,7 +59,10 @@ struct PieceTrees {
             return of_b.each_view(
                 leaf_b, scratch.gathered_b, scratch,
                 [&](const LeafLanes& lanes) { return batch.view_b(lanes); },
-                [&](const LeafView& in_b) { return test(in_a, in_b); });
+                [&](const LeafView& in_b) {
+                    PieceLeaves::keep(in_a, scratch.gathered_a, scratch);
+                    return test(in_a, in_b);
+                });
         };
         return of_a.each_view(
             leaf_a, scratch.gathered_a, scratch,

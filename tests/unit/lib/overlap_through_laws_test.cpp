@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "support/brute_force.h"
 #include "support/guarded_pages.h"
@@ -15,6 +16,7 @@
 #include "support/random_pose.h"
 #include "support/tiny_pieces.h"
 
+#include "walked_trees.h"
 #include "workspace_storage.h"
 
 namespace cdprep::test {
@@ -174,6 +176,49 @@ TEST(OverlapThroughLaws, AgreesWithTheHierarchyInRandomPoses) {
     }
     EXPECT_GT(hits, 60);
     EXPECT_LT(hits, 140);
+}
+
+/// What is found in pairs of leaves of pieces, tested so many views at a time.
+Pairs pairs_in_leaves(const Model& a, const Model& b, const std::vector<TrianglePair>& leaves,
+                      std::size_t views, Workspace& workspace) {
+    const PlacedBoxes placed = place_boxes(a, b, Placement::b_moves(Pose()));
+    const PieceTrees trees(a, b, workspace.storage());
+    LeafBatch batch(a, b, placed, workspace.storage());
+    Pairs pairs;
+    const auto found = [&](std::uint32_t at_a, std::uint32_t at_b, bool /*certain*/) {
+        pairs.push_back({trees.triangle_a(at_a), trees.triangle_b(at_b)});
+        return true;
+    };
+    const auto test = [&](const LeafView& in_a, const LeafView& in_b) {
+        batch.add(in_a, in_b);
+        return batch.size() < views || batch.flush(found);
+    };
+    for (const auto& [leaf_a, leaf_b] : leaves) trees.each_pair(batch, leaf_a, leaf_b, test);
+    batch.flush(found);
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+// Leaves of pieces are put together in fewer places than there are leaves. Those of a pair that
+// waits to be tested must not give way to others, also where a batch was tested amid a pair.
+TEST(OverlapThroughLaws, PiecesKeepWaitingLeaves) {
+    std::mt19937 random(64);
+    const auto soup = [&] {
+        const TestMesh mesh = random_soup(random(), 4000, 0.5);
+        return open_tiny(with_piece_tree(bake_tiny(mesh.positions, mesh.triangles)));
+    };
+    const OpenModel a = soup(), b = soup();
+    // Three leaves for each of a few places.
+    const auto any_leaf = [&] { return random() % 6 + kernels::kLeafPlaces * (random() % 3); };
+    std::vector<TrianglePair> leaves(3000);
+    for (TrianglePair& pair : leaves) {
+        pair = {static_cast<std::uint32_t>(any_leaf()), static_cast<std::uint32_t>(any_leaf())};
+    }
+    Workspace workspace;
+    const Pairs expected = pairs_in_leaves(a.model, b.model, leaves, 1, workspace);
+    EXPECT_GT(expected.size(), 1000u);
+    const Pairs pairs = pairs_in_leaves(a.model, b.model, leaves, kernels::kLeafBatch, workspace);
+    EXPECT_TRUE(pairs == expected) << first_difference(pairs, expected);
 }
 
 // Where libraries in use lose pairs; the hierarchy is held against exact numbers there.
