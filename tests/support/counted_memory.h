@@ -18,7 +18,7 @@ inline std::size_t most = 0;  ///< that were so at one time
 /// In front of each block: its size. As large as any alignment that is needed.
 inline constexpr std::size_t kFront = alignof(std::max_align_t);
 
-inline void* counted(std::size_t size) {
+inline void* counted(std::size_t size) noexcept {
     auto* block = static_cast<std::byte*>(std::malloc(kFront + size));
     if (block == nullptr) std::abort();
     std::memcpy(block, &size, sizeof size);
@@ -44,6 +44,13 @@ void* operator new(std::size_t size) {
     return cdprep::test::counted(size);
 }
 void* operator new[](std::size_t size) {
+    return cdprep::test::counted(size);
+}
+// The library's own would call the first, but sanitizers bring theirs.
+void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
+    return cdprep::test::counted(size);
+}
+void* operator new[](std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
     return cdprep::test::counted(size);
 }
 void operator delete(void* memory) noexcept {

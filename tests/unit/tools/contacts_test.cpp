@@ -121,8 +121,9 @@ TEST(Contacts, EdgesThatCrossAnswerAsEdges) {
     expect_near(found[0].point_b, {0.25, 0, 0.375});
     ASSERT_EQ(found[0].point_count, 1U);
     EXPECT_NEAR(found[0].points[0].distance, 0.375, 1e-15);
+    const TestMesh mesh = roof();
     for (const ContactFeature& feature : {found[0].feature_a, found[0].feature_b}) {
-        const auto& vertex = roof().triangles[feature.triangle].vertex;
+        const auto& vertex = mesh.triangles[feature.triangle].vertex;
         const std::uint32_t from = vertex[feature.edge], to = vertex[(feature.edge + 1) % 3U];
         EXPECT_EQ(from + to, 9U) << "not the ridge";
         EXPECT_EQ(feature.vertex, from);
@@ -143,8 +144,9 @@ TEST(Contacts, AVertexOverAFaceAnswersAsThat) {
         EXPECT_EQ(found[0].feature_a.kind, FeatureKind::face);
         EXPECT_EQ(found[0].feature_b.kind, FeatureKind::vertex);
         EXPECT_EQ(found[0].feature_b.vertex, 5U);
-        for (const std::uint32_t v : unit_cube().triangles[found[0].feature_a.triangle].vertex) {
-            EXPECT_EQ(unit_cube().positions[v].z, 1);
+        const TestMesh mesh = unit_cube();
+        for (const std::uint32_t v : mesh.triangles[found[0].feature_a.triangle].vertex) {
+            EXPECT_EQ(mesh.positions[v].z, 1);
         }
         expect_near(found[0].normal, {0, 0, 1});
         EXPECT_NEAR(found[0].lower, gap, 1e-12);
