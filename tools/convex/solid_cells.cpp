@@ -23,6 +23,7 @@ constexpr double kUncut = 0.25;            ///< triangles this small against a c
 constexpr double kNearMiddle = 0.25;       ///< of a side: how far from its middle a cut may be
 constexpr std::size_t kChunk = 1U << 14U;  ///< fragments that are looked at in one go
 constexpr std::uint32_t kSharing = 3;      ///< vertices with one coordinate that attract a cut
+constexpr double kBeside = 1e-7;           ///< of the diagonal: as near as this is beside
 
 /// A box that is still to be cut.
 struct Open {
@@ -152,7 +153,7 @@ private:
     struct Shared {
         std::size_t cut;
         std::size_t first;
-        std::vector<std::uint32_t> below, above, across;
+        std::vector<std::uint32_t> below = {}, above = {}, both = {}, across = {}, loose = {};
     };
 
     /// The two halves of each box. Fragments are looked at side by side, many boxes or many
@@ -162,7 +163,7 @@ private:
         for (std::size_t i = 0; i < cuts.size(); ++i) {
             const std::size_t count = cuts[i].open->fragments.size();
             for (std::size_t first = 0; first < count; first += kChunk) {
-                shares.push_back({i, first, {}, {}, {}});
+                shares.push_back({i, first});
             }
         }
         const auto look = [&](std::size_t i) { share(cuts[shares[i].cut], shares[i]); };
@@ -180,8 +181,14 @@ private:
             Open& above = halves[2 * shared.cut + 1];
             below.fragments.insert(below.fragments.end(), shared.below.begin(), shared.below.end());
             above.fragments.insert(above.fragments.end(), shared.above.begin(), shared.above.end());
+            for (const std::uint32_t number : shared.both) share_copy(number, below, above);
             for (const std::uint32_t number : shared.across) {
-                cut_fragment(number, cut.axis, cut.at, below, above);
+                cut_in_two(number, cut, below, above);
+            }
+            for (const std::uint32_t number : shared.loose) {
+                for (const std::uint32_t part : trim(number, cut.open->box, uncut_side(cut))) {
+                    cut_in_two(part, cut, below, above);
+                }
             }
         }
         return halves;
@@ -214,33 +221,96 @@ private:
                 box.lower.z / 2 + box.upper.z / 2};
     }
 
-    /// Hands fragments to the boxes on either side of a cut; large ones across it are left.
-    void share(const Cut& cut, Shared& shared) const {
+    /// Fragments as small as this need not be cut, nor end where their box does.
+    static double uncut_side(const Cut& cut) {
         Box half = cut.open->box;
         half.upper.*cut.axis = cut.at;
-        const double uncut_side = kUncut * longest_side(half);
+        return kUncut * longest_side(half);
+    }
+
+    /// Hands fragments to the boxes on either side of a cut; large ones across it are left.
+    void share(const Cut& cut, Shared& shared) const {
+        const Box& box = cut.open->box;
+        const double small = uncut_side(cut);
         const auto& all = cut.open->fragments;
         const std::size_t end = std::min(shared.first + kChunk, all.size());
         for (std::size_t i = shared.first; i < end; ++i) {
             const std::uint32_t number = all[i];
-            Box around;
-            int lower = 0;
-            int upper = 0;
-            int unclear = 0;
-            for (const std::uint32_t place : cells_.fragments[number].place) {
-                const Place& p = cells_.places[place];
-                around.add(p.lower);
-                around.add(p.upper);
-                lower += p.upper.*cut.axis <= cut.at ? 1 : 0;
-                upper += p.lower.*cut.axis >= cut.at ? 1 : 0;
-                unclear += p.lower.*cut.axis < cut.at && p.upper.*cut.axis > cut.at ? 1 : 0;
+            const Box around = box_around(cells_.fragments[number]);
+            const Lying lying = lie(cells_.fragments[number], cut.axis, cut.at);
+            const bool is_uncut = lying.is_unclear || longest_side(around) <= small;
+            if (sticks_out(around, box, small)) {
+                shared.loose.push_back(number);
+            } else if (lying.below == 3 && lying.above == 3) {
+                const Sides sides = sides_of_body(number, cut);
+                (!sides.above  ? shared.below
+                 : sides.below ? shared.both
+                               : shared.above)
+                    .push_back(number);
+            } else if (lying.below == 3) {
+                shared.below.push_back(number);
+            } else if (lying.above == 3) {
+                shared.above.push_back(number);
+            } else {
+                (is_uncut ? shared.both : shared.across).push_back(number);
             }
-            const bool is_one_sided = lower == 3 || upper == 3;
-            const bool is_uncut = unclear > 0 || longest_side(around) <= uncut_side;
-            if (lower == 3 || (!is_one_sided && is_uncut)) shared.below.push_back(number);
-            if (upper == 3 || (!is_one_sided && is_uncut)) shared.above.push_back(number);
-            if (!is_one_sided && !is_uncut) shared.across.push_back(number);
         }
+    }
+
+    struct Sides {
+        bool below;
+        bool above;
+    };
+
+    /// For a fragment in the plane of a cut the sides on which its body is, or one of them.
+    /// Given to both, it would make of an empty box between two walls a cell that bridges them.
+    [[nodiscard]] Sides sides_of_body(std::uint32_t number, const Cut& cut) const {
+        const Fragment& fragment = cells_.fragments[number];
+        Double3 middle = {0, 0, 0};
+        for (const std::uint32_t place : fragment.place) {
+            const Double3& p = cells_.places[place].lower;
+            middle = {middle.x + p.x / 3, middle.y + p.y / 3, middle.z + p.z / 3};
+        }
+        const double step = kBeside * solid_.diagonal();
+        const std::uint32_t body = solid_.body_of(fragment.triangle);
+        middle.*cut.axis = cut.at + step;
+        const bool above = is_in_body(middle, body);
+        middle.*cut.axis = cut.at - step;
+        return {!above || is_in_body(middle, body), above};
+    }
+
+    [[nodiscard]] bool is_in_body(const Double3& p, std::uint32_t body) const {
+        const auto around = solid_.bodies_around(p);
+        return std::binary_search(around.begin(), around.end(), body);
+    }
+
+    [[nodiscard]] Box box_around(const Fragment& fragment) const {
+        Box around;
+        for (const std::uint32_t place : fragment.place) {
+            around.add(cells_.places[place].lower);
+            around.add(cells_.places[place].upper);
+        }
+        return around;
+    }
+
+    static bool sticks_out(const Box& around, const Box& box, double by) {
+        return std::any_of(kAxes.begin(), kAxes.end(), [&](Axis axis) {
+            return around.lower.*axis < box.lower.*axis - by ||
+                   around.upper.*axis > box.upper.*axis + by;
+        });
+    }
+
+    /// The same fragment for either box: each cuts its own.
+    void share_copy(std::uint32_t number, Open& below, Open& above) {
+        below.fragments.push_back(number);
+        const Fragment copy = cells_.fragments[number];
+        above.fragments.push_back(add_fragment(copy));
+    }
+
+    std::uint32_t add_fragment(const Fragment& fragment) {
+        cells_.fragments.push_back(fragment);
+        ++cells_.fragment_count[fragment.triangle];
+        return static_cast<std::uint32_t>(cells_.fragments.size() - 1);
     }
 
     std::uint32_t add_place(const Place& place) {
@@ -248,9 +318,39 @@ private:
         return static_cast<std::uint32_t>(cells_.places.size() - 1);
     }
 
-    /// A side at a time: the corners on it and where the edges cross, as a fan.
-    void cut_fragment(std::uint32_t number, Axis axis, double at, Open& below, Open& above) {
+    /// What of a fragment is not on the far sides of a plane.
+    struct Halves {
+        std::vector<std::uint32_t> low;
+        std::vector<std::uint32_t> high;
+    };
+
+    /// How many corners lie on either side of a plane, or on it; and some on no side for sure.
+    struct Lying {
+        int below = 0;
+        int above = 0;
+        bool is_unclear = false;
+    };
+
+    [[nodiscard]] Lying lie(const Fragment& fragment, Axis axis, double at) const {
+        Lying lying;
+        for (const std::uint32_t place : fragment.place) {
+            const Place& p = cells_.places[place];
+            lying.below += p.upper.*axis <= at ? 1 : 0;
+            lying.above += p.lower.*axis >= at ? 1 : 0;
+            lying.is_unclear = lying.is_unclear || (p.lower.*axis < at && p.upper.*axis > at);
+        }
+        return lying;
+    }
+
+    /// A side at a time: the corners on it and where the edges cross, as a fan. A fragment
+    /// across the plane, for sure or not, is in both halves; one in the plane in the lower.
+    Halves cut_fragment(std::uint32_t number, Axis axis, double at) {
         const Fragment fragment = cells_.fragments[number];
+        const Lying lying = lie(fragment, axis, at);
+        if (lying.below == 3) return {{number}, {}};
+        if (lying.above == 3) return {{}, {number}};
+        if (lying.is_unclear) return {{number}, {add_fragment(fragment)}};
+        Halves halves;
         std::vector<std::uint32_t> low;
         std::vector<std::uint32_t> high;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -258,10 +358,8 @@ private:
             const std::uint32_t to = fragment.place[(k + 1) % 3];
             const Place a = cells_.places[from];
             const Place b = cells_.places[to];
-            const bool is_low = a.upper.*axis <= at;
-            const bool is_high = a.lower.*axis >= at;
-            if (is_low) low.push_back(from);
-            if (is_high) high.push_back(from);
+            if (a.upper.*axis <= at) low.push_back(from);
+            if (a.lower.*axis >= at) high.push_back(from);
             const bool crosses = (a.upper.*axis < at && b.lower.*axis > at) ||
                                  (a.lower.*axis > at && b.upper.*axis < at);
             if (!crosses) continue;
@@ -272,22 +370,58 @@ private:
             low.push_back(met);
             high.push_back(met);
         }
-        std::uint32_t made = 0;
-        for (const auto& [polygon, side] : {std::pair(&low, &below), std::pair(&high, &above)}) {
+        bool is_first = true;
+        for (const auto& [polygon, half] :
+             {std::pair(&low, &halves.low), std::pair(&high, &halves.high)}) {
             for (std::size_t k = 2; k < polygon->size(); ++k) {
                 const Fragment part = {{(*polygon)[0], (*polygon)[k - 1], (*polygon)[k]},
                                        fragment.triangle};
-                std::uint32_t part_number = number;
-                if (made++ == 0) {
-                    cells_.fragments[number] = part;
-                } else {
-                    part_number = static_cast<std::uint32_t>(cells_.fragments.size());
-                    cells_.fragments.push_back(part);
-                }
-                side->fragments.push_back(part_number);
+                if (is_first) cells_.fragments[number] = part;
+                half->push_back(is_first ? number : add_fragment(part));
+                is_first = false;
             }
         }
-        cells_.fragment_count[fragment.triangle] += made - 1;
+        return halves;
+    }
+
+    void cut_in_two(std::uint32_t number, const Cut& cut, Open& below, Open& above) {
+        const Lying lying = lie(cells_.fragments[number], cut.axis, cut.at);
+        if (lying.below == 3 && lying.above == 3 && sides_of_body(number, cut).above) {
+            above.fragments.push_back(number);
+            return;
+        }
+        const Halves halves = cut_fragment(number, cut.axis, cut.at);
+        below.fragments.insert(below.fragments.end(), halves.low.begin(), halves.low.end());
+        above.fragments.insert(above.fragments.end(), halves.high.begin(), halves.high.end());
+    }
+
+    /// What of a fragment is in the box, or beside it by no more than `by`: other boxes have
+    /// the same fragment for the rest.
+    std::vector<std::uint32_t> trim(std::uint32_t number, const Box& box, double by) {
+        std::vector<std::uint32_t> kept = {number};
+        for (const Axis axis : kAxes) {
+            for (const bool is_upper : {false, true}) {
+                const double at = is_upper ? box.upper.*axis : box.lower.*axis;
+                std::vector<std::uint32_t> next;
+                for (const std::uint32_t part : kept) {
+                    const Box around = box_around(cells_.fragments[part]);
+                    const double beyond =
+                        is_upper ? around.upper.*axis - at : at - around.lower.*axis;
+                    if (beyond <= by) {
+                        next.push_back(part);
+                        continue;
+                    }
+                    const std::uint32_t triangle = cells_.fragments[part].triangle;
+                    const Halves halves = cut_fragment(part, axis, at);
+                    const auto& in = is_upper ? halves.low : halves.high;
+                    const auto& out = is_upper ? halves.high : halves.low;
+                    next.insert(next.end(), in.begin(), in.end());
+                    cells_.fragment_count[triangle] -= static_cast<std::uint32_t>(out.size());
+                }
+                kept = std::move(next);
+            }
+        }
+        return kept;
     }
 
     /// One cell for each body that has a part in the box.
@@ -310,6 +444,19 @@ private:
         }
     }
 
+    /// A corner on the surface is one of the body's only where that goes on within the box;
+    /// where it does in part, fragments end in the corner.
+    [[nodiscard]] bool is_corner_of_body(const Double3& corner, const SolidCell& cell) const {
+        if (!is_in_body(corner, cell.body)) return false;
+        if (solid_.tree().nearest(corner).distance > solid_.slack()) return true;
+        const Double3 middle = centre(cell.box);
+        const double share = std::min(0.5, kBeside * solid_.diagonal() / longest_side(cell.box));
+        return is_in_body(
+            {corner.x + share * (middle.x - corner.x), corner.y + share * (middle.y - corner.y),
+             corner.z + share * (middle.z - corner.z)},
+            cell.body);
+    }
+
     void add_corners() {
         if (!solid_.encloses()) return;
         const auto add = [this](std::size_t number) {
@@ -318,10 +465,7 @@ private:
                 const Double3 corner = {(k & 1U) == 0 ? cell.box.lower.x : cell.box.upper.x,
                                         (k & 2U) == 0 ? cell.box.lower.y : cell.box.upper.y,
                                         (k & 4U) == 0 ? cell.box.lower.z : cell.box.upper.z};
-                const auto around = solid_.bodies_around(corner);
-                if (std::binary_search(around.begin(), around.end(), cell.body)) {
-                    cell.corners.push_back(corner);
-                }
+                if (is_corner_of_body(corner, cell)) cell.corners.push_back(corner);
             }
         };
         options_.parallel_for(cells_.cells.size(), add);
