@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "convex/flush_bound.h"
 #include "mesh/vectors.h"
 #include "point_triangle_distance.h"
 
@@ -14,7 +15,8 @@ namespace cdprep::convex {
 namespace {
 
 constexpr std::size_t kMostDepthTests = 20'000'000;  ///< of triangles against planes
-constexpr double kSkin = 0.02;  ///< of the error: what bounds of the inside may add
+constexpr double kSkin = 0.02;   ///< of the error: what bounds of the inside may add
+constexpr double kFlush = 1e-6;  ///< of the diagonal: as near as this is on the surface
 
 /// A simplex of 1 to 3 corners; `upper` bounds the distance of its points.
 struct Cell {
@@ -52,6 +54,13 @@ public:
         : solid_(solid), options_(options) {}
 
     HullError run(const ConvexHull& hull) {
+        if (!options_.surface_alone) {
+            const auto flush = bound_flush(hull, solid_, kFlush * solid_.diagonal());
+            if (flush && *flush <= std::max(options_.enough, kFlush * solid_.diagonal())) {
+                error_.upper = *flush;
+                return error_;
+            }
+        }
         for (const Cell& cell : cells_under(hull)) push(cell);
         while (!heap_.empty() && !is_good_enough()) {
             std::pop_heap(heap_.begin(), heap_.end());

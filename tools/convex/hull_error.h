@@ -19,7 +19,7 @@ struct HullError {
 
 struct HullErrorOptions {
     double relative = 0.02;  ///< upper - lower is at most that of upper
-    double enough = 0;       ///< or upper is at most this, model units
+    double enough = 0;       ///< or upper is at most this, model units; or 1e-6 of the diagonal
     /// Ends as soon as lower is more than this.
     double too_much = std::numeric_limits<double>::infinity();
     /// Looks at the hull's surface alone: `upper` is then proved of that alone.
@@ -33,7 +33,8 @@ struct HullErrorOptions {
 /// Facets are halved, the one with the greatest bound first. The distance to one triangle
 /// is convex, so that the corners of a part bound it; and no point of a part is farther
 /// away than its middle by more than the part's radius. Then cubes within the hull are cut,
-/// for what lies deeper than 2 % of the error under the surface.
+/// for what lies deeper than 2 % of the error under the surface. Hulls that lie on the
+/// surface and in the solid, but for rounding, are told at once.
 [[nodiscard]] HullError find_hull_error(const ConvexHull& hull, const Solid& solid,
                                         const HullErrorOptions& options = {});
 
