@@ -7,12 +7,17 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "convex/distance_field.h"
 #include "convex/enclosing_hull.h"
+#include "convex/face_cells.h"
 #include "convex/is_convex.h"
+#include "convex/join_cells.h"
+#include "convex/merge_corners.h"
 #include "convex/part_nodes.h"
 #include "convex/piece_cover.h"
 #include "convex/piece_points.h"
@@ -38,11 +43,15 @@ constexpr double kEnough = 0.95;       ///< of the pieces that are allowed: no m
 constexpr double kLeastShare = 0.6;    ///< of an error that turned out to be too large: the next
 constexpr std::size_t kRounds = 16;    ///< of attempts to do with fewer pieces
 constexpr double kFewer = 0.93;        ///< of the pieces: what attempts can spare, as a rule
+constexpr double kRounding = 1e-6;     ///< of the diagonal: bodies that stick out less are exact
+constexpr double kOneCorner = 1e-7;    ///< of the diagonal: corners as near as this are one
+constexpr double kFineError = 0.02;    ///< of the diagonal: below, exact pieces are good enough
+constexpr std::size_t kShareOfWork = 20;  ///< for the search for fewer than those
 
 /// Cells and distances, fit for errors about as large as `error`.
 struct Stage {
     double error;
-    DistanceField field;
+    std::optional<DistanceField> field;  ///< none where cells are exact
     SolidCells cells;
     std::vector<CoverCell> cover;
 };
@@ -70,11 +79,13 @@ public:
     }
 
     ApproximatePieces run() {
-        Found found = options_.max_error ? find_by_error(*options_.max_error)
-                                         : find_by_parts(options_.parts.value_or(1), 0);
         const std::size_t most = options_.parts.value_or(std::numeric_limits<std::size_t>::max());
-        if (options_.max_error && found.count() > most) {
-            found = find_by_parts(most, *options_.max_error);
+        Found found;
+        if (options_.max_error) {
+            found = find_by_error(*options_.max_error);
+            if (found.count() > most) found = find_by_parts(most, *options_.max_error);
+        } else {
+            found = find_by_parts(options_.parts.value_or(1), 0);
         }
         ApproximatePieces result = finish(found);
         // Estimates may be a little low: what was asked is held to be what is proved.
@@ -223,7 +234,7 @@ private:
         how.known = known_;
         how.most_work = options_.work > work_done_ ? options_.work - work_done_ : 0;
         how.parallel_for = options_.parallel_for;
-        Cover covered = cover_with_pieces(cells, found.stage->field, how);
+        Cover covered = cover_with_pieces(cells, *found.stage->field, how);
         work_done_ += covered.work;
         known_.insert(known_.end(), covered.found.begin(), covered.found.end());
         found.complete = covered.complete;
@@ -246,7 +257,51 @@ private:
         return found;
     }
 
+    /// Pieces of bodies with plane faces, cut along those: within an error, or without. None
+    /// where a body that does not stay whole has too many faces.
+    std::optional<Found> cut_exactly(double error) {
+        Found found;
+        found.error = error;
+        std::vector<bool> is_wanted(solid_.body_count(), false);
+        for (std::uint32_t label = 0; label < label_count_; ++label) {
+            if (is_whole(label, std::max(error, kRounding * solid_.diagonal()))) {
+                found.whole.push_back(label);
+            }
+        }
+        for (std::uint32_t body = 0; body < is_wanted.size(); ++body) {
+            is_wanted[body] =
+                !std::binary_search(found.whole.begin(), found.whole.end(), label_[body]);
+        }
+        found.complete = true;
+        if (found.whole.size() == label_count_) return found;
+        auto cells = cut_along_faces(mesh_, solid_, is_wanted);
+        if (!cells) return std::nullopt;
+        std::vector<std::uint32_t> all(cells->cells.size());
+        std::iota(all.begin(), all.end(), 0U);
+        found.pieces = join_cells(*cells, all, solid_, 0, options_.parallel_for);
+        if (error > 0 && found.count() > label_count_ + 1) {
+            auto fewer = join_cells(*cells, all, solid_, error, options_.parallel_for);
+            if (fewer.size() < found.pieces.size()) found.pieces = std::move(fewer);
+        }
+        found.stage =
+            std::make_shared<const Stage>(Stage{error, std::nullopt, std::move(*cells), {}});
+        return found;
+    }
+
     Found find_by_error(double max_error) {
+        auto exact = cut_exactly(max_error);
+        if (!exact) return find_within(max_error);
+        // One more than one for each label is the fewest that there can be.
+        const bool is_enough =
+            exact->count() <= label_count_ + 1 || max_error < kFineError * solid_.diagonal();
+        if (is_enough) return std::move(*exact);
+        work_done_ = options_.work - options_.work / kShareOfWork;
+        Found found = cover_with_few(kMeasured * max_error);
+        work_done_ = 0;
+        return found.complete && found.count() < exact->count() ? found : std::move(*exact);
+    }
+
+    Found find_within(double max_error) {
         double error = kMeasured * max_error;
         while (error < solid_.diagonal()) {
             Found found = cover_with_few(error);
@@ -288,6 +343,8 @@ private:
     Found find_by_parts(std::size_t parts, double least) {
         Found best = all_whole();
         if (parts <= label_count_) return best;
+        auto exact = cut_exactly(least);
+        if (exact && exact->count() <= parts) return std::move(*exact);
         // Without attempts to do with fewer: what those spare is known well enough.
         const double aim = static_cast<double>(parts) / kFewer;
         double error = std::max(
@@ -358,7 +415,8 @@ private:
         const auto finish_piece = [&](std::size_t i) {
             ApproximatePiece& piece = result.pieces[i];
             if (i >= first) {
-                piece.hull = convex_hull(points[i].points);
+                piece.hull =
+                    merge_corners(convex_hull(points[i].points), kOneCorner * solid_.diagonal());
                 piece.triangles = points[i].triangles;
                 if (!piece.triangles.empty()) {
                     piece.node = node_[solid_.body_of(piece.triangles.front())];
@@ -370,8 +428,8 @@ private:
             proofs[i].fragments = points[i].fragments;
             is_measured[i] = i < first && piece.hull.points.size() == exact ? 1 : 0;
             estimates[i] = is_measured[i] != 0 ? piece.error.upper
-                           : found.stage
-                               ? found.stage->field.estimate(piece.hull, 0, Detail::fine).distance
+                           : found.stage && found.stage->field
+                               ? found.stage->field->estimate(piece.hull, 0, Detail::fine).distance
                                : 0;
         };
         options_.parallel_for(points.size(), finish_piece);
