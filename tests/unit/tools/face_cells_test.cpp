@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+#include "convex/face_cells.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "convex/join_cells.h"
+#include "support/meshes.h"
+
+#include "predicates.h"
+
+namespace cdprep::convex {
+namespace {
+
+using mesh::Mesh;
+
+/// An L of three unit squares, 1 high, turned by an angle about two axes.
+Mesh l_prism(double angle) {
+    constexpr std::array<std::array<double, 2>, 6> kOutline = {
+        {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}};
+    Mesh mesh;
+    for (const double z : {0.0, 1.0}) {
+        for (const auto& [x, y] : kOutline) mesh.positions.push_back({x, y, z});
+    }
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        const std::uint32_t j = (i + 1) % 6;
+        mesh.triangles.push_back({{i, j, j + 6}});
+        mesh.triangles.push_back({{i, j + 6, i + 6}});
+    }
+    for (std::uint32_t i = 1; i < 5; ++i) {
+        mesh.triangles.push_back({{0, i + 1, i}});
+        mesh.triangles.push_back({{6, i + 6, i + 7}});
+    }
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    for (Double3& p : mesh.positions) {
+        p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+        p = {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
+    }
+    return mesh;
+}
+
+std::optional<SolidCells> cells_of(const Mesh& mesh, const FaceCellOptions& options = {}) {
+    const Solid solid(mesh, Reference::solid, serial_for);
+    return cut_along_faces(mesh, solid, std::vector<bool>(solid.body_count(), true), options);
+}
+
+ConvexHull hull_of(const SolidCells& cells, const SolidCell& cell) {
+    std::vector<Double3> points = cell.corners;
+    for (const std::uint32_t fragment : cell.fragments) {
+        for (const std::uint32_t place : cells.fragments[fragment].place) {
+            points.push_back(cells.places[place].lower);
+            points.push_back(cells.places[place].upper);
+        }
+    }
+    return convex_hull(points);
+}
+
+bool holds(const ConvexHull& hull, const Double3& p) {
+    return std::all_of(hull.facets.begin(), hull.facets.end(), [&](const auto& f) {
+        return orient3d(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]], p) >= 0;
+    });
+}
+
+/// Of the tetrahedra between its facets and the origin.
+double volume_of(const ConvexHull& hull) {
+    double sum = 0;
+    for (const auto& f : hull.facets) {
+        const Double3 &a = hull.points[f[0]], &b = hull.points[f[1]], &c = hull.points[f[2]];
+        sum += a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
+               a.z * (b.x * c.y - b.y * c.x);
+    }
+    return sum / 6;
+}
+
+// The planes of the notch's two walls cut it into three unit cubes.
+TEST(FaceCells, OfAnLPrismAreThreeCubesHoweverItIsTurned) {
+    for (const double angle : {0.0, 0.3, 0.8, 2.0}) {
+        const auto cells = cells_of(l_prism(angle));
+        ASSERT_TRUE(cells);
+        ASSERT_EQ(cells->cells.size(), 3u) << angle;
+        std::vector<std::uint32_t> count(20, 0);
+        for (const SolidCell& cell : cells->cells) {
+            EXPECT_NEAR(volume_of(hull_of(*cells, cell)), 1, 1e-9);
+            for (const std::uint32_t i : cell.fragments) ++count[cells->fragments[i].triangle];
+        }
+        EXPECT_EQ(count, cells->fragment_count);
+    }
+}
+
+// Points of a grid that hits faces, edges and cuts, of the solid as it is stored.
+TEST(FaceCells, LeaveNoCracks) {
+    const auto cells = cells_of(l_prism(0));
+    ASSERT_TRUE(cells);
+    std::vector<ConvexHull> hulls;
+    for (const SolidCell& cell : cells->cells) hulls.push_back(hull_of(*cells, cell));
+    for (int x = 0; x <= 8; ++x) {
+        for (int y = 0; y <= 8; ++y) {
+            for (int z = 0; z <= 4; ++z) {
+                const Double3 p = {x / 4.0, y / 4.0, z / 4.0};
+                const bool is_held = std::any_of(hulls.begin(), hulls.end(),
+                                                 [&](const auto& hull) { return holds(hull, p); });
+                EXPECT_EQ(is_held, x <= 4 || y <= 4) << x << y << z;
+            }
+        }
+    }
+}
+
+TEST(FaceCells, OfWhatIsNotWantedAreNone) {
+    const Mesh mesh = l_prism(0);
+    const Solid solid(mesh, Reference::solid, serial_for);
+    const auto cells = cut_along_faces(mesh, solid, {false});
+    ASSERT_TRUE(cells);
+    EXPECT_TRUE(cells->cells.empty());
+}
+
+TEST(FaceCells, AreNothingWithManyFacesOrWithoutASolid) {
+    EXPECT_FALSE(cells_of(l_prism(0), {.most_planes = 1}));
+    EXPECT_FALSE(cells_of(l_prism(0), {.most_cells = 2}));
+    EXPECT_FALSE(cells_of(l_prism(0), {.most_triangles = 19}));
+    Mesh open = l_prism(0);
+    open.triangles.pop_back();
+    EXPECT_FALSE(cells_of(open));
+    Mesh dented;
+    dented.positions = test::icosphere(3).positions;
+    dented.triangles = test::icosphere(3).triangles;
+    for (std::size_t i = 0; i < dented.positions.size(); i += 2) {
+        Double3& p = dented.positions[i];
+        p = {0.9 * p.x, 0.9 * p.y, 0.9 * p.z};
+    }
+    EXPECT_FALSE(cells_of(dented));
+}
+
+// Two of the cubes in a row are a bar; the third stays: with an error of half a side, the
+// notch's, all three are one.
+TEST(JoinCells, CoverAnLPrismWithTwoBarsOrWithOneHull) {
+    for (const double angle : {0.0, 0.8}) {
+        const Mesh mesh = l_prism(angle);
+        const Solid solid(mesh, Reference::solid, serial_for);
+        const auto cells = cut_along_faces(mesh, solid, {true});
+        ASSERT_TRUE(cells);
+        const std::vector<std::uint32_t> all = {0, 1, 2};
+        const auto two = join_cells(*cells, all, solid, 0, serial_for);
+        ASSERT_EQ(two.size(), 2u);
+        for (const auto& bar : two) EXPECT_EQ(bar.size(), 2u);
+        EXPECT_EQ(join_cells(*cells, all, solid, 0.4, serial_for).size(), 2u);
+        EXPECT_EQ(join_cells(*cells, all, solid, 0.6, serial_for).size(), 1u);
+        const std::vector<std::uint32_t> one = {1};
+        EXPECT_EQ(join_cells(*cells, one, solid, 0, serial_for),
+                  std::vector<std::vector<std::uint32_t>>{one});
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::convex

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "convex/flush_bound.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+namespace cdprep::convex {
+namespace {
+
+using mesh::Mesh;
+
+void add_box(Mesh& mesh, const Double3& low, const Double3& high, bool inwards) {
+    const auto n = static_cast<std::uint32_t>(mesh.positions.size());
+    for (unsigned k = 0; k < 8; ++k) {
+        mesh.positions.push_back({(k & 1U) == 0 ? low.x : high.x, (k & 2U) == 0 ? low.y : high.y,
+                                  (k & 4U) == 0 ? low.z : high.z});
+    }
+    for (const auto& [a, b, c] : std::vector<std::array<std::uint32_t, 3>>{{0, 2, 3},
+                                                                           {0, 3, 1},
+                                                                           {4, 5, 7},
+                                                                           {4, 7, 6},
+                                                                           {0, 1, 5},
+                                                                           {0, 5, 4},
+                                                                           {2, 6, 7},
+                                                                           {2, 7, 3},
+                                                                           {0, 4, 6},
+                                                                           {0, 6, 2},
+                                                                           {1, 3, 7},
+                                                                           {1, 7, 5}}) {
+        mesh.triangles.push_back({{n + a, inwards ? n + c : n + b, inwards ? n + b : n + c}});
+    }
+}
+
+ConvexHull box(const Double3& low, const Double3& high) {
+    Mesh mesh;
+    add_box(mesh, low, high, false);
+    return convex_hull(mesh.positions);
+}
+
+/// A cube of side 4 with a cavity of side 2 in its middle.
+Mesh hollow_cube() {
+    Mesh mesh;
+    add_box(mesh, {0, 0, 0}, {4, 4, 4}, false);
+    add_box(mesh, {1, 1, 1}, {3, 3, 3}, true);
+    return mesh;
+}
+
+// The slabs beside the cavity are flush with it, with the outside, or with neither.
+TEST(FlushBound, OfPartsOfASolidIsWhatRoundingDoes) {
+    const Solid solid(hollow_cube(), Reference::solid, serial_for);
+    for (const ConvexHull& part : {box({0, 0, 0}, {4, 4, 1}), box({0, 0, 0}, {1, 4, 4}),
+                                   box({3.2, 0.1, 0.1}, {3.9, 2, 3}), box({3, 1, 1}, {4, 3, 3})}) {
+        const auto bound = bound_flush(part, solid, 1e-9);
+        ASSERT_TRUE(bound);
+        EXPECT_LE(*bound, 1e-9);
+    }
+}
+
+// A tenth out of the solid, or into its cavity; around the cavity; in it; outside.
+TEST(FlushBound, IsNothingForWhatSticksOut) {
+    const Solid solid(hollow_cube(), Reference::solid, serial_for);
+    for (const ConvexHull& part :
+         {box({0, 0, 0}, {4, 4, 1.1}), box({0, 0, -0.1}, {4, 4, 1}), box({0, 0, 0}, {4, 4, 4}),
+          box({1.1, 1.1, 1.1}, {2.9, 2.9, 2.9}), box({1, 1, 1}, {3, 3, 3}),
+          box({5, 0, 0}, {6, 1, 1}), box({4, 0, 0}, {5, 1, 1})}) {
+        EXPECT_FALSE(bound_flush(part, solid, 1e-9));
+    }
+}
+
+// By 0.001 into the cavity: the middle of that is 0.0005 from the solid on either side, and
+// every point of the hull nearer than the bound says.
+TEST(FlushBound, HoldsWhereTheSurfaceIsNotDeep) {
+    const Solid solid(hollow_cube(), Reference::solid, serial_for);
+    const auto bound = bound_flush(box({0, 0, 0}, {4, 4, 1.001}), solid, 0.01);
+    ASSERT_TRUE(bound);
+    EXPECT_GE(*bound, 0.001);
+    EXPECT_LE(*bound, 0.01);
+}
+
+TEST(FlushBound, IsNothingWithoutASolidOrVolume) {
+    Mesh open = hollow_cube();
+    open.triangles.pop_back();
+    open.triangles.erase(open.triangles.begin());
+    const ConvexHull part = box({0, 0, 0}, {4, 4, 1});
+    EXPECT_FALSE(bound_flush(part, Solid(open, Reference::solid, serial_for), 1e-9));
+    const Solid solid(hollow_cube(), Reference::solid, serial_for);
+    EXPECT_FALSE(bound_flush(convex_hull({{{0, 0, 0.5}, {1, 0, 0.5}, {0, 1, 0.5}}}), solid, 1e-9));
+}
+
+}  // namespace
+}  // namespace cdprep::convex
