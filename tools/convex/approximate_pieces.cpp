@@ -46,6 +46,7 @@ constexpr double kFewer = 0.93;        ///< of the pieces: what attempts can spa
 constexpr double kRounding = 1e-6;     ///< of the diagonal: bodies that stick out less are exact
 constexpr double kOneCorner = 1e-7;    ///< of the diagonal: corners as near as this are one
 constexpr double kFineError = 0.02;    ///< of the diagonal: below, exact pieces are good enough
+constexpr std::size_t kFewCells = 48;  ///< that are joined within an error: it takes long
 constexpr std::size_t kShareOfWork = 20;  ///< for the search for fewer than those
 
 /// Cells and distances, fit for errors about as large as `error`.
@@ -279,7 +280,7 @@ private:
         std::vector<std::uint32_t> all(cells->cells.size());
         std::iota(all.begin(), all.end(), 0U);
         found.pieces = join_cells(*cells, all, solid_, 0, options_.parallel_for);
-        if (error > 0 && found.count() > label_count_ + 1) {
+        if (error > 0 && found.count() > label_count_ + 1 && all.size() <= kFewCells) {
             auto fewer = join_cells(*cells, all, solid_, error, options_.parallel_for);
             if (fewer.size() < found.pieces.size()) found.pieces = std::move(fewer);
         }

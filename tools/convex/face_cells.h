@@ -13,8 +13,8 @@ namespace cdprep::convex {
 
 struct FaceCellOptions {
     std::size_t most_triangles = 4'000;  ///< of a body
-    std::size_t most_planes = 48;        ///< of a body's faces with reflex edges
-    std::size_t most_cells = 256;        ///< in all
+    std::size_t most_planes = 32;        ///< of a body's faces with reflex edges
+    std::size_t most_cells = 128;        ///< in all
 };
 
 /// Cuts bodies along the planes of their faces at reflex edges, whichever way these are

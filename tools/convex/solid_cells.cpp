@@ -19,7 +19,7 @@ using Interval = CGAL::Interval_nt<true>;
 
 constexpr std::array<Axis, 3> kAxes = {&Double3::x, &Double3::y, &Double3::z};
 constexpr double kSmallest = 0.125;        ///< of the size: cells are not cut beyond
-constexpr double kUncut = 0.25;            ///< triangles this small against a cell are not cut
+constexpr double kUncut = 0.125;           ///< triangles this small against a cell are not cut
 constexpr double kNearMiddle = 0.25;       ///< of a side: how far from its middle a cut may be
 constexpr std::size_t kChunk = 1U << 14U;  ///< fragments that are looked at in one go
 constexpr std::uint32_t kSharing = 3;      ///< vertices with one coordinate that attract a cut
