@@ -92,11 +92,16 @@ public:
         // Estimates may be a little low: what was asked is held to be what is proved.
         for (int i = 0; i < 4 && options_.max_error && found.count() <= most; ++i) {
             if (result.outer_error <= *options_.max_error || !found.complete) break;
+            if (found.stage && !found.stage->field) break;  // no estimates: they were proved
             const double share = 0.95 * *options_.max_error / result.outer_error;
             found = cover_with_few(std::max(share, kLeastShare) * found.error);
             ran_out_of_work_ = ran_out_of_work_ || !found.complete;
             if (!found.complete || found.count() > most) break;
             result = finish(found);
+        }
+        if (exact_ && exact_->count() <= most && result.outer_error > *options_.max_error) {
+            ApproximatePieces exact = finish(*exact_);
+            if (exact.outer_error < result.outer_error) result = std::move(exact);
         }
         result.is_as_asked = result.pieces.size() <= most &&
                              (!options_.max_error || result.outer_error <= *options_.max_error);
@@ -299,7 +304,9 @@ private:
         work_done_ = options_.work - options_.work / kShareOfWork;
         Found found = cover_with_few(kMeasured * max_error);
         work_done_ = 0;
-        return found.complete && found.count() < exact->count() ? found : std::move(*exact);
+        if (!found.complete || found.count() >= exact->count()) return std::move(*exact);
+        exact_ = std::move(exact);
+        return found;
     }
 
     Found find_within(double max_error) {
@@ -465,6 +472,7 @@ private:
     std::vector<std::vector<std::uint32_t>> triangles_of_;
     std::vector<ApproximatePiece> whole_;
     std::shared_ptr<const Stage> stage_;
+    std::optional<Found> exact_;   ///< what there is if a search for fewer ends too far out
     std::vector<Estimate> known_;  ///< points far out that pieces tried to take in
     std::size_t work_done_ = 0;
     bool ran_out_of_work_ = false;

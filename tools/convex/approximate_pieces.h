@@ -69,9 +69,11 @@ struct ApproximatePieces {
 ///
 /// The hulls hold every point of the surface and of what it encloses; holes and slots wider
 /// than twice outer_error stay open, for no point of a piece is farther from the solid.
-/// A convex body comes back as its hull, exactly, with error 0. Components that are not
-/// closed are taken as surfaces. The same pieces, to the last bit, for any parallel_for.
-/// `mesh` may be open, crossing itself, without volume. Of no triangles there are no pieces.
+/// A convex body comes back as its hull, exactly, with error 0; one with few plane faces, as
+/// parts cut along those, with the error of rounding, where as many are allowed and fewer
+/// within the error are not found. Components that are not closed are taken as surfaces. The same
+/// pieces, to the last bit, for any parallel_for. `mesh` may be open, crossing itself, without
+/// volume. Of no triangles there are no pieces.
 [[nodiscard]] ApproximatePieces find_approximate_pieces(const mesh::Mesh& mesh,
                                                         const ApproximateOptions& options);
 

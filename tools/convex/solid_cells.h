@@ -17,8 +17,8 @@ struct Place {
     Double3 upper;
 };
 
-/// A triangle of the mesh or a part of one, as cuts across axes make them. The exact
-/// fragments of a triangle cover it.
+/// A triangle of the mesh or a part of one, as cuts make them. The exact fragments of a
+/// triangle cover it, and may overlap.
 struct Fragment {
     std::array<std::uint32_t, 3> place;
     std::uint32_t triangle;
@@ -38,7 +38,7 @@ struct SolidCells {
     std::vector<Place> places;  ///< the mesh's vertices first
     std::vector<Fragment> fragments;
     std::vector<SolidCell> cells;
-    std::vector<std::uint32_t> fragment_count;  ///< of each triangle
+    std::vector<std::uint32_t> fragment_count;  ///< of each triangle, copies too
 };
 
 struct SolidCellOptions {
@@ -50,8 +50,9 @@ struct SolidCellOptions {
 
 /// Cuts boxes in two across their longest side until they are small enough, at the
 /// coordinates of vertices where several share one, so that edges of machined parts are
-/// not cut beside. Triangles much smaller than a cell are not cut: they belong to all cells
-/// that they may meet. The same for any parallel_for.
+/// not cut beside. Triangles much smaller than a cell are not cut: all cells that they may
+/// meet have a copy, which sticks out of none by more than an eighth of its longest side. What lies
+/// in a cut's plane goes to the side on which the body is. The same for any parallel_for.
 [[nodiscard]] SolidCells cut_into_cells(const mesh::Mesh& mesh, const Solid& solid,
                                         const DistanceField& field,
                                         const SolidCellOptions& options);
