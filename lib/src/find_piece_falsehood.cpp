@@ -6,6 +6,7 @@
 
 #include "cdprep/convex_distance.h"
 #include "cdprep/format/sections.h"
+#include "hull_blocks.h"
 #include "moved_model.h"
 #include "piece_contact.h"
 
@@ -13,20 +14,7 @@ namespace cdprep {
 namespace {
 
 using format::HullBlock;
-using format::kHullLanes;
 using format::PieceNodeHull;
-
-std::vector<HullBlock> blocks_of(std::span<const Double3> points) {
-    std::vector<HullBlock> blocks((points.size() + kHullLanes - 1) / kHullLanes);
-    for (std::size_t i = 0; i < blocks.size() * kHullLanes; ++i) {
-        const Double3& p = points[std::min(i, points.size() - 1)];
-        auto& at = blocks[i / kHullLanes].at;
-        at[0][i % kHullLanes] = p.x;
-        at[1][i % kHullLanes] = p.y;
-        at[2][i % kHullLanes] = p.z;
-    }
-    return blocks;
-}
 
 ConvexPoints points_in(std::span<const HullBlock> blocks, std::size_t count) {
     ConvexPoints points;

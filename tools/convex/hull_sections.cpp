@@ -9,24 +9,12 @@
 #include <utility>
 
 #include "cdprep/convex_points.h"
+#include "hull_blocks.h"
 
 namespace cdprep::convex {
 namespace {
 
-using format::HullBlock;
 using format::kHullLanes;
-
-std::vector<HullBlock> blocks_of(std::span<const Double3> points) {
-    std::vector<HullBlock> blocks((points.size() + kHullLanes - 1) / kHullLanes);
-    for (std::size_t i = 0; i < blocks.size() * kHullLanes; ++i) {
-        const Double3& p = points[std::min(i, points.size() - 1)];
-        auto& at = blocks[i / kHullLanes].at;
-        at[0][i % kHullLanes] = p.x;
-        at[1][i % kHullLanes] = p.y;
-        at[2][i % kHullLanes] = p.z;
-    }
-    return blocks;
-}
 
 Double3 reach_of(std::span<const Double3> points) {
     Double3 reach = {};
