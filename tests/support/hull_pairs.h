@@ -150,6 +150,19 @@ inline HullPair thin_pair(std::mt19937& random) {
     return pair;
 }
 
+/// Points of a sphere, on a coarse grid or not.
+inline Points ball_points(std::mt19937& random, std::size_t count, bool coarse) {
+    std::normal_distribution<double> normal;
+    Points points(count);
+    for (Double3& p : points) {
+        p = {normal(random), normal(random), normal(random)};
+        const double scale = (coarse ? 8 : 1) / std::hypot(p.x, p.y, p.z);
+        p = {scale * p.x, scale * p.y, scale * p.z};
+        if (coarse) p = {std::round(p.x), std::round(p.y), std::round(p.z)};
+    }
+    return points;
+}
+
 /// Any numbers, of points that may not be.
 inline ConvexCache nonsense(std::mt19937& random) {
     ConvexCache cache;

@@ -11,6 +11,7 @@
 #include "support/brute_force_distance.h"
 #include "support/hard_triangles.h"
 #include "support/open_tiny.h"
+#include "support/placements.h"
 #include "support/random_pose.h"
 
 namespace cdprep::test {
@@ -49,19 +50,7 @@ Case random_case(std::mt19937& random, int round, int triangles = 10) {
     const Pose p = coarse ? Pose::from_rows({0, -1, 0, 1, 0, 0, 0, 0, 1, reach, 0.5, 1}).value()
                           : random_pose(random, reach);
     const Pose q = random_pose(random, reach);
-    switch (random() % 4) {
-        case 0:
-            made.placement = Placement::b_moves(p);
-            break;
-        case 1:
-            made.placement = Placement::a_moves(p);
-            break;
-        case 2:
-            made.placement = Placement::relative(p, q);
-            break;
-        default:
-            made.placement = Placement::world(p, q);
-    }
+    made.placement = placement_of_kind(random(), p, q);
     return made;
 }
 

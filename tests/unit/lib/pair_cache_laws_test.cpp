@@ -9,7 +9,9 @@
 #include "cdprep/overlapping_triangles.h"
 #include "proven_gap.h"
 #include "support/open_tiny.h"
+#include "support/placements.h"
 #include "support/random_pose.h"
+#include "support/same_distance.h"
 
 // The truth in all of these is what the same question answers without a cache.
 
@@ -42,30 +44,6 @@ std::vector<Pose> random_walk(std::mt19937& random, int steps, double reach) {
                 : Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, at.x, at.y, at.z}).value());
     }
     return walk;
-}
-
-Placement placed(int kind, const Pose& pose, const Pose& other) {
-    switch (kind % 4) {
-        case 0:
-            return Placement::b_moves(pose);
-        case 1:
-            return Placement::a_moves(pose);
-        case 2:
-            return Placement::relative(other, pose);
-        default:
-            return Placement::world(pose, other);
-    }
-}
-
-void expect_same(const std::optional<Distance>& x, const std::optional<Distance>& y) {
-    ASSERT_EQ(x.has_value(), y.has_value());
-    if (!x) return;
-    ASSERT_EQ(x->lower, y->lower);
-    ASSERT_EQ(x->upper, y->upper);
-    ASSERT_EQ(x->triangle_a, y->triangle_a);
-    ASSERT_EQ(x->triangle_b, y->triangle_b);
-    ASSERT_EQ(x->witness_a.x, y->witness_a.x);
-    ASSERT_EQ(x->witness_b.z, y->witness_b.z);
 }
 
 struct Walker {
@@ -134,7 +112,7 @@ TEST(PairCacheLaws, NoAnswerChangesOnWalksThroughTouch) {
         PairCache cache, collisions;
         const Pose other = coarse ? Pose() : random_pose(random, 1);
         for (const Pose& pose : random_walk(random, 100, coarse ? 4 : 1)) {
-            const Placement placement = placed(round / 2, pose, other);
+            const Placement placement = placement_of_kind(round / 2, pose, other);
             walker.ask(random(), placement, cache);
             ASSERT_FALSE(HasFatalFailure()) << "seed " << kSeed << ", round " << round;
             walker.ask(2, placement, collisions);
@@ -195,7 +173,8 @@ TEST(PairCacheLaws, WhatIsLeftOfAGapIsNoMoreThanTheDistance) {
                                  p.rotation()[8], to.x, to.y, to.z})
                     .value();
             PairCache cache;
-            const Placement before = placed(round, p, q), after = placed(round, near, q);
+            const Placement before = placement_of_kind(round, p, q),
+                            after = placement_of_kind(round, near, q);
             const auto old = distance(a.model, a.model, before, workspace, {}, &cache);
             const auto now = distance(a.model, a.model, after, workspace);
             const double left = proven_gap(cache, a.model, a.model, after);

@@ -12,6 +12,7 @@
 #include "support/brute_force.h"
 #include "support/exact_distance.h"
 #include "support/open_tiny.h"
+#include "support/placements.h"
 #include "support/random_pose.h"
 
 namespace cdprep::test {
@@ -66,16 +67,7 @@ std::vector<TrianglePair> brute_force_within(const TestMesh& b,
 
 Placement random_placement(std::mt19937& random, double reach) {
     const Pose p = random_pose(random, reach), q = random_pose(random, reach);
-    switch (random() % 4) {
-        case 0:
-            return Placement::b_moves(p);
-        case 1:
-            return Placement::a_moves(p);
-        case 2:
-            return Placement::relative(p, q);
-        default:
-            return Placement::world(p, q);
-    }
+    return placement_of_kind(random(), p, q);
 }
 
 build::BvhBounds bounds_of(int round) {

@@ -107,19 +107,6 @@ TEST(ClosestFeatures, FineAndThinHullsAnswerTheNearestFeatures) {
     EXPECT_LT(seen.apart, kPairs * 7 / 10);
 }
 
-/// Points of a sphere, on a coarse grid or not.
-Points ball_points(std::mt19937& random, std::size_t count, bool coarse) {
-    std::normal_distribution<double> normal;
-    Points points(count);
-    for (Double3& p : points) {
-        p = {normal(random), normal(random), normal(random)};
-        const double scale = (coarse ? 8 : 1) / std::hypot(p.x, p.y, p.z);
-        p = {scale * p.x, scale * p.y, scale * p.z};
-        if (coarse) p = {std::round(p.x), std::round(p.y), std::round(p.z)};
-    }
-    return points;
-}
-
 // By what must not matter: where a cache begins, in walks past each other, and whether edges are
 // climbed. Most steps of a walk are answered by the march alone.
 TEST(ClosestFeatures, WalksAnswerAsColdQuestions) {

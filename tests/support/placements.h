@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cdprep/placement.h"
+
+namespace cdprep::test {
+
+/// One of the four kinds of placement, by `kind` modulo 4; those of one pose alone take the first.
+inline Placement placement_of_kind(unsigned kind, const Pose& pose, const Pose& other) {
+    switch (kind % 4) {
+        case 0:
+            return Placement::b_moves(pose);
+        case 1:
+            return Placement::a_moves(pose);
+        case 2:
+            return Placement::relative(pose, other);
+        default:
+            return Placement::world(pose, other);
+    }
+}
+
+}  // namespace cdprep::test

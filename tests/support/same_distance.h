@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "cdprep/distance.h"
+
+namespace cdprep::test {
+
+/// Bit for bit: the bounds, the triangles and the points.
+inline void expect_same(const std::optional<Distance>& x, const std::optional<Distance>& y) {
+    ASSERT_EQ(x.has_value(), y.has_value());
+    if (!x) return;
+    ASSERT_EQ(x->lower, y->lower);
+    ASSERT_EQ(x->upper, y->upper);
+    ASSERT_EQ(x->triangle_a, y->triangle_a);
+    ASSERT_EQ(x->triangle_b, y->triangle_b);
+    ASSERT_EQ(x->witness_a, y->witness_a);
+    ASSERT_EQ(x->witness_b, y->witness_b);
+}
+
+}  // namespace cdprep::test
