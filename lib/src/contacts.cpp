@@ -111,8 +111,8 @@ private:
             if (gathered_.takes(key)) gathered_.add({key, apart(pair), pair.a, pair.b});
             return true;
         };
-        visit_near_triangles(*moved_a_.model, *moved_b_.model, placement_, tolerance_, workspace_,
-                             visit, {.degenerate = options_.degenerate});
+        visit_near_triangles(options_.structure, *moved_a_.model, *moved_b_.model, placement_,
+                             tolerance_, workspace_, visit, {.degenerate = options_.degenerate});
     }
     /// 0 when two triangles touch, and only then.
     [[nodiscard]] double apart(const TrianglePair& pair) const noexcept {

@@ -143,6 +143,7 @@ public:
     bool flush_within(const kernels::Reach& reach, Found&& found) noexcept {
         const std::size_t near = kernels::active().triangles_within(
             placement_, scratch_.leaf_pairs.data(), count_, reach, scratch_.leaf_scratch);
+        ++scratch_.leaf_batch;
         if (scratch_.counts != nullptr) count_batch(*scratch_.counts, count_);
         count_ = 0;
         for (std::size_t i = 0; i < near; ++i) {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cdprep/distance_through.h"
 #include "exact_within.h"
 #include "near_triangles.h"
 #include "smallest_pairs.h"
+#include "walked_trees.h"
 
 // Both hierarchies are walked as for overlaps, with boxes that are wider by the
 // tolerance: two triangles that are within it are no farther apart along any direction.
@@ -21,6 +23,7 @@ namespace {
 constexpr double kBoxRounding = 1 + 0x1p-18;
 
 /// A search for the triangles within a tolerance above 0.
+template <class Trees>
 class WithinSearch {
 public:
     WithinSearch(const Model& a, const Model& b, const Placement& placement, double tolerance,
@@ -33,7 +36,8 @@ public:
           tolerance_(tolerance),
           placed_(place_boxes(a, b, placement)),
           scratch_(workspace.storage()),
-          batch_(a, b, placed_, scratch_) {}
+          batch_(a, b, placed_, scratch_),
+          trees_(a, b, scratch_) {}
 
     /// Calls `found(a, b)`, tree order, until it returns false; returns false when it did.
     template <class Found>
@@ -69,13 +73,15 @@ private:
     PlacedBoxes placed_;
     Workspace::Storage& scratch_;
     LeafBatch batch_;
+    Trees trees_;
     kernels::Reach reach_{};
 };
 
+template <class Trees>
 template <class Found>
-bool WithinSearch::run(Found&& found) noexcept {
-    const Tree a(a_);
-    const Tree b(b_);
+bool WithinSearch<Trees>::run(Found&& found) noexcept {
+    const Tree& a = trees_.a;
+    const Tree& b = trees_.b;
     if (a.triangles == 0 || b.triangles == 0) return true;
     const Outlook place = outlook(placed_, tolerance_);
     if (place == Outlook::none) return true;
@@ -86,19 +92,25 @@ bool WithinSearch::run(Found&& found) noexcept {
     placed_.placement.slack += reach_.limit;
     const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b,
                             const kernels::TriangleGap& gap) {
+        at_a = trees_.triangle_a(at_a);
+        at_b = trees_.triangle_b(at_b);
         return is_skipped(at_a, at_b) || !is_within(at_a, at_b, gap) ||
                static_cast<bool>(found(at_a, at_b));
     };
+    const auto add = [&](const LeafView& in_a, const LeafView& in_b) {
+        batch_.add(in_a, in_b);
+        return !batch_.full() || batch_.flush_within(reach_, decide);
+    };
     const bool whole = walk_pairs_from<Search::all>(
         roots(a, b), 0, a, b, placed_, scratch_, [&](const PendingPair& pair) {
-            batch_.add(pair.a.index, pair.b.index);
-            return !batch_.full() || batch_.flush_within(reach_, decide);
+            return trees_.each_pair(batch_, pair.a.index, pair.b.index, add);
         });
     return whole && batch_.flush_within(reach_, decide);
 }
 
+template <class Trees>
 template <class Found>
-bool WithinSearch::give_all(Found&& found) const noexcept {
+bool WithinSearch<Trees>::give_all(Found&& found) const noexcept {
     for (std::uint32_t i = 0; i < a_.triangle_count(); ++i) {
         for (std::uint32_t j = 0; j < b_.triangle_count(); ++j) {
             if (!is_skipped(i, j) && !found(i, j)) return false;
@@ -107,40 +119,59 @@ bool WithinSearch::give_all(Found&& found) const noexcept {
     return true;
 }
 
-template <class Found>
-bool for_each_within(const Model& a, const Model& b, const Placement& placement, double tolerance,
-                     Workspace& workspace, const WithinOptions& options, Found&& found) noexcept {
+template <class Trees, class Found>
+bool for_each_within_by(const Model& a, const Model& b, const Placement& placement,
+                        double tolerance, Workspace& workspace, const WithinOptions& options,
+                        Found&& found) noexcept {
     if (!(tolerance >= 0)) return true;
     if (tolerance == 0) {
-        return for_each_contact<Search::all>(a, b, placement, workspace,
-                                             {.degenerate = options.degenerate}, found);
+        return for_each_contact<Search::all, Trees>(a, b, placement, workspace,
+                                                    {.degenerate = options.degenerate}, found);
     }
-    return WithinSearch(a, b, placement, tolerance, workspace, options).run(found);
+    return WithinSearch<Trees>(a, b, placement, tolerance, workspace, options).run(found);
+}
+
+template <class Found>
+bool for_each_within(Structure structure, const Model& a, const Model& b,
+                     const Placement& placement, double tolerance, Workspace& workspace,
+                     const WithinOptions& options, Found&& found) noexcept {
+    if (structure == Structure::pieces) {
+        return for_each_within_by<PieceTrees>(a, b, placement, tolerance, workspace, options,
+                                              found);
+    }
+    return for_each_within_by<TriangleTrees>(a, b, placement, tolerance, workspace, options, found);
 }
 
 }  // namespace
 
-bool visit_near_triangles(const Model& a, const Model& b, const Placement& placement,
-                          double tolerance, Workspace& workspace, PairVisitor visit,
-                          const WithinOptions& options) noexcept {
-    return for_each_within(a, b, placement, tolerance, workspace, options,
+bool visit_near_triangles(Structure structure, const Model& a, const Model& b,
+                          const Placement& placement, double tolerance, Workspace& workspace,
+                          PairVisitor visit, const WithinOptions& options) noexcept {
+    return for_each_within(structure, a, b, placement, tolerance, workspace, options,
                            [&](std::uint32_t at_a, std::uint32_t at_b) {
                                return visit({at_a, at_b});
                            });
 }
 
+std::size_t triangles_within_through(const StructureOptions& through, const Model& a,
+                                     const Model& b, const Placement& placement, double tolerance,
+                                     Workspace& workspace, std::span<TrianglePair> pairs,
+                                     const WithinOptions& options) noexcept {
+    return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
+        for_each_within(through.structure, a, b, placement, tolerance, workspace, options, found);
+    });
+}
+
 std::size_t triangles_within(const Model& a, const Model& b, const Placement& placement,
                              double tolerance, Workspace& workspace, std::span<TrianglePair> pairs,
                              const WithinOptions& options) noexcept {
-    return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
-        for_each_within(a, b, placement, tolerance, workspace, options, found);
-    });
+    return triangles_within_through({}, a, b, placement, tolerance, workspace, pairs, options);
 }
 
 bool visit_triangles_within(const Model& a, const Model& b, const Placement& placement,
                             double tolerance, Workspace& workspace, PairVisitor visit,
                             const WithinOptions& options) noexcept {
-    return for_each_within(a, b, placement, tolerance, workspace, options,
+    return for_each_within(Structure::bvh, a, b, placement, tolerance, workspace, options,
                            [&](std::uint32_t at_a, std::uint32_t at_b) {
                                return visit({source_number(a, at_a), source_number(b, at_b)});
                            });

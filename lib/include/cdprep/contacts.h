@@ -8,6 +8,7 @@
 
 #include "cdprep/closest_features.h"
 #include "cdprep/overlapping_triangles.h"
+#include "cdprep/structure.h"
 
 namespace cdprep {
 
@@ -65,6 +66,9 @@ enum class Manifold : std::uint8_t { none, four };
 struct ContactOptions {
     Manifold manifold = Manifold::none;
     Degenerate degenerate = Degenerate::keep;
+    /// What is walked for pieces that are near: Structure::pieces or, for every other, the
+    /// hierarchies of boxes. The answers are the same.
+    Structure structure = Structure::bvh;
 };
 
 /// Finds how two surfaces touch within a tolerance, model units, which belongs to it: a contact

@@ -4,6 +4,7 @@
 #include "cdprep/distance.h"
 #include "cdprep/piece_cache.h"
 #include "cdprep/structure.h"
+#include "cdprep/triangles_within.h"
 
 namespace cdprep {
 
@@ -23,5 +24,12 @@ namespace cdprep {
 [[nodiscard]] bool is_within_through(const StructureOptions& through, const Model& a,
                                      const Model& b, const Placement& placement, double tolerance,
                                      Workspace& workspace, PieceCache* cache = nullptr) noexcept;
+
+/// Answers as triangles_within(), the same pairs in the same order.
+[[nodiscard]] std::size_t triangles_within_through(const StructureOptions& through, const Model& a,
+                                                   const Model& b, const Placement& placement,
+                                                   double tolerance, Workspace& workspace,
+                                                   std::span<TrianglePair> pairs,
+                                                   const WithinOptions& options = {}) noexcept;
 
 }  // namespace cdprep
