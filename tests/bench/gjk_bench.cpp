@@ -51,6 +51,8 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include "bullet_transform.h"
 #endif
 
 namespace cdprep {
@@ -249,24 +251,13 @@ Contender ccd(const std::string& name, Asked asked, Support support) {
 #endif
 
 #ifdef CDPREP_HAVE_BULLET
-btTransform transform_of(const Pose& pose) {
-    const auto& r = pose.rotation();
-    const Double3& t = pose.translation();
-    const auto f = [](double x) { return static_cast<btScalar>(x); };
-    const btMatrix3x3 turn(f(r[0]), f(r[1]), f(r[2]), f(r[3]), f(r[4]), f(r[5]), f(r[6]), f(r[7]),
-                           f(r[8]));
-    return btTransform(turn, btVector3(f(t.x), f(t.y), f(t.z)));
-}
-
 /// Bullet's hull with the climb in place of its scan.
 class ClimbingHull : public btConvexInternalShape {
 public:
     explicit ClimbingHull(const ConvexPoints& hull) : hull_(hull) {
         m_shapeType = CUSTOM_CONVEX_SHAPE_TYPE;
         for (std::uint32_t i = 0; i < hull.count; ++i) {
-            const Double3 p = hull.point(i);
-            points_.emplace_back(static_cast<btScalar>(p.x), static_cast<btScalar>(p.y),
-                                 static_cast<btScalar>(p.z));
+            points_.push_back(bullet_vector(hull.point(i)));
         }
     }
     btVector3 localGetSupportingVertexWithoutMargin(const btVector3& d) const override {
@@ -314,7 +305,7 @@ void ask_bullet(const Scene& scene, Answers& answers, btConvexShape& a, btConvex
         for (const Pose& pose : walk) {
             btGjkPairDetector::ClosestPointInput input;
             input.m_transformA.setIdentity();
-            input.m_transformB = transform_of(pose);
+            input.m_transformB = bullet_transform(pose);
             btPointCollector found;
             detector.getClosestPoints(input, found, nullptr);
             const bool apart = found.m_hasResult && found.m_distance > 0;
@@ -329,9 +320,7 @@ Contender bullet(const std::string& name, Asked asked, Support support) {
                 const auto shape = [](const SmallHull& hull) {
                     btConvexHullShape result;
                     for (const Double3& p : hull.points()) {
-                        result.addPoint({static_cast<btScalar>(p.x), static_cast<btScalar>(p.y),
-                                         static_cast<btScalar>(p.z)},
-                                        false);
+                        result.addPoint(bullet_vector(p), false);
                     }
                     result.recalcLocalAabb();
                     return result;

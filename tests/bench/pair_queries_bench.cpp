@@ -37,7 +37,7 @@
 #include "cdprep/query_counts.h"
 
 #ifdef CDPREP_HAVE_FCL
-#include <fcl/fcl.h>
+#include "fcl_models.h"
 #endif
 
 namespace cdprep {
@@ -110,22 +110,6 @@ private:
 };
 
 #ifdef CDPREP_HAVE_FCL
-template <class Volume>
-fcl::BVHModel<Volume> fcl_model(const Model& model) {
-    std::vector<fcl::Vector3d> points;
-    for (const Float3& p : model.positions_f32()) points.emplace_back(p.x, p.y, p.z);
-    for (const Double3& p : model.positions_f64()) points.emplace_back(p.x, p.y, p.z);
-    std::vector<fcl::Triangle> triangles;
-    for (const format::Triangle& t : model.triangles()) {
-        triangles.emplace_back(t.vertex[0], t.vertex[1], t.vertex[2]);
-    }
-    fcl::BVHModel<Volume> made;
-    made.beginModel(static_cast<int>(triangles.size()), static_cast<int>(points.size()));
-    made.addSubModel(points, triangles);
-    made.endModel();
-    return made;
-}
-
 class Fcl final : public Contender {
 public:
     Fcl(const Model& a, const Model& b)
@@ -137,15 +121,7 @@ public:
         return "fcl";
     }
     std::size_t ask(std::size_t question, const Pose& pose) override {
-        fcl::Transform3d a_from_b = fcl::Transform3d::Identity();
-        for (int row = 0; row < 3; ++row) {
-            for (int column = 0; column < 3; ++column) {
-                a_from_b.linear()(row, column) =
-                    pose.rotation()[static_cast<std::size_t>(3 * row + column)];
-            }
-        }
-        const Double3& t = pose.translation();
-        a_from_b.translation() = fcl::Vector3d(t.x, t.y, t.z);
+        const fcl::Transform3d a_from_b = fcl_transform(pose);
         if (question >= how_far) return far_apart(question, a_from_b);
         fcl::CollisionResultd result;
         fcl::collide(&a_, fcl::Transform3d::Identity(), &b_, a_from_b,
