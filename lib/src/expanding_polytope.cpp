@@ -2,6 +2,7 @@
 #include "expanding_polytope.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -47,10 +48,14 @@ Accurate3 accurate_edge(const Difference& p, const Difference& q, double scale) 
             along(q.at_a.z, p.at_a.z, q.at_b.z, p.at_b.z)};
 }
 
-/// Brings the largest coordinate to about 1, in size.
+/// A power of two, at most 2^1000 and at least its inverse, that brings the largest coordinate to
+/// 1 up to 2, in size; from the exponent as it stands.
 double scale_of(const Double3& edge) {
+    constexpr int kBias = 1023;
     constexpr int kMost = 1000;
-    return std::ldexp(1, std::clamp(-std::ilogb(largest_of(edge)), -kMost, kMost));
+    const auto exponent = static_cast<int>(std::bit_cast<std::uint64_t>(largest_of(edge)) >> 52);
+    const int wanted = std::clamp(kBias - exponent, -kMost, kMost);
+    return std::bit_cast<double>(static_cast<std::uint64_t>(wanted + kBias) << 52);
 }
 
 /// Across p, q, r, which turn counter-clockwise seen from where it points; edges of length
@@ -77,17 +82,6 @@ bool normal_of(const Difference& p, const Difference& q, const Difference& r, Do
 
 double length(const Double3& d) {
     return std::sqrt(dot(d, d));
-}
-
-/// How far along a direction three corners are, at least: 4 u for the rounded corners and
-/// the dot products, 8 u for the length and the quotient.
-double lower_along(const Double3& d, const NearestSimplex& simplex) {
-    double least = kInfinity;
-    for (std::size_t i = 0; i < simplex.count; ++i) {
-        const Double3& p = simplex.corner[i].at;
-        least = std::min(least, dot(d, p) - 5 * kUnit * dot_size(d, p));
-    }
-    return std::max(0.0, least / length(d) * (1 - 8 * kUnit));
 }
 
 /// Two directions at right angles to one.
@@ -235,21 +229,33 @@ NearestSimplex ExpandingPolytope::simplex_of(const Face& face) const noexcept {
     return simplex;
 }
 
-void ExpandingPolytope::add_face(std::uint8_t p, std::uint8_t q, std::uint8_t r) noexcept {
-    Face face = {{p, q, r}, 0, {}};
-    const NearestSimplex all = simplex_of(face);
-    if (normal_of(all.corner[0], all.corner[1], all.corner[2], face.direction)) {
-        face.lower = lower_along(face.direction, all);
+double ExpandingPolytope::lower_along(const Double3& d, const Face& face) const noexcept {
+    double least = kInfinity;
+    for (const std::uint8_t i : face.corner) {
+        const Double3& p = corner_[i].at;
+        least = std::min(least, dot(d, p) - 5 * kUnit * dot_size(d, p));
     }
-    NearestSimplex nearest = all;
+    return std::max(0.0, least / length(d) * (1 - 8 * kUnit));
+}
+
+void ExpandingPolytope::add_face(std::uint8_t p, std::uint8_t q, std::uint8_t r) noexcept {
+    Face& face = face_[faces_++];
+    face = {{p, q, r}, 0, {}, false};
+    if (normal_of(corner_[p], corner_[q], corner_[r], face.direction)) {
+        face.lower = lower_along(face.direction, face);
+    }
+}
+
+void ExpandingPolytope::look_closely(Face& face) const noexcept {
+    face.looked_at = true;
+    NearestSimplex nearest = simplex_of(face);
     keep_nearest(nearest);
     // What is nearly a line has a poor normal.
     Double3 other = nearest_direction(nearest);
     if (nearest.count < 3 && normalise(other)) {
-        face.lower = std::max(face.lower, lower_along(other, all));
+        face.lower = std::max(face.lower, lower_along(other, face));
         if (largest_of(face.direction) == 0) face.direction = other;
     }
-    face_[faces_++] = face;
 }
 
 void ExpandingPolytope::first_faces() noexcept {
@@ -304,9 +310,14 @@ bool ExpandingPolytope::grow(const Difference& corner) noexcept {
     return true;
 }
 
-const ExpandingPolytope::Face& ExpandingPolytope::nearest_face() const noexcept {
-    return *std::min_element(face_.begin(), face_.begin() + static_cast<std::ptrdiff_t>(faces_),
-                             [](const Face& x, const Face& y) { return x.lower < y.lower; });
+const ExpandingPolytope::Face& ExpandingPolytope::nearest_face() noexcept {
+    for (;;) {
+        Face& face =
+            *std::min_element(face_.begin(), face_.begin() + static_cast<std::ptrdiff_t>(faces_),
+                              [](const Face& x, const Face& y) { return x.lower < y.lower; });
+        if (face.looked_at) return face;
+        look_closely(face);  // after which another may be nearer
+    }
 }
 
 Penetration ExpandingPolytope::expand(const Difference* corner, std::size_t count,

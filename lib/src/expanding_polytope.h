@@ -36,6 +36,7 @@ private:
         std::array<std::uint8_t, 3> corner;  ///< counter-clockwise from outside
         double lower;                        ///< it is at least so far from the origin
         Double3 direction;                   ///< outwards, the largest coordinate 1
+        bool looked_at;                      ///< closely
     };
     struct Edge {
         std::uint8_t from, to;
@@ -60,11 +61,16 @@ private:
     [[nodiscard]] bool add_off_plane() noexcept;
     void first_faces() noexcept;
     void add_face(std::uint8_t p, std::uint8_t q, std::uint8_t r) noexcept;
+    /// How far along a direction a face is, at least: 4 u for the rounded corners and the dot
+    /// products, 8 u for the length and the quotient.
+    [[nodiscard]] double lower_along(const Double3& d, const Face& face) const noexcept;
+    /// Takes note of what the nearest point of a face says besides its normal.
+    void look_closely(Face& face) const noexcept;
     [[nodiscard]] bool sees(const Difference& from, const Face& face) const noexcept;
     [[nodiscard]] bool has(const Difference& corner) const noexcept;
     /// Replaces what a new corner sees by the cone to it; false when there is no room.
     [[nodiscard]] bool grow(const Difference& corner) noexcept;
-    [[nodiscard]] const Face& nearest_face() const noexcept;
+    [[nodiscard]] const Face& nearest_face() noexcept;
     [[nodiscard]] NearestSimplex simplex_of(const Face& face) const noexcept;
 
     const MovedHull& a_;
