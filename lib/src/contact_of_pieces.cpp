@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "cdprep/convex_penetration.h"
 #include "contact_manifold.h"
 #include "hull_nearest.h"
+#include "nearest_triangles.h"
 
 namespace cdprep {
 namespace {
@@ -41,11 +41,11 @@ public:
         PieceContact contact{};
         contact.piece_a = static_cast<std::uint32_t>(near_.key >> 32);
         contact.piece_b = static_cast<std::uint32_t>(near_.key);
-        const TwoHulls hulls(a_.points(), b_.points(), *question_.placement);
+        const TwoHulls hulls = {a_.hull(), b_.hull()};
         const auto nearest = hull_nearest(hulls.a, hulls.b, {}, nullptr, question_.counts);
         const bool both_contained = a_.is_contained() && b_.is_contained();
-        const Meeting meeting = nearest->meet && (both_contained || near_.upper == 0)
-                                    ? answer_overlap(contact)
+        const Meeting meeting = nearest->meet && (both_contained || near_.touch)
+                                    ? answer_overlap(hulls, nearest->simplex, contact)
                                     : answer_apart(*nearest, contact);
         contact.feature_a = a_.in_source(meeting.a);
         contact.feature_b = b_.in_source(meeting.b);
@@ -70,12 +70,15 @@ private:
         return triangle_features();
     }
     [[nodiscard]] Meeting triangle_features() const noexcept {
-        const ConvexPoints of_a = a_.points_of(near_.a), of_b = b_.points_of(near_.b);
+        const TreePair pair = near_.touch ? TreePair{near_.a, near_.b}
+                                          : nearest_triangles(a_, b_, {near_.a, near_.b},
+                                                              question_.options.degenerate);
+        const ConvexPoints of_a = a_.points_of(pair.a), of_b = b_.points_of(pair.b);
         const TwoHulls triangles(of_a, of_b, *question_.placement);
         const auto nearest = hull_nearest(triangles.a, triangles.b, {}, nullptr, question_.counts);
         const VertexSet at_a = vertices_of(nearest->simplex, &Difference::a, of_a.corners);
         const VertexSet at_b = vertices_of(nearest->simplex, &Difference::b, of_b.corners);
-        return {feature_of(a_, near_.a, at_a), feature_of(b_, near_.b, at_b), *nearest};
+        return {feature_of(a_, pair.a, at_a), feature_of(b_, pair.b, at_b), *nearest};
     }
     static PieceFeature feature_of(const ContactSide& side, std::uint32_t triangle,
                                    const VertexSet& set) noexcept {
@@ -139,9 +142,9 @@ private:
 
     // --- Overlapping ----------------------------------------------------------------
 
-    [[nodiscard]] Meeting answer_overlap(PieceContact& contact) const noexcept {
-        const Penetration depth = *convex_penetration(
-            a_.points(), b_.points(), *question_.placement, {}, nullptr, question_.counts);
+    [[nodiscard]] Meeting answer_overlap(const TwoHulls& hulls, const NearestSimplex& common,
+                                         PieceContact& contact) const noexcept {
+        const Penetration depth = hull_depth(hulls, common, {}, question_.counts);
         contact.flags |= contact_overlap;
         contact.normal = depth.normal;
         contact.point_a = depth.witness_a;
@@ -175,7 +178,7 @@ private:
             for (const std::uint32_t t : side.triangles().first(count)) {
                 const Double3 normal = sign * side.normal_of(t);
                 if (!(dot(normal, normal) > 0)) continue;
-                const double way = way_out(normal).length;
+                const double way = about_way_out(normal);
                 if (way < least) least = way, best = normal;
             }
         };
@@ -190,6 +193,11 @@ private:
         Double3 on_a;
         Double3 on_b;
     };
+    [[nodiscard]] double about_way_out(const Double3& direction) const noexcept {
+        const MovedHull a = a_.hull(), b = b_.hull();
+        return dot(direction,
+                   a.point(a.farthest(direction, 0)) - b.point(b.farthest(-direction, 0)));
+    }
     [[nodiscard]] WayOut way_out(const Double3& direction) const noexcept {
         const MovedHull a = a_.hull(), b = b_.hull();
         const Double3 origin = a_.corner(0);

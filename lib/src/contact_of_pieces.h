@@ -14,8 +14,7 @@ struct ContactQuestion {
     QueryCounts* counts;  ///< or null
 };
 
-/// Answers for one pair of pieces, of which two triangles are within the tolerance: the nearest
-/// ones, with `upper` 0 when, and only when, they touch.
+/// Answers for one pair of pieces, of which two triangles are within the tolerance.
 [[nodiscard]] PieceContact contact_of_pieces(const ContactSide& a, const ContactSide& b,
                                              const NearPieces& near,
                                              const ContactQuestion& question) noexcept;

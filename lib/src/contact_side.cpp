@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "cdprep/model_pieces.h"
 #include "contact_pairs.h"
+#include "piece_parts.h"
 #include "point_triangle_distance.h"
 
 namespace cdprep {
@@ -20,14 +22,13 @@ constexpr double kLevel = 1e-9;
 /// What a unit direction leans by rounding alone, at most.
 constexpr double kNoLean = 1e-12;
 
-/// Part number `index` of a section whose parts begin where the pieces say, up to the next.
-template <class T>
-std::span<const T> part(std::span<const T> all, std::span<const format::Piece> pieces,
-                        std::uint32_t index, std::uint32_t format::Piece::*first) {
-    const std::size_t begin = pieces[index].*first;
-    const std::size_t next = std::size_t{index} + 1;
-    const std::size_t end = next < pieces.size() ? std::size_t{pieces[next].*first} : all.size();
-    return all.subspan(begin, end - begin);
+/// Whether a triangle's normal is far off a unit direction either way, at the cost of a few
+/// products: what underflows or overflows is not.
+bool clearly_turns_from(const Corners& t, const Double3& direction) {
+    constexpr double kFar = 0.99;
+    const Double3 n = cross(t[1] - t[0], t[2] - t[0]);
+    const double along = dot(n, direction);
+    return along * along < kFar * dot(n, n);
 }
 
 unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
@@ -40,22 +41,33 @@ unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
 
 ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece) noexcept
     : model_(&model),
-      triangles_(part(model.model->piece_triangles(), model.model->pieces(), piece,
-                      &format::Piece::first_triangle)),
-      facets_(part(model.model->piece_facets(), model.model->pieces(), piece,
-                   &format::Piece::first_facet)),
-      adjacency_(part(model.model->piece_adjacency(), model.model->pieces(), piece,
-                      &format::Piece::first_facet)),
+      triangles_(part_of_piece(model.model->piece_triangles(), *model.model, piece,
+                               &format::Piece::first_triangle)),
       contained_((model.model->pieces()[piece].flags & format::piece_contained) != 0),
-      points_(points_over(part(model.model->piece_vertices(), model.model->pieces(), piece,
-                               &format::Piece::first_vertex))) {}
+      hull_(feature_hull(*model.model, piece)) {
+    place();
+}
 
-ConvexPoints ContactSide::points_over(std::span<const std::uint32_t> vertices) const noexcept {
-    ConvexPoints points;
-    points.count = static_cast<std::uint32_t>(vertices.size());
-    points.corners = vertices;
-    points.floats = model_->model->positions_f32();
-    points.doubles = model_->model->positions_f64();
+void ContactSide::place() noexcept {
+    const std::uint32_t count = hull_.points.count;
+    const std::size_t blocks = (count + format::kHullLanes - 1) / format::kHullLanes;
+    if (blocks > kMostPlaced) return;
+    Double3 p{};
+    for (std::uint32_t i = 0; i < blocks * format::kHullLanes; ++i) {
+        if (i < count) p = model_->position(hull_.points.corners[i]);
+        auto& at = placed_[i / format::kHullLanes].at;
+        at[0][i % format::kHullLanes] = p.x;
+        at[1][i % format::kHullLanes] = p.y;
+        at[2][i % format::kHullLanes] = p.z;
+    }
+    placed_points_.blocks = std::span(placed_).first(blocks);
+    placed_points_.count = count;
+}
+
+ConvexPoints ContactSide::points_of(std::uint32_t triangle) const noexcept {
+    ConvexPoints points = hull_.points;
+    points.corners = model_->model->triangles()[triangle].vertex;
+    points.count = 3;
     return points;
 }
 
@@ -82,7 +94,9 @@ std::uint32_t ContactSide::nearest_triangle(const Double3& near) const noexcept 
     std::uint32_t best = triangles_[0];
     double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t t : triangles_) {
-        const double distance = point_triangle_distance(near, model_->corners(t)).computed;
+        const Corners at = model_->corners(t);
+        if (!(axis_gap({near, near}, box_around(at)) < least)) continue;
+        const double distance = point_triangle_distance(near, at).computed;
         if (distance < least) least = distance, best = t;
     }
     return best;
@@ -93,10 +107,12 @@ std::optional<PieceFeature> ContactSide::find_face(const Double3& direction,
     std::optional<PieceFeature> best;
     double least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t t : triangles_) {
-        const double along = dot(normal_of(t), direction);
+        const Corners at = model_->corners(t);
+        if (clearly_turns_from(at, direction)) continue;
+        const double along = dot(unit_normal(at), direction);
         // What nobody's inside is behind of is met from either side.
         if ((is_contained() ? along : std::fabs(along)) < kAligned) continue;
-        const double distance = point_triangle_distance(near, model_->corners(t)).computed;
+        const double distance = point_triangle_distance(near, at).computed;
         if (distance < least) least = distance, best = PieceFeature{FeatureKind::face, t, 0};
     }
     return best;
@@ -106,15 +122,15 @@ PieceFeature ContactSide::feature_along(const Double3& direction,
                                         const Double3& near) const noexcept {
     if (const auto face = find_face(direction, near)) return *face;
     double most = -std::numeric_limits<double>::infinity(), least = -most;
-    for (std::uint32_t i = 0; i < points_.count; ++i) {
+    for (std::uint32_t i = 0; i < points().count; ++i) {
         const double height = dot(direction, corner(i));
         most = std::max(most, height);
         least = std::min(least, height);
     }
     VertexSet level;
-    for (std::uint32_t i = 0; i < points_.count; ++i) {
+    for (std::uint32_t i = 0; i < points().count; ++i) {
         if (dot(direction, corner(i)) >= most - kLevel * (most - least)) {
-            level.add(points_.corners[i]);
+            level.add(points().corners[i]);
         }
     }
     if (const auto feature = find_feature(level)) return *feature;

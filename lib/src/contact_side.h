@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "cdprep/closest_features.h"
 #include "cdprep/contacts.h"
 #include "moved_hull.h"
 #include "moved_model.h"
@@ -49,6 +50,9 @@ struct VertexSet {
 class ContactSide {
 public:
     ContactSide(const MovedModel& model, std::uint32_t piece) noexcept;
+    ContactSide(const ContactSide&) = delete;  // placed_points_ refer to placed_
+    ContactSide& operator=(const ContactSide&) = delete;
+    ~ContactSide() = default;
 
     [[nodiscard]] const MovedModel& model() const noexcept {
         return *model_;
@@ -57,26 +61,27 @@ public:
         return triangles_;
     }
     [[nodiscard]] std::span<const format::PieceFacet> facets() const noexcept {
-        return facets_;
+        return hull_.facets;
     }
     [[nodiscard]] std::span<const format::PieceAdjacency> adjacency() const noexcept {
-        return adjacency_;
+        return hull_.adjacency;
     }
     [[nodiscard]] bool is_contained() const noexcept {
         return contained_;
     }
-    /// The corners of the hull; of a triangle.
+    /// The corners of the hull, before they are moved; of a triangle.
     [[nodiscard]] const ConvexPoints& points() const noexcept {
-        return points_;
+        return hull_.points;
     }
-    [[nodiscard]] ConvexPoints points_of(std::uint32_t triangle) const noexcept {
-        return points_over(model_->model->triangles()[triangle].vertex);
-    }
+    [[nodiscard]] ConvexPoints points_of(std::uint32_t triangle) const noexcept;
+    /// The hull where it is. Valid as long as this.
     [[nodiscard]] MovedHull hull() const noexcept {
-        return {points_, model_->pose};
+        return is_placed() ? MovedHull(placed_points_, nullptr)
+                           : MovedHull(hull_.points, model_->pose);
     }
     [[nodiscard]] Double3 corner(std::uint32_t number) const noexcept {
-        return model_->position(points_.corners[number]);
+        return is_placed() ? placed_points_.point(number)
+                           : model_->position(hull_.points.corners[number]);
     }
     [[nodiscard]] Double3 normal_of(std::uint32_t triangle) const noexcept {
         return unit_normal(model_->corners(triangle));
@@ -104,7 +109,14 @@ public:
     [[nodiscard]] ContactFeature in_source(const PieceFeature& feature) const noexcept;
 
 private:
-    [[nodiscard]] ConvexPoints points_over(std::span<const std::uint32_t> vertices) const noexcept;
+    /// Hulls of so many blocks at most are moved once and for all, and scanned eight corners at a
+    /// time: most pieces have few corners, and each is asked for many times.
+    static constexpr std::size_t kMostPlaced = 8;
+
+    [[nodiscard]] bool is_placed() const noexcept {
+        return placed_points_.count > 0;
+    }
+    void place() noexcept;
     [[nodiscard]] std::optional<PieceFeature> find_face(const Double3& direction,
                                                         const Double3& near) const noexcept;
     [[nodiscard]] std::uint32_t nearest_triangle(const Double3& near) const noexcept;
@@ -125,10 +137,10 @@ private:
 
     const MovedModel* model_;
     std::span<const std::uint32_t> triangles_;  ///< tree order
-    std::span<const format::PieceFacet> facets_;
-    std::span<const format::PieceAdjacency> adjacency_;
     bool contained_;
-    ConvexPoints points_;
+    FeatureHull hull_;
+    ConvexPoints placed_points_;  ///< in placed_; none of a hull that is too large
+    std::array<format::HullBlock, kMostPlaced> placed_;
 };
 
 }  // namespace cdprep

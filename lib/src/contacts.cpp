@@ -8,7 +8,6 @@
 #include "contact_of_pieces.h"
 #include "contact_pairs.h"
 #include "near_triangles.h"
-#include "triangle_distance.h"
 
 // Triangles within the tolerance say which pieces are, each pair of pieces as often as it has
 // such triangles. A walk keeps the smallest pairs of pieces, each once, as many as there is room
@@ -54,7 +53,7 @@ private:
         const auto end = begin + static_cast<std::ptrdiff_t>(count_);
         std::sort(begin, end, [](const NearPieces& x, const NearPieces& y) {
             if (x.key != y.key) return x.key < y.key;
-            if (x.upper != y.upper) return x.upper < y.upper;
+            if (x.touch != y.touch) return x.touch;
             return x.a != y.a ? x.a < y.a : x.b < y.b;
         });
         const auto last = std::unique(
@@ -88,13 +87,15 @@ public:
     bool run(Found&& found) noexcept {
         const ContactQuestion question = {&placement_, tolerance_, options_,
                                           workspace_.storage().counts};
+        std::optional<ContactSide> a;
         std::optional<std::uint64_t> last;
         do {
             gather(last);
             for (const NearPieces& near : gathered_.all()) {
-                const ContactSide a(moved_a_, static_cast<std::uint32_t>(near.key >> 32));
+                const auto piece_a = static_cast<std::uint32_t>(near.key >> 32);
+                if (!a || !last || *last >> 32 != piece_a) a.emplace(moved_a_, piece_a);
                 const ContactSide b(moved_b_, static_cast<std::uint32_t>(near.key));
-                if (!found(contact_of_pieces(a, b, near, question))) return false;
+                if (!found(contact_of_pieces(*a, b, near, question))) return false;
                 last = near.key;
             }
         } while (gathered_.is_limited());
@@ -106,19 +107,18 @@ private:
         gathered_.begin_after(last);
         const std::span<const std::uint32_t> piece_a = moved_a_.model->triangle_piece();
         const std::span<const std::uint32_t> piece_b = moved_b_.model->triangle_piece();
-        const auto visit = [&](const TrianglePair& pair) {
-            const std::uint64_t key = std::uint64_t{piece_a[pair.a]} << 32 | piece_b[pair.b];
-            if (gathered_.takes(key)) gathered_.add({key, apart(pair), pair.a, pair.b});
+        const auto visit = [&](const NearTriangles& near) {
+            const std::uint64_t key = std::uint64_t{piece_a[near.a]} << 32 | piece_b[near.b];
+            if (gathered_.takes(key)) gathered_.add({key, near.a, near.b, touch(near)});
             return true;
         };
         visit_near_triangles(options_.structure, *moved_a_.model, *moved_b_.model, placement_,
                              tolerance_, workspace_, visit, {.degenerate = options_.degenerate});
     }
-    /// 0 when two triangles touch, and only then.
-    [[nodiscard]] double apart(const TrianglePair& pair) const noexcept {
-        const Corners a = moved_a_.corners(pair.a), b = moved_b_.corners(pair.b);
-        if (in_contact(a, b, Contact::closed, nullptr)) return 0;
-        return std::max(triangle_distance(a, b, false).upper, std::numeric_limits<double>::min());
+    [[nodiscard]] bool touch(const NearTriangles& near) const noexcept {
+        if (near.touch != Touch::unknown) return near.touch == Touch::yes;
+        return in_contact(moved_a_.corners(near.a), moved_b_.corners(near.b), Contact::closed,
+                          workspace_.storage().counts);
     }
 
     MovedModel moved_a_;

@@ -4,6 +4,7 @@
 #include "exact_nearest.h"
 #include "expanding_polytope.h"
 #include "gjk.h"
+#include "hull_nearest.h"
 
 namespace cdprep {
 namespace {
@@ -17,6 +18,11 @@ Penetration expanded(const TwoHulls& hulls, const Difference* corner, std::size_
 }
 
 }  // namespace
+
+Penetration hull_depth(const TwoHulls& hulls, const NearestSimplex& common,
+                       const PenetrationOptions& options, QueryCounts* counts) noexcept {
+    return expanded(hulls, common.corner.data(), common.count, options, counts);
+}
 
 std::optional<Penetration> convex_penetration(const ConvexPoints& a, const ConvexPoints& b,
                                               const Placement& placement,

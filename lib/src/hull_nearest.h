@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cdprep/convex_distance.h"
+#include "cdprep/convex_penetration.h"
 #include "exact_nearest.h"
 
 namespace cdprep {
@@ -22,6 +23,11 @@ struct HullNearest {
                                                       const ConvexDistanceOptions& options,
                                                       ConvexCache* cache,
                                                       QueryCounts* counts) noexcept;
+
+/// What convex_penetration() answers of two hulls that meet, from the simplex that says so.
+[[nodiscard]] Penetration hull_depth(const TwoHulls& hulls, const NearestSimplex& common,
+                                     const PenetrationOptions& options,
+                                     QueryCounts* counts) noexcept;
 
 /// Whether bounds are as near each other as is promised where no error is permitted; `size` is
 /// that of a point of A - B, largest coordinate.

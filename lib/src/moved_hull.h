@@ -75,6 +75,7 @@ struct TwoHulls {
     MovedHull a;
     MovedHull b;
 
+    TwoHulls(const MovedHull& of_a, const MovedHull& of_b) noexcept : a(of_a), b(of_b) {}
     TwoHulls(const ConvexPoints& of_a, const ConvexPoints& of_b,
              const Placement& placement) noexcept
         : a(of_a, placement.a_is_moved() ? &placement.pose_a() : nullptr),

@@ -23,6 +23,13 @@ inline bool overlap(const Box3& a, const Box3& b) noexcept {
            b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
+/// The widest gap between two boxes along an axis, each difference rounded once: what they hold
+/// is no nearer, up to that. Negative where they overlap along all three.
+inline double axis_gap(const Box3& a, const Box3& b) noexcept {
+    return std::max({a.lower.x - b.upper.x, b.lower.x - a.upper.x, a.lower.y - b.upper.y,
+                     b.lower.y - a.upper.y, a.lower.z - b.upper.z, b.lower.z - a.upper.z});
+}
+
 /// Closed: a point of the border is held.
 inline bool holds(const Box3& box, const Double3& p) noexcept {
     return overlap(box, {p, p});

@@ -6,10 +6,20 @@
 
 namespace cdprep {
 
-/// visit_triangles_within() in the numbering of the tree order, through Structure::pieces or,
-/// for every other structure, the hierarchies of boxes.
+/// What the search for near triangles learns of whether two touch.
+enum class Touch : std::uint8_t { no, yes, unknown };
+
+/// Two triangles within a tolerance, tree order.
+struct NearTriangles {
+    std::uint32_t a;
+    std::uint32_t b;
+    Touch touch;
+};
+
+/// visit_triangles_within() in the tree order, through Structure::pieces or, for every other
+/// structure, the hierarchies of boxes.
 bool visit_near_triangles(Structure structure, const Model& a, const Model& b,
                           const Placement& placement, double tolerance, Workspace& workspace,
-                          PairVisitor visit, const WithinOptions& options) noexcept;
+                          Visitor<NearTriangles> visit, const WithinOptions& options) noexcept;
 
 }  // namespace cdprep

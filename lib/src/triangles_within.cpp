@@ -39,7 +39,7 @@ public:
           batch_(a, b, placed_, scratch_),
           trees_(a, b, scratch_) {}
 
-    /// Calls `found(a, b)`, tree order, until it returns false; returns false when it did.
+    /// Calls `found(a, b, touch)`, tree order, until it returns false; returns false when it did.
     template <class Found>
     bool run(Found&& found) noexcept;
 
@@ -50,18 +50,20 @@ private:
         return options_.degenerate == Degenerate::skip &&
                (is_marked_degenerate(a_, at_a) || is_marked_degenerate(b_, at_b));
     }
-    /// Those that may touch and do are told at less cost than how far others are apart.
-    [[nodiscard]] bool is_within(std::uint32_t at_a, std::uint32_t at_b,
-                                 const kernels::TriangleGap& gap) const noexcept {
+    /// Whether two that are within touch, or nothing when they are not within. Those that may touch
+    /// and do are told at less cost than how far others are apart.
+    [[nodiscard]] std::optional<Touch> find_touch(std::uint32_t at_a, std::uint32_t at_b,
+                                                  const kernels::TriangleGap& gap) const noexcept {
+        const bool are_apart = gap.lower > 0;
         if (gap.certain) {
             if (scratch_.counts != nullptr) ++scratch_.counts->by_kernel;
-            return true;
+            return are_apart ? Touch::no : Touch::unknown;
         }
         const Corners a = moved_a_.corners(at_a);
         const Corners b = moved_b_.corners(at_b);
-        if (!(gap.lower > 0) && in_contact(a, b, Contact::closed, scratch_.counts)) return true;
+        if (!are_apart && in_contact(a, b, Contact::closed, scratch_.counts)) return Touch::yes;
         if (scratch_.counts != nullptr) ++scratch_.counts->measured;
-        return is_within_exactly(a, b, tolerance_);
+        return is_within_exactly(a, b, tolerance_) ? std::optional(Touch::no) : std::nullopt;
     }
 
     const Model& a_;
@@ -94,8 +96,9 @@ bool WithinSearch<Trees>::run(Found&& found) noexcept {
                             const kernels::TriangleGap& gap) {
         at_a = trees_.triangle_a(at_a);
         at_b = trees_.triangle_b(at_b);
-        return is_skipped(at_a, at_b) || !is_within(at_a, at_b, gap) ||
-               static_cast<bool>(found(at_a, at_b));
+        if (is_skipped(at_a, at_b)) return true;
+        const std::optional<Touch> touch = find_touch(at_a, at_b, gap);
+        return !touch || static_cast<bool>(found(at_a, at_b, *touch));
     };
     const auto add = [&](const LeafView& in_a, const LeafView& in_b) {
         batch_.add(in_a, in_b);
@@ -113,7 +116,7 @@ template <class Found>
 bool WithinSearch<Trees>::give_all(Found&& found) const noexcept {
     for (std::uint32_t i = 0; i < a_.triangle_count(); ++i) {
         for (std::uint32_t j = 0; j < b_.triangle_count(); ++j) {
-            if (!is_skipped(i, j) && !found(i, j)) return false;
+            if (!is_skipped(i, j) && !found(i, j, Touch::unknown)) return false;
         }
     }
     return true;
@@ -125,8 +128,9 @@ bool for_each_within_by(const Model& a, const Model& b, const Placement& placeme
                         Found&& found) noexcept {
     if (!(tolerance >= 0)) return true;
     if (tolerance == 0) {
-        return for_each_contact<Search::all, Trees>(a, b, placement, workspace,
-                                                    {.degenerate = options.degenerate}, found);
+        return for_each_contact<Search::all, Trees>(
+            a, b, placement, workspace, {.degenerate = options.degenerate},
+            [&](std::uint32_t at_a, std::uint32_t at_b) { return found(at_a, at_b, Touch::yes); });
     }
     return WithinSearch<Trees>(a, b, placement, tolerance, workspace, options).run(found);
 }
@@ -146,10 +150,10 @@ bool for_each_within(Structure structure, const Model& a, const Model& b,
 
 bool visit_near_triangles(Structure structure, const Model& a, const Model& b,
                           const Placement& placement, double tolerance, Workspace& workspace,
-                          PairVisitor visit, const WithinOptions& options) noexcept {
+                          Visitor<NearTriangles> visit, const WithinOptions& options) noexcept {
     return for_each_within(structure, a, b, placement, tolerance, workspace, options,
-                           [&](std::uint32_t at_a, std::uint32_t at_b) {
-                               return visit({at_a, at_b});
+                           [&](std::uint32_t at_a, std::uint32_t at_b, Touch touch) {
+                               return visit({at_a, at_b, touch});
                            });
 }
 
@@ -158,7 +162,9 @@ std::size_t triangles_within_through(const StructureOptions& through, const Mode
                                      Workspace& workspace, std::span<TrianglePair> pairs,
                                      const WithinOptions& options) noexcept {
     return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
-        for_each_within(through.structure, a, b, placement, tolerance, workspace, options, found);
+        for_each_within(
+            through.structure, a, b, placement, tolerance, workspace, options,
+            [&](std::uint32_t at_a, std::uint32_t at_b, Touch) { return found(at_a, at_b); });
     });
 }
 
@@ -172,7 +178,7 @@ bool visit_triangles_within(const Model& a, const Model& b, const Placement& pla
                             double tolerance, Workspace& workspace, PairVisitor visit,
                             const WithinOptions& options) noexcept {
     return for_each_within(Structure::bvh, a, b, placement, tolerance, workspace, options,
-                           [&](std::uint32_t at_a, std::uint32_t at_b) {
+                           [&](std::uint32_t at_a, std::uint32_t at_b, Touch) {
                                return visit({source_number(a, at_a), source_number(b, at_b)});
                            });
 }

@@ -76,12 +76,12 @@ struct GatheredLeaves {
 /// A step takes at least one side a level down.
 inline constexpr std::size_t kMaxOpenSteps = std::size_t{2} * (format::kMaxBvhLevels + 1);
 
-/// Two pieces and their nearest triangles met so far.
+/// Two pieces and two triangles of theirs that are near: the first that touch, or else the first.
 struct NearPieces {
     std::uint64_t key;  ///< piece of A, then of B
-    double upper;       ///< how far the triangles are apart at most
     std::uint32_t a;    ///< tree order
     std::uint32_t b;
+    bool touch;
 };
 
 /// Pairs of pieces that one walk gathers; twice as many as it keeps.

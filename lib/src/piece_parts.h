@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "cdprep/model.h"
+
+namespace cdprep {
+
+/// What a section holds of a piece: from where the piece begins in it up to where the next does,
+/// or to the end.
+template <class T>
+std::span<const T> part_of_piece(std::span<const T> section, const Model& model,
+                                 std::uint32_t piece,
+                                 std::uint32_t format::Piece::*first) noexcept {
+    const std::span<const format::Piece> pieces = model.pieces();
+    const std::size_t next = std::size_t{piece} + 1;
+    const std::size_t begin = pieces[piece].*first;
+    const std::size_t end =
+        next < pieces.size() ? std::size_t{pieces[next].*first} : section.size();
+    return section.subspan(begin, end - begin);
+}
+
+}  // namespace cdprep
