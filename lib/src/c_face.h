@@ -26,7 +26,7 @@
 
 // What the parts of the C face share: how they check arguments, fill errors, and turn
 // structs of cdprep.h into ours and back. The parts are c_model.cpp, c_workspace.cpp,
-// c_pairs.cpp, c_hulls.cpp, c_rays.cpp, c_shapes.cpp and c_batch.cpp.
+// c_pairs.cpp, c_hulls.cpp, c_contacts.cpp, c_rays.cpp, c_shapes.cpp and c_batch.cpp.
 
 struct cdprep_model {
     cdprep::Model model;
@@ -99,6 +99,18 @@ void store(const std::optional<Distance>& result, int& found, cdprep_distance& t
 
 /// The caller's room for pairs, as the C++ questions take it.
 std::span<TrianglePair> room_of(cdprep_triangle_pair* pairs, std::size_t room) noexcept;
+
+/// A question about two models: checks what every such question checks, then asks.
+template <class Ask>
+int ask_pair(const cdprep_model* a, const cdprep_model* b, const cdprep_placement* placement,
+             cdprep_workspace* workspace, cdprep_error* error, Ask ask) noexcept {
+    if (any_null(a, b, placement, workspace)) return null_argument(error);
+    return guarded(error, [&]() -> int {
+        std::optional<Placement> placed;
+        if (const int code = read_placement(*placement, placed, error)) return code;
+        return ask(a->model, b->model, *placed, workspace->workspace);
+    });
+}
 
 /// Where the C++ questions keep their cache, from and back to the C struct.
 template <class Outer, class Inner>

@@ -7,18 +7,6 @@
 namespace cdprep {
 namespace {
 
-/// A question about two models: checks what every such question checks, then asks.
-template <class Ask>
-int ask_pair(const cdprep_model* a, const cdprep_model* b, const cdprep_placement* placement,
-             cdprep_workspace* workspace, cdprep_error* error, Ask ask) noexcept {
-    if (any_null(a, b, placement, workspace)) return null_argument(error);
-    return guarded(error, [&]() -> int {
-        std::optional<Placement> placed;
-        if (const int code = read_placement(*placement, placed, error)) return code;
-        return ask(a->model, b->model, *placed, workspace->workspace);
-    });
-}
-
 cdprep_crossing crossing_of(const Crossing& crossing) noexcept {
     cdprep_crossing to{};
     to.pair = {crossing.pair.a, crossing.pair.b};

@@ -10,8 +10,8 @@
  * name: collide.h, overlapping_triangles.h, distance.h, triangles_within.h,
  * cast_ray.h, closest_point.h, containment.h, touching_box.h, touching_sphere.h,
  * touching_capsule.h, touching_triangle.h; convex_distance.h, convex_penetration.h and
- * model_hulls.h for convex hulls; batch.h and split_overlap.h for many questions at once
- * and for one on many threads.
+ * model_hulls.h for convex hulls; contacts.h and closest_features.h for convex pieces;
+ * batch.h and split_overlap.h for many questions at once and for one on many threads.
  *
  * Every function returns CDPREP_OK or a code, and then fills `error`, which may be
  * null. No exception leaves a function. A struct that may grow starts with its
@@ -330,6 +330,107 @@ int cdprep_hull_penetration(const cdprep_hull* a, const cdprep_hull* b,
                             const cdprep_placement* placement,
                             const cdprep_distance_options* options, cdprep_convex_cache* cache,
                             int* found, cdprep_penetration* penetration, cdprep_error* error);
+
+/* --- Convex pieces of two models -------------------------------------------------- */
+
+/* Of models baked with the effect contacts; others have no contacts and no pieces. */
+
+enum { CDPREP_VERTEX = 0, CDPREP_EDGE = 1, CDPREP_FACE = 2 };
+
+/* Where on the imported mesh a contact is, in its numbering. */
+typedef struct cdprep_contact_feature {
+    uint32_t kind;     /* CDPREP_VERTEX, _EDGE, _FACE */
+    uint32_t edge;     /* of the triangle: from this corner to the next; 0 for other kinds */
+    uint32_t triangle; /* one with the vertex or edge, or around the point */
+    uint32_t vertex;   /* the vertex; of an edge its first; of a face its first corner */
+} cdprep_contact_feature;
+
+typedef struct cdprep_manifold_point {
+    double on_a[3];
+    double on_b[3];
+    double distance; /* negative: overlap */
+} cdprep_manifold_point;
+
+/* Bits of cdprep_piece_contact.flags. */
+enum { CDPREP_CONTACT_OVERLAP = 1, CDPREP_CONTACT_INTERNAL_EDGE = 2 };
+
+enum { CDPREP_MOST_MANIFOLD_POINTS = 4 };
+
+/* How two convex pieces touch, or nearly do: see contacts.h. */
+typedef struct cdprep_piece_contact {
+    uint32_t piece_a;
+    uint32_t piece_b;
+    cdprep_contact_feature feature_a;
+    cdprep_contact_feature feature_b;
+    double point_a[3];
+    double point_b[3];
+    double normal[3]; /* from A to B */
+    double lower;     /* negative where the hulls of the pieces overlap */
+    double upper;
+    uint32_t flags;
+    uint32_t point_count; /* of `points`; 0 where no manifold was asked for */
+    cdprep_manifold_point points[CDPREP_MOST_MANIFOLD_POINTS]; /* the deepest first */
+} cdprep_piece_contact;
+
+enum { CDPREP_NO_MANIFOLD = 0, CDPREP_FOUR_POINTS = 1 };
+
+typedef struct cdprep_piece_contact_options {
+    uint32_t size;
+    uint32_t manifold;   /* CDPREP_NO_MANIFOLD */
+    uint32_t degenerate; /* CDPREP_KEEP_DEGENERATE */
+} cdprep_piece_contact_options;
+
+/* Writes at most `room` contacts, the first in the order of (piece_a, piece_b); `count` is how
+ * many there are. `contacts` may be null when `room` is 0. */
+int cdprep_contacts(const cdprep_model* a, const cdprep_model* b, const cdprep_placement* placement,
+                    cdprep_workspace* workspace, double tolerance,
+                    const cdprep_piece_contact_options* options, cdprep_piece_contact* contacts,
+                    size_t room, size_t* count, cdprep_error* error);
+
+typedef int (*cdprep_piece_contact_visitor)(void* context, const cdprep_piece_contact* contact);
+
+int cdprep_visit_contacts(const cdprep_model* a, const cdprep_model* b,
+                          const cdprep_placement* placement, cdprep_workspace* workspace,
+                          double tolerance, const cdprep_piece_contact_options* options,
+                          cdprep_piece_contact_visitor visit, void* context, cdprep_error* error);
+
+/* One piece of a model, by its number as contacts name it: below cdprep_piece_count(). */
+typedef struct cdprep_piece {
+    const cdprep_model* model;
+    uint32_t number;
+} cdprep_piece;
+
+size_t cdprep_piece_count(const cdprep_model* model);
+
+/* A part of a piece's hull, by vertices of the imported mesh: one, or the two that an edge runs
+ * between, or of a face the corners of a triangle in its plane; UINT32_MAX past them. */
+typedef struct cdprep_hull_feature {
+    uint32_t kind; /* CDPREP_VERTEX, _EDGE, _FACE */
+    uint32_t vertex[3];
+} cdprep_hull_feature;
+
+typedef struct cdprep_closest_features {
+    cdprep_hull_feature a;
+    cdprep_hull_feature b;
+    double lower;
+    double upper;
+    double witness_a[3];
+    double witness_b[3];
+    int parallel; /* other points may be as near */
+} cdprep_closest_features;
+
+/* Where the last question about two pieces ended: see closest_features.h. All zero before
+ * the first use; one a pair and thread. */
+typedef struct cdprep_feature_cache {
+    uint32_t words[5];
+} cdprep_feature_cache;
+
+/* The nearest features of the hulls of two pieces, which are solid; no workspace is needed.
+ * `found` is 0 when they have a common point. `cache` may be null. */
+int cdprep_find_closest_features(const cdprep_piece* a, const cdprep_piece* b,
+                                 const cdprep_placement* placement, cdprep_feature_cache* cache,
+                                 int* found, cdprep_closest_features* features,
+                                 cdprep_error* error);
 
 /* --- One model ------------------------------------------------------------------ */
 

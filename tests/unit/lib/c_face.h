@@ -22,6 +22,10 @@ const char* ask_many(const void* bytes_a, size_t size_a, const void* bytes_b, si
 /* Asks every question about hulls of a baked unit cube that has them. Returns likewise. */
 const char* ask_hulls(const void* bytes, size_t size);
 
+/* Asks every question about convex pieces of a baked unit cube that is one, with memory for a
+ * workspace. Returns likewise. */
+const char* ask_contacts(const void* bytes, size_t size, void* memory, size_t room);
+
 #ifdef __cplusplus
 }
 #endif

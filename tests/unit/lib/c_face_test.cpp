@@ -80,6 +80,17 @@ TEST(CFace, HullsOfACubeAreAsFarApartAsItIsMoved) {
     EXPECT_EQ(wrong, nullptr) << wrong;
 }
 
+// By hand: faces, edges and corners of cubes of side 1.
+TEST(CFace, ContactsOfCubesAreWhereTheyAreMoved) {
+    const TestMesh cube = unit_cube();
+    const AlignedBytes file =
+        with_contacts(with_one_piece(bake_tiny(cube.positions, cube.triangles)));
+    AlignedBytes memory(cdprep_workspace_size());
+    const char* wrong =
+        ask_contacts(file.span().data(), file.size(), memory.span().data(), memory.size());
+    EXPECT_EQ(wrong, nullptr) << wrong;
+}
+
 TEST(Workspace, MayLiveInTheCallersMemory) {
     const TestMesh cube = unit_cube();
     const AlignedBytes file = bake_tiny(cube.positions, cube.triangles);
