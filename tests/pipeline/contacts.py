@@ -57,6 +57,10 @@ def main():
                          for point in contact["points"])
         must(corners == [(1, 0), (1, 2), (2, 0), (2, 2)], f"{gap}: {corners}")
         must(close([point["distance"] for point in contact["points"]], [gap] * 4), f"{contact}")
+    through = ask(program, *pair, "--manifold", "--format", "json", "--structure", "pieces")
+    must(json.loads(through) == answers, f"through pieces: {through}")
+    asked = run(program, "query", "contacts", *pair, "--structure", "octree")
+    must(asked.returncode == 2 and "bvh, pieces" in asked.stderr, asked.stderr)
     must("points" not in ask(program, *pair, "--format", "ndjson"), "points without --manifold")
     text = ask(program, *pair)
     must(text.splitlines()[0] == "pose 0: 1 contacts" and "normal 0 0 1" in text.replace("-0 ", "0 "),

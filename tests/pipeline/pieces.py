@@ -48,6 +48,7 @@ def compare(program, a, b, poses):
     hits = [answer["hit"] for answer in same_answers(program, "collide", a, b, poses)]
     same_answers(program, "collide", a, b, poses, "--as", "solid")
     same_answers(program, "within", a, b, poses, *TOLERANCE)
+    same_answers(program, "within", a, b, poses, *TOLERANCE, "--pairs")
     for answer in same_answers(program, "distance", a, b, poses):
         width = answer["upper"] - answer["lower"]
         must(width <= 1e-12 * answer["upper"] + 1e-15, f"{a.name} {b.name}: {answer}")

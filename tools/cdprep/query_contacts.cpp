@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "open_for.h"
 #include "query.h"
 #include "query_placements.h"
+#include "query_structure.h"
 
 namespace cdprep::cli {
 namespace {
@@ -18,14 +20,18 @@ struct Arguments {
     std::filesystem::path a;
     std::filesystem::path b;
     PlacementWords placement;
+    StructureWords structure;
     double tolerance = 0;
     bool manifold = false;
     bool skip_degenerate = false;
     std::string format = "text";
 };
 
+constexpr std::array kServing = {Structure::bvh, Structure::pieces};
+
 std::vector<PieceContact> find_contacts(const Model& a, const Model& b, const Placement& placement,
-                                        const Arguments& arguments, Workspace& workspace) {
+                                        const Arguments& arguments, Structure through,
+                                        Workspace& workspace) {
     std::vector<PieceContact> found;
     const auto keep = [&](const PieceContact& contact) {
         found.push_back(contact);
@@ -33,15 +39,19 @@ std::vector<PieceContact> find_contacts(const Model& a, const Model& b, const Pl
     };
     visit_contacts(a, b, placement, arguments.tolerance, workspace, keep,
                    {arguments.manifold ? Manifold::four : Manifold::none,
-                    arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep});
+                    arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep, through});
     return found;
 }
 
 Exit run(const Arguments& arguments) {
+    const Result<StructureOptions> options =
+        parse_structure(arguments.structure, "contacts", kServing);
+    if (!options) return fail("query", options.error());
+    const Structure through = options.value().structure;
     const format::SectionSet needed = sections_for("contacts");
-    const Result<Model> a = open_for(arguments.a, needed);
+    const Result<Model> a = open_for(arguments.a, needed, through);
     if (!a) return fail("query", a.error());
-    const Result<Model> b = open_for(arguments.b, needed);
+    const Result<Model> b = open_for(arguments.b, needed, through);
     if (!b) return fail("query", b.error());
     const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
     if (!placements) return fail("query", placements.error());
@@ -49,8 +59,8 @@ Exit run(const Arguments& arguments) {
     Workspace workspace;
     report::Answers answers(std::cout, parse_answer_format(arguments.format));
     for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
-        const std::vector<PieceContact> found =
-            find_contacts(a.value(), b.value(), placements.value()[i], arguments, workspace);
+        const std::vector<PieceContact> found = find_contacts(
+            a.value(), b.value(), placements.value()[i], arguments, through, workspace);
         answers.add(report::ContactsAnswer{i, found});
     }
     answers.finish();
@@ -75,6 +85,9 @@ void add_contacts(CLI::App& query, Exit& exit) {
                       "Up to four points for each pair of pieces");
     command->add_flag("--skip-degenerate", arguments->skip_degenerate,
                       "Leave triangles with collinear corners out of answers");
+    add_structure(*command, arguments->structure,
+                  "Through what pieces that are near are found: bvh, the faster, or pieces. The "
+                  "answers are the same");
     add_answer_format(*command, arguments->format);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

@@ -20,7 +20,6 @@
 #include "cdprep/model_hulls.h"
 #include "cdprep/overlap_through.h"
 #include "cdprep/query_counts.h"
-#include "cdprep/triangles_within.h"
 #include "effects.h"
 #include "interrupt.h"
 #include "open_for.h"
@@ -213,7 +212,8 @@ private:
             return answer;
         }
         answer.count = keep_pairs([&](std::span<TrianglePair> room) {
-            return triangles_within(a_, b_, placement, tolerance, workspace_, room);
+            return triangles_within_through(through_, a_, b_, placement, tolerance, workspace_,
+                                            room);
         });
         answer.within = *answer.count > 0;
         if (arguments_.pairs) answer.pairs = std::span(pairs_).first(*answer.count);
@@ -399,12 +399,6 @@ Result<StructureOptions> structure_of(const Arguments& arguments) {
         return Error{ErrorCode::bad_argument,
                      "--segments are found through the bvh alone: leave --structure out, or ask "
                      "for pairs."};
-    }
-    if (arguments.question == Question::within && (arguments.pairs || arguments.count) &&
-        through.value().structure != Structure::bvh) {
-        return Error{ErrorCode::bad_argument,
-                     "--pairs and --count are found through the bvh alone: leave --structure out, "
-                     "or ask whether any is within."};
     }
     if (arguments.level_of_detail && through.value().structure != Structure::tetra_tree) {
         return Error{ErrorCode::bad_argument,

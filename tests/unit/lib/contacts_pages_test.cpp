@@ -5,6 +5,7 @@
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
+#include "support/same_contacts.h"
 
 #include "cdprep/contacts.h"
 
@@ -16,7 +17,8 @@ constexpr format::SectionSet kWanted = {
     SectionId::positions_f32,  SectionId::triangles,       SectionId::bvh_nodes,
     SectionId::bvh_leaves,     SectionId::source_triangle, SectionId::pieces,
     SectionId::piece_vertices, SectionId::piece_triangles, SectionId::piece_facets,
-    SectionId::triangle_piece, SectionId::piece_adjacency, SectionId::edge_convexity};
+    SectionId::triangle_piece, SectionId::piece_adjacency, SectionId::edge_convexity,
+    SectionId::source_vertex};
 
 std::vector<PieceContact> all_contacts(const Model& a, const Model& b, const Placement& placement,
                                        Workspace& workspace) {
@@ -27,20 +29,6 @@ std::vector<PieceContact> all_contacts(const Model& a, const Model& b, const Pla
     };
     visit_contacts(a, b, placement, 0.125, workspace, keep, {.manifold = Manifold::four});
     return found;
-}
-
-void expect_same(const PieceContact& x, const PieceContact& y) {
-    EXPECT_EQ(x.piece_a, y.piece_a);
-    EXPECT_EQ(x.piece_b, y.piece_b);
-    EXPECT_EQ(x.feature_a.triangle, y.feature_a.triangle);
-    EXPECT_EQ(x.feature_b.triangle, y.feature_b.triangle);
-    EXPECT_EQ(x.point_a, y.point_a);
-    EXPECT_EQ(x.point_b, y.point_b);
-    EXPECT_EQ(x.normal, y.normal);
-    EXPECT_EQ(x.lower, y.lower);
-    EXPECT_EQ(x.upper, y.upper);
-    EXPECT_EQ(x.flags, y.flags);
-    EXPECT_EQ(x.point_count, y.point_count);
 }
 
 // On read-only pages, with every other section closed; the answers are those of the whole file.

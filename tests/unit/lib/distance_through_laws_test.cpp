@@ -53,6 +53,14 @@ struct Asked {
             overlapping_triangles_through(through, a.model, b.model, placement, workspace, found));
         return found;
     }
+    [[nodiscard]] std::vector<TrianglePair> near_pairs(const StructureOptions& through,
+                                                       const Placement& placement,
+                                                       double tolerance) {
+        std::vector<TrianglePair> found(10'000);
+        found.resize(triangles_within_through(through, a.model, b.model, placement, tolerance,
+                                              workspace, found));
+        return found;
+    }
     /// Every question through pieces as through boxes, with a cache that may be null.
     void expect_same_answers(const Placement& placement, PieceCache* cache) {
         const Model &x = a.model, &y = b.model;
@@ -64,6 +72,9 @@ struct Asked {
              {0.0, upper, std::nextafter(upper, 0.0), upper / 2, 2 * upper, -1.0}) {
             ASSERT_EQ(is_within(x, y, placement, tolerance, workspace),
                       is_within_through(kPieces, x, y, placement, tolerance, workspace, cache))
+                << tolerance;
+            ASSERT_EQ(near_pairs({}, placement, tolerance),
+                      near_pairs(kPieces, placement, tolerance))
                 << tolerance;
             const DistanceOptions near = {.max_distance = tolerance};
             expect_alike(distance(x, y, placement, workspace, near),
@@ -262,6 +273,9 @@ TEST(DistanceThroughLaws, NothingIsFarFromAModelWithoutPieces) {
             distance_through(kPieces, none->model, cube.model, still, workspace, {}, &cache));
         EXPECT_FALSE(
             is_within_through(kPieces, cube.model, none->model, still, 1, workspace, &cache));
+        EXPECT_EQ(
+            triangles_within_through(kPieces, cube.model, none->model, still, 1, workspace, {}),
+            0U);
         EXPECT_FALSE(
             any_overlap_through(kPieces, none->model, none->model, still, workspace, {}, &cache));
     }

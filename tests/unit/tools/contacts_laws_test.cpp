@@ -15,16 +15,18 @@
 #include "support/counted_memory.h"
 #include "support/exact_distance.h"
 #include "support/random_pose.h"
+#include "support/same_contacts.h"
 #include "unit/tools/with_pieces.h"
 
 namespace cdprep::test {
 namespace {
 
 std::vector<PieceContact> all_contacts(const Model& a, const Model& b, const Placement& placement,
-                                       double tolerance) {
+                                       double tolerance, Structure structure = Structure::bvh) {
     Workspace workspace;
-    std::vector<PieceContact> found(contacts(a, b, placement, tolerance, workspace, {}));
-    (void)contacts(a, b, placement, tolerance, workspace, found, {.manifold = Manifold::four});
+    const ContactOptions options = {.manifold = Manifold::four, .structure = structure};
+    std::vector<PieceContact> found(contacts(a, b, placement, tolerance, workspace, {}, options));
+    (void)contacts(a, b, placement, tolerance, workspace, found, options);
     return found;
 }
 
@@ -107,6 +109,10 @@ void compare(const Model& a, const Model& b, const Placement& placement, double 
     ++seen.poses;
     seen.near += found.empty() ? 0 : 1;
     ASSERT_EQ(found.size(), expected.size());
+    // By what must not matter: what is walked.
+    const auto through = all_contacts(a, b, placement, tolerance, Structure::pieces);
+    ASSERT_EQ(found.size(), through.size());
+    for (std::size_t i = 0; i < found.size(); ++i) expect_same(found[i], through[i]);
     const MovedModel of_a = moved_a(a, placement), of_b = moved_b(b, placement);
     auto at = expected.begin();
     for (const PieceContact& contact : found) {
@@ -173,6 +179,23 @@ TEST(ContactsLaws, CoarseGridsAnswerAsAllPairsOfTriangles) {
     EXPECT_GT(seen.overlaps, seen.contacts / 10);
 }
 
+// A model on itself, as it is: every piece touches itself and its neighbours, everywhere.
+TEST(ContactsLaws, AModelOnItselfAnswersAsAllPairsOfTriangles) {
+    Seen seen;
+    for (const TestMesh& mesh : {torus(1, 0.4, 10, 8), unit_cube(), grid_sheet(3, 3),
+                                 coarse_grid_soup(11, 20, 2), icosphere(1)}) {
+        for (const PiecesOf kind : {PiecesOf::surface, PiecesOf::triangles}) {
+            const OpenModel model = open_with_pieces(mesh, kind);
+            const std::size_t before = seen.contacts;
+            compare(model.model, model.model, Placement::b_moves(Pose()), 0, seen);
+            compare(model.model, model.model, Placement::b_moves(Pose()), 0.01, seen);
+            if (HasFatalFailure()) return;
+            EXPECT_GE(seen.contacts - before, 2 * model.model.pieces().size());
+        }
+    }
+    EXPECT_GT(seen.overlaps, seen.contacts / 10);
+}
+
 // By the law: asked the other way round, the same pieces touch, as far, along the other way.
 TEST(ContactsLaws, SwappingMirrorsTheAnswer) {
     std::mt19937 random(20240703);
@@ -211,9 +234,11 @@ TEST(ContactsLaws, NothingIsAllocated) {
         Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {0.5, 0.25, 0.125}).value());
     const std::size_t before = used;
     most = used;
-    EXPECT_GT(contacts(ring.model, ring.model, placement, 0.1, workspace, found,
-                       {.manifold = Manifold::four}),
-              10U);
+    for (const Structure structure : {Structure::bvh, Structure::pieces}) {
+        EXPECT_GT(contacts(ring.model, ring.model, placement, 0.1, workspace, found,
+                           {.manifold = Manifold::four, .structure = structure}),
+                  10U);
+    }
     EXPECT_EQ(used, before);
     EXPECT_EQ(most, before);
 }

@@ -272,6 +272,115 @@ TEST(Contacts, AValleyPushesAlongItsFaces) {
     EXPECT_GT(seen, 30);
 }
 
+// By hand: corners, edges and faces of two cubes that have one point, one segment or one square in
+// common, and a step on either side of that.
+TEST(Contacts, CubesThatTouchExactlyAreNeitherApartNorDeep) {
+    const OpenModel cube = open_with_pieces(unit_cube());
+    for (const Double3& way : {Double3{1, 1, 1}, Double3{1, 1, 0.25}, Double3{1, 0.5, 0.25},
+                               Double3{-1, 1, -1}, Double3{-1, 0.75, 1}}) {
+        for (const double step : {0.0, 0x1p-40, -0x1p-40}) {
+            SCOPED_TRACE(std::to_string(way.x) + " " + std::to_string(way.y) + " " +
+                         std::to_string(way.z) + ", " + std::to_string(step));
+            const double scale = 1 + step;
+            const Double3 at = {way.x * scale, way.y * scale, way.z * scale};
+            const auto found = all_contacts(cube, cube, shifted(at), 0x1p-30);
+            ASSERT_EQ(found.size(), 1U);
+            const PieceContact& contact = found[0];
+            EXPECT_EQ((contact.flags & contact_overlap) != 0, step <= 0);
+            EXPECT_EQ(contact.flags & contact_internal_edge, 0U);
+            EXPECT_LE(contact.lower, contact.upper);
+            EXPECT_NEAR(contact.lower, 0, 2 * std::fabs(step) + 1e-15);
+            EXPECT_NEAR(contact.upper, 0, 2 * std::fabs(step) + 1e-15);
+            EXPECT_NEAR(std::hypot(contact.normal.x, contact.normal.y, contact.normal.z), 1, 1e-12);
+            // Towards B, along axes in which the two only just meet.
+            const std::array<std::pair<double, double>, 3> axes = {
+                {{way.x, contact.normal.x}, {way.y, contact.normal.y}, {way.z, contact.normal.z}}};
+            for (const auto& [shift, along] : axes) {
+                if (std::fabs(shift) == 1) {
+                    EXPECT_GE(shift * along, -1e-12);
+                } else {
+                    EXPECT_NEAR(along, 0, 1e-12);
+                }
+            }
+            for (const Double3& p : {contact.point_a, contact.point_b}) {
+                for (const double x : {p.x, p.y, p.z}) {
+                    EXPECT_GE(x, -1e-11);
+                    EXPECT_LE(x, 1 + 1e-11);
+                }
+            }
+            EXPECT_GE(contact.point_count, 1U);
+        }
+    }
+}
+
+// By hand: a pile of three boxes, each asked about the one below it and the one below that. They
+// are pushed up by as much as they sink in, in four points, however they are turned.
+TEST(Contacts, APileOfBoxesIsPushedUp) {
+    const OpenModel box = open_with_pieces(moved_by(unit_cube(), 1, {-0.5, -0.5, 0}));
+    for (const double sink : {0.0, 0.0078125, -0.0078125}) {
+        for (int turn = 0; turn < 12; ++turn) {
+            SCOPED_TRACE(turn);
+            const auto pose = [&](int number) {
+                const double angle = 0.13 * turn * number;
+                return Pose::from_quaternion(std::cos(angle), 0, 0, std::sin(angle),
+                                             {0.05 * number, -0.03 * turn, number * (1 - sink)})
+                    .value();
+            };
+            for (int number = 0; number < 2; ++number) {
+                const Placement next = Placement::world(pose(number), pose(number + 1));
+                const auto found = all_contacts(box, box, next, 0.01);
+                ASSERT_EQ(found.size(), 1U);
+                expect_near(found[0].normal, {0, 0, 1}, 1e-9);
+                EXPECT_EQ(found[0].flags & contact_internal_edge, 0U);
+                EXPECT_NEAR(found[0].upper, -sink, 1e-12);
+                EXPECT_EQ(found[0].point_count, 4U);
+                for (const ManifoldPoint& point : found[0].points) {
+                    EXPECT_NEAR(point.distance, -sink, 1e-12);
+                }
+            }
+            EXPECT_EQ(all_contacts(box, box, Placement::world(pose(0), pose(2)), 0.01).size(), 0U);
+        }
+    }
+}
+
+// By hand: a box that stands on an edge or a corner, slid over a floor in small triangles and over
+// one in pieces: its lowest part hits the middle, edges and corners of triangles alike.
+TEST(Contacts, AFloorPushesATiltedBoxUp) {
+    const OpenModel by_triangles = open_with_pieces(grid_sheet(6, 6), PiecesOf::triangles);
+    const OpenModel by_surface = open_with_pieces(grid_sheet(6, 6));
+    const OpenModel box = open_with_pieces(moved_by(unit_cube(), 1, {-0.5, -0.5, -0.5}));
+    const std::array<std::array<double, 4>, 3> tilts = {
+        {{1, 0.3, 0, 0}, {1, 0.3, 0.4, 0.1}, {1, -0.2, 0.15, 0.5}}};
+    std::size_t seen = 0, corrected = 0;
+    for (const auto& [w, x, y, z] : tilts) {
+        const Pose turn = Pose::from_quaternion(w, x, y, z, {}).value();
+        double lowest = 0;
+        for (const Double3& p : unit_cube().positions) {
+            lowest = std::min(lowest, moved(turn, {p.x - 0.5, p.y - 0.5, p.z - 0.5}).z);
+        }
+        for (const double height : {0.03125, 0.0, -0.03125}) {
+            for (int step = 0; step < 24; ++step) {
+                const Double3 at = {1.5 + 0.125 * step, 1.75 + 0.0625 * step, height - lowest};
+                const Placement placement =
+                    Placement::b_moves(Pose::from_quaternion(w, x, y, z, at).value());
+                for (const OpenModel* floor : {&by_triangles, &by_surface}) {
+                    SCOPED_TRACE(std::to_string(height) + ", step " + std::to_string(step));
+                    const auto found = all_contacts(floor->model, box.model, placement, 0.0625);
+                    ASSERT_GE(found.size(), 1U);
+                    for (const PieceContact& contact : found) {
+                        expect_near(contact.normal, {0, 0, 1}, 1e-9);
+                        corrected += (contact.flags & contact_internal_edge) != 0 ? 1 : 0;
+                        ++seen;
+                    }
+                }
+            }
+        }
+    }
+    EXPECT_GT(seen, 400U);
+    EXPECT_GT(corrected, seen / 10);
+    EXPECT_LT(corrected, seen * 9 / 10);
+}
+
 // Beyond what one walk keeps there is another: every pair once, in order.
 TEST(Contacts, ManyPairsComeOnceAndInOrder) {
     const OpenModel a = open_with_pieces(grid_sheet(7, 7), PiecesOf::triangles);
