@@ -11,7 +11,8 @@ static_assert(CDPREP_VERTEX == static_cast<int>(FeatureKind::vertex) &&
               CDPREP_EDGE == static_cast<int>(FeatureKind::edge) &&
               CDPREP_FACE == static_cast<int>(FeatureKind::face));
 static_assert(CDPREP_CONTACT_OVERLAP == static_cast<int>(contact_overlap) &&
-              CDPREP_CONTACT_INTERNAL_EDGE == static_cast<int>(contact_internal_edge));
+              CDPREP_CONTACT_INTERNAL_EDGE == static_cast<int>(contact_internal_edge) &&
+              CDPREP_CONTACT_FROM_BEHIND == static_cast<int>(contact_from_behind));
 static_assert(CDPREP_MOST_MANIFOLD_POINTS == kMostManifoldPoints);
 
 std::uint32_t word(FeatureKind kind) noexcept {

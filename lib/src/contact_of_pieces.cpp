@@ -101,6 +101,10 @@ private:
         contact.lower = meeting.nearest.bounds.lower;
         contact.upper = meeting.nearest.bounds.upper;
         contact.normal = normal_between(meeting, contact);
+        if (a_.is_seen_from_behind(meeting.a, contact.normal) ||
+            b_.is_seen_from_behind(meeting.b, -contact.normal)) {
+            contact.flags |= contact_from_behind;
+        }
         if (const auto upright = upright_normal(meeting, contact.normal)) {
             contact.normal = *upright;
             contact.flags |= contact_internal_edge;

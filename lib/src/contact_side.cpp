@@ -165,11 +165,17 @@ void ContactSide::each_around(const PieceFeature& feature, Visit&& visit) const 
     }
 }
 
-bool ContactSide::leads_out(const PieceFeature& feature, const Double3& direction) const noexcept {
-    bool out = false;
-    each_around(feature,
-                [&](std::uint32_t t, unsigned) { out = out || dot(normal_of(t), direction) > 0; });
-    return out;
+double ContactSide::facing(const PieceFeature& feature, const Double3& direction) const noexcept {
+    double most = -1;
+    each_around(feature, [&](std::uint32_t t, unsigned) {
+        most = std::max(most, dot(normal_of(t), direction));
+    });
+    return most;
+}
+
+bool ContactSide::is_seen_from_behind(const PieceFeature& feature,
+                                      const Double3& direction) const noexcept {
+    return is_contained() && facing(feature, direction) < -kNoLean;
 }
 
 /// Whether another triangle of the piece has the edge: then the hull says how normals stand.

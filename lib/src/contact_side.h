@@ -98,7 +98,13 @@ public:
     /// Whether the way out of the piece along a unit direction leads away from the solid: a
     /// triangle with the feature faces it.
     [[nodiscard]] bool leads_out(const PieceFeature& feature,
-                                 const Double3& direction) const noexcept;
+                                 const Double3& direction) const noexcept {
+        return facing(feature, direction) > 0;
+    }
+    /// Whether what is there in a unit direction is in the solid, clearly: it sees the backs of all
+    /// triangles with the feature.
+    [[nodiscard]] bool is_seen_from_behind(const PieceFeature& feature,
+                                           const Double3& direction) const noexcept;
 
     /// A unit direction at a feature, made not to lean over edges where the surface goes on;
     /// nothing when it does not.
@@ -119,6 +125,9 @@ private:
     void place() noexcept;
     [[nodiscard]] std::optional<PieceFeature> find_face(const Double3& direction,
                                                         const Double3& near) const noexcept;
+    /// How much a triangle with the feature faces a unit direction, at most: a cosine.
+    [[nodiscard]] double facing(const PieceFeature& feature,
+                                const Double3& direction) const noexcept;
     [[nodiscard]] std::uint32_t nearest_triangle(const Double3& near) const noexcept;
     template <class Visit>
     void each_around(const PieceFeature& feature, Visit&& visit) const noexcept;

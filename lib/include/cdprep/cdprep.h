@@ -352,7 +352,11 @@ typedef struct cdprep_manifold_point {
 } cdprep_manifold_point;
 
 /* Bits of cdprep_piece_contact.flags. */
-enum { CDPREP_CONTACT_OVERLAP = 1, CDPREP_CONTACT_INTERNAL_EDGE = 2 };
+enum {
+    CDPREP_CONTACT_OVERLAP = 1,
+    CDPREP_CONTACT_INTERNAL_EDGE = 2,
+    CDPREP_CONTACT_FROM_BEHIND = 4
+};
 
 enum { CDPREP_MOST_MANIFOLD_POINTS = 4 };
 

@@ -36,6 +36,10 @@ enum ContactFlags : std::uint32_t {
     /// The nearest points or the shortest way apart would lean over a flat or reflex edge,
     /// where the surface goes on: the normal is that of the face instead.
     contact_internal_edge = 2,
+    /// Not overlapping, but one piece sees the backs of the other's triangles, whose hull is
+    /// contained: it is in the solid. Nothing is to be kept off there, and which way is out
+    /// other pairs of pieces say.
+    contact_from_behind = 4,
 };
 
 inline constexpr std::size_t kMostManifoldPoints = 4;

@@ -381,6 +381,43 @@ TEST(Contacts, AFloorPushesATiltedBoxUp) {
     EXPECT_LT(corrected, seen * 9 / 10);
 }
 
+// By hand: a box slides over the top of an L and on along the outside of its arms, across the edges
+// between pieces: each is flat, and every piece that is met from outside pushes along the common
+// face. A wall that a corner of the box has come near to in the solid does not.
+TEST(Contacts, TheSeamsOfASolidDoNotPushSideways) {
+    const OpenModel arms = open_with_pieces(l_prism());
+    ASSERT_GT(arms.model.pieces().size(), 1U);
+    const OpenModel box = open_with_pieces(moved_by(unit_cube(), 0.5, {-0.25, -0.25, 0}));
+    std::size_t seen = 0, across = 0, behind = 0;
+    for (const double height : {0.03125, 0.0, -0.03125, -0.125}) {
+        for (int step = 0; step < 30; ++step) {
+            SCOPED_TRACE(std::to_string(height) + ", step " + std::to_string(step));
+            const double along = 0.3 + 0.0443 * step;
+            for (const double turn : {0.0, 0.2, 0.7}) {
+                const Pose on_top = Pose::from_quaternion(std::cos(turn), 0, 0, std::sin(turn),
+                                                          {along, 0.4 + 0.003 * step, 1 + height})
+                                        .value();
+                const auto found =
+                    all_contacts(arms.model, box.model, Placement::b_moves(on_top), 0.0625);
+                across += found.size() > 1 ? 1 : 0;
+                for (const PieceContact& contact : found) {
+                    if ((contact.flags & contact_from_behind) != 0) {
+                        EXPECT_LT(height, 0);  // else nothing is in the solid
+                        ++behind;
+                        continue;
+                    }
+                    expect_near(contact.normal, {0, 0, 1}, 1e-9);
+                    ++seen;
+                }
+            }
+        }
+    }
+    EXPECT_GT(seen, 200U);
+    EXPECT_GT(across, 50U);
+    EXPECT_GT(behind, 0U);
+    EXPECT_LT(behind, seen / 10);
+}
+
 // Beyond what one walk keeps there is another: every pair once, in order.
 TEST(Contacts, ManyPairsComeOnceAndInOrder) {
     const OpenModel a = open_with_pieces(grid_sheet(7, 7), PiecesOf::triangles);
