@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -95,13 +94,6 @@ bool ask(const StructureOptions& through, const Model& a, const Model& b, std::s
         return is_within_through(through, a, b, placement, kTolerance, workspace, cache);
     }
     return distance_through(through, a, b, placement, workspace, {}, cache)->upper == 0;
-}
-
-/// The processor time of this thread: walks are short, others' turns among them are not.
-double thread_us() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<double>(now.tv_sec) * 1e6 + static_cast<double>(now.tv_nsec) * 1e-3;
 }
 
 /// What one contender took for one set of walks.
