@@ -92,7 +92,9 @@ struct ContactOptions {
 /// other, as far as they are within the tolerance, the deepest, and those that span most.
 ///
 /// Normals do not catch on edges inside a surface: at an edge that is flat or reflex, or a
-/// vertex between two such, they are the face's (contact_internal_edge).
+/// vertex between two such, they are the face's (contact_internal_edge). Where solids are in each
+/// other a wall may be near on its inner side (contact_from_behind): a contact that should not
+/// push.
 ///
 /// The same for any processor. A piece that lies wholly inside another's hull, farther than the
 /// tolerance from its triangles, is no contact: collide() of solids tells. Costs what

@@ -348,14 +348,15 @@ TEST(Contacts, APileOfBoxesIsPushedUp) {
 TEST(Contacts, AFloorPushesATiltedBoxUp) {
     const OpenModel by_triangles = open_with_pieces(grid_sheet(6, 6), PiecesOf::triangles);
     const OpenModel by_surface = open_with_pieces(grid_sheet(6, 6));
-    const OpenModel box = open_with_pieces(moved_by(unit_cube(), 1, {-0.5, -0.5, -0.5}));
+    const TestMesh cube = unit_cube();
+    const OpenModel box = open_with_pieces(moved_by(cube, 1, {-0.5, -0.5, -0.5}));
     const std::array<std::array<double, 4>, 3> tilts = {
         {{1, 0.3, 0, 0}, {1, 0.3, 0.4, 0.1}, {1, -0.2, 0.15, 0.5}}};
     std::size_t seen = 0, corrected = 0;
     for (const auto& [w, x, y, z] : tilts) {
         const Pose turn = Pose::from_quaternion(w, x, y, z, {}).value();
         double lowest = 0;
-        for (const Double3& p : unit_cube().positions) {
+        for (const Double3& p : cube.positions) {
             lowest = std::min(lowest, moved(turn, {p.x - 0.5, p.y - 0.5, p.z - 0.5}).z);
         }
         for (const double height : {0.03125, 0.0, -0.03125}) {
