@@ -28,6 +28,7 @@
 
 #include "bench_input.h"
 #include "cdprep/contacts.h"
+#include "cdprep/model_pieces.h"
 #include "cdprep/query_counts.h"
 
 #ifdef CDPREP_HAVE_FCL
@@ -130,24 +131,16 @@ private:
 #endif
 
 #ifdef CDPREP_HAVE_BULLET
-/// One of the spans of a model's pieces that begin where these say.
-template <class T>
-std::span<const T> part_of(std::span<const T> all, std::span<const format::Piece> pieces,
-                           std::size_t i, std::uint32_t format::Piece::*first) {
-    const std::size_t end = i + 1 < pieces.size() ? std::size_t{pieces[i + 1].*first} : all.size();
-    return all.subspan(pieces[i].*first, end - pieces[i].*first);
-}
-
 /// The hulls of all pieces as one shape.
 class BulletPieces {
 public:
     BulletPieces(const Model& model, Manifold manifold) : shape_(true) {
         shape_.setMargin(0);
-        for (std::size_t i = 0; i < model.pieces().size(); ++i) {
+        for (std::uint32_t i = 0; i < model.pieces().size(); ++i) {
             auto hull = std::make_unique<btConvexHullShape>();
-            for (const std::uint32_t v :
-                 part_of(model.piece_vertices(), model.pieces(), i, &format::Piece::first_vertex)) {
-                hull->addPoint(bullet_vector(position(model, v)), false);
+            const ConvexPoints points = feature_hull(model, i).points;
+            for (std::uint32_t k = 0; k < points.count; ++k) {
+                hull->addPoint(bullet_vector(points.point(k)), false);
             }
             hull->setMargin(0);
             hull->recalcLocalAabb();
@@ -162,12 +155,6 @@ public:
     }
 
 private:
-    static Double3 position(const Model& model, std::uint32_t v) {
-        if (model.positions_f32().empty()) return model.positions_f64()[v];
-        const format::Float3& p = model.positions_f32()[v];
-        return {p.x, p.y, p.z};
-    }
-
     std::vector<std::unique_ptr<btConvexHullShape>> hulls_;
     btCompoundShape shape_;
     btCollisionObject object_;
