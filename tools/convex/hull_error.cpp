@@ -265,29 +265,42 @@ private:
                                              const mesh::Box& box) const {
         constexpr double kNothing = std::numeric_limits<double>::infinity();
         if (!solid_.encloses()) return kNothing;
+        constexpr double kNone = -std::numeric_limits<double>::infinity();
         const Double3 at = mean(hull.points);
-        const double deepest = depth_of({&at, 1}, planes);
+        std::size_t shallowest = 0;
+        const double deepest = depth_of({&at, 1}, planes, kNone, shallowest);
         double depth = 0;
         std::size_t tests = 0;
         solid_.tree().in_box(box, [&](std::uint32_t triangle) {
             if (depth >= deepest || tests > kMostDepthTests) return;
             tests += planes.size();
-            depth = std::max(depth, depth_of(solid_.tree().corners(triangle), planes));
+            depth = std::max(depth,
+                             depth_of(solid_.tree().corners(triangle), planes, depth, shallowest));
         });
         depth += 2 * solid_.slack();
         if (depth >= deepest || tests > kMostDepthTests || !solid_.includes(at)) return kNothing;
         return error_.upper + depth;
     }
 
-    /// At least how deep any point of these corners' hull lies behind all planes.
-    static double depth_of(std::span<const Double3> corners, std::span<const Plane> planes) {
-        double depth = std::numeric_limits<double>::infinity();
-        for (const Plane& plane : planes) {
+    /// At least how deep any point of these corners' hull lies behind all planes; anything
+    /// not above `enough` where it is no deeper than that. The plane under which it is least
+    /// deep is looked at first for the next ones, which are near, and mostly the last one.
+    static double depth_of(std::span<const Double3> corners, std::span<const Plane> planes,
+                           double enough, std::size_t& shallowest) {
+        const auto below = [&](const Plane& plane) {
             double most = -std::numeric_limits<double>::infinity();
             for (const Double3& p : corners) {
                 most = std::max(most, plane.offset - mesh::dot(plane.normal, p));
             }
-            depth = std::min(depth, most);
+            return most;
+        };
+        double depth = std::numeric_limits<double>::infinity();
+        if (shallowest < planes.size()) depth = below(planes[shallowest]);
+        for (std::size_t i = 0; i < planes.size() && depth > enough; ++i) {
+            const double most = below(planes[i]);
+            if (most >= depth) continue;
+            depth = most;
+            shallowest = i;
         }
         return depth;
     }
