@@ -4,9 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "mesh/vectors.h"
+
+// Also compiled for AVX2; which one runs is chosen while the program is loaded. The thread
+// sanitizer is not there yet by then, but is called by the choice.
+#if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
+#define CDPREP_WITH_AVX2 [[gnu::target_clones("avx2", "default")]]
+#else
+#define CDPREP_WITH_AVX2
+#endif
 
 namespace cdprep::convex {
 namespace {
@@ -16,15 +25,45 @@ using mesh::cross;
 using mesh::dot;
 using mesh::minus;
 
-constexpr std::size_t kLeafSize = 4;       ///< triangles, at most
+constexpr std::size_t kLeafSize = 8;       ///< triangles, at most
 constexpr std::size_t kChunk = 1U << 14U;  ///< triangles handed to a thread at once
 constexpr std::size_t kLeavesAtOnce = kChunk / kLeafSize;
 
-double square_to_box(const Double3& p, const Box& box) {
-    const double x = std::max({box.lower.x - p.x, 0.0, p.x - box.upper.x});
-    const double y = std::max({box.lower.y - p.y, 0.0, p.y - box.upper.y});
-    const double z = std::max({box.lower.z - p.z, 0.0, p.z - box.upper.z});
-    return x * x + y * y + z * z;
+// With coordinates between -1 and 1 a box's sides and a point's coordinates are rounded to
+// float by at most 2^-25 each; a point's coordinate farther out, where the distance along
+// that axis is at least half of it, by 2^-24 of it. What kMargin leaves and the roundings of
+// differences, squares and sums make a computed square at most 1 + 2^-21 of the true one.
+constexpr float kMargin = 0x1p-22F;       ///< by which boxes are larger on each side
+constexpr double kFurther = 1 + 0x1p-19;  ///< of a square: no box that is farther is nearer
+constexpr double kMostSquare = 1e38;      ///< that floats hold
+constexpr float kNowhere = 1e30F;         ///< sides of empty boxes, turned around
+constexpr double kOutside = 4;            ///< as good as any coordinate farther out
+
+using Floats = float __attribute__((vector_size(32)));
+using Mask = std::int32_t __attribute__((vector_size(32)));
+
+// By reference: what these would return has no place in a call without AVX.
+[[gnu::always_inline]] inline void load(const std::array<float, 8>& lanes, Floats& x) {
+    std::memcpy(&x, lanes.data(), sizeof x);
+}
+
+/// Bit k is that of lane k, which is 0 or -1.
+[[gnu::always_inline]] inline unsigned bits_of(const Mask& mask) {
+    Mask lanes = mask & Mask{1, 2, 4, 8, 16, 32, 64, 128};
+    lanes |= __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7, 0, 1, 2, 3);
+    lanes |= __builtin_shufflevector(lanes, lanes, 2, 3, 0, 1, 6, 7, 4, 5);
+    lanes |= __builtin_shufflevector(lanes, lanes, 1, 0, 3, 2, 5, 4, 7, 6);
+    return static_cast<unsigned>(lanes[0]);
+}
+
+/// How far beyond an interval a number is, squared, lane by lane.
+[[gnu::always_inline]] inline void add_square_beyond(const Floats& lower, float at,
+                                                     const Floats& upper, Floats& sum) {
+    const Floats before = lower - at;
+    const Floats after = at - upper;
+    const Floats far = before > after ? before : after;
+    const Floats gap = far > 0 ? far : Floats{};
+    sum += gap * gap;
 }
 
 double square(const Double3& a) {
@@ -125,6 +164,7 @@ TriangleTree::TriangleTree(std::span<const Double3> positions, std::span<const T
         split_level(level, middles, parallel_for);
     }
     sort_leaves(parallel_for);
+    choose_unit(positions, triangles);
     in_chunks([&](std::size_t i) {
         place_[order_[i]] = static_cast<std::uint32_t>(i);
         corners_[i] = {corner(order_[i], 0), corner(order_[i], 1), corner(order_[i], 2)};
@@ -170,59 +210,139 @@ void TriangleTree::sort_leaves(ParallelFor parallel_for) {
     parallel_for((leaf_count_ + kLeavesAtOnce - 1) / kLeavesAtOnce, sort);
 }
 
+/// Where floats are those of, so that all corners lie between -1 and 1.
+void TriangleTree::choose_unit(std::span<const Double3> positions,
+                               std::span<const Triangle> triangles) {
+    for (const Triangle& t : triangles) {
+        for (const std::uint32_t v : t.vertex) box_.add(positions[v]);
+    }
+    centre_ = {box_.lower.x / 2 + box_.upper.x / 2, box_.lower.y / 2 + box_.upper.y / 2,
+               box_.lower.z / 2 + box_.upper.z / 2};
+    const Double3 half = minus(box_.upper, centre_);
+    const double size = std::max({half.x, half.y, half.z});
+    if (size > 0 && std::isfinite(size)) scale_ = std::ldexp(1.0, -std::ilogb(size) - 1);
+}
+
+TriangleTree::FloatBox TriangleTree::to_floats(const Box& box) const {
+    const auto as_float = [this](double at, double centre) {
+        return static_cast<float>(std::clamp((at - centre) * scale_, -kOutside, kOutside));
+    };
+    return {{as_float(box.lower.x, centre_.x), as_float(box.lower.y, centre_.y),
+             as_float(box.lower.z, centre_.z)},
+            {as_float(box.upper.x, centre_.x), as_float(box.upper.y, centre_.y),
+             as_float(box.upper.z, centre_.z)}};
+}
+
 void TriangleTree::fill_boxes(ParallelFor parallel_for) {
-    boxes_.resize(2 * leaf_count_ - 1);
+    first_of_level_ = {0};
+    std::size_t count = leaf_count_;
+    for (std::size_t all = 0;; count = (count + kWidth - 1) / kWidth) {
+        first_of_level_.push_back(all += count);
+        if (count == 1) break;
+    }
+    Lanes empty;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        empty.lower[axis].fill(kNowhere);
+        empty.upper[axis].fill(-kNowhere);
+    }
+    nodes_.assign(first_of_level_.back(), empty);
     const auto fill = [&](std::size_t chunk) {
         const std::size_t last = std::min((chunk + 1) * kLeavesAtOnce, leaf_count_);
         for (std::size_t leaf = chunk * kLeavesAtOnce; leaf < last; ++leaf) {
             const std::size_t begin = leaf_begin(leaf);
-            const std::size_t end = leaf_begin(leaf + 1);
-            Box& box = boxes_[leaf_count_ - 1 + leaf];
-            for (std::size_t i = begin; i < end; ++i) {
+            for (std::size_t i = begin; i < leaf_begin(leaf + 1); ++i) {
+                Box box;
                 for (const Double3& corner : corners_[i]) box.add(corner);
+                const FloatBox around = to_floats(box);
+                for (std::size_t axis = 0; axis < 3; ++axis) {
+                    nodes_[leaf].lower[axis][i - begin] = around.lower[axis] - kMargin;
+                    nodes_[leaf].upper[axis][i - begin] = around.upper[axis] + kMargin;
+                }
             }
         }
     };
     parallel_for((leaf_count_ + kLeavesAtOnce - 1) / kLeavesAtOnce, fill);
-    for (std::size_t node = leaf_count_ - 1; node-- > 0;) {
-        boxes_[node] = boxes_[2 * node + 1];
-        boxes_[node].add(boxes_[2 * node + 2].lower);
-        boxes_[node].add(boxes_[2 * node + 2].upper);
+    for (std::size_t level = 1; level + 1 < first_of_level_.size(); ++level) {
+        const std::size_t first = first_of_level_[level - 1];
+        for (std::size_t i = first; i < first_of_level_[level]; ++i) {
+            Lanes& above = nodes_[first_of_level_[level] + (i - first) / kWidth];
+            const std::size_t k = (i - first) % kWidth;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const auto& lower = nodes_[i].lower[axis];
+                const auto& upper = nodes_[i].upper[axis];
+                above.lower[axis][k] = *std::min_element(lower.begin(), lower.end());
+                above.upper[axis][k] = *std::max_element(upper.begin(), upper.end());
+            }
+        }
     }
 }
 
+CDPREP_WITH_AVX2
+unsigned TriangleTree::which_meet(const Lanes& lanes, const FloatBox& box) {
+    Mask apart{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Floats lower, upper;
+        load(lanes.lower[axis], lower);
+        load(lanes.upper[axis], upper);
+        apart |= lower > box.upper[axis];
+        apart |= upper < box.lower[axis];
+    }
+    return bits_of(~apart);
+}
+
+CDPREP_WITH_AVX2
 TriangleTree::Nearest TriangleTree::nearest(const Double3& p, std::uint32_t hint) const {
     double least = std::numeric_limits<double>::infinity();
+    float limit = std::numeric_limits<float>::max();  // boxes that are farther are not looked at
     std::uint32_t found = 0;
-    if (hint < order_.size()) {
-        least = square_to_triangle(p, corners(hint));
-        found = hint;
-    }
-    struct Waiting {
-        std::size_t node;
-        double square;
+    const auto look_at = [&](std::size_t place) {
+        const double square = square_to_triangle(p, corners_[place]);
+        if (!(square < least)) return;
+        least = square;
+        limit = static_cast<float>(std::min(square * scale_ * scale_ * kFurther, kMostSquare));
+        found = order_[place];
     };
-    std::array<Waiting, 64> stack;
+    if (hint < order_.size()) look_at(place_[hint]);
+    const std::array<float, 3> at = {static_cast<float>((p.x - centre_.x) * scale_),
+                                     static_cast<float>((p.y - centre_.y) * scale_),
+                                     static_cast<float>((p.z - centre_.z) * scale_)};
+    struct Waiting {
+        Place place;
+        float square;
+    };
+    std::array<Waiting, kMostWaiting> stack;
     std::size_t depth = 0;
-    stack[depth++] = {0, square_to_box(p, boxes_[0])};
+    stack[depth++] = {{top_level(), 0}, 0};
     while (depth > 0) {
-        const Waiting at = stack[--depth];
-        if (at.square >= least) continue;
-        if (at.node + 1 < leaf_count_) {
-            Waiting near{2 * at.node + 1, square_to_box(p, boxes_[2 * at.node + 1])};
-            Waiting far{2 * at.node + 2, square_to_box(p, boxes_[2 * at.node + 2])};
-            if (far.square < near.square) std::swap(near, far);
-            if (far.square < least) stack[depth++] = far;
-            if (near.square < least) stack[depth++] = near;
+        const Waiting next = stack[--depth];
+        if (next.square > limit) continue;
+        const Lanes& lanes = node(next.place);
+        Floats squares{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            Floats lower, upper;
+            load(lanes.lower[axis], lower);
+            load(lanes.upper[axis], upper);
+            add_square_beyond(lower, at[axis], upper, squares);
+        }
+        std::array<float, kWidth> square;
+        std::memcpy(square.data(), &squares, sizeof square);
+        // The nearest last: it is on top of the stack then.
+        std::array<std::uint8_t, kWidth> order;
+        std::size_t count = 0;
+        for (unsigned near = bits_of(squares <= limit); near != 0; near &= near - 1) {
+            const auto k = static_cast<std::uint8_t>(std::countr_zero(near));
+            std::size_t i = count++;
+            for (; i > 0 && square[order[i - 1]] < square[k]; --i) order[i] = order[i - 1];
+            order[i] = k;
+        }
+        if (next.place.level > 0) {
+            for (std::size_t i = 0; i < count; ++i) {
+                stack[depth++] = {below(next.place, order[i]), square[order[i]]};
+            }
             continue;
         }
-        const std::size_t leaf = at.node + 1 - leaf_count_;
-        for (std::size_t i = leaf_begin(leaf); i < leaf_begin(leaf + 1); ++i) {
-            const double square = square_to_triangle(p, corners_[i]);
-            if (square < least) {
-                least = square;
-                found = order_[i];
-            }
+        while (count > 0 && square[order[count - 1]] <= limit) {
+            look_at(leaf_begin(next.place.index) + order[--count]);
         }
     }
     return {found, std::sqrt(least)};

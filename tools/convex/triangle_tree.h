@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -19,6 +21,10 @@ using Corners = std::array<Double3, 3>;
 
 /// Triangles in boxes within boxes, for very many questions about points while pieces are
 /// searched: the nearest triangle, and those along a ray.
+///
+/// Each node has eight boxes side by side, of floats, in coordinates in which all lie
+/// between -1 and 1; they are larger than what they hold by more than rounding does to
+/// them and to a point, so that nothing is missed.
 class TriangleTree {
 public:
     /// Copies the corners. O(n log n). The same for any parallel_for.
@@ -31,31 +37,39 @@ public:
     };
 
     /// The triangle nearest to p, as far as double can tell. There is at least one.
-    /// `hint` is the number of a triangle that may be near, or any other number.
+    /// `hint` is the number of a triangle that may be near, or any other number: it changes
+    /// the time, and which of several at the same distance is named.
     [[nodiscard]] Nearest nearest(
         const Double3& p, std::uint32_t hint = std::numeric_limits<std::uint32_t>::max()) const;
 
     /// Calls visit(number) for every triangle whose box meets the ray from p along +x.
     template <class Visit>
     void along_x(const Double3& p, const Visit& visit) const {
-        visit_boxes(
-            [&p](const mesh::Box& box) {
-                return box.upper.x >= p.x && box.lower.y <= p.y && p.y <= box.upper.y &&
-                       box.lower.z <= p.z && p.z <= box.upper.z;
-            },
-            visit);
+        in_box({p, {std::numeric_limits<double>::infinity(), p.y, p.z}}, visit);
     }
 
     /// Calls visit(number) for every triangle whose box meets this one.
     template <class Visit>
     void in_box(const mesh::Box& wanted, const Visit& visit) const {
-        visit_boxes(
-            [&wanted](const mesh::Box& box) {
-                return box.lower.x <= wanted.upper.x && wanted.lower.x <= box.upper.x &&
-                       box.lower.y <= wanted.upper.y && wanted.lower.y <= box.upper.y &&
-                       box.lower.z <= wanted.upper.z && wanted.lower.z <= box.upper.z;
-            },
-            visit);
+        const FloatBox box = to_floats(wanted);
+        std::array<Place, kMostWaiting> stack;
+        std::size_t depth = 0;
+        stack[depth++] = {top_level(), 0};
+        while (depth > 0) {
+            const Place at = stack[--depth];
+            unsigned met = which_meet(node(at), box);
+            for (; met != 0; met &= met - 1) {
+                const auto k = static_cast<std::size_t>(std::countr_zero(met));
+                if (at.level > 0) {
+                    stack[depth++] = below(at, k);
+                    continue;
+                }
+                const std::size_t i = leaf_begin(at.index) + k;
+                mesh::Box of_triangle;
+                for (const Double3& corner : corners_[i]) of_triangle.add(corner);
+                if (of_triangle.meets(wanted)) visit(order_[i]);
+            }
+        }
     }
 
     [[nodiscard]] const Corners& corners(std::uint32_t triangle) const {
@@ -65,45 +79,54 @@ public:
         return order_.size();
     }
     [[nodiscard]] const mesh::Box& box() const {
-        return boxes_.front();
+        return box_;
     }
 
 private:
-    /// Node i has the children 2i + 1 and 2i + 2; the last level are leaves.
+    static constexpr std::size_t kWidth = 8;
+    static constexpr std::size_t kMostWaiting = 11 * (kWidth - 1) + 1;  ///< 2^33 triangles
+
+    /// Boxes side by side; empty ones are met by nothing.
+    struct Lanes {
+        alignas(32) std::array<std::array<float, kWidth>, 3> lower, upper;
+    };
+    struct FloatBox {
+        std::array<float, 3> lower, upper;
+    };
+    /// A node: on level 0 its boxes are of the triangles of a leaf, else of nodes on the
+    /// level below, of which node i has those from 8 i on.
+    struct Place {
+        std::uint32_t level;
+        std::uint32_t index;
+    };
+    static Place below(const Place& at, std::size_t k) {
+        return {at.level - 1, static_cast<std::uint32_t>(kWidth * at.index + k)};
+    }
+    [[nodiscard]] const Lanes& node(const Place& at) const {
+        return nodes_[first_of_level_[at.level] + at.index];
+    }
+    [[nodiscard]] std::uint32_t top_level() const {
+        return static_cast<std::uint32_t>(first_of_level_.size() - 2);
+    }
     [[nodiscard]] std::size_t leaf_begin(std::size_t leaf) const {
         return order_.size() * leaf / leaf_count_;
     }
+    [[nodiscard]] FloatBox to_floats(const mesh::Box& box) const;
+    static unsigned which_meet(const Lanes& lanes, const FloatBox& box);
     void split_level(std::size_t level, std::span<const Double3> middles, ParallelFor parallel_for);
     void sort_leaves(ParallelFor parallel_for);
+    void choose_unit(std::span<const Double3> positions, std::span<const Triangle> triangles);
     void fill_boxes(ParallelFor parallel_for);
-
-    template <class Meets, class Visit>
-    void visit_boxes(const Meets& meets, const Visit& visit) const {
-        std::array<std::size_t, 64> stack;
-        std::size_t depth = 0;
-        stack[depth++] = 0;
-        while (depth > 0) {
-            const std::size_t node = stack[--depth];
-            if (!meets(boxes_[node])) continue;
-            if (node + 1 < leaf_count_) {
-                stack[depth++] = 2 * node + 2;
-                stack[depth++] = 2 * node + 1;
-                continue;
-            }
-            const std::size_t leaf = node + 1 - leaf_count_;
-            for (std::size_t i = leaf_begin(leaf); i < leaf_begin(leaf + 1); ++i) {
-                mesh::Box box;
-                for (const Double3& corner : corners_[i]) box.add(corner);
-                if (meets(box)) visit(order_[i]);
-            }
-        }
-    }
 
     std::size_t leaf_count_ = 1;  ///< a power of two
     std::vector<std::uint32_t> order_;
     std::vector<std::uint32_t> place_;  ///< of each triangle in the order
     std::vector<Corners> corners_;      ///< in the order
-    std::vector<mesh::Box> boxes_;
+    mesh::Box box_;
+    Double3 centre_{};  ///< of the box; floats are of (p - centre) * scale
+    double scale_ = 1;  ///< a power of two
+    std::vector<Lanes> nodes_;
+    std::vector<std::size_t> first_of_level_;  ///< of the nodes; the last one is their number
 };
 
 }  // namespace cdprep::convex
