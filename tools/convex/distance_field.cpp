@@ -11,16 +11,17 @@ namespace cdprep::convex {
 namespace {
 
 constexpr double kMostNodes = 8e6;
-constexpr double kSampling = 0.4;        ///< of a spacing: sides of the last triangles
-constexpr double kCentreWay = 0.67;      ///< of the longest side: from the centre to a corner
-constexpr double kInterpolation = 0.87;  ///< of a spacing: the farthest node of a cube's eight
-constexpr double kTooLow = 0.35;         ///< of a spacing: what a field mostly lacks at most
-constexpr std::size_t kFiner = 3;        ///< times, the field that is measured when asked for
-constexpr double kMostFine = 6.4e7;      ///< nodes of that
+constexpr double kSampling = 0.4;    ///< of a spacing: sides of the last triangles
+constexpr double kCentreWay = 0.67;  ///< of the longest side: from the centre to a corner
+constexpr double kRounded = 1e-5;    ///< of a spacing: more than what rounding to float does
+constexpr double kTooLow = 0.35;     ///< of a spacing: what a field mostly lacks at most
+constexpr std::size_t kFiner = 3;    ///< times, the field that is measured when asked for
+constexpr double kMostFine = 6.4e7;  ///< nodes of that
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 constexpr std::size_t kGroup = 4;  ///< nodes along each axis that are kept out together
 constexpr double kShell = 1.5;     ///< spacings: how thick a layer of nodes is
 constexpr std::size_t kBlock = 8;  ///< nodes along each axis
+constexpr std::size_t kFacetsAtOnce = 16;
 
 double apart(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
@@ -85,6 +86,7 @@ DistanceField::DistanceField(const Solid& solid, double spacing, double beyond,
     origin_ = {begin(box.lower.x, size.x, count_[0]), begin(box.lower.y, size.y, count_[1]),
                begin(box.lower.z, size.z, count_[2])};
     distance_.resize(count_[0] * count_[1] * count_[2]);
+    nearest_.resize(distance_.size());
     std::array<std::size_t, 3> blocks{};
     for (std::size_t k = 0; k < 3; ++k) blocks[k] = (count_[k] + kBlock - 1) / kBlock;
     const auto fill_block = [&](std::size_t i) {
@@ -131,12 +133,14 @@ void DistanceField::fill(const Block& block, double beyond) {
             for (std::size_t x = x0; x < x1; ++x) {
                 float& value = distance_[index(x, y, z)];
                 if (is_far) {
+                    nearest_[index(x, y, z)] = near.triangle;
                     value = static_cast<float>(inside ? radius - near.distance
                                                       : near.distance - radius);
                     continue;
                 }
                 const Double3 p = node(x, y, z);
                 near = solid_->tree().nearest(p, near.triangle);
+                nearest_[index(x, y, z)] = near.triangle;
                 const bool is_new_row = x == x0;
                 if (!one_sided && (is_new_row || std::max(before, near.distance) <= spacing_)) {
                     is_inside = solid_->includes(p);
@@ -187,10 +191,15 @@ double DistanceField::fine_node(std::size_t x, std::size_t y, std::size_t z) con
     const Double3 p = {origin_.x + static_cast<double>(x) * step,
                        origin_.y + static_cast<double>(y) * step,
                        origin_.z + static_cast<double>(z) * step};
-    const double distance = solid_->tree().nearest(p).distance;
-    const double by_field = at(p);
+    // The node of the grid that is nearest: at most half a spacing away along each axis.
+    const auto beside = [](std::size_t at) { return (at + kFiner / 2) / kFiner; };
+    const std::size_t known_node = index(beside(x), beside(y), beside(z));
+    const double distance = solid_->tree().nearest(p, nearest_[known_node]).distance;
+    // No surface between the two: both are on one side.
+    const double to_node = apart(p, node(beside(x), beside(y), beside(z))) + kRounded * spacing_;
+    const auto of_node = static_cast<double>(distance_[known_node]);
     const bool is_inside =
-        std::fabs(by_field) > kInterpolation * spacing_ ? by_field < 0 : solid_->includes(p);
+        std::max(distance, std::fabs(of_node)) > to_node ? of_node < 0 : solid_->includes(p);
     const auto found = static_cast<float>(is_inside ? -distance : distance);
     value.store(found, std::memory_order_relaxed);
     return static_cast<double>(found);
@@ -231,11 +240,24 @@ void DistanceField::sample(std::array<Double3, 3> corners, Detail detail, Estima
     sample({cut, corners[1], corners[2]}, detail, most);
 }
 
-Estimate DistanceField::estimate(const ConvexHull& hull, double least, Detail detail) const {
+Estimate DistanceField::estimate(const ConvexHull& hull, double least, Detail detail,
+                                 ParallelFor run) const {
     Estimate most{least};
     if (hull.dimension == 1) sample({hull.points[0], hull.points[1], hull.points[1]}, detail, most);
-    for (const auto& f : hull.facets) {
-        sample({hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]}, detail, most);
+    const std::size_t count = (hull.facets.size() + kFacetsAtOnce - 1) / kFacetsAtOnce;
+    std::vector<Estimate> found(count, Estimate{least});
+    const auto look = [&](std::size_t i) {
+        const std::size_t end = std::min((i + 1) * kFacetsAtOnce, hull.facets.size());
+        for (std::size_t k = i * kFacetsAtOnce; k < end; ++k) {
+            const auto& f = hull.facets[k];
+            sample({hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]}, detail, found[i]);
+        }
+    };
+    run(count, look);
+    for (const Estimate& one : found) {
+        const std::size_t samples = most.samples + one.samples;
+        if (one.distance > most.distance) most = one;
+        most.samples = samples;
     }
     return most;
 }

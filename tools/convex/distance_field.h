@@ -46,8 +46,9 @@ public:
     [[nodiscard]] PointGroups nodes_beyond(double distance) const;
 
     /// The greatest distance on the hull's surface, where it is more than `least`; else
-    /// `least` itself. By samples about half a spacing apart.
-    [[nodiscard]] Estimate estimate(const ConvexHull& hull, double least, Detail detail) const;
+    /// `least` itself. By samples about half a spacing apart. The same for any `run`.
+    [[nodiscard]] Estimate estimate(const ConvexHull& hull, double least, Detail detail,
+                                    ParallelFor run = serial_for) const;
 
 private:
     struct Block {
@@ -67,6 +68,7 @@ private:
     double spacing_;
     std::array<std::size_t, 3> count_{};  ///< nodes along each axis
     std::vector<float> distance_;
+    std::vector<std::uint32_t> nearest_;  ///< to each node, or near it
     std::array<std::size_t, 3> fine_count_{};
     /// Unknown until it is asked for; whoever asks finds the same.
     std::unique_ptr<std::atomic<float>[]> fine_;

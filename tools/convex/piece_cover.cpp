@@ -212,28 +212,28 @@ private:
         return grown;
     }
 
-    [[nodiscard]] Estimate measure(std::span<const std::uint32_t> piece) const {
+    [[nodiscard]] Estimate measure(std::span<const std::uint32_t> piece, ParallelFor run) const {
         std::vector<Double3> points;
         for (const std::uint32_t cell : piece) {
             points.insert(points.end(), cells_[cell].points.begin(), cells_[cell].points.end());
         }
-        return field_.estimate(convex_hull(points), options_.error, Detail::fine);
+        return field_.estimate(convex_hull(points), options_.error, Detail::fine, run);
     }
 
     /// A piece within the error: grown anew, with points kept out that it had taken in, where
     /// it is not; and what it took in last is given up where that does not help.
     Grown grow_within_error(std::uint32_t seed, const std::vector<bool>& wanted,
-                            const PointGroups& far) const {
+                            const PointGroups& far, ParallelFor run) const {
         Grown grown = grow(seed, wanted, far);
         std::vector<Estimate> found;
         PointGroups kept_out;
         std::size_t work = grown.work;
         for (std::size_t i = 0; grown.cells.size() > 1; ++i) {
-            const Estimate error = measure(grown.cells);
+            const Estimate error = measure(grown.cells, run);
             work += error.samples * kWorkOfSample;
             if (error.distance <= options_.error) break;
             if (i == kRegrowths) {
-                work += give_up_last(grown.cells);
+                work += give_up_last(grown.cells, run);
                 break;
             }
             if (i == 0) kept_out = far;
@@ -249,13 +249,13 @@ private:
 
     /// Halves what is in question: what follows a prefix that is too much is, too. Returns
     /// the work that it took.
-    std::size_t give_up_last(Cells& cells) const {
+    std::size_t give_up_last(Cells& cells, ParallelFor run) const {
         std::size_t good = 1;
         std::size_t bad = cells.size();
         std::size_t work = 0;
         while (good + 1 < bad) {
             const std::size_t middle = (good + bad) / 2;
-            const Estimate error = measure(std::span(cells).first(middle));
+            const Estimate error = measure(std::span(cells).first(middle), run);
             work += error.samples * kWorkOfSample;
             (error.distance <= options_.error ? good : bad) = middle;
         }
@@ -319,7 +319,7 @@ private:
             const Cells seeds = choose_seeds(wanted, kSeeds, salt + progress.chosen.size());
             std::vector<Grown> grown(seeds.size());
             const auto grow_one = [&](std::size_t i) {
-                grown[i] = grow_within_error(seeds[i], wanted, far);
+                grown[i] = grow_within_error(seeds[i], wanted, far, run);
             };
             run(seeds.size(), grow_one);
             for (Grown& one : grown) {
