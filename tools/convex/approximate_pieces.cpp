@@ -143,19 +143,12 @@ private:
         for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
             triangles_of_[label_[solid_.body_of(i)]].push_back(i);
         }
+        gather_vertices();
         whole_.resize(label_count_);
         const auto measure = [&](std::size_t label) {
             ApproximatePiece& piece = whole_[label];
             piece.triangles = triangles_of_[label];
-            std::vector<std::uint32_t> vertices;
-            for (const std::uint32_t i : piece.triangles) {
-                const auto& v = mesh_.triangles[i].vertex;
-                vertices.insert(vertices.end(), v.begin(), v.end());
-            }
-            std::sort(vertices.begin(), vertices.end());
-            vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-            for (const std::uint32_t v : vertices) points_of_[label].push_back(mesh_.positions[v]);
-            piece.hull = convex_hull(points_of_[label]);
+            piece.hull = convex_hull(points_of_[label], options_.parallel_for);
             piece.hull.numbers.clear();
             piece.node = node_[solid_.body_of(piece.triangles.front())];
             if (options_.reference == Reference::solid &&
@@ -168,6 +161,19 @@ private:
             piece.error = find_hull_error(piece.hull, solid_, how);
         };
         options_.parallel_for(label_count_, measure);
+    }
+
+    /// A vertex is of one body, and so of one label.
+    void gather_vertices() {
+        std::vector<std::uint32_t> label_of(mesh_.positions.size(), label_count_);
+        for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
+            for (const std::uint32_t v : mesh_.triangles[i].vertex) {
+                label_of[v] = label_[solid_.body_of(i)];
+            }
+        }
+        for (std::size_t v = 0; v < label_of.size(); ++v) {
+            if (label_of[v] < label_count_) points_of_[label_of[v]].push_back(mesh_.positions[v]);
+        }
     }
 
     [[nodiscard]] bool is_whole(std::uint32_t label, double error) const {
