@@ -33,15 +33,26 @@ class Modelled {
 public:
     explicit Modelled(std::size_t threads) : threads_(threads) {}
 
+    /// Tasks that hand out tasks themselves are taken to find threads for them.
     void operator()(std::size_t count, Task task) {
         std::vector<double> busy(threads_, 0);
+        double longest = 0;
+        const double saved_before = std::exchange(saved_, 0);
+        bool hands_out = false;
         const double begin = processor_seconds();
         for (std::size_t i = 0; i < count; ++i) {
             const double before = processor_seconds();
             task(i);
-            *std::min_element(busy.begin(), busy.end()) += processor_seconds() - before;
+            const double took = processor_seconds() - before;
+            *std::min_element(busy.begin(), busy.end()) += took;
+            hands_out = hands_out || saved_ > 0;
+            longest = std::max(longest, took - std::exchange(saved_, 0));
         }
-        saved_ += processor_seconds() - begin - *std::max_element(busy.begin(), busy.end());
+        const double all = processor_seconds() - begin;
+        const double shared = all / static_cast<double>(threads_);
+        const double needed =
+            hands_out ? std::max(shared, longest) : *std::max_element(busy.begin(), busy.end());
+        saved_ = saved_before + all - needed;
     }
     [[nodiscard]] double take_saved() {
         return std::exchange(saved_, 0);
