@@ -27,7 +27,8 @@ using Corners = std::array<Double3, 3>;
 /// them and to a point, so that nothing is missed.
 class TriangleTree {
 public:
-    /// Copies the corners. O(n log n). The same for any parallel_for.
+    /// Copies the corners. O(n log n). The same for any parallel_for. Fourth powers of the
+    /// box's sides are within the range of doubles.
     TriangleTree(std::span<const Double3> positions, std::span<const Triangle> triangles,
                  ParallelFor parallel_for);
 
