@@ -222,9 +222,11 @@ void add_decompose(CLI::App& app, Exit& exit) {
         ->add_option("--max-vertices", enclosed.max_vertices,
                      "An engine's limit of vertices a piece, at least 4")
         ->check(CLI::Range(convex::kFewestEnclosingVertices, 1U << 30U));
-    command->add_option(
-        "--work", enclosed.work,
-        "How much a search may look at; when that is too little, what is found is looser");
+    command
+        ->add_option("--work", enclosed.work,
+                     "How much may be looked at in all, some ten nanoseconds of a core each; when "
+                     "that is too little, what is found is looser")
+        ->capture_default_str();
     command->add_flag("--to-surface", enclosed.to_surface,
                       "Measure from the surface alone: sheets, hollow bodies");
     command->add_flag("--merge-components", enclosed.merge_components,

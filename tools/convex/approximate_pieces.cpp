@@ -49,6 +49,18 @@ constexpr double kFineError = 0.02;    ///< of the diagonal: below, exact pieces
 constexpr std::size_t kFewCells = 48;  ///< that are joined within an error: it takes long
 constexpr std::size_t kShareOfWork = 20;  ///< for the search for fewer than those
 
+// Work, in units of ApproximateOptions::work, roughly.
+constexpr std::size_t kWorkOfNode = 60;           ///< of a field, measured
+constexpr std::size_t kWorkOfFragment = 60;       ///< that cells are cut into
+constexpr std::size_t kWorkOfCell = 2'000;        ///< one that is cut out
+constexpr std::size_t kWorkOfErrorCell = 150;     ///< that find_hull_error() looks at
+constexpr std::size_t kFewestNodes = 100'000;     ///< of a field, whatever work is left
+constexpr std::size_t kFewestCells = 500;         ///< that are cut, whatever work is left
+constexpr std::size_t kFewestErrorCells = 2'000;  ///< for each hull, whatever work is left
+constexpr double kWorkPower = 0.5;    ///< of work that is too much: by how much errors grow
+constexpr double kLeastGrowth = 1.5;  ///< of an error that takes too much work
+constexpr double kMostGrowth = 8;
+
 /// Cells and distances, fit for errors about as large as `error`.
 struct Stage {
     double error;
@@ -64,6 +76,7 @@ struct Found {
     std::vector<std::vector<std::uint32_t>> pieces;
     std::vector<std::uint32_t> whole;  ///< bodies that are one piece
     bool complete = false;
+    double share = 0;  ///< of the cells that pieces had taken in, where incomplete
     [[nodiscard]] std::size_t count() const {
         return pieces.size() + whole.size();
     }
@@ -93,6 +106,7 @@ public:
         for (int i = 0; i < 4 && options_.max_error && found.count() <= most; ++i) {
             if (result.outer_error <= *options_.max_error || !found.complete) break;
             if (found.stage && !found.stage->field) break;  // no estimates: they were proved
+            if (ran_out_of_work_ || found.error <= kLeastError * solid_.diagonal()) break;
             const double share = 0.95 * *options_.max_error / result.outer_error;
             found = cover_with_few(std::max(share, kLeastShare) * found.error);
             ran_out_of_work_ = ran_out_of_work_ || !found.complete;
@@ -105,7 +119,9 @@ public:
         }
         result.is_as_asked = result.pieces.size() <= most &&
                              (!options_.max_error || result.outer_error <= *options_.max_error);
-        result.ran_out_of_work = ran_out_of_work_;
+        // Bounds that are not close for want of work matter only then.
+        result.ran_out_of_work =
+            ran_out_of_work_ || (result.ran_out_of_work && !result.is_as_asked);
         return result;
     }
 
@@ -145,6 +161,7 @@ private:
         }
         gather_vertices();
         whole_.resize(label_count_);
+        const std::size_t most_cells = most_error_cells(label_count_);
         const auto measure = [&](std::size_t label) {
             ApproximatePiece& piece = whole_[label];
             piece.triangles = triangles_of_[label];
@@ -158,9 +175,27 @@ private:
             HullErrorOptions how;
             how.relative = kRelative;
             how.enough = kLeastError * solid_.diagonal();
+            how.most_cells = most_cells;
             piece.error = find_hull_error(piece.hull, solid_, how);
         };
         options_.parallel_for(label_count_, measure);
+        for (const ApproximatePiece& piece : whole_) {
+            work_done_ += kWorkOfErrorCell * piece.error.cells;
+        }
+    }
+
+    [[nodiscard]] std::size_t work_left() const {
+        return options_.work > work_done_ ? options_.work - work_done_ : 0;
+    }
+    /// For one search: half, so that there is enough for a looser one where that is too little;
+    /// without what is kept for the measurement of what is found.
+    [[nodiscard]] std::size_t most_search() const {
+        return (work_left() - std::min(work_left() / 2, options_.work / 8)) / 2;
+    }
+    /// For each of some hulls, together half of the work that is left.
+    [[nodiscard]] std::size_t most_error_cells(std::size_t hulls) const {
+        return std::clamp(work_left() / 2 / kWorkOfErrorCell / hulls, kFewestErrorCells,
+                          HullErrorOptions{}.most_cells);
     }
 
     /// A vertex is of one body, and so of one label.
@@ -184,10 +219,14 @@ private:
         const bool fits =
             stage_ && error <= stage_->error * kReuse && error >= stage_->error / kReuse;
         if (fits) return stage_;
-        DistanceField field(solid_, kSpacing * error, kReach * error, options_.parallel_for);
+        const std::size_t most_nodes =
+            std::clamp(most_search() / 2 / kWorkOfNode, kFewestNodes, DistanceField::kMostNodes);
+        DistanceField field(solid_, kSpacing * error, kReach * error, options_.parallel_for,
+                            most_nodes);
         SolidCellOptions how;
         how.size = kCellSize * error;
         how.error = kCellError * error;
+        how.most_cells = std::clamp(most_search() / 4 / kWorkOfCell, kFewestCells, how.most_cells);
         how.parallel_for = options_.parallel_for;
         SolidCells cells = cut_into_cells(mesh_, solid_, field, how);
         std::vector<CoverCell> cover(cells.cells.size());
@@ -196,6 +235,8 @@ private:
             cover[i] = {cell.box, label_[cell.body], extreme_points(cells, cell)};
         };
         options_.parallel_for(cover.size(), gather);
+        work_done_ += kWorkOfNode * field.measured() + kWorkOfFragment * cells.fragments.size() +
+                      kWorkOfCell * cells.cells.size();
         stage_ = std::make_shared<const Stage>(
             Stage{error, std::move(field), std::move(cells), std::move(cover)});
         return stage_;
@@ -244,12 +285,13 @@ private:
         how.few_enough = few_enough > found.whole.size() ? few_enough - found.whole.size() : 0;
         how.begin_with = found.pieces;
         how.known = known_;
-        how.most_work = options_.work > work_done_ ? options_.work - work_done_ : 0;
+        how.most_work = most_search();
         how.parallel_for = options_.parallel_for;
         Cover covered = cover_with_pieces(cells, *found.stage->field, how);
         work_done_ += covered.work;
         known_.insert(known_.end(), covered.found.begin(), covered.found.end());
         found.complete = covered.complete;
+        found.share = covered.share;
         found.pieces = std::move(covered.pieces);
         renumber(numbers);
     }
@@ -300,6 +342,14 @@ private:
         return found;
     }
 
+    /// By how much larger an error needs as little work as is left, after one that took too
+    /// much: larger cells, fewer pieces.
+    [[nodiscard]] double growth_after(const Found& incomplete, std::size_t work) const {
+        const double needed = static_cast<double>(work) / std::max(incomplete.share, 0.01);
+        const double left = static_cast<double>(std::max<std::size_t>(most_search(), 1));
+        return std::clamp(std::pow(needed / left, kWorkPower), kLeastGrowth, kMostGrowth);
+    }
+
     Found find_by_error(double max_error) {
         auto exact = cut_exactly(max_error);
         if (!exact) return find_within(max_error);
@@ -307,9 +357,10 @@ private:
         const bool is_enough =
             exact->count() <= label_count_ + 1 || max_error < kFineError * solid_.diagonal();
         if (is_enough) return std::move(*exact);
-        work_done_ = options_.work - options_.work / kShareOfWork;
+        const std::size_t kept_back = options_.work - options_.work / kShareOfWork;
+        work_done_ += kept_back;
         Found found = cover_with_few(kMeasured * max_error);
-        work_done_ = 0;
+        work_done_ -= kept_back;
         if (!found.complete || found.count() >= exact->count()) return std::move(*exact);
         exact_ = std::move(exact);
         return found;
@@ -318,12 +369,11 @@ private:
     Found find_within(double max_error) {
         double error = kMeasured * max_error;
         while (error < solid_.diagonal()) {
+            const std::size_t before = work_done_;
             Found found = cover_with_few(error);
             if (found.complete) return found;
             ran_out_of_work_ = true;
-            // Room for a looser one: it has fewer pieces.
-            work_done_ = options_.work / 2;
-            error *= 1.5;
+            error = found.error * growth_after(found, work_done_ - before);
         }
         return all_whole();
     }
@@ -366,13 +416,13 @@ private:
         Bracket bracket;
         Found close;
         for (std::size_t i = 0; i < kTries && !bracket.is_closed(); ++i) {
+            const std::size_t before = work_done_;
             Found found = cover(error);
             if (!found.complete) {
-                // A larger error takes less work.
                 ran_out_of_work_ = true;
                 if (best.error < solid_.diagonal()) return best;
-                work_done_ = std::min(work_done_, options_.work / 4 * 3);
-                error = std::min(1.6 * error, solid_.diagonal());
+                error *= growth_after(found, work_done_ - before);
+                if (error >= solid_.diagonal()) return best;
                 continue;
             }
             const double count = static_cast<double>(found.count());
@@ -451,11 +501,28 @@ private:
         HullErrorOptions how;
         how.relative = kRelative;
         how.enough = (1 + kRelative) * *std::max_element(estimates.begin(), estimates.end());
-        const auto measure = [&](std::size_t i) {
-            if (is_measured[i] != 0) return;
-            result.pieces[i].error = find_hull_error(result.pieces[i].hull, solid_, how);
-        };
-        options_.parallel_for(points.size(), measure);
+        // Few hulls take more than most do: those get what work is left.
+        how.most_cells = 0;
+        for (int round = 0; round < 2; ++round) {
+            std::vector<std::size_t> open;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                if (is_measured[i] == 0) open.push_back(i);
+            }
+            if (open.empty() || most_error_cells(open.size()) <= how.most_cells) break;
+            how.most_cells = most_error_cells(open.size());
+            const auto measure = [&](std::size_t k) {
+                result.pieces[open[k]].error =
+                    find_hull_error(result.pieces[open[k]].hull, solid_, how);
+            };
+            options_.parallel_for(open.size(), measure);
+            for (const std::size_t i : open) {
+                const std::size_t cells = result.pieces[i].error.cells;
+                work_done_ += kWorkOfErrorCell * cells;
+                is_measured[i] = cells < how.most_cells / 2 ? 1 : 0;
+            }
+        }
+        result.ran_out_of_work =
+            std::find(is_measured.begin(), is_measured.end(), 0) != is_measured.end();
         result.proof.triangles = mesh_.triangles.size();
         for (std::size_t i = 0; i < proofs.size(); ++i) {
             result.proof.fragments += proofs[i].fragments;

@@ -31,7 +31,10 @@ struct ApproximateOptions {
     std::span<const std::uint32_t> node_of;
     /// Per node, whether it is one piece whatever the error: its hull. Empty: none.
     std::span<const std::uint8_t> convex_node;
-    /// How much the search may look at, in all: some ten nanoseconds of one core each. What is
+    /// How much is looked at, in all: some ten nanoseconds of one core each, besides what
+    /// reading the mesh takes. It is shared among fields of distances, cells, searches at one
+    /// error after the other and the final bounds, each of which takes at most a part of what
+    /// is left; counted, not timed, so that results do not depend on the machine. What is
     /// found with that is looser than asked where it does not suffice, and says so.
     std::size_t work = 1'000'000'000;
     ParallelFor parallel_for = serial_for;

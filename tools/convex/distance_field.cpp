@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
 namespace {
 
-constexpr double kMostNodes = 8e6;
 constexpr double kSampling = 0.4;    ///< of a spacing: sides of the last triangles
 constexpr double kCentreWay = 0.67;  ///< of the longest side: from the centre to a corner
 constexpr double kRounded = 1e-5;    ///< of a spacing: more than what rounding to float does
@@ -21,7 +21,7 @@ constexpr float kUnknown = std::numeric_limits<float>::infinity();
 constexpr std::size_t kGroup = 4;  ///< nodes along each axis that are kept out together
 constexpr double kShell = 1.5;     ///< spacings: how thick a layer of nodes is
 constexpr std::size_t kBlock = 8;  ///< nodes along each axis
-constexpr std::size_t kFacetsAtOnce = 16;
+constexpr std::size_t kFacetsAtOnce = 32;
 
 double apart(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
@@ -68,12 +68,13 @@ double interpolated(const GridPlace& place, const Node& node) {
 }  // namespace
 
 DistanceField::DistanceField(const Solid& solid, double spacing, double beyond,
-                             ParallelFor parallel_for)
+                             ParallelFor parallel_for, std::size_t most_nodes)
     : solid_(&solid), spacing_(spacing) {
     const mesh::Box& box = solid.tree().box();
     const Double3 size = mesh::minus(box.upper, box.lower);
     const auto nodes_along = [&](double length) { return std::floor(length / spacing_) + 2; };
-    while (nodes_along(size.x) * nodes_along(size.y) * nodes_along(size.z) > kMostNodes) {
+    while (nodes_along(size.x) * nodes_along(size.y) * nodes_along(size.z) >
+           static_cast<double>(most_nodes)) {
         spacing_ *= 1.25;
     }
     count_ = {static_cast<std::size_t>(nodes_along(size.x)),
@@ -89,12 +90,14 @@ DistanceField::DistanceField(const Solid& solid, double spacing, double beyond,
     nearest_.resize(distance_.size());
     std::array<std::size_t, 3> blocks{};
     for (std::size_t k = 0; k < 3; ++k) blocks[k] = (count_[k] + kBlock - 1) / kBlock;
+    std::vector<std::size_t> measured(blocks[0] * blocks[1] * blocks[2]);
     const auto fill_block = [&](std::size_t i) {
-        fill({{i % blocks[0] * kBlock, i / blocks[0] % blocks[1] * kBlock,
-               i / blocks[0] / blocks[1] * kBlock}},
-             beyond);
+        measured[i] = fill({{i % blocks[0] * kBlock, i / blocks[0] % blocks[1] * kBlock,
+                             i / blocks[0] / blocks[1] * kBlock}},
+                           beyond);
     };
-    parallel_for(blocks[0] * blocks[1] * blocks[2], fill_block);
+    parallel_for(measured.size(), fill_block);
+    measured_ = std::accumulate(measured.begin(), measured.end(), std::size_t{0});
     double fine = 1;
     for (std::size_t k = 0; k < 3; ++k) {
         fine_count_[k] = kFiner * (count_[k] - 1) + 1;
@@ -115,7 +118,7 @@ Double3 DistanceField::node(std::size_t x, std::size_t y, std::size_t z) const {
 
 /// Far from the surface the middle stands for all nodes of a block. Elsewhere a node is on
 /// the side of the one before it unless the surface may pass between them.
-void DistanceField::fill(const Block& block, double beyond) {
+std::size_t DistanceField::fill(const Block& block, double beyond) {
     const auto [x0, y0, z0] = block.first;
     const std::size_t x1 = std::min(x0 + kBlock, count_[0]);
     const std::size_t y1 = std::min(y0 + kBlock, count_[1]);
@@ -150,6 +153,7 @@ void DistanceField::fill(const Block& block, double beyond) {
             }
         }
     }
+    return is_far ? 1 : (x1 - x0) * (y1 - y0) * (z1 - z0);
 }
 
 double DistanceField::at(const Double3& p) const {

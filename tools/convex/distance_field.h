@@ -29,13 +29,20 @@ enum class Detail : std::uint8_t { coarse, fine };
 /// Rounded and interpolated; results are measured afterwards.
 class DistanceField {
 public:
+    static constexpr std::size_t kMostNodes = 8'000'000;
+
     /// Keeps a reference to `solid`. `spacing` and `beyond` are model units: up to `beyond`
-    /// outside, distances are measured, what is farther is only known to be. Nodes are at most some
-    /// millions; the grid is coarser where there would be more. The same for any parallel_for.
-    DistanceField(const Solid& solid, double spacing, double beyond, ParallelFor parallel_for);
+    /// outside, distances are measured, what is farther is only known to be. The grid is coarser
+    /// where there would be more than `most_nodes`. The same for any parallel_for.
+    DistanceField(const Solid& solid, double spacing, double beyond, ParallelFor parallel_for,
+                  std::size_t most_nodes = kMostNodes);
 
     [[nodiscard]] double spacing() const {
         return spacing_;
+    }
+    /// How many nodes were measured one by one, not as a block.
+    [[nodiscard]] std::size_t measured() const {
+        return measured_;
     }
     /// Between the nodes around p; p lies in the solid's box.
     [[nodiscard]] double at(const Double3& p) const;
@@ -58,7 +65,8 @@ private:
     [[nodiscard]] std::size_t index(std::size_t x, std::size_t y, std::size_t z) const {
         return (z * count_[1] + y) * count_[0] + x;
     }
-    void fill(const Block& block, double beyond);
+    /// Returns how many nodes it measured.
+    std::size_t fill(const Block& block, double beyond);
     void sample(std::array<Double3, 3> corners, Detail detail, Estimate& most) const;
     [[nodiscard]] double fine_at(const Double3& p) const;
     [[nodiscard]] double fine_node(std::size_t x, std::size_t y, std::size_t z) const;
@@ -66,6 +74,7 @@ private:
     const Solid* solid_;
     Double3 origin_{};
     double spacing_;
+    std::size_t measured_ = 0;
     std::array<std::size_t, 3> count_{};  ///< nodes along each axis
     std::vector<float> distance_;
     std::vector<std::uint32_t> nearest_;  ///< to each node, or near it

@@ -27,6 +27,8 @@ constexpr std::size_t kRegrowths = 2;  ///< of one that sticks out too far
 constexpr std::size_t kGivenUp = 4;    ///< pieces that are given up together, at most
 constexpr std::size_t kIdle = 3;       ///< rounds of such attempts without success: the last
 constexpr std::size_t kAtOnce = 8;     ///< such attempts, side by side
+constexpr std::size_t kTrial = 8;      ///< parts of the work, the first of which tells much
+constexpr double kHopeless = 2;        ///< times the work: when that much seems to be needed
 
 double squared(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
@@ -111,10 +113,11 @@ public:
             Progress all = cover_wanted(std::vector<bool>(cells_.size(), true), cells_.size() + 1,
                                         0, far_, options_.parallel_for);
             work_ = all.work;
+            cover.share = all.share;
             found_ = std::move(all.found);
             cover.pieces = std::move(all.chosen);
         }
-        cover.complete = work_ <= options_.most_work;
+        cover.complete = cover.share >= 1 && work_ <= options_.most_work;
         if (cover.complete) {
             drop_needless(cover.pieces);
             improve(cover.pieces);
@@ -305,7 +308,16 @@ private:
         std::vector<Cells> chosen;
         std::vector<Estimate> found;
         std::size_t work = 0;
+        double share = 1;  ///< of the cells wanted, that were taken in
     };
+
+    /// Whether so many cells of all, for that work, leave no hope that what is allowed will do:
+    /// the first pieces take in more than the last ones.
+    [[nodiscard]] bool is_hopeless(std::size_t work, std::size_t taken, std::size_t all) const {
+        if (work <= options_.most_work / kTrial) return false;
+        return static_cast<double>(work) * static_cast<double>(all) >
+               kHopeless * static_cast<double>(options_.most_work) * static_cast<double>(taken);
+    }
 
     /// Pieces that take in all cells that are wanted, or more than `limit` when that many are
     /// not enough.
@@ -313,10 +325,13 @@ private:
                           PointGroups& far, ParallelFor run) const {
         Progress progress;
         std::vector<Grown> pool;
-        std::size_t left = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
+        const auto all = static_cast<std::size_t>(std::count(wanted.begin(), wanted.end(), true));
+        std::size_t left = all;
         while (left > 0 && progress.chosen.size() < limit &&
-               work_ + progress.work <= options_.most_work) {
+               work_ + progress.work <= options_.most_work &&
+               !is_hopeless(progress.work, all - left, all)) {
             const Cells seeds = choose_seeds(wanted, kSeeds, salt + progress.chosen.size());
+            progress.work += kSeeds * left / kLooksOfWork;
             std::vector<Grown> grown(seeds.size());
             const auto grow_one = [&](std::size_t i) {
                 grown[i] = grow_within_error(seeds[i], wanted, far, run);
@@ -339,6 +354,8 @@ private:
             pool.erase(pool.begin() + static_cast<std::ptrdiff_t>(best));
         }
         if (left > 0) progress.chosen.resize(limit + 1);  // not enough
+        progress.share =
+            1 - static_cast<double>(left) / static_cast<double>(std::max<std::size_t>(all, 1));
         return progress;
     }
 

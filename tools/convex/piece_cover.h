@@ -25,7 +25,8 @@ struct CoverOptions {
     /// Pieces within the error that take in all cells: what is left is to do with fewer.
     std::span<const std::vector<std::uint32_t>> begin_with = {};
     std::span<const Estimate> known = {};  ///< points of the space around, and how far out
-    /// Gives up, incomplete, after so much work: some ten nanoseconds of one core each.
+    /// Gives up, incomplete, after so much work, some ten nanoseconds of one core each; or
+    /// sooner, when far more is going to be needed.
     std::size_t most_work = 1'000'000'000;
     ParallelFor parallel_for = serial_for;
 };
@@ -33,7 +34,8 @@ struct CoverOptions {
 struct Cover {
     std::vector<std::vector<std::uint32_t>> pieces;  ///< cells, ascending; every cell is in one
     bool complete = true;                            ///< else there are no pieces
-    std::vector<Estimate> found;                     ///< more of what is known
+    double share = 1;             ///< of the cells, that pieces had taken in when it gave up
+    std::vector<Estimate> found;  ///< more of what is known
     std::size_t work = 0;
 };
 

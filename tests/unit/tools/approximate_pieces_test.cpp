@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -379,6 +380,29 @@ TEST(ApproximatePieces, WithoutWorkAreLooserAndSaySo) {
     EXPECT_GE(found.pieces.size(), 1u);
     EXPECT_GT(found.outer_error, 0.1);
     EXPECT_EQ(found.proof.outside, 0u);
+}
+
+// However small the error: fields of distances, cells and searches are bounded by the work
+// too, of which the tasks handed out are a measure. A field for this error alone is ten
+// thousand.
+TEST(ApproximatePieces, TakeNoMoreThanTheWorkAllowedForAnyError) {
+    for (const double error : {1e-9, 1e-4, 1e-2}) {
+        std::size_t tasks = 0;
+        const auto run = [&](std::size_t count, Task task) {
+            tasks += count;
+            for (std::size_t i = 0; i < count; ++i) task(i);
+        };
+        ApproximateOptions options;
+        options.max_error = error;
+        options.work = 1'000;
+        options.parallel_for = run;
+        const ApproximatePieces found = find_approximate_pieces(slotted(1), options);
+        EXPECT_LT(tasks, 10'000u);
+        EXPECT_TRUE(found.ran_out_of_work);
+        EXPECT_FALSE(found.is_as_asked);
+        EXPECT_EQ(found.proof.outside, 0u);
+        EXPECT_LE(found.outer_lower, found.outer_error);
+    }
 }
 
 TEST(ApproximatePieces, AreTheSameForAnyThreads) {
