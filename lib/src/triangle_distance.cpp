@@ -31,7 +31,6 @@ namespace {
 
 constexpr double kDoubleError = 24 * 0x1p-53;
 constexpr double kDoubleDoubleError = 24 * 0x1p-100;
-constexpr double kTightness = 1e-12;
 
 template <class T>
 struct Vector {
@@ -62,10 +61,11 @@ Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
 template <class T>
 using Triangle = std::array<Vector<T>, 3>;
 
+// Written to be chosen among, not branched on: which way a triangle lies, nobody can guess.
 template <class T>
 T within_unit(const T& t) {
-    if (t < T(0.0)) return 0.0;
-    return t > T(1.0) ? T(1.0) : t;
+    const T from_zero = t < T(0.0) ? T(0.0) : t;
+    return from_zero > T(1.0) ? T(1.0) : from_zero;
 }
 
 /// A point of each triangle.
@@ -75,17 +75,21 @@ struct Nearest {
     Vector<T> on_b{};
     T squared = std::numeric_limits<double>::infinity();
 
-    void offer(const Vector<T>& a, const Vector<T>& b) {
-        const Vector<T> w = b - a;
-        const T d = dot(w, w);
-        if (d < squared) *this = {a, b, d};
+    void offer(const Nearest& other) {
+        if (other.squared < squared) *this = other;
     }
 };
 
+template <class T>
+Nearest<T> pair_of(const Vector<T>& a, const Vector<T>& b) {
+    const Vector<T> w = b - a;
+    return {a, b, dot(w, w)};
+}
+
 /// Ericson 2005, 5.1.9, with the ends of both segments tried by clamping.
 template <class T>
-void offer_edges(const Vector<T>& p, const Vector<T>& p_end, const Vector<T>& q,
-                 const Vector<T>& q_end, Nearest<T>& nearest) {
+Nearest<T> nearest_on_edges(const Vector<T>& p, const Vector<T>& p_end, const Vector<T>& q,
+                            const Vector<T>& q_end) {
     const Vector<T> u = p_end - p;
     const Vector<T> v = q_end - q;
     const Vector<T> r = p - q;
@@ -96,11 +100,14 @@ void offer_edges(const Vector<T>& p, const Vector<T>& p_end, const Vector<T>& q,
     const T vr = dot(v, r);
     const T zero(0.0);
     const T denominator = uu * vv - uv * uv;
-    T s = denominator > zero ? within_unit((uv * vr - ur * vv) / denominator) : zero;
-    const T t = vv > zero ? within_unit((uv * s + vr) / vv) : zero;
-    s = uu > zero ? within_unit((uv * t - ur) / uu) : zero;
+    const T along = within_unit((uv * vr - ur * vv) / denominator);
+    T s = denominator > zero ? along : zero;
+    const T across = within_unit((uv * s + vr) / vv);
+    const T t = vv > zero ? across : zero;
+    const T back = within_unit((uv * t - ur) / uu);
+    s = uu > zero ? back : zero;
     const T one(1.0);
-    nearest.offer((one - s) * p + s * p_end, (one - t) * q + t * q_end);
+    return pair_of((one - s) * p + s * p_end, (one - t) * q + t * q_end);
 }
 
 /// The foot of p on the triangle's plane, when it lies inside.
@@ -120,16 +127,22 @@ bool foot_inside(const Vector<T>& p, const Triangle<T>& t, Vector<T>& foot) {
 
 template <class T>
 Nearest<T> nearest_points(const Triangle<T>& a, const Triangle<T>& b) {
-    Nearest<T> nearest;
+    // Compared when all are known: so none waits for the one before.
+    std::array<Nearest<T>, 9> on_edges;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
-            offer_edges(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3], nearest);
+            on_edges[3 * i + j] = nearest_on_edges(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
         }
     }
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < 9; ++i) {
+        best = on_edges[i].squared < on_edges[best].squared ? i : best;
+    }
+    Nearest<T> nearest = on_edges[best];
     Vector<T> foot{};
     for (std::size_t i = 0; i < 3; ++i) {
-        if (foot_inside(b[i], a, foot)) nearest.offer(foot, b[i]);
-        if (foot_inside(a[i], b, foot)) nearest.offer(a[i], foot);
+        if (foot_inside(b[i], a, foot)) nearest.offer(pair_of(foot, b[i]));
+        if (foot_inside(a[i], b, foot)) nearest.offer(pair_of(a[i], foot));
     }
     return nearest;
 }
@@ -260,7 +273,7 @@ Double3 common_point(const Corners& a, const Corners& b) noexcept {
 TriangleDistance triangle_distance(const Corners& a, const Corners& b, bool tight) noexcept {
     const int exponent = exponent_of(a, b);
     const TriangleDistance first = measured<double>(a, b, exponent, kDoubleError);
-    if (!tight || first.upper - first.lower <= kTightness * first.lower) return first;
+    if (!tight || is_tight(first)) return first;
     const TriangleDistance second = measured<DoubleDouble>(a, b, exponent, kDoubleDoubleError);
     return second.upper - second.lower < first.upper - first.lower ? second : first;
 }

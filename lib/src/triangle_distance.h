@@ -20,6 +20,12 @@ struct TriangleDistance {
 [[nodiscard]] TriangleDistance triangle_distance(const Corners& a, const Corners& b,
                                                  bool tight) noexcept;
 
+/// Whether it is so narrow that it is not taken again, when `tight` is set.
+[[nodiscard]] inline bool is_tight(const TriangleDistance& found) noexcept {
+    constexpr double kTightness = 1e-12;
+    return found.upper - found.lower <= kTightness * found.lower;
+}
+
 /// Returns a point of both triangles, up to rounding; they must touch.
 [[nodiscard]] Double3 common_point(const Corners& a, const Corners& b) noexcept;
 
