@@ -297,6 +297,7 @@ inline D8 select(D8::Mask where, D8 a, D8 b) noexcept {
 #include "cells_met.h"
 #include "farthest.h"
 #include "swept_spheres.h"
+#include "weak_planes.h"
 
 namespace cdprep::kernels {
 
@@ -312,6 +313,7 @@ const Table kAvx512 = {"avx512",
                        cells_met_of<F8>,
                        {kSweptTests<0, F8, F16>, kSweptTests<1, F8, F16>, kSweptTests<2, F8, F16>},
                        farthest_of<D8>,
-                       farthest_moved_of<D8>};
+                       farthest_moved_of<D8>,
+                       weak_planes_of<F16>};
 
 }  // namespace cdprep::kernels

@@ -28,10 +28,11 @@ struct HighestOfLane {
         FarthestPoint best = {0, -__builtin_inf(), 0};
         for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
             const auto number = static_cast<std::uint32_t>(blocks[lane]) * 8 + lane;
-            if (values[lane] < best.value) continue;
-            if (values[lane] == best.value && number > best.number) continue;
-            best.number = number;
-            best.value = values[lane];
+            // Without branches: which lane it is, nobody can guess.
+            const bool is_first = values[lane] == best.value && number < best.number;
+            const bool is_better = values[lane] > best.value || is_first;
+            best.number = is_better ? number : best.number;
+            best.value = is_better ? values[lane] : best.value;
         }
         return best;
     }

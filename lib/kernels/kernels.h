@@ -242,6 +242,15 @@ struct FarthestPoint {
     double bound;  ///< no point is farther: rounding included, underflow not
 };
 
+/// Planes between places: rows of numbers, `stride` from row to row, which is a multiple of
+/// sixteen. Of each plane: 0 to 2 its direction n from A to B, at most 1 long, A's axes; 3 to 5
+/// what B's axes saw of it when it was set; 6 to 8 a middle of B's place; 9 the gap along n, but
+/// for B's shift; 10 how far B's place reaches from its middle. Pair units.
+struct PlaneRows {
+    const float* first;
+    std::size_t stride;
+};
+
 /// One instruction set's kernels.
 struct Table {
     const char* name;  ///< "scalar", "avx2", "avx512": shown in tests and benchmarks
@@ -314,6 +323,12 @@ struct Table {
     /// The same of points as they are moved, and a proven bound.
     FarthestPoint (*farthest_moved)(const double* blocks, std::size_t count,
                                     const MovedDirection& from) noexcept;
+
+    /// Finds the first `count` planes that no longer have a gap of more than `limit`, pair
+    /// units, for certain. Returns how many there are; their numbers, rising, stand in `numbers`,
+    /// beyond which sixteen more may be written.
+    std::size_t (*weak_planes)(const BoxPlacement& placement, const PlaneRows& planes,
+                               std::size_t count, float limit, std::uint16_t* numbers) noexcept;
 };
 
 extern const Table kScalar;  ///< the reference, for any processor

@@ -265,6 +265,7 @@ inline D8 select(Mask8 where, const D8& a, const D8& b) noexcept {
 #include "cells_met.h"
 #include "farthest.h"
 #include "swept_spheres.h"
+#include "weak_planes.h"
 
 namespace cdprep::kernels {
 
@@ -280,6 +281,7 @@ const Table kScalar = {"scalar",
                        cells_met_of<F8>,
                        {kSweptTests<0, F8, F8>, kSweptTests<1, F8, F8>, kSweptTests<2, F8, F8>},
                        farthest_of<D8>,
-                       farthest_moved_of<D8>};
+                       farthest_moved_of<D8>,
+                       weak_planes_of<F8>};
 
 }  // namespace cdprep::kernels

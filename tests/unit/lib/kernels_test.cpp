@@ -939,6 +939,109 @@ TEST(Kernels, TheFarthestPointIsTheSameForEveryTable) {
     EXPECT_GT(ties, 1000);
 }
 
+// By the points themselves, in double: between what two sets of points reach along a direction that
+// goes with A there is never less than a plane that is not weak promises, however B has moved.
+TEST(Kernels, APlaneThatIsNotWeakHasItsGap) {
+    std::mt19937 random(31);
+    std::normal_distribution<double> normal(0, 1);
+    std::uniform_real_distribution<double> place(-0.5, 0.5);
+    const auto point = [&](const Double3& middle, double size) {
+        return Double3{middle.x + size * place(random), middle.y + size * place(random),
+                       middle.z + size * place(random)};
+    };
+    const auto along = [](const Double3& d, const Double3& p) {
+        return d.x * p.x + d.y * p.y + d.z * p.z;
+    };
+    const auto turned_back = [](const Pose& pose, const Double3& d) {
+        const auto& r = pose.rotation();
+        return Double3{r[0] * d.x + r[3] * d.y + r[6] * d.z, r[1] * d.x + r[4] * d.y + r[7] * d.z,
+                       r[2] * d.x + r[5] * d.y + r[8] * d.z};
+    };
+    constexpr std::size_t kStride = 48;
+    std::size_t strong = 0, weak = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+        const Pose before = test::random_pose(random, 0.5);
+        const double share = std::ldexp(1, -static_cast<int>(random() % 12));
+        const Pose turn = Pose::from_quaternion(1, share * normal(random), share * normal(random),
+                                                share * normal(random), {})
+                              .value();
+        const Pose after =
+            relative_pose(Pose::from_quaternion(1, 0, 0, 0, {share * normal(random), 0, 0}).value(),
+                          Pose::from_rows([&] {
+                              std::array<double, 12> rows{};
+                              for (std::size_t i = 0; i < 9; ++i) {
+                                  for (std::size_t k = 0; k < 3; ++k) {
+                                      rows[i] += turn.rotation()[3 * (i / 3) + k] *
+                                                 before.rotation()[3 * k + i % 3];
+                                  }
+                              }
+                              rows[9] = before.translation().x;
+                              rows[10] = before.translation().y;
+                              rows[11] = before.translation().z;
+                              return rows;
+                          }())
+                              .value());
+        const std::size_t count = 1 + random() % 40;
+        std::vector<float> rows(11 * kStride, 0.0F);
+        std::vector<double> gap(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            Double3 n = {normal(random), normal(random), normal(random)};
+            const double length = std::hypot(n.x, n.y, n.z) * (1 + 0x1p-20);
+            const std::array<float, 3> unit = {static_cast<float>(n.x / length),
+                                               static_cast<float>(n.y / length),
+                                               static_cast<float>(n.z / length)};
+            n = {unit[0], unit[1], unit[2]};
+            const Double3 seen = turned_back(before, n), now = turned_back(after, n);
+            const Double3 m = {static_cast<float>(seen.x), static_cast<float>(seen.y),
+                               static_cast<float>(seen.z)};
+            const double size = std::ldexp(0.5, -static_cast<int>(random() % 6));
+            const Double3 in_a = point({}, 1), in_b = point({}, 1);
+            const Double3 c = {static_cast<float>(in_b.x), static_cast<float>(in_b.y),
+                               static_cast<float>(in_b.z)};
+            double most_a = -HUGE_VAL, least_b = HUGE_VAL, least_now = HUGE_VAL, reach = 0;
+            for (int k = 0; k < 12; ++k) {
+                const Double3 p = point(in_a, size), q = point(c, size);
+                most_a = std::max(most_a, along(n, p));
+                least_b = std::min(least_b, along(m, q));
+                least_now = std::min(least_now, along(now, q));
+                reach = std::max(reach, std::hypot(q.x - c.x, q.y - c.y, q.z - c.z));
+            }
+            gap[i] = along(n, after.translation()) + least_now - most_a;
+            const std::array<double, 11> values = {
+                n.x, n.y, n.z, m.x, m.y, m.z, c.x, c.y, c.z, least_b - most_a, reach};
+            for (std::size_t row = 0; row < 11; ++row) {
+                rows[row * kStride + i] = static_cast<float>(values[row]);
+            }
+        }
+        const double limit = std::max(0.0, place(random));
+        // As place_boxes() has it for scales of 1.
+        const BoxPlacement placement = placement_of(after, 32 * 0x1p-24F * 4);
+        for_each_table([&](const Table& table) {
+            std::array<std::uint16_t, kStride + 16> numbers;
+            const std::size_t found = table.weak_planes(placement, {rows.data(), kStride}, count,
+                                                        static_cast<float>(limit), numbers.data());
+            ASSERT_LE(found, count);
+            std::vector<bool> is_weak(count, false);
+            for (std::size_t i = 0; i < found; ++i) {
+                ASSERT_LT(numbers[i], count);
+                ASSERT_TRUE(i == 0 || numbers[i - 1] < numbers[i]);
+                is_weak[numbers[i]] = true;
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                ASSERT_TRUE(is_weak[i] || gap[i] > static_cast<float>(limit));
+                // With B where it was but for a little, a plane proves nearly all there is.
+                const bool is_clear = share < 0.001 && gap[i] > limit + 0.01;
+                ASSERT_FALSE(is_clear && is_weak[i]);
+            }
+            weak += found;
+            strong += count - found;
+        });
+        if (HasFatalFailure()) return;
+    }
+    EXPECT_GT(strong, (strong + weak) / 10);
+    EXPECT_GT(weak, (strong + weak) / 10);
+}
+
 TEST(Kernels, ScalarIsAlwaysAvailable) {
     EXPECT_GE(available().count, 1u);
     EXPECT_STREQ(available().table[0]->name, "scalar");

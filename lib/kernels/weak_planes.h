@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Planes between places of two models, after B has moved. Included by kernel sources alone, after
+// box_overlap.h.
+//
+// A plane was set across the direction n, fixed to A, when B's axes saw n as m: all x of A's place
+// had n.x <= p, all y of B's m.y >= q, the gap was n.t + k with k = q - p. With R and t as they
+// are now, and n' = R^T n, B's points are at n.t + n'.y, and
+//
+//     n'.y = m.y + (n' - m).c + (n' - m).(y - c) >= q + (n' - m).c - |n' - m| r
+//
+// where c is a middle of B's place and r its reach from there.
+//
+// Rounding. Let v = 2^-24, s_a and s_b the scales; n and m are at most 1 long, c and r at most
+// sqrt 3 s_b. n' is off by 4 v in each component, n' - m by 5 v: with c and r that is at most
+// 2 * 5 v * 3 s_b; the products, sums and the root add 8 v of (s_a + s_b + 2 |t|) at most. Together
+// below 64 v (s_a + s_b + |t|).
+#pragma once
+
+#include "kernels.h"
+
+namespace cdprep::kernels {
+namespace {
+
+/// Times BoxPlacement::slack: for this and for what was rounded when planes were set (front.cpp).
+inline constexpr float kPlaneSlack = 3;
+
+/// The body of weak_planes().
+template <class R>
+std::size_t weak_planes_of(const BoxPlacement& placement, const PlaneRows& planes,
+                           std::size_t count, float limit, std::uint16_t* numbers) noexcept {
+    const float* rotation = placement.rotation;
+    const R least(limit + kPlaneSlack * placement.slack);
+    std::size_t weak = 0;
+    for (std::size_t at = 0; at < count; at += R::kCount) {
+        const auto row = [&](std::size_t number) {
+            const float* from = planes.first + number * planes.stride + at;
+            return R::load_rows(from, from + kLanes);
+        };
+        R n[3];
+        for (std::size_t i = 0; i < 3; ++i) n[i] = row(i);
+        R gap = row(9);
+        R squared(0.0F);
+        for (std::size_t j = 0; j < 3; ++j) {
+            gap = fma(n[j], R(placement.shift[j]), gap);
+            R turned = n[0] * R(rotation[j]);
+            turned = fma(n[1], R(rotation[3 + j]), turned);
+            turned = fma(n[2], R(rotation[6 + j]), turned);
+            const R by = turned - row(3 + j);
+            gap = fma(by, row(6 + j), gap);
+            squared = fma(by, by, squared);
+        }
+        gap = gap - root(squared) * row(10);
+        unsigned lanes = ~bits(greater(gap, least)) & ((1U << R::kCount) - 1);
+        const std::size_t rest = count - at;
+        if (rest < R::kCount) lanes &= (1U << rest) - 1;
+        R::store_lanes(lanes, static_cast<unsigned>(at), static_cast<unsigned>(at + kLanes),
+                       numbers + weak);
+        weak += static_cast<unsigned>(__builtin_popcount(lanes));
+    }
+    return weak;
+}
+
+}  // namespace
+}  // namespace cdprep::kernels
