@@ -42,7 +42,6 @@ struct LeafPlaces {
 };
 
 /// One question that starts from a cache.
-template <class Trees>
 class CachedSearch {
 public:
     CachedSearch(const Model& a, const Model& b, const Placement& placement, Workspace& workspace,
@@ -63,11 +62,6 @@ public:
     /// on with boxes as they are. When it never does, the models are so far apart.
     bool walk() noexcept;
 
-    /// Where triangles were last tested, which after a hit is there or near by.
-    [[nodiscard]] const LeafPlaces& last() const noexcept {
-        return last_;
-    }
-
 private:
     /// After a hit the deepest boxes first, a leaf at a time; after a miss, when all is
     /// likely to be looked at, in any order, leaves together. Calls `narrow()` at leaves.
@@ -76,7 +70,6 @@ private:
 
     /// Also where triangles had to be tested for want of room.
     bool add(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
-        last_ = {leaf_a, leaf_b};
         return !trees_.each_pair(batch_, leaf_a, leaf_b, [&](const LeafView& a, const LeafView& b) {
             batch_.add(a, b);
             return !batch_.full() || !look_at_batch();
@@ -87,8 +80,6 @@ private:
     }
     bool look_at_batch() noexcept {
         return !batch_.flush([&](std::uint32_t at_a, std::uint32_t at_b, bool certain) {
-            at_a = trees_.triangle_a(at_a);
-            at_b = trees_.triangle_b(at_b);
             if (!touch_(at_a, at_b, certain)) return true;
             remember_pair(cache_, {at_a, at_b});
             cache_.holds |= held_touch;
@@ -105,12 +96,10 @@ private:
     ContactTest touch_;
     PlacedBoxes placed_;
     LeafBatch batch_;
-    Trees trees_;
-    LeafPlaces last_{};
+    TriangleTrees trees_;
 };
 
-template <class Trees>
-bool CachedSearch<Trees>::touches_again(const LeafPlaces& held) noexcept {
+inline bool CachedSearch::touches_again(const LeafPlaces& held) noexcept {
     if (look_at(held.a, held.b)) return true;
     const auto around = [](const Tree& tree, std::uint32_t leaf) {
         const std::uint32_t height = std::min(kNearHeight, tree.shape.levels);
@@ -136,9 +125,8 @@ inline void note_proof(PairCache& cache, double margin, bool proved) noexcept {
     cache.wait = (1U << (2 * cache.failures)) - 1;
 }
 
-template <class Trees>
 template <class Narrow>
-bool CachedSearch<Trees>::walk_all(Narrow narrow) noexcept {
+bool CachedSearch::walk_all(Narrow narrow) noexcept {
     const bool missed = (cache_.holds & held_place) != 0 && (cache_.holds & held_touch) == 0;
     if (!missed) {
         return !walk_pairs<Search::first>(trees_.a, trees_.b, placed_, scratch_,
@@ -155,8 +143,7 @@ bool CachedSearch<Trees>::walk_all(Narrow narrow) noexcept {
            look_at_batch();
 }
 
-template <class Trees>
-bool CachedSearch<Trees>::walk() noexcept {
+inline bool CachedSearch::walk() noexcept {
     const float slack = placed_.placement.slack;
     const double margin =
         std::min(std::ldexp(next_margin(cache_), placed_.exponent), kGreatestMargin);

@@ -11,6 +11,10 @@ PairCache* pair_of(PieceCache* cache) noexcept {
     return cache == nullptr ? nullptr : &cache->pair;
 }
 
+PairFront* front_of(PieceCache* cache) noexcept {
+    return cache == nullptr ? nullptr : &cache->front;
+}
+
 bool have_pieces(const Model& a, const Model& b) noexcept {
     return !a.piece_leaves().empty() && !b.piece_leaves().empty();
 }
@@ -25,13 +29,8 @@ std::optional<Distance> distance_through(const StructureOptions& through, const 
         return distance(a, b, placement, workspace, options, pair_of(cache));
     }
     if (!have_pieces(a, b)) return std::nullopt;
-    if (cache != nullptr && options.as == As::surface && std::isfinite(options.max_distance) &&
-        options.max_distance >= 0 &&
-        hulls_prove_apart(a, b, placement, options.max_distance, *cache,
-                          workspace.storage().counts)) {
-        return std::nullopt;
-    }
-    return distance_by<PieceTrees>(a, b, placement, workspace, options, pair_of(cache));
+    return distance_by<PieceTrees>(a, b, placement, workspace, options, pair_of(cache),
+                                   front_of(cache));
 }
 
 bool is_within_through(const StructureOptions& through, const Model& a, const Model& b,
@@ -42,11 +41,8 @@ bool is_within_through(const StructureOptions& through, const Model& a, const Mo
     }
     if (!(tolerance >= 0) || !have_pieces(a, b)) return false;
     if (tolerance == 0) return any_contact_of_pieces(a, b, placement, workspace, {}, cache);
-    if (cache != nullptr && std::isfinite(tolerance) &&
-        hulls_prove_apart(a, b, placement, tolerance, *cache, workspace.storage().counts)) {
-        return false;
-    }
-    return is_within_by<PieceTrees>(a, b, placement, tolerance, workspace, pair_of(cache));
+    return is_within_by<PieceTrees>(a, b, placement, tolerance, workspace, pair_of(cache),
+                                    front_of(cache));
 }
 
 }  // namespace cdprep

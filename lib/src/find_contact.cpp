@@ -27,8 +27,9 @@ bool any_contact(const Model& a, const Model& b, const Placement& placement, Wor
         return find_contact(a, b, placement, workspace, options).has_value();
     }
     if (a.triangle_count() == 0 || b.triangle_count() == 0) return false;
+    if (still_touches(*cache, a, b, placement, options, workspace.storage().counts)) return true;
     if (proven_gap(*cache, a, b, placement) > 0) return false;
-    CachedSearch<TriangleTrees> search(a, b, placement, workspace, options, *cache);
+    CachedSearch search(a, b, placement, workspace, options, *cache);
     const bool touched = (cache->holds & held_touch) != 0 && has_pair(*cache, a, b);
     const LeafPlaces held = {cache->triangle_a / format::kBvhWidth,
                              cache->triangle_b / format::kBvhWidth};

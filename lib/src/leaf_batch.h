@@ -65,6 +65,9 @@ public:
     [[nodiscard]] bool full() const noexcept {
         return count_ == kernels::kLeafBatch;
     }
+    [[nodiscard]] const kernels::LeafPlacement& placement() const noexcept {
+        return placement_;
+    }
     void prefetch_pair(std::uint32_t leaf_a, std::uint32_t leaf_b) const noexcept {
         prefetch(&leaves_a_[leaf_a]);
         prefetch(&leaves_b_[leaf_b]);

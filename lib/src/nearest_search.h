@@ -12,6 +12,7 @@
 #include "contact_pairs.h"
 #include "exact_within.h"
 #include "find_contact.h"
+#include "front.h"
 #include "proven_gap.h"
 #include "triangle_distance.h"
 
@@ -37,7 +38,9 @@ class NearestSearch {
 public:
     NearestSearch(const Model& a, const Model& b, const Placement& placement,
                   Workspace& workspace) noexcept
-        : moved_a_(moved_a(a, placement)),
+        : a_(a),
+          b_(b),
+          moved_a_(moved_a(a, placement)),
           moved_b_(moved_b(b, placement)),
           placed_(place_boxes(a, b, placement)),
           scratch_(workspace.storage()),
@@ -51,6 +54,12 @@ public:
         return triangle_distance(moved_a_.corners(at.a), moved_b_.corners(at.b), tight);
     }
 
+    /// What measure() tells of a pair, as well as can be.
+    [[nodiscard]] TriangleDistance tightened(const TreePair& at,
+                                             const TriangleDistance& found) const noexcept {
+        return is_tight(found) ? found : measure(at, true);
+    }
+
     /// Where measure() cannot tell: exactly.
     [[nodiscard]] bool is_within(const TreePair& at, double tolerance) const noexcept {
         if (scratch_.counts != nullptr) ++scratch_.counts->by_exact;
@@ -61,6 +70,12 @@ public:
     /// it returns the new limit, in model units, negative to end the search.
     template <class Near>
     void run(double limit, Limit known, Near&& near) noexcept;
+
+    /// The same where a front has no plane between with more than the limit.
+    template <class Near>
+    FrontEnd run(double limit, PairFront& front, Near&& near) noexcept;
+    /// Begins a front anew where nothing is nearer than the limit, or what is was looked at.
+    void begin(PairFront& front, double limit) noexcept;
 
     /// Tells the search where two near points lie: most others are farther apart
     /// along the line through them. In the query's coordinates.
@@ -78,10 +93,14 @@ private:
     template <class Near>
     bool dive(const Tree& a, const Tree& b, Near&& near) noexcept;
     template <class Near>
+    bool look_below(std::uint64_t pair, Near&& near) noexcept;
+    template <class Near>
     bool look_at_leaves(const PendingPair& pair, Near&& near) noexcept;
     template <class Near>
     bool look_at_views(const LeafView& in_a, const LeafView& in_b, Near&& near) noexcept;
 
+    const Model& a_;
+    const Model& b_;
     MovedModel moved_a_;
     MovedModel moved_b_;
     PlacedBoxes placed_;
@@ -255,8 +274,32 @@ bool NearestSearch<Trees>::dive(const Tree& a, const Tree& b, Near&& near) noexc
     return look_at_leaves(pair, near);
 }
 
+/// Depth first, nearest children first.
+template <class Trees>
+template <class Near>
+bool NearestSearch<Trees>::look_below(std::uint64_t pair, Near&& near) noexcept {
+    const auto at = [&](std::size_t index) {
+        return scratch_.near.begin() + static_cast<std::ptrdiff_t>(index);
+    };
+    scratch_.near[0] = {0, pair};
+    for (std::size_t depth = 1; depth > 0;) {
+        const NearPair top = scratch_.near[--depth];
+        if (top.bound > reach_.limit) continue;
+        const PendingPair places = PendingPair::unpacked(top.pair);
+        if (places.a.height == 0 && places.b.height == 0) {
+            if (!look_at_leaves(places, near)) return false;
+            continue;
+        }
+        const std::size_t end = push_children(trees_.a, trees_.b, places, depth);
+        std::sort(at(depth), at(end),
+                  [](const NearPair& x, const NearPair& y) { return x.bound > y.bound; });
+        depth = end;
+    }
+    return true;
+}
+
 /// Best first, unless the limit is good. What the frontier has no room for is searched
-/// depth first, nearest children first.
+/// depth first.
 template <class Trees>
 template <class Near>
 void NearestSearch<Trees>::run(double limit, Limit known, Near&& near) noexcept {
@@ -264,33 +307,43 @@ void NearestSearch<Trees>::run(double limit, Limit known, Near&& near) noexcept 
     const Tree& b = trees_.b;
     if (a.triangles == 0 || b.triangles == 0) return;
     reach_.limit = in_pair_units(limit);
-    const auto at = [&](std::size_t index) {
-        return scratch_.near.begin() + static_cast<std::ptrdiff_t>(index);
-    };
-    if (known == Limit::poor && !dive(a, b, near)) return;
-    Frontier frontier(scratch_);
-    frontier.push({0, PendingPair{{a.shape.levels, 0}, {b.shape.levels, 0}}.packed()});
-    while (!frontier.empty()) {
-        scratch_.near[0] = frontier.pop(reach_.limit);
-        if (scratch_.near[0].bound > reach_.limit) return;  // and so is all else
-        for (std::size_t depth = 1; depth > 0;) {
-            const NearPair top = scratch_.near[--depth];
-            if (top.bound > reach_.limit) continue;
-            const PendingPair pair = PendingPair::unpacked(top.pair);
-            if (pair.a.height == 0 && pair.b.height == 0) {
-                if (!look_at_leaves(pair, near)) return;
-                continue;
-            }
-            const std::size_t end = push_children(a, b, pair, depth);
-            if (known == Limit::poor && depth == 0 && frontier.has_room_for(end)) {
-                for (std::size_t i = 0; i < end; ++i) frontier.push(scratch_.near[i]);
-                continue;
-            }
-            std::sort(at(depth), at(end),
-                      [](const NearPair& x, const NearPair& y) { return x.bound > y.bound; });
-            depth = end;
-        }
+    const std::uint64_t both = roots(a, b).packed();
+    if (known == Limit::good) {
+        look_below(both, near);
+        return;
     }
+    if (!dive(a, b, near)) return;
+    Frontier frontier(scratch_);
+    frontier.push({0, both});
+    while (!frontier.empty()) {
+        const NearPair top = frontier.pop(reach_.limit);
+        if (top.bound > reach_.limit) return;  // and so is all else
+        const PendingPair pair = PendingPair::unpacked(top.pair);
+        if ((pair.a.height == 0 && pair.b.height == 0) ||
+            !frontier.has_room_for(format::kBvhWidth * format::kBvhWidth)) {
+            if (!look_below(top.pair, near)) return;
+            continue;
+        }
+        const std::size_t end = push_children(a, b, pair, 0);
+        for (std::size_t i = 0; i < end; ++i) frontier.push(scratch_.near[i]);
+    }
+}
+
+template <class Trees>
+template <class Near>
+FrontEnd NearestSearch<Trees>::run(double limit, PairFront& front, Near&& near) noexcept {
+    reach_.limit = in_pair_units(limit);
+    Front between(front, a_, b_, placed_, leaves_, trees_, scratch_, reach_.direction);
+    return between.open_near(
+        reach_.limit, [&](const PendingPair& pair) { return look_below(pair.packed(), near); });
+}
+
+template <class Trees>
+void NearestSearch<Trees>::begin(PairFront& front, double limit) noexcept {
+    reach_.limit = in_pair_units(limit);
+    Front between(front, a_, b_, placed_, leaves_, trees_, scratch_, reach_.direction);
+    between.begin();
+    (void)between.open_near(reach_.limit, [](const PendingPair& /*pair*/) { return true; });
 }
 
 /// The nearest pairs so far: those that may still turn out to be the nearest.
@@ -311,12 +364,13 @@ public:
         if (at.a == seed_.a && at.b == seed_.b) return limit();
         const TriangleDistance d = search_.measure(at, false);
         if (d.lower > limit()) return limit();
+        may_touch_ = may_touch_ || !(d.lower > 0);
         if (d.upper < upper_) {
             upper_ = d.upper;
             search_.point(d.on_a, d.on_b);
         }
         if (count_ == contenders_.size()) settle();
-        contenders_[count_++] = {at, d.lower};
+        contenders_[count_++] = {at, d};
         return limit();
     }
 
@@ -339,19 +393,23 @@ public:
     [[nodiscard]] const TreePair& nearest() const noexcept {
         return nearest_;
     }
+    /// Whether a pair may touch: then contact is to be sought.
+    [[nodiscard]] bool may_touch() const noexcept {
+        return may_touch_;
+    }
 
 private:
     struct Contender {
         TreePair at;
-        double lower;
+        TriangleDistance found;
     };
 
     /// Measures what may be the nearest once more, as well as can be.
     void settle() noexcept {
         for (std::size_t i = 0; i < count_; ++i) {
-            if (contenders_[i].lower > upper_) continue;
+            if (contenders_[i].found.lower > upper_) continue;
             const TreePair at = contenders_[i].at;
-            const TriangleDistance d = search_.measure(at, true);
+            const TriangleDistance d = search_.tightened(at, contenders_[i].found);
             lower_ = std::min(lower_, d.lower);
             const Distance found = {
                 d.lower, d.upper, d.on_a, d.on_b, source_number(a_, at.a), source_number(b_, at.b)};
@@ -379,6 +437,7 @@ private:
     double upper_ = std::numeric_limits<double>::infinity();
     double lower_ = std::numeric_limits<double>::infinity();
     bool found_ = false;
+    bool may_touch_ = false;
     Distance best_{};
     TreePair nearest_{};
 };
@@ -394,13 +453,46 @@ inline Distance touching(const Model& a, const Model& b, const Placement& placem
 template <class Trees>
 std::optional<Distance> distance_by(const Model& a, const Model& b, const Placement& placement,
                                     Workspace& workspace, const DistanceOptions& options,
-                                    PairCache* cache) noexcept;
+                                    PairCache* cache, PairFront* front = nullptr) noexcept;
+
+/// An answer, or none by whoever was asked.
+struct FrontDistance {
+    bool answered = false;
+    std::optional<Distance> distance;
+};
+
+inline void remember_distance(PairCache& cache, const Model& a, const Model& b,
+                              const Placement& placement, const TreePair& at,
+                              const Distance& found) noexcept {
+    remember_pair(cache, at);
+    remember_gap(cache, a, b, placement, found.lower);
+}
+
+/// Where the models do not touch, the front is of them, and they have not jumped.
+template <class Trees>
+FrontDistance distance_by_front(const Model& a, const Model& b, const Placement& placement,
+                                Workspace& workspace, const DistanceOptions& options,
+                                PairCache& cache, PairFront& front) noexcept {
+    NearestSearch<Trees> search(a, b, placement, workspace);
+    Nearest<Trees> nearest(a, b, search, options);
+    if (has_pair(cache, a, b)) nearest.start_from({cache.triangle_a, cache.triangle_b});
+    if (nearest.may_touch() || !std::isfinite(nearest.limit())) return {};
+    const FrontEnd end = search.run(nearest.limit(), front, [&](const TreePair& at) {
+        const double limit = nearest.take(at);
+        return nearest.may_touch() ? -1 : limit;
+    });
+    if (end != FrontEnd::whole) return {};
+    const std::optional<Distance> found = nearest.answer();
+    if (found) remember_distance(cache, a, b, placement, nearest.nearest(), *found);
+    return {true, found};
+}
 
 /// One solid inside the other: no way apart, and the walls tell where it is shortest.
 template <class Trees>
 std::optional<Distance> inside(const Model& a, const Model& b, const Placement& placement,
-                               Workspace& workspace, PairCache* cache) noexcept {
-    std::optional<Distance> walls = distance_by<Trees>(a, b, placement, workspace, {}, cache);
+                               Workspace& workspace, PairCache* cache, PairFront* front) noexcept {
+    std::optional<Distance> walls =
+        distance_by<Trees>(a, b, placement, workspace, {}, cache, front);
     if (walls) walls->lower = walls->upper = 0;
     return walls;
 }
@@ -408,8 +500,15 @@ std::optional<Distance> inside(const Model& a, const Model& b, const Placement& 
 template <class Trees>
 std::optional<Distance> distance_by(const Model& a, const Model& b, const Placement& placement,
                                     Workspace& workspace, const DistanceOptions& options,
-                                    PairCache* cache) noexcept {
+                                    PairCache* cache, PairFront* front) noexcept {
     if (!(options.max_distance >= 0)) return std::nullopt;
+    if constexpr (Trees::kHasHulls) {
+        if (front != nullptr && options.as == As::surface && is_of(*front, a, b)) {
+            const FrontDistance found =
+                distance_by_front<Trees>(a, b, placement, workspace, options, *cache, *front);
+            if (found.answered) return found.distance;
+        }
+    }
     // The cached pair of triangles must not tell which of those that touch answers.
     const bool apart = cache != nullptr && proven_gap(*cache, a, b, placement) > 0;
     if (!apart) {
@@ -420,7 +519,7 @@ std::optional<Distance> distance_by(const Model& a, const Model& b, const Placem
     }
     if (options.as == As::solid &&
         find_containment(a, b, placement, workspace).answer == Answer::yes) {
-        return inside<Trees>(a, b, placement, workspace, cache);
+        return inside<Trees>(a, b, placement, workspace, cache, front);
     }
     NearestSearch<Trees> search(a, b, placement, workspace);
     Nearest<Trees> nearest(a, b, search, options);
@@ -429,8 +528,13 @@ std::optional<Distance> distance_by(const Model& a, const Model& b, const Placem
     search.run(nearest.limit(), known, [&](const TreePair& at) { return nearest.take(at); });
     const std::optional<Distance> found = nearest.answer();
     if (found && cache != nullptr) {
-        remember_pair(*cache, nearest.nearest());
-        remember_gap(*cache, a, b, placement, found->lower);
+        remember_distance(*cache, a, b, placement, nearest.nearest(), *found);
+    }
+    if constexpr (Trees::kHasHulls) {
+        const double far = found ? found->upper : options.max_distance;
+        if (front != nullptr && std::isfinite(far) && is_time_to_begin(*front)) {
+            search.begin(*front, far);
+        }
     }
     return found;
 }
@@ -438,7 +542,7 @@ std::optional<Distance> distance_by(const Model& a, const Model& b, const Placem
 /// Of a tolerance above 0.
 template <class Trees>
 bool is_within_by(const Model& a, const Model& b, const Placement& placement, double tolerance,
-                  Workspace& workspace, PairCache* cache) noexcept {
+                  Workspace& workspace, PairCache* cache, PairFront* front = nullptr) noexcept {
     const double gap = cache == nullptr ? 0 : proven_gap(*cache, a, b, placement);
     if (gap > tolerance) return false;
     NearestSearch<Trees> search(a, b, placement, workspace);
@@ -449,7 +553,7 @@ bool is_within_by(const Model& a, const Model& b, const Placement& placement, do
             return of.lower <= tolerance && of.upper > tolerance;
         };
         TriangleDistance d = search.measure(at, false);
-        if (undecided(d)) d = search.measure(at, true);
+        if (undecided(d)) d = search.tightened(at, d);
         if (d.lower > tolerance || (undecided(d) && !search.is_within(at, tolerance))) {
             if (d.upper < nearest) {
                 nearest = d.upper;
@@ -463,8 +567,18 @@ bool is_within_by(const Model& a, const Model& b, const Placement& placement, do
     };
     const Limit known = limit_by(cache, a, b);
     if (known == Limit::good && look({cache->triangle_a, cache->triangle_b}) < 0) return true;
+    if constexpr (Trees::kHasHulls) {
+        if (front != nullptr && is_of(*front, a, b) &&
+            search.run(tolerance, *front, look) != FrontEnd::lost) {
+            return within;
+        }
+    }
     if (!(gap > 0) && find_contact_by<Trees>(a, b, placement, workspace, {})) return true;
     search.run(tolerance, known, look);
+    if constexpr (Trees::kHasHulls) {
+        if (front != nullptr && !within && is_time_to_begin(*front))
+            search.begin(*front, tolerance);
+    }
     return within;
 }
 

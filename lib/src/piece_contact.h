@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cdprep/convex_points.h"
+#include "cdprep/format/pieces.h"
 #include "cdprep/overlapping_triangles.h"
 #include "cdprep/piece_cache.h"
 
@@ -8,13 +10,6 @@ namespace cdprep {
 
 /// The corners of a hull around a node, as questions about hulls want them.
 [[nodiscard]] ConvexPoints hull_points(const format::PieceNodeHull& hull) noexcept;
-
-/// Returns whether the hulls around all pieces of two models prove that the surfaces are more
-/// than `distance` apart, which is not negative; false when they do not, or when they are not
-/// asked because they have failed of late. Counts the question.
-[[nodiscard]] bool hulls_prove_apart(const Model& a, const Model& b, const Placement& placement,
-                                     double distance, PieceCache& cache,
-                                     QueryCounts* counts) noexcept;
 
 /// As any_contact(), through pieces.
 [[nodiscard]] bool any_contact_of_pieces(const Model& a, const Model& b, const Placement& placement,

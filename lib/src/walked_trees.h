@@ -17,6 +17,7 @@ namespace cdprep {
 
 /// Both models' boxes around triangles.
 struct TriangleTrees {
+    static constexpr bool kHasHulls = false;
     Tree a;
     Tree b;
 
@@ -40,6 +41,7 @@ struct TriangleTrees {
 
 /// Both models' hierarchies over pieces. A workspace serves those of one question.
 struct PieceTrees {
+    static constexpr bool kHasHulls = true;
     PieceLeaves of_a;
     PieceLeaves of_b;
     Tree a;
@@ -67,6 +69,19 @@ struct PieceTrees {
         return of_a.each_view(
             leaf_a, scratch.gathered_a, scratch,
             [&](const LeafLanes& lanes) { return batch.view_a(lanes); }, with_a);
+    }
+    /// Calls test(view) for views that together hold a leaf's triangles.
+    template <class Test>
+    void each_view_a(const LeafBatch& batch, std::uint32_t leaf, Test&& test) const noexcept {
+        of_a.each_view(
+            leaf, scratch.gathered_a, scratch,
+            [&](const LeafLanes& lanes) { return batch.view_a(lanes); }, test);
+    }
+    template <class Test>
+    void each_view_b(const LeafBatch& batch, std::uint32_t leaf, Test&& test) const noexcept {
+        of_b.each_view(
+            leaf, scratch.gathered_b, scratch,
+            [&](const LeafLanes& lanes) { return batch.view_b(lanes); }, test);
     }
     [[nodiscard]] std::uint32_t triangle_a(std::uint32_t named) const noexcept {
         return of_a.triangle(named);

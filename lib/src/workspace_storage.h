@@ -8,6 +8,7 @@
 #include "candidate_nodes.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/limits.h"
+#include "cdprep/pair_front.h"
 #include "cdprep/query_counts.h"
 #include "cdprep/workspace.h"
 #include "cell_bounds.h"
@@ -113,6 +114,7 @@ struct Workspace::Storage {
     KeptBounds bounds_b;
     CandidateNodes candidate_nodes;
     std::array<NearPieces, kMaxNearPieces> near_pieces;
+    std::array<std::uint16_t, kFrontRoom + 2 * kernels::kLanes> weak_planes;  ///< of a PairFront
     QueryCounts* counts = nullptr;  ///< or null: nobody asked
 };
 

@@ -201,9 +201,8 @@ void ask_through_pieces(const Model& model, Workspace& workspace) {
     cache.pair.holds = 7;
     cache.pair.triangle_a = model.triangle_count();
     cache.pair.triangle_b = 0xffffffffU;
-    cache.hulls = {4, {0xffffffffU, 32, 7, 0}, {0, 1, 0xffffffffU, 32}};
-    cache.leaf_a = 0xfffffff0U;
-    cache.leaf_b = static_cast<std::uint32_t>(model.piece_leaves().size());
+    cache.front.models = {1, 2};
+    cache.front.count = 0xfffffff0U;
     for (const Placement& placement : piece_placements()) {
         (void)overlapping_triangles_through(kThrough, model, model, placement, workspace, pairs);
         (void)any_overlap_through(kThrough, model, model, placement, workspace);

@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include "cdprep/overlap_through.h"
+#include "cdprep/query_counts.h"
 #include "support/guarded_pages.h"
 #include "support/hard_triangles.h"
 #include "support/more_sections.h"
@@ -147,7 +149,7 @@ TEST(DistanceThroughLaws, NoCacheChangesAnAnswer) {
     EXPECT_LT(hits, asked * 7 / 10);
 }
 
-// A cache with any numbers at all is allowed.
+// A cache with any numbers at all is allowed, but for a front that is said to be of these models.
 TEST(DistanceThroughLaws, ACacheOfNonsenseIsHarmless) {
     std::mt19937 random(11);
     Asked pair{open_pieces(icosphere(2)), open_pieces(torus(1, 0.25, 20, 10))};
@@ -156,15 +158,96 @@ TEST(DistanceThroughLaws, ACacheOfNonsenseIsHarmless) {
         cache.pair.holds = 1 + 4 * (random() % 2);
         cache.pair.triangle_a = random();
         cache.pair.triangle_b = random() % 400;
-        cache.leaf_a = random() % 80;
-        cache.leaf_b = random();
-        cache.hulls.count = random() % 6;
-        for (std::uint32_t& number : cache.hulls.a) number = random() % 16;
-        for (std::uint32_t& number : cache.hulls.b) number = random() % 40;
-        cache.hull_wait = random() % 3;
+        // Of other models, whatever it holds.
+        cache.front.models = {random(), random()};
+        cache.front.count = random() % 600;
+        cache.front.begun_with = random() % 600;
+        cache.front.failures = random() % 8;
+        cache.front.wait = random() % 3;
+        for (std::uint64_t& places : cache.front.pair) places = random();
+        for (auto& row : cache.front.row) {
+            for (float& number : row) number = static_cast<float>(random() % 9) - 4;
+        }
         pair.expect_same_answers(Placement::b_moves(random_pose(random, 1.5)), &cache);
         ASSERT_FALSE(HasFatalFailure()) << round;
     }
+}
+
+/// Where B stands after `step` steps towards A, turning meanwhile.
+Placement on_the_way(double from, double step, int i) {
+    const double turn = 0.001 * i;
+    return Placement::b_moves(
+        Pose::from_quaternion(1, turn, 2 * turn, -turn, {from - step * i, 0.1, 0.05}).value());
+}
+
+// Poses that follow each other: planes of the first question answer most of the others.
+TEST(DistanceThroughLaws, AFrontAnswersWhatFollows) {
+    Asked pair{open_pieces(icosphere(2)), open_pieces(icosphere(2))};
+    const Model &x = pair.a.model, &y = pair.b.model;
+    PieceCache cache;
+    QueryCounts plain, cached;
+    std::size_t within = 0;
+    constexpr int kSteps = 60;
+    for (int i = 0; i < kSteps; ++i) {
+        const Placement placement = on_the_way(2.1, 0.0005, i);
+        pair.workspace.count_into(&plain);
+        const auto truth = distance_through(kPieces, x, y, placement, pair.workspace);
+        pair.workspace.count_into(i == 0 ? nullptr : &cached);
+        expect_same(truth, distance_through(kPieces, x, y, placement, pair.workspace, {}, &cache));
+        ASSERT_FALSE(HasFatalFailure()) << i;
+        pair.workspace.count_into(nullptr);
+        const bool is_within =
+            is_within_through(kPieces, x, y, placement, 0.1, pair.workspace, &cache);
+        ASSERT_EQ(is_within, truth->upper <= 0.1) << i;
+        within += is_within ? 1 : 0;
+    }
+    EXPECT_GT(within, kSteps * 2U / 10);
+    EXPECT_LT(within, kSteps * 8U / 10);
+    EXPECT_GT(cache.front.count, 1U);
+    EXPECT_EQ(cache.front.failures, 0U);
+    EXPECT_GT(plain.box_pairs, 100U * kSteps);
+    EXPECT_EQ(cached.box_pairs, 0U);  // no walk
+}
+
+// One plane tells that two balls are not near; for their distance more are wanted than there is
+// room for: what has none is searched. From the beginning that is too much: it is given up.
+TEST(DistanceThroughLaws, AFullFrontIsSearchedBelow) {
+    Asked pair{open_pieces(icosphere(3)), open_pieces(icosphere(3))};
+    const Model &x = pair.a.model, &y = pair.b.model;
+    PieceCache cache;
+    std::uint32_t most = 0, failures = 0;
+    for (int i = 0; i < 12; ++i) {
+        const Placement placement = on_the_way(2.1, 0.0005, i);
+        const auto truth = distance(x, y, placement, pair.workspace);
+        for (const double tolerance : {truth->upper, 0.01}) {
+            ASSERT_EQ(
+                is_within_through(kPieces, x, y, placement, tolerance, pair.workspace, &cache),
+                tolerance == truth->upper);
+        }
+        expect_same(truth, distance_through(kPieces, x, y, placement, pair.workspace, {}, &cache));
+        ASSERT_FALSE(HasFatalFailure()) << i;
+        most = std::max(most, cache.front.count);
+        failures = std::max(failures, cache.front.failures);
+    }
+    EXPECT_GT(most, kFrontRoom - format::kBvhWidth);
+    EXPECT_GT(failures, 0U);
+}
+
+// Poses that have nothing to do with each other: it is given up, and tried less and less often.
+TEST(DistanceThroughLaws, AFrontIsLostWhereModelsJump) {
+    std::mt19937 random(13);
+    Asked pair{open_pieces(icosphere(3)), open_pieces(torus(1, 0.25, 40, 20))};
+    PieceCache cache;
+    std::uint32_t most_failures = 0;
+    for (int i = 0; i < 200; ++i) {
+        const Placement placement = Placement::b_moves(random_pose(random, 2.2));
+        expect_same(distance(pair.a.model, pair.b.model, placement, pair.workspace),
+                    distance_through(kPieces, pair.a.model, pair.b.model, placement, pair.workspace,
+                                     {}, &cache));
+        ASSERT_FALSE(HasFatalFailure()) << i;
+        most_failures = std::max(most_failures, cache.front.failures);
+    }
+    EXPECT_GT(most_failures, 0U);
 }
 
 // X01: parallel faces; both in one turned pose.
