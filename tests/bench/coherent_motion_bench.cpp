@@ -3,14 +3,15 @@
 // every pose of a file a walk begins: each step moves B by 1/1000 of the diagonal and
 // turns it by 0.2 degrees about its middle, in one direction a walk. Whole sets of
 // walks are asked with and without a cache, in turns; a cache lives as long as a walk.
-// Processor time. The first step of a walk is not timed: there the cache is empty. One thread. Of
-// bakes with pieces, questions through these follow, with a PieceCache.
+// Processor time. The first step of a walk is timed on its own: there the cache is empty, and is
+// filled. One thread. Of bakes with pieces, questions through these follow, with a PieceCache.
 //
 // Usage: coherent_motion_bench BAKES POSES [ROUNDS [PAIR...]]
 // as pair_queries_bench: models normalised, line i of a file is of kind i mod 3.
 //
 // Prints a CSV table: microseconds a question, the median of the rounds, and the spread
-// of their middle half; `times` is the one by the other.
+// of their middle half; `times` is the one by the other. Then the first question of a walk with a
+// cache, and what a question did: pairs of boxes and of triangles, distances measured in double.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -28,6 +29,7 @@
 #include "cdprep/distance_through.h"
 #include "cdprep/overlap_through.h"
 #include "cdprep/overlapping_triangles.h"
+#include "cdprep/query_counts.h"
 
 namespace cdprep {
 namespace {
@@ -99,22 +101,29 @@ bool ask(const StructureOptions& through, const Model& a, const Model& b, std::s
 /// What one contender took for one set of walks.
 struct Taken {
     double us = 0;         ///< a question
+    double first_us = 0;   ///< the first question of a walk
     std::size_t hits = 0;  ///< questions answered with yes, or with a distance of 0
 };
 
 Taken ask_all(const StructureOptions& through, const Model& a, const Model& b, std::size_t question,
-              const std::vector<Walk>& walks, bool cached, Workspace& workspace) {
+              const std::vector<Walk>& walks, bool cached, Workspace& workspace,
+              QueryCounts* counts) {
     Taken taken;
     for (const Walk& walk : walks) {
         PieceCache cache;
         PieceCache* kept = cached ? &cache : nullptr;
+        const double filled = thread_us();
         ask(through, a, b, question, walk[0], workspace, kept);
+        taken.first_us += thread_us() - filled;
+        workspace.count_into(counts);
         const double begun = thread_us();
         for (std::size_t i = 1; i < walk.size(); ++i) {
             taken.hits += ask(through, a, b, question, walk[i], workspace, kept) ? 1 : 0;
         }
         taken.us += thread_us() - begun;
+        workspace.count_into(nullptr);
     }
+    taken.first_us /= static_cast<double>(walks.size());
     taken.us /= static_cast<double>(walks.size() * kSteps);
     return taken;
 }
@@ -135,11 +144,13 @@ void compare(Structure structure, const std::string& pair, const Model& a, const
             const bool is_pieces = structure == Structure::pieces;
             if (is_pieces && question == overlaps) continue;  // has no cache
             std::array<std::vector<double>, 2> us;
+            std::vector<double> first_us;
             std::array<std::size_t, 2> hits{};
             for (int round = 0; round < rounds; ++round) {
                 for (const std::size_t cached : {0, 1}) {
                     const Taken taken = ask_all({.structure = structure}, a, b, question, walks,
-                                                cached == 1, workspace);
+                                                cached == 1, workspace, nullptr);
+                    if (cached == 1) first_us.push_back(taken.first_us);
                     us[cached].push_back(taken.us);
                     hits[cached] = taken.hits;
                 }
@@ -148,9 +159,21 @@ void compare(Structure structure, const std::string& pair, const Model& a, const
             const std::string key =
                 std::string(is_pieces ? "pieces/" : "") + kQuestions[question] + "/" + kKinds[kind];
             const double ratio = median(us[0]) / median(us[1]);
-            std::printf("%s,%s,%zu,%zu,%.2f,%.2f,%.2f,%.2f,%.2f\n", pair.c_str(), key.c_str(),
+            std::printf("%s,%s,%zu,%zu,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f", pair.c_str(), key.c_str(),
                         walks.size() * kSteps, hits[0], median(us[0]), spread(us[0]), median(us[1]),
-                        spread(us[1]), ratio);
+                        spread(us[1]), ratio, median(first_us));
+            for (const bool cached : {false, true}) {
+                QueryCounts counts;
+                ask_all({.structure = structure}, a, b, question, walks, cached, workspace,
+                        &counts);
+                const auto of_one = [&](std::uint64_t count) {
+                    return static_cast<double>(count) / static_cast<double>(walks.size() * kSteps);
+                };
+                std::printf(",%.1f,%.1f,%.1f", of_one(counts.box_pairs),
+                            of_one(counts.triangle_pairs),
+                            of_one(counts.measured + counts.measured_again));
+            }
+            std::printf("\n");
             ratios[key].push_back(ratio);
         }
         std::fflush(stdout);
@@ -160,7 +183,9 @@ void compare(Structure structure, const std::string& pair, const Model& a, const
 void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_folder,
          const std::vector<std::string>& pairs, int rounds) {
     std::printf(
-        "pair,question,questions,yes,plain_us,plain_spread_us,cached_us,cached_spread_us,times\n");
+        "pair,question,questions,yes,plain_us,plain_spread_us,cached_us,cached_spread_us,times,"
+        "first_us,plain_box_pairs,plain_triangle_pairs,plain_measured,cached_box_pairs,"
+        "cached_triangle_pairs,cached_measured\n");
     Ratios ratios;
     for (const std::string& pair : pairs) {
         const std::size_t dash = pair.find('-');
