@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/pose_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cdprep/collide.h"
+#include "cdprep/distance.h"
+#include "study/rigid_truth.h"
+#include "study/seeded_random.h"
+
+namespace cdprep::study {
+namespace {
+
+// Shares of the diagonal.
+constexpr double kDeepest = 0.15;
+constexpr double kDeep = 1e-2;
+constexpr double kBand = 1e-3;
+constexpr double kLeastOfBand = 1e-9;
+constexpr double kNear = 5e-2;
+constexpr double kFarthest = 1;
+
+constexpr int kTries = 12;
+constexpr int kMostSteps = 200;
+constexpr double kCloseEnough = 1e-6;  ///< advancement ends, halving begins
+constexpr int kHalvings = 60;
+
+Double3 plus(const Double3& a, const Double3& b, double scale) {
+    return {a.x + scale * b.x, a.y + scale * b.y, a.z + scale * b.z};
+}
+
+double length_of(const Double3& v) {
+    return std::hypot(v.x, v.y, v.z);
+}
+
+/// A model's box, as the way in needs it.
+struct Extent {
+    Double3 middle;
+    Double3 half;
+
+    [[nodiscard]] double diagonal() const {
+        return 2 * length_of(half);
+    }
+};
+
+Extent extent_of(const Model& model) {
+    if (model.bounds() == nullptr || model.triangle_count() == 0) return {};
+    const format::Bounds& box = *model.bounds();
+    const auto middle = [](double low, double high) { return low + 0.5 * (high - low); };
+    return {{middle(box.lower.x, box.upper.x), middle(box.lower.y, box.upper.y),
+             middle(box.lower.z, box.upper.z)},
+            {0.5 * (box.upper.x - box.lower.x), 0.5 * (box.upper.y - box.lower.y),
+             0.5 * (box.upper.z - box.lower.z)}};
+}
+
+/// The two models, and what the poses are measured by.
+struct Pair {
+    const Model& a;
+    const Model& b;
+    Extent of_a;
+    Extent of_b;
+    double diagonal;
+};
+
+Pair pair_of(const Model& a, const Model& b) {
+    const Extent of_a = extent_of(a);
+    const Extent of_b = extent_of(b);
+    const double smaller = std::min(of_a.diagonal(), of_b.diagonal());
+    const double larger = std::max(of_a.diagonal(), of_b.diagonal());
+    return {a, b, of_a, of_b, smaller > 0 ? smaller : larger};
+}
+
+/// A straight way on which B comes to A: at `s` its middle is at target + s * direction.
+class WayIn {
+public:
+    WayIn(const Pair& pair, SeededRandom& random) : pair_(pair) {
+        quaternion_ = random.quaternion();
+        direction_ = random.direction();
+        const Double3& half = pair.of_a.half;
+        target_ = {pair.of_a.middle.x + 0.5 * half.x * random.between(-1, 1),
+                   pair.of_a.middle.y + 0.5 * half.y * random.between(-1, 1),
+                   pair.of_a.middle.z + 0.5 * half.z * random.between(-1, 1)};
+        const Pose turn = turned({0, 0, 0});
+        offset_ = moved(turn, pair.of_b.middle);
+    }
+
+    [[nodiscard]] Pose at(double s) const {
+        return turned(plus(plus(target_, direction_, s), offset_, -1));
+    }
+    [[nodiscard]] const std::array<double, 4>& quaternion() const {
+        return quaternion_;
+    }
+
+    /// Where B is when it first touches, coming in; nothing when it passes by.
+    [[nodiscard]] std::optional<double> first_touch(Workspace& workspace) const {
+        const double outside = pair_.of_a.diagonal() + pair_.of_b.diagonal();
+        double apart = outside;
+        double gap = 0;
+        for (int step = 0; step < kMostSteps; ++step) {
+            gap = distance(pair_.a, pair_.b, Placement::b_moves(at(apart)), workspace,
+                           {.relative_error = 0.1})
+                      ->lower;
+            if (gap <= kCloseEnough * pair_.diagonal) break;
+            apart -= gap;
+            if (apart < -outside) return std::nullopt;
+        }
+        return between(apart, gap, workspace);
+    }
+
+private:
+    [[nodiscard]] Pose turned(const Double3& shift) const {
+        const auto& [w, x, y, z] = quaternion_;
+        return Pose::from_quaternion(w, x, y, z, shift).value();
+    }
+
+    [[nodiscard]] bool touches(double s, Workspace& workspace) const {
+        return collide(pair_.a, pair_.b, Placement::b_moves(at(s)), workspace).hit;
+    }
+
+    /// The touch that is somewhere not far before `apart`, where they do not yet.
+    [[nodiscard]] std::optional<double> between(double apart, double gap,
+                                                Workspace& workspace) const {
+        double step = std::max(gap, 0x1p-40 * pair_.diagonal);
+        double inside = apart - step;
+        while (!touches(inside, workspace)) {
+            apart = inside;
+            step *= 2;
+            inside -= step;
+            if (step > kBand * pair_.diagonal) return std::nullopt;  // it only came near
+        }
+        for (int i = 0; i < kHalvings; ++i) {
+            const double middle = 0.5 * (apart + inside);
+            if (middle <= inside || middle >= apart) break;
+            (touches(middle, workspace) ? inside : apart) = middle;
+        }
+        return inside;
+    }
+
+    const Pair& pair_;
+    std::array<double, 4> quaternion_{};
+    Double3 direction_{};
+    Double3 target_{};
+    Double3 offset_{};
+};
+
+/// How far on from the first touch, as a share of the diagonal; below 0: back.
+double further_in(Stratum stratum, std::size_t number, SeededRandom& random) {
+    switch (stratum) {
+        case Stratum::deep:
+            return random.between(kDeep, kDeepest);
+        case Stratum::shallow:
+            return random.between_by_factors(kBand, kDeep);
+        case Stratum::touching: {
+            const double size = random.between_by_factors(kLeastOfBand, kBand);
+            return number % 2 == 0 ? size : -size;
+        }
+        case Stratum::near:
+            return -random.between_by_factors(kBand, 1.5 * kNear);
+        default:
+            return -random.between(kNear, kFarthest);
+    }
+}
+
+/// The answers in a pose.
+StudyPose ask(const Pair& pair, const Pose& pose, double in, Workspace& workspace) {
+    StudyPose asked;
+    asked.a_from_b = pose;
+    const Placement placement = Placement::b_moves(pose);
+    const Collision solid = collide(pair.a, pair.b, placement, workspace, {.as = As::solid});
+    const std::optional<Distance> apart = distance(pair.a, pair.b, placement, workspace);
+    asked.hit = apart->upper == 0;
+    asked.solid = solid.hit ? Answer::yes : solid.containment.answer;
+    asked.gap_lower = apart->lower;
+    asked.gap_upper = apart->upper;
+    if (asked.hit) asked.depth = std::max(0.0, in) * pair.diagonal;
+    asked.is_rigid = asked.hit ? crosses_when_rigid(pair.a, pair.b, pose, workspace)
+                               : is_apart_when_rigid(pair.b, pose, apart->lower);
+    return asked;
+}
+
+/// Poses of one stratum touch, or do not, or half of the touching ones.
+bool is_wanted(const StudyPose& pose, Stratum stratum, double in, double diagonal) {
+    if (pose.hit != (in > 0)) return false;
+    return stratum_of(pose.hit, pose.depth / diagonal, pose.gap_upper / diagonal) == stratum;
+}
+
+std::optional<StudyPose> draw(const Pair& pair, Stratum stratum, std::size_t number,
+                              std::uint64_t seed, Workspace& workspace,
+                              const std::function<bool()>& stop) {
+    SeededRandom seeds(seed + 0x1000003U * static_cast<std::uint64_t>(stratum));
+    SeededRandom random(seeds.bits() + 0x9e3779b97f4a7c15U * (number + 1));
+    for (int i = 0; i < kTries && !(stop && stop()); ++i) {
+        const WayIn way(pair, random);
+        const double in = further_in(stratum, number, random);
+        const std::optional<double> touch = way.first_touch(workspace);
+        if (!touch) continue;
+        StudyPose pose = ask(pair, way.at(*touch - in * pair.diagonal), in, workspace);
+        pose.quaternion = way.quaternion();
+        pose.stratum = stratum;
+        if (is_wanted(pose, stratum, in, pair.diagonal)) return pose;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<std::size_t> PoseSet::of(Stratum stratum) const {
+    std::vector<std::size_t> numbers;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (poses[i].stratum == stratum) numbers.push_back(i);
+    }
+    return numbers;
+}
+
+std::optional<Stratum> stratum_of(bool hit, double depth, double gap) noexcept {
+    if (hit) {
+        if (depth <= kBand) return Stratum::touching;
+        if (depth <= kDeep) return Stratum::shallow;
+        if (depth <= kDeepest) return Stratum::deep;
+        return std::nullopt;
+    }
+    if (gap <= kBand) return Stratum::touching;
+    if (gap <= kNear) return Stratum::near;
+    if (gap <= kFarthest) return Stratum::far;
+    return std::nullopt;
+}
+
+PoseSet make_pose_set(const Model& a, const Model& b, const PoseSetOptions& options) {
+    PoseSet set;
+    set.seed = options.seed;
+    const Pair pair = pair_of(a, b);
+    set.diagonal = pair.diagonal;
+    const bool is_empty = a.triangle_count() == 0 || b.triangle_count() == 0;
+    if (is_empty || !(pair.diagonal > 0)) return set;
+    const std::size_t per_stratum = options.per_stratum;
+    std::vector<std::optional<StudyPose>> drawn(kStrata * per_stratum);
+    options.parallel_for(drawn.size(), [&](std::size_t i) {
+        Workspace workspace;
+        drawn[i] = draw(pair, static_cast<Stratum>(i / per_stratum), i % per_stratum, options.seed,
+                        workspace, options.stop);
+    });
+    for (std::size_t i = 0; i < drawn.size(); ++i) {
+        if (drawn[i]) {
+            set.poses.push_back(*drawn[i]);
+        } else {
+            ++set.missing[i / per_stratum];
+        }
+    }
+    return set;
+}
+
+}  // namespace cdprep::study

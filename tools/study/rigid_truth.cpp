@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/rigid_truth.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "contact_pairs.h"
+#include "moved_model.h"
+
+namespace cdprep::study {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+
+/// Sum of the greatest |x|, |y| and |z| of the model's box.
+double reach_of(const Model& model) noexcept {
+    if (model.bounds() == nullptr) return 0;
+    const format::Bounds& box = *model.bounds();
+    return std::max(std::fabs(box.lower.x), std::fabs(box.upper.x)) +
+           std::max(std::fabs(box.lower.y), std::fabs(box.upper.y)) +
+           std::max(std::fabs(box.lower.z), std::fabs(box.upper.z));
+}
+
+Double3 minus(const Double3& a, const Double3& b) noexcept {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+double size_of(const Double3& a) noexcept {
+    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
+}
+
+/// The side of the plane through a, b, c on which d lies: 0 where it is not certain for
+/// points that are each off by `shift` along an axis.
+int certain_side(const Double3& a, const Double3& b, const Double3& c, const Double3& d,
+                 double shift) noexcept {
+    const Double3 u = minus(a, d);
+    const Double3 v = minus(b, d);
+    const Double3 w = minus(c, d);
+    const double volume = u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) +
+                          u.z * (v.x * w.y - v.y * w.x);
+    const double most = std::max({size_of(u), size_of(v), size_of(w)}) + 2 * shift;
+    // Entries are off by 2 shift: three rows of six products each. Rounding of the entries
+    // and the sum is below 32 units of the last place of most^3.
+    const double doubt = 40 * shift * most * most + 64 * kUnit * most * most * most;
+    if (std::fabs(volume) <= doubt) return 0;
+    return volume > 0 ? 1 : -1;
+}
+
+/// Whether the segment goes through the inside of the triangle for certain.
+bool pierces(const Double3& p, const Double3& q, const Corners& t, double shift) noexcept {
+    const int from = certain_side(t[0], t[1], t[2], p, shift);
+    const int to = certain_side(t[0], t[1], t[2], q, shift);
+    if (from * to >= 0) return false;
+    const int first = certain_side(p, q, t[0], t[1], shift);
+    return first != 0 && certain_side(p, q, t[1], t[2], shift) == first &&
+           certain_side(p, q, t[2], t[0], shift) == first;
+}
+
+bool pierces_any(const Corners& edges, const Corners& t, double shift) noexcept {
+    return pierces(edges[0], edges[1], t, shift) || pierces(edges[1], edges[2], t, shift) ||
+           pierces(edges[2], edges[0], t, shift);
+}
+
+}  // namespace
+
+double rounding_of_pose(const Model& b, const Pose& a_from_b) noexcept {
+    // The entries of R are off by 8 units, moved() adds 5 more of |R||v| + |t|, whose entries
+    // are at most 1 in size: 13, and room for the second order.
+    return 16 * kUnit * (reach_of(b) + size_of(a_from_b.translation()));
+}
+
+bool is_apart_when_rigid(const Model& b, const Pose& a_from_b, double gap) noexcept {
+    return gap > 2 * rounding_of_pose(b, a_from_b);  // the square root of three axes
+}
+
+bool crosses_when_rigid(const Model& a, const Model& b, const Pose& a_from_b,
+                        Workspace& workspace) noexcept {
+    const double shift = rounding_of_pose(b, a_from_b);
+    const Placement placement = Placement::b_moves(a_from_b);
+    const MovedModel in_a = moved_a(a, placement);
+    const MovedModel in_b = moved_b(b, placement);
+    bool is_certain = false;
+    for_each_contact<Search::all>(
+        a, b, placement, workspace, {}, [&](std::uint32_t at_a, std::uint32_t at_b) {
+            const Corners of_a = in_a.corners(at_a);
+            const Corners of_b = in_b.corners(at_b);
+            is_certain = pierces_any(of_a, of_b, shift) || pierces_any(of_b, of_a, shift);
+            return !is_certain;
+        });
+    return is_certain;
+}
+
+}  // namespace cdprep::study
