@@ -8,6 +8,7 @@
 #include "cdprep/distance.h"
 #include "study/rigid_truth.h"
 #include "study/seeded_random.h"
+#include "vectors.h"
 
 namespace cdprep::study {
 namespace {
@@ -24,10 +25,6 @@ constexpr int kTries = 12;
 constexpr int kMostSteps = 200;
 constexpr double kCloseEnough = 1e-6;  ///< advancement ends, halving begins
 constexpr int kHalvings = 60;
-
-Double3 plus(const Double3& a, const Double3& b, double scale) {
-    return {a.x + scale * b.x, a.y + scale * b.y, a.z + scale * b.z};
-}
 
 double length_of(const Double3& v) {
     return std::hypot(v.x, v.y, v.z);
@@ -85,7 +82,7 @@ public:
     }
 
     [[nodiscard]] Pose at(double s) const {
-        return turned(plus(plus(target_, direction_, s), offset_, -1));
+        return turned(target_ + s * direction_ - offset_);
     }
     [[nodiscard]] const std::array<double, 4>& quaternion() const {
         return quaternion_;

@@ -7,6 +7,7 @@
 
 #include "contact_pairs.h"
 #include "moved_model.h"
+#include "vectors.h"
 
 namespace cdprep::study {
 namespace {
@@ -22,24 +23,15 @@ double reach_of(const Model& model) noexcept {
            std::max(std::fabs(box.lower.z), std::fabs(box.upper.z));
 }
 
-Double3 minus(const Double3& a, const Double3& b) noexcept {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-double size_of(const Double3& a) noexcept {
-    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
-}
-
 /// The side of the plane through a, b, c on which d lies: 0 where it is not certain for
 /// points that are each off by `shift` along an axis.
 int certain_side(const Double3& a, const Double3& b, const Double3& c, const Double3& d,
                  double shift) noexcept {
-    const Double3 u = minus(a, d);
-    const Double3 v = minus(b, d);
-    const Double3 w = minus(c, d);
-    const double volume = u.x * (v.y * w.z - v.z * w.y) + u.y * (v.z * w.x - v.x * w.z) +
-                          u.z * (v.x * w.y - v.y * w.x);
-    const double most = std::max({size_of(u), size_of(v), size_of(w)}) + 2 * shift;
+    const Double3 u = a - d;
+    const Double3 v = b - d;
+    const Double3 w = c - d;
+    const double volume = dot(u, cross(v, w));
+    const double most = std::max({largest_of(u), largest_of(v), largest_of(w)}) + 2 * shift;
     // Entries are off by 2 shift: three rows of six products each. Rounding of the entries
     // and the sum is below 32 units of the last place of most^3.
     const double doubt = 40 * shift * most * most + 64 * kUnit * most * most * most;
@@ -67,7 +59,7 @@ bool pierces_any(const Corners& edges, const Corners& t, double shift) noexcept 
 double rounding_of_pose(const Model& b, const Pose& a_from_b) noexcept {
     // The entries of R are off by 8 units, moved() adds 5 more of |R||v| + |t|, whose entries
     // are at most 1 in size: 13, and room for the second order.
-    return 16 * kUnit * (reach_of(b) + size_of(a_from_b.translation()));
+    return 16 * kUnit * (reach_of(b) + largest_of(a_from_b.translation()));
 }
 
 bool is_apart_when_rigid(const Model& b, const Pose& a_from_b, double gap) noexcept {

@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Studies two sample meshes through the program: what every format holds, what is asserted,
+what is refused in which words, and that the page tells of a rung when one points at it."""
+import csv
+import json
+import math
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import xml.etree.ElementTree
+
+from browser import Browser, find_chromium
+from shared_models import bake, must, run
+
+PROGRAM = sys.argv[1]
+MESHES = pathlib.Path(__file__).resolve().parents[2] / "samples" / "meshes"
+BOLT, BRACKET = MESHES / "bolt.obj", MESHES / "bracket.obj"
+LADDERS = ["geometry", "distance", "predicates", "storage", "coherence"]
+STRATA = ["deep", "shallow", "touching", "near", "far"]
+
+
+def accuracy(*arguments, code=0):
+    done = run(PROGRAM, "accuracy", *arguments)
+    must(done.returncode == code, f"accuracy {arguments} exited {done.returncode}: {done.stderr}")
+    return done
+
+
+def wrong_flags(study, rung):
+    """False hits and misses, counted anew from the answers by pose."""
+    misses = sum(pose["hit"] and answer == "no"
+                 for pose, answer in zip(study["poses"], rung["answers"]))
+    false_hits = sum(not pose["hit"] and answer != "no"
+                     for pose, answer in zip(study["poses"], rung["answers"]))
+    return misses, false_hits
+
+
+def check_rung(study, ladder, rung):
+    where = f"{ladder['name']}, {rung['name']}"
+    times = rung["time"]
+    must(0 < times["median_s"] <= times["p95_s"] <= times["p999_s"], f"{where}: {times}")
+    must(len(rung["seconds"]) == times["cases"], f"{where}: {len(rung['seconds'])} times")
+    median = sorted(rung["seconds"])[(times["cases"] + 1) // 2 - 1]
+    must(math.isclose(median, times["median_s"], rel_tol=1e-9), f"{where}: median {median}")
+    if "answers" not in rung:
+        return
+    must(len(rung["answers"]) == len(study["poses"]), f"{where}: answers")
+    misses, false_hits = wrong_flags(study, rung)
+    strata = rung["strata"].values()
+    must(misses == sum(s["misses"]["count"] for s in strata), f"{where}: misses")
+    must(false_hits == sum(s["false_hits"]["count"] for s in strata), f"{where}: false hits")
+    if rung["promise"] in ("no misses", "exact", "yes and no are right"):
+        must(misses == 0, f"{where} missed {misses}")
+    if rung["promise"] == "exact":
+        must(false_hits == 0, f"{where}: {false_hits} false hits")
+
+
+def check_json(folder):
+    """Every number of the tables can be derived again, and promises hold."""
+    output = folder / "study.json"
+    accuracy(BOLT, BRACKET, "--quick", "--format", "json", "-o", output)
+    study = json.loads(output.read_text())
+    must(study["exit"] == 0 and study["broken"] == [], f"broken: {study['broken']}")
+    must([ladder["name"] for ladder in study["ladders"]] == LADDERS, "ladders")
+    must({pose["stratum"] for pose in study["poses"]} == set(STRATA), "strata")
+    must(study["machine"]["kernels"] and study["machine"]["compiler"], "machine")
+    must(study["self_check"]["low"] <= study["self_check"]["ratio"] <= study["self_check"]["high"],
+         f"self-check {study['self_check']}")
+    must(study["self_check"]["holds"]
+         == (study["self_check"]["low"] <= 1 <= study["self_check"]["high"]), "self-check")
+    for ladder in study["ladders"]:
+        for rung in ladder["rungs"]:
+            check_rung(study, ladder, rung)
+    for rung in study["ladders"][1]["rungs"]:
+        holds = rung["distance"]["interval_holds"]
+        must(holds["count"] == holds["of"] > 0, f"distance, {rung['name']}: {holds}")
+    return study
+
+
+def check_poses(study, folder):
+    """`query` gives the answers that the study says are true."""
+    poses = folder / "poses.txt"
+    poses.write_text("\n".join(" ".join(map(repr, pose["pose"])) for pose in study["poses"]))
+    bake(PROGRAM, BOLT, BRACKET, "--output-dir", folder)
+    baked = [folder / "bolt.cdp.h5", folder / "bracket.cdp.h5"]
+    done = run(PROGRAM, "query", "collide", *baked, "--poses", poses, "--format", "ndjson")
+    hits = [json.loads(line)["hit"] for line in done.stdout.splitlines()]
+    must(hits == [pose["hit"] for pose in study["poses"]], "query collide answers otherwise")
+    must(30 <= 100 * sum(hits) / len(hits) <= 70, f"{sum(hits)} of {len(hits)} poses hit")
+    return baked
+
+
+def check_baked(study, baked):
+    """Baked files are the same models: the same poses."""
+    done = accuracy(*baked, "--quick", "--ladder", "distance", "--format", "json")
+    again = json.loads(done.stdout)
+    must([pose["pose"] for pose in again["poses"]] == [pose["pose"] for pose in study["poses"]],
+         "baked files give other poses")
+    must([ladder["name"] for ladder in again["ladders"]] == ["distance"], "--ladder")
+
+
+def check_other_formats(folder):
+    short = ["--quick", "--ladder", "predicates,storage"]
+    text = accuracy(BOLT, BRACKET, *short).stdout
+    must("what the next digit costs" in text and "24-bit grid" in text, text)
+    rows = accuracy(BOLT, BRACKET, *short, "--format", "csv").stdout.splitlines()
+    table = list(csv.DictReader(row for row in rows if not row.startswith("#")))
+    must({row["ladder"] for row in table} == {"predicates", "storage"}, "ladders of the CSV")
+    must(all(float(row["median_s"]) > 0 and None not in row for row in table), "cells of the CSV")
+    svg = folder / "charts.svg"
+    accuracy(BOLT, BRACKET, *short, "--format", "svg", "-o", svg)
+    root = xml.etree.ElementTree.parse(svg).getroot()
+    must(root.tag == "{http://www.w3.org/2000/svg}svg", root.tag)
+    must(len(root.findall(".//{*}circle")) >= 11, "marks of the charts")
+
+
+def check_page(folder):
+    """Pointing at a mark tells of its rung; nothing asks a network."""
+    if not find_chromium():
+        print("the page was not opened: there is no Chromium")
+        return
+    page = folder / "study.html"
+    accuracy(BOLT, BRACKET, "--quick", "--format", "html", "-o", page)
+    with Browser(1200, 900) as browser:
+        browser.open(page.as_uri())
+        must(browser.value("document.querySelectorAll('svg').length") >= 6, "charts")
+        must(browser.value("document.getElementById('tip').hidden"), "a card before it is asked")
+        browser.value("document.querySelector('#geometry svg .point').scrollIntoView("
+                      "{block: 'center'})")
+        at = browser.value("(() => { const r = document.querySelector('#geometry svg .point')"
+                           ".getBoundingClientRect(); return {x: r.x + r.width / 2, "
+                           "y: r.y + r.height / 2}; })()")
+        browser.ask("Input.dispatchMouseEvent", type="mouseMoved", x=at["x"], y=at["y"])
+        browser.wait("!document.getElementById('tip').hidden")
+        card = browser.value("document.getElementById('tip').textContent")
+        must("geometry: sphere" in card and "no misses" in card and "worst" in card, card)
+        must(browser.value("document.querySelectorAll('tbody tr.lit').length") == 1, "lit row")
+        browser.value("document.querySelector('#coherence .block').focus()")
+        must("coherence: collide, cold" in browser.value("document.getElementById('tip').textContent"),
+             "the Tab key does not reach a bar")
+        overlaps = browser.value("document.documentElement.scrollWidth <= innerWidth")
+        must(overlaps, "the page is wider than the window")
+        must(all(url.startswith(("file:", "data:", "about:")) for url in browser.requests),
+             f"the page asked for {browser.requests}")
+        must(not browser.complaints, f"the console says {browser.complaints}")
+
+
+def check_refusals(folder):
+    """Asked wrongly: 2; unreadable: 3; not written: 4; each in a sentence."""
+    empty = folder / "empty.obj"
+    empty.write_text("v 0 0 0\n")
+    for arguments, code, words in [
+            ([BOLT, empty, "--quick"], 2, "second model has no triangles"),
+            ([BOLT, folder / "missing.obj"], 3, "missing.obj"),
+            ([BOLT, BRACKET, "--quick", "--ladder", "stairs"], 2, "stairs"),
+            ([BOLT, BRACKET, "--quick", "-o", BOLT], 2, "is the input and would be replaced"),
+            ([folder / "bolt.cdp.h5", BRACKET, "--normalize"], 2, "is baked already"),
+            ([BOLT, BRACKET, "--progress", "loud"], 2, "must be auto"),
+            ([BOLT, BRACKET, "--quick", "--ladder", "predicates", "-o", folder / "no" / "x"], 4,
+             "x")]:
+        done = accuracy(*arguments, code=code)
+        must(words in done.stderr, f"{arguments}: {done.stderr}")
+        must(done.stdout == "", f"{arguments} printed {done.stdout[:80]}")
+    failed = json.loads(accuracy(BOLT, empty, "--format", "json", code=2).stdout)
+    must(failed["exit"] == 2 and "no triangles" in failed["error"], failed)
+
+
+def check_interrupt(folder):
+    """A person who stops it gets 130 soon, and no file."""
+    output = folder / "stopped.json"
+    process = subprocess.Popen([PROGRAM, "accuracy", BOLT, BRACKET, "-o", output, "--progress",
+                                "plain"], stderr=subprocess.PIPE, text=True)
+    said = [process.stderr.readline() for _ in range(4)]
+    process.send_signal(signal.SIGINT)
+    begun = time.monotonic()
+    said += process.stderr.readlines()
+    must(process.wait() == 130, f"exit {process.returncode}")
+    must(time.monotonic() - begun < 60, "it did not stop")
+    must(not output.exists(), "a file of a stopped study")
+    must(any("poses" in line for line in said), f"progress: {said}")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        study = check_json(folder)
+        baked = check_poses(study, folder)
+        check_baked(study, baked)
+        check_other_formats(folder)
+        check_page(folder)
+        check_refusals(folder)
+        check_interrupt(folder)
+    print(f"{len(study['poses'])} poses, {sum(len(l['rungs']) for l in study['ladders'])} rungs")
+
+
+main()

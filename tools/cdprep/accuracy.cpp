@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "command.h"
+#include "import_limits.h"
+#include "interrupt.h"
+#include "load_mesh.h"
+#include "output_path.h"
+#include "parallel.h"
+#include "progress.h"
+#include "report/accuracy_chart.h"
+#include "report/accuracy_report.h"
+#include "report_output.h"
+#include "study/accuracy.h"
+#include "study_input.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct Arguments {
+    fs::path a;
+    fs::path b;
+    fs::path output;
+    bool is_quick = false;
+    std::uint64_t seed = 1;
+    std::vector<std::string> ladders;
+    std::string format = "text";
+    std::string progress = "auto";
+    std::size_t threads = 0;
+    LoadOptions load;
+    ImportLimits import;
+};
+
+/// Tells how far the study is and about how long it goes on.
+class Teller {
+public:
+    explicit Teller(Progress& progress) : progress_(progress) {}
+
+    void tell(double share, const std::string& step) {
+        const double passed = std::chrono::duration<double>(Clock::now() - begun_).count();
+        std::string what = step;
+        if (share >= kFirstEstimate) {
+            const double left = std::ceil(passed * (1 - share) / share);
+            what += ", about " + std::to_string(static_cast<long>(left)) + " s left";
+        }
+        progress_.show(static_cast<std::size_t>(100 * share), what);
+    }
+
+private:
+    static constexpr double kFirstEstimate = 0.02;
+
+    Progress& progress_;
+    Clock::time_point begun_ = Clock::now();
+};
+
+/// Begins the file, so that a place where none can be is said before the work.
+Result<ReportOutput> open_output(const Arguments& arguments) {
+    for (const fs::path* input : {&arguments.a, &arguments.b}) {
+        if (arguments.output.empty()) break;
+        if (auto error = find_replaced_input(*input, arguments.output)) return *error;
+    }
+    return ReportOutput::open(arguments.output);
+}
+
+Result<study::AccuracyStudy> study_pair(const Arguments& arguments, Progress& progress) {
+    const Threads threads(arguments.threads);
+    LoadOptions load = arguments.load;
+    load.import = arguments.import.options();
+    load.import.parallel_for = threads.parallel_for();
+    progress.show(0, arguments.a.filename().string() + ": read");
+    const Result<mesh::Mesh> a = load_for_study(arguments.a, load);
+    if (!a) return a.error();
+    if (is_interrupted()) return interrupted(arguments.a);
+    progress.show(0, arguments.b.filename().string() + ": read");
+    const Result<mesh::Mesh> b = load_for_study(arguments.b, load);
+    if (!b) return b.error();
+    if (is_interrupted()) return interrupted(arguments.b);
+
+    Teller teller(progress);
+    Result<study::AccuracyStudy> studied = study::study_accuracy(
+        a.value(), b.value(),
+        {.is_quick = arguments.is_quick,
+         .seed = arguments.seed,
+         .ladders = arguments.ladders,
+         .parallel_for = threads.parallel_for(),
+         .stop = is_interrupted,
+         .progress = [&](double share, const std::string& step) { teller.tell(share, step); }});
+    if (studied || studied.error().code != ErrorCode::bad_argument) return studied;
+    return Error{ErrorCode::bad_argument, arguments.a.string() + ", " + arguments.b.string() +
+                                              ": " + studied.error().message};
+}
+
+std::string written_as(const std::string& format, const report::AccuracyReport& report) {
+    if (format == "json") return report::accuracy_json(report);
+    if (format == "csv") return report::accuracy_csv(report);
+    if (format == "svg") return report::accuracy_svg(report);
+    if (format == "html") return report::accuracy_page(report);
+    return report::accuracy_text(report);
+}
+
+/// Writes what was found; an output that fails says so.
+Exit write(const Arguments& arguments, const report::AccuracyReport& report, ReportOutput& output) {
+    Result<Done> written = output.append(written_as(arguments.format, report));
+    if (written) written = output.finish();
+    if (!written) return fail("accuracy", written.error());
+    for (const std::string& sentence : report.study.broken) {
+        std::cerr << "cdprep accuracy: a promise is broken: " << sentence << '\n';
+    }
+    return static_cast<Exit>(report.exit);
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<ProgressStyle> style = parse_progress(arguments.progress);
+    if (!style) return fail("accuracy", style.error());
+    Result<ReportOutput> output = open_output(arguments);
+    if (!output) return fail("accuracy", output.error());
+    Progress progress(style.value(), 100);
+    Result<study::AccuracyStudy> studied = study_pair(arguments, progress);
+    progress.clear();
+    report::AccuracyReport report;
+    report.input = arguments.a.string();
+    report.input_b = arguments.b.string();
+    report.version = CDPREP_VERSION;
+    if (!studied) {
+        if (arguments.format == "json" && arguments.output.empty()) {
+            report.exit = static_cast<int>(exit_for(studied.error().code));
+            report.error = studied.error().message;
+            std::cout << report::accuracy_json(report);
+        }
+        return fail("accuracy", studied.error());
+    }
+    report.study = std::move(studied).value();
+    if (!report.study.broken.empty()) report.exit = static_cast<int>(Exit::internal);
+    return write(arguments, report, output.value());
+}
+
+}  // namespace
+
+void add_accuracy(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("accuracy", "Show what accuracy costs in time");
+    command->footer(
+        "Asks the same questions about A and B in coarser and finer ways, at seeded poses from\n"
+        "deep in each other to far apart whose exact answers are known, and tells of each way how\n"
+        "long it takes, what it is built of, and how often it is wrong. Promises (an enclosing\n"
+        "shape never misses, an interval holds the truth) are asserted: exit 6 when one breaks.\n"
+        "Times are of one thread of this machine; -j is for what is built before.");
+    command->add_option("A", arguments->a, "A mesh file or a baked file; it stays")->required();
+    command->add_option("B", arguments->b, "The other one; it moves")->required();
+    command->add_option("-o,--output", arguments->output, "A file instead of standard output");
+    command->add_flag("--quick", arguments->is_quick,
+                      "Seconds instead of a minute or two: fewer poses, rounds and rungs");
+    command->add_option("--seed", arguments->seed, "Of the poses")->capture_default_str();
+    command
+        ->add_option("--ladder", arguments->ladders,
+                     "These alone: geometry, distance, predicates, storage, coherence")
+        ->delimiter(',')
+        ->check(CLI::IsMember(
+            std::vector<std::string>(study::kLadderNames.begin(), study::kLadderNames.end())));
+    command->add_option("--format", arguments->format, "text, json, csv, svg or html")
+        ->check(CLI::IsMember({"text", "json", "csv", "svg", "html"}))
+        ->capture_default_str();
+    add_normalize(*command, arguments->load.normalize);
+    add_weld(*command, arguments->load.weld_distance);
+    add_jobs(*command, arguments->threads);
+    add_progress(*command, arguments->progress);
+    add_import_limits(*command, arguments->import);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

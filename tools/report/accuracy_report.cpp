@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "report/accuracy_report.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "report/fixed.h"
+#include "report/printable.h"
+
+namespace cdprep::report {
+namespace {
+
+using study::Ladder;
+using study::Rung;
+
+std::string padded(std::string text, std::size_t width) {
+    if (text.size() < width) text.insert(0, width - text.size(), ' ');
+    return text;
+}
+
+std::string left(std::string text, std::size_t width) {
+    if (text.size() < width) text.append(width - text.size(), ' ');
+    return text;
+}
+
+std::string in_three_digits(double value) {
+    std::array<char, 32> text;
+    std::snprintf(text.data(), text.size(), "%.3g", value);
+    return text.data();
+}
+
+/// A share as per cent in few digits.
+std::string per_cent(double share) {
+    if (share == 0) return "0";
+    const double value = 100 * share;
+    if (value >= 10 && value < 1000) return fixed(value, 0) + " %";
+    if (value >= 0.1 && value < 10) return fixed(value, 1) + " %";
+    return in_three_digits(value) + " %";
+}
+
+std::string in_bytes(double bytes) {
+    if (bytes < 10'000) return fixed(bytes, 0) + " B";
+    if (bytes < 1e7) return fixed(bytes / 1000, 0) + " kB";
+    return fixed(bytes / 1e6, 1) + " MB";
+}
+
+std::string error_word(const Rung& rung) {
+    if (!rung.error) return "-";
+    std::string word = per_cent(*rung.error);
+    if (rung.error_high > *rung.error) {
+        word += " (" + per_cent(rung.error_low) + ".." + per_cent(rung.error_high) + ")";
+    }
+    return word;
+}
+
+std::string misses_word(const Rung& rung) {
+    if (rung.answers.empty()) return "-";
+    std::size_t misses = 0;
+    std::size_t of = 0;
+    for (const auto& stratum : rung.strata) {
+        misses += stratum.misses.count;
+        of += stratum.misses.of;
+    }
+    return std::to_string(misses) + "/" + std::to_string(of);
+}
+
+/// Which columns a ladder has something to say in.
+struct Columns {
+    bool misses = false;
+    bool pairs = false;
+    bool outer = false;
+    bool build = false;
+    bool bytes = false;
+    bool moved = false;
+    bool distance = false;
+};
+
+Columns columns_of(const Ladder& ladder) {
+    Columns columns;
+    for (const Rung& rung : ladder.rungs) {
+        columns.misses |= !rung.answers.empty();
+        columns.pairs |= rung.pairs.has_value();
+        columns.outer |= rung.outer.has_value();
+        columns.build |= rung.build_s.has_value();
+        columns.bytes |= rung.bytes.has_value();
+        columns.moved |= rung.displacement.has_value();
+        columns.distance |= rung.distance.has_value();
+    }
+    return columns;
+}
+
+template <class Value, class Write>
+std::string or_dash(const std::optional<Value>& value, Write write) {
+    return value ? write(*value) : "-";
+}
+
+std::vector<std::string> head_of(const Columns& columns) {
+    std::vector<std::string> head = {"rung", "median", "p95", "p99.9"};
+    if (columns.build) head.emplace_back("build");
+    if (columns.bytes) head.emplace_back("size");
+    if (columns.outer) head.emplace_back("sticks out");
+    if (columns.moved) head.emplace_back("moved");
+    head.emplace_back("error");
+    if (columns.misses) head.emplace_back("misses");
+    if (columns.pairs) {
+        head.emplace_back("recall");
+        head.emplace_back("precision");
+    }
+    if (columns.distance) head.emplace_back("holds");
+    return head;
+}
+
+std::vector<std::string> row_of(const Rung& rung, const Columns& columns) {
+    std::vector<std::string> row = {rung.name, in_time(rung.time.median_s),
+                                    in_time(rung.time.p95_s), in_time(rung.time.p999_s)};
+    const auto bytes = [](std::uint64_t value) { return in_bytes(static_cast<double>(value)); };
+    if (columns.build) row.push_back(or_dash(rung.build_s, in_time));
+    if (columns.bytes) row.push_back(or_dash(rung.bytes, bytes));
+    if (columns.outer) row.push_back(or_dash(rung.outer, per_cent));
+    if (columns.moved) row.push_back(or_dash(rung.displacement, per_cent));
+    row.push_back(error_word(rung));
+    if (columns.misses) row.push_back(misses_word(rung));
+    if (columns.pairs) {
+        row.push_back(
+            or_dash(rung.pairs, [](const auto& pairs) { return fixed(pairs.recall(), 5); }));
+        row.push_back(
+            or_dash(rung.pairs, [](const auto& pairs) { return fixed(pairs.precision(), 5); }));
+    }
+    if (columns.distance) {
+        row.push_back(or_dash(rung.distance, [](const auto& distance) {
+            return std::to_string(distance.holds.count) + "/" + std::to_string(distance.holds.of);
+        }));
+    }
+    return row;
+}
+
+std::string strata_text(const study::PoseSet& set) {
+    std::string text;
+    for (std::size_t s = 0; s < study::kStrata; ++s) {
+        const std::size_t count = set.of(static_cast<study::Stratum>(s)).size();
+        text += (s > 0 ? ", " : "") + std::to_string(count) + " " + study::kStratumNames[s];
+        if (set.missing[s] > 0) text += " (" + std::to_string(set.missing[s]) + " not found)";
+    }
+    return text;
+}
+
+std::string aligned(const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths;
+    for (const auto& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()));
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            widths[i] = std::max(widths[i], row[i].size());
+        }
+    }
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line = "  ";
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            line += i == 0 ? left(row[i], widths[i]) : "  " + padded(row[i], widths[i]);
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
+    }
+    return text;
+}
+
+std::string ladder_text(const Ladder& ladder) {
+    std::string text =
+        "\n" + ladder.name + ": " + ladder.question + "?\n  error: " + ladder.error + "\n";
+    text += ladder.rungs.empty() ? "  no rung was climbed\n" : aligned(ladder_table(ladder));
+    for (const std::string& sentence : ladder.left_out) text += "  left out: " + sentence + "\n";
+    return text;
+}
+
+}  // namespace
+
+std::string in_time(double seconds) {
+    if (seconds < 1e-6) return in_three_digits(seconds * 1e9) + " ns";
+    if (seconds < 1e-3) return in_three_digits(seconds * 1e6) + " us";
+    if (seconds < 1) return in_three_digits(seconds * 1e3) + " ms";
+    return in_three_digits(seconds) + " s";
+}
+
+const char* promise_name(study::Promise promise) noexcept {
+    switch (promise) {
+        case study::Promise::no_misses:
+            return "no misses";
+        case study::Promise::no_false_hits:
+            return "no false hits";
+        case study::Promise::both_sides:
+            return "yes and no are right";
+        case study::Promise::exact:
+            return "exact";
+        case study::Promise::interval:
+            return "the interval holds the truth";
+        default:
+            return "none";
+    }
+}
+
+std::vector<NextDigit> next_digits(const Ladder& ladder) {
+    const std::vector<bool> beaten = study::dominated(ladder.rungs);
+    std::vector<std::size_t> front;
+    for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
+        if (ladder.rungs[i].error && !beaten[i]) front.push_back(i);
+    }
+    std::ranges::stable_sort(front, {},
+                             [&](std::size_t i) { return ladder.rungs[i].time.median_s; });
+    std::vector<NextDigit> steps;
+    for (std::size_t k = 1; k < front.size(); ++k) {
+        const Rung& from = ladder.rungs[front[k - 1]];
+        const Rung& to = ladder.rungs[front[k]];
+        if (*to.error >= *from.error || from.time.median_s <= 0) continue;
+        const double time = to.time.median_s / from.time.median_s;
+        const double error =
+            *to.error > 0 ? *from.error / *to.error : std::numeric_limits<double>::infinity();
+        const double digits = std::log10(error);
+        const double a_digit = std::isfinite(error) ? std::pow(time, 1 / digits)
+                                                    : std::numeric_limits<double>::quiet_NaN();
+        steps.push_back({front[k - 1], front[k], time, error, a_digit});
+    }
+    return steps;
+}
+
+std::vector<std::vector<std::string>> ladder_table(const Ladder& ladder) {
+    const Columns columns = columns_of(ladder);
+    std::vector<std::vector<std::string>> table = {head_of(columns)};
+    for (const Rung& rung : ladder.rungs) table.push_back(row_of(rung, columns));
+    return table;
+}
+
+std::vector<std::vector<std::string>> next_digit_table(const std::vector<Ladder>& ladders) {
+    std::vector<std::vector<std::string>> table = {{"step", "time", "error", "a digit"}};
+    for (const Ladder& ladder : ladders) {
+        for (const NextDigit& step : next_digits(ladder)) {
+            const bool ends = !std::isfinite(step.error);
+            table.push_back({ladder.name + ": " + ladder.rungs[step.from].name + " -> " +
+                                 ladder.rungs[step.to].name,
+                             "x " + in_three_digits(step.time),
+                             ends ? "none left" : "/ " + in_three_digits(step.error),
+                             ends ? "" : "x " + in_three_digits(step.time_a_digit)});
+        }
+    }
+    return table;
+}
+
+std::vector<std::vector<std::string>> study_facts(const study::AccuracyStudy& study) {
+    const study::Machine& machine = study.machine;
+    std::string clock = "a question against itself takes " + fixed(study.self.ratio, 3) +
+                        " times as long (" + fixed(study.self.low, 3) + ".." +
+                        fixed(study.self.high, 3) + ")";
+    if (!study.self.holds_one()) clock += ": this machine is too busy to trust its times";
+    return {{"poses", strata_text(study.set) + "; seed " + std::to_string(study.set.seed) +
+                          "; shares are of " + in_six_digits(study.set.diagonal) +
+                          ", the smaller diagonal"},
+            {"truth", "exact for the vertices as moved; at " + std::to_string(study.rigid) +
+                          " of " + std::to_string(study.set.poses.size()) +
+                          " poses proved to be that of the exact rotation too"},
+            {"machine", machine.processor + ", kernels " + machine.kernels + ", " +
+                            machine.compiler + ", " + machine.build + "; one thread, " +
+                            std::to_string(study.timing.rounds) + " rounds"},
+            {"clock", clock}};
+}
+
+std::string accuracy_text(const AccuracyReport& report) {
+    std::string text = printable(report.input) + " (" + std::to_string(report.study.a.triangles) +
+                       " triangles) against " + printable(report.input_b) + " (" +
+                       std::to_string(report.study.b.triangles) + ")\n";
+    for (const auto& fact : study_facts(report.study)) {
+        text += "  " + fact[0] + ": " + fact[1] + "\n";
+    }
+    for (const Ladder& ladder : report.study.ladders) text += ladder_text(ladder);
+    text += "\nwhat the next digit costs, along the rungs that no other beats\n" +
+            aligned(next_digit_table(report.study.ladders));
+    text += "\n" + in_time(report.study.seconds) + " in all\n";
+    for (const std::string& sentence : report.study.broken) {
+        text += "BROKEN PROMISE: " + sentence + "\n";
+    }
+    return text;
+}
+
+std::string accuracy_csv(const AccuracyReport& report) {
+    const study::AccuracyStudy& study = report.study;
+    const auto plain = [](std::string text) {
+        std::ranges::replace(text, ',', ';');
+        std::ranges::replace(text, '"', '\'');
+        return printable(text);
+    };
+    const auto exact = [](double value) {
+        std::array<char, 40> text;
+        std::snprintf(text.data(), text.size(), "%.9g", value);
+        return std::string(text.data());
+    };
+    std::string text = "# " + plain(report.input) + " against " + plain(report.input_b) +
+                       "; seed " + std::to_string(study.set.seed) + "; " +
+                       plain(study.machine.processor) + "; " + plain(study.machine.compiler) +
+                       "; kernels " + study.machine.kernels + "; rounds " +
+                       std::to_string(study.timing.rounds) + "\n";
+    text +=
+        "ladder,rung,promise,median_s,p95_s,p999_s,spread_s,low_s,high_s,cases,asked,build_s,bytes,"
+        "touched_bytes,error,error_low,error_high,misses,false_hits,recall,precision,"
+        "distance_worst,distance_median,interval_holds,outer,displacement,degenerate,dominated";
+    for (const char* name : study::kStratumNames) {
+        text += std::string(",") + name + "_s," + name + "_misses," + name + "_hits," + name +
+                "_false_hits," + name + "_apart," + name + "_unknown";
+    }
+    text += "\n";
+    const auto value = [&](const auto& optional) {
+        return optional ? exact(static_cast<double>(*optional)) : std::string();
+    };
+    for (const Ladder& ladder : study.ladders) {
+        const std::vector<bool> beaten = study::dominated(ladder.rungs);
+        for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
+            const Rung& rung = ladder.rungs[i];
+            std::size_t misses = 0;
+            std::size_t false_hits = 0;
+            for (const auto& stratum : rung.strata) {
+                misses += stratum.misses.count;
+                false_hits += stratum.false_hits.count;
+            }
+            const bool has_flags = !rung.answers.empty();
+            std::vector<std::string> cells = {
+                ladder.name,
+                plain(rung.name),
+                promise_name(rung.promise),
+                exact(rung.time.median_s),
+                exact(rung.time.p95_s),
+                exact(rung.time.p999_s),
+                exact(rung.time.spread_s),
+                exact(rung.time.low_s),
+                exact(rung.time.high_s),
+                std::to_string(rung.time.cases),
+                std::to_string(rung.time.asked),
+                value(rung.build_s),
+                value(rung.bytes),
+                value(rung.touched),
+                value(rung.error),
+                rung.error ? exact(rung.error_low) : "",
+                rung.error ? exact(rung.error_high) : "",
+                has_flags ? std::to_string(misses) : "",
+                has_flags ? std::to_string(false_hits) : "",
+                rung.pairs ? exact(rung.pairs->recall()) : "",
+                rung.pairs ? exact(rung.pairs->precision()) : "",
+                rung.distance ? exact(rung.distance->worst) : "",
+                rung.distance ? exact(rung.distance->median) : "",
+                rung.distance ? exact(rung.distance->holds.share()) : "",
+                value(rung.outer),
+                value(rung.displacement),
+                value(rung.degenerate),
+                beaten[i] ? "1" : "0"};
+            for (const auto& stratum : rung.strata) {
+                cells.push_back(stratum.median_s > 0 ? exact(stratum.median_s) : "");
+                for (const std::size_t count :
+                     {stratum.misses.count, stratum.misses.of, stratum.false_hits.count,
+                      stratum.false_hits.of, stratum.unknown}) {
+                    cells.push_back(has_flags ? std::to_string(count) : "");
+                }
+            }
+            for (std::size_t c = 0; c < cells.size(); ++c) text += (c > 0 ? "," : "") + cells[c];
+            text += "\n";
+        }
+    }
+    return text;
+}
+
+}  // namespace cdprep::report

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/predicate_ladder.h"
+
+#include <algorithm>
+
+#include "cdprep/triangles_within.h"
+#include "moved_model.h"
+#include "study/naive_contact.h"
+#include "study/seeded_random.h"
+#include "triangle_contact.h"
+
+namespace cdprep::study {
+namespace {
+
+constexpr double kNearby = 1e-4;  ///< of the diagonal
+constexpr std::size_t kPairsAPose = 2000;
+constexpr std::size_t kPairsACase = 64;
+
+/// Two triangles as they stand in a pose.
+struct Candidate {
+    Corners a;
+    Corners b;
+    std::size_t pose;
+    bool touch;  ///< exactly
+};
+
+/// Of each pose a sample of the pairs that are hard at all.
+std::vector<Candidate> find_candidates(const Climb& climb) {
+    std::vector<Candidate> candidates;
+    Workspace workspace;
+    SeededRandom random(climb.set.seed);
+    std::vector<std::uint32_t> place_a(climb.a.model.triangle_count());
+    std::vector<std::uint32_t> place_b(climb.b.model.triangle_count());
+    const auto note_places = [](const Model& model, std::vector<std::uint32_t>& place) {
+        for (std::uint32_t i = 0; i < place.size(); ++i) place[model.source_triangle()[i]] = i;
+    };
+    note_places(climb.a.model, place_a);
+    note_places(climb.b.model, place_b);
+    for (std::size_t i = 0; i < climb.set.poses.size() && !climb.must_stop(); ++i) {
+        const Placement placement = Placement::b_moves(climb.set.poses[i].a_from_b);
+        std::vector<TrianglePair> pairs;
+        std::size_t met = 0;
+        const auto keep = [&](const TrianglePair& pair) {
+            // Every pair is as likely to be among those kept (reservoir).
+            ++met;
+            if (pairs.size() < kPairsAPose) {
+                pairs.push_back(pair);
+            } else if (const std::size_t at = random.below(met); at < kPairsAPose) {
+                pairs[at] = pair;
+            }
+            return true;
+        };
+        visit_triangles_within(climb.a.model, climb.b.model, placement,
+                               kNearby * climb.set.diagonal, workspace, keep);
+        std::ranges::sort(pairs);
+        const MovedModel in_a = moved_a(climb.a.model, placement);
+        const MovedModel in_b = moved_b(climb.b.model, placement);
+        for (const TrianglePair& pair : pairs) {
+            const Corners a = in_a.corners(place_a[pair.a]);
+            const Corners b = in_b.corners(place_b[pair.b]);
+            const bool touch = contact_beyond_filter(a, b) != TriangleContact::disjoint;
+            candidates.push_back({a, b, i, touch});
+        }
+    }
+    return candidates;
+}
+
+struct Contender {
+    Rung rung;
+    std::function<bool(const Candidate&)> ask;
+};
+
+template <class Number>
+std::function<bool(const Candidate&)> naive(Number tolerance) {
+    using Naive = NaiveContact<Number>;
+    return [test = Naive(tolerance)](const Candidate& pair) {
+        return test.touch(Naive::rounded(pair.a), Naive::rounded(pair.b));
+    };
+}
+
+std::vector<Contender> all_contenders() {
+    std::vector<Contender> contenders;
+    const auto add = [&](const char* name, const char* how, Promise promise,
+                         std::function<bool(const Candidate&)> ask) {
+        Contender contender;
+        contender.rung.name = name;
+        contender.rung.how = how;
+        contender.rung.promise = promise;
+        contender.ask = std::move(ask);
+        contenders.push_back(std::move(contender));
+    };
+    add("float, 1e-6", "signs in float; what is below 1e-6 counts as 0", Promise::none,
+        naive<float>(1e-6F));
+    add("float", "signs in float as they come out", Promise::none, naive<float>(0));
+    add("double, 1e-12", "signs in double; what is below 1e-12 counts as 0", Promise::none,
+        naive<double>(1e-12));
+    add("double", "signs in double as they come out", Promise::none, naive<double>(0));
+    add("filter, then exact", "signs in double where they are certain, integers elsewhere",
+        Promise::exact, [](const Candidate& pair) { return triangles_touch(pair.a, pair.b); });
+    add("always exact", "integers or expansions for every pair", Promise::exact,
+        [](const Candidate& pair) {
+            return contact_beyond_filter(pair.a, pair.b) != TriangleContact::disjoint;
+        });
+    return contenders;
+}
+
+void judge(const Climb& climb, const std::vector<Candidate>& pairs, Contender& contender,
+           Broken& broken) {
+    Rung& rung = contender.rung;
+    PairErrors errors;
+    std::vector<std::size_t> wrong_in(climb.set.poses.size());
+    std::size_t wrong = 0;
+    for (const Candidate& pair : pairs) {
+        const bool found = contender.ask(pair);
+        errors.wanted += pair.touch ? 1 : 0;
+        errors.found += found ? 1 : 0;
+        errors.both += found && pair.touch ? 1 : 0;
+        if (found == pair.touch) continue;
+        ++wrong;
+        ++wrong_in[pair.pose];
+    }
+    rung.pairs = errors;
+    const ShareInterval share = clopper_pearson(wrong, pairs.size());
+    rung.error = share.share();
+    rung.error_low = share.low;
+    rung.error_high = share.high;
+    if (wrong == 0) return;
+    const auto worst = std::ranges::max_element(wrong_in);
+    rung.worst_pose = static_cast<std::size_t>(worst - wrong_in.begin());
+    rung.worst = std::to_string(*worst) + " pairs wrong";
+    if (rung.promise == Promise::exact) {
+        broken.push_back("predicates, " + rung.name + ": wrong about a pair in " +
+                         pose_name(climb.set, *rung.worst_pose) + ".");
+    }
+}
+
+}  // namespace
+
+Ladder climb_predicates(const Climb& climb, Broken& broken) {
+    Ladder ladder;
+    ladder.name = "predicates";
+    ladder.question = "do two triangles touch that are at most 1e-4 diagonals apart";
+    ladder.error = "wrong answers, as a share of the pairs";
+    ladder.cases = "64 pairs of triangles; seconds are of one pair";
+    climb.begins("predicates: asking");
+    const std::vector<Candidate> pairs = find_candidates(climb);
+    const std::size_t cases = std::min<std::size_t>(400, pairs.size() / kPairsACase);
+    if (cases == 0) {
+        ladder.left_out.push_back("All: too few pairs of triangles come near each other.");
+        return ladder;
+    }
+    std::vector<Contender> contenders = all_contenders();
+    std::vector<Question> questions;
+    // Cases are spread over all poses.
+    const std::size_t stride = pairs.size() / kPairsACase / cases * kPairsACase;
+    for (Contender& contender : contenders) {
+        judge(climb, pairs, contender, broken);
+        questions.push_back(question_of([&contender, &pairs, stride](std::size_t number) {
+            std::uint64_t hits = 0;
+            for (std::size_t i = 0; i < kPairsACase; ++i) {
+                hits += contender.ask(pairs[number * stride + i]) ? 1 : 0;
+            }
+            return hits;
+        }));
+    }
+    std::vector<Timings> timings = time_questions(cases, questions, climb.timing);
+    if (climb.must_stop()) return ladder;
+    for (std::size_t q = 0; q < contenders.size(); ++q) {
+        for (auto& rounds : timings[q].seconds) {
+            for (double& seconds : rounds) seconds /= kPairsACase;
+        }
+        contenders[q].rung.time = timing_of(timings[q]);
+        for (std::size_t i = 0; i < cases; ++i) {
+            contenders[q].rung.seconds.push_back(seconds_of(timings[q], i));
+        }
+        ladder.rungs.push_back(std::move(contenders[q].rung));
+    }
+    return ladder;
+}
+
+}  // namespace cdprep::study
