@@ -66,6 +66,12 @@ std::size_t family_of(const std::string& name) {
     return 0;
 }
 
+std::string family_class(const std::string& name) {
+    std::string look(1, 'f');
+    look += std::to_string(family_of(name));
+    return look;
+}
+
 /// A logarithmic axis.
 class Axis {
 public:
@@ -207,7 +213,7 @@ private:
     }
 
     [[nodiscard]] std::string bars(const Point& p) const {
-        const std::string look = "bar f" + std::to_string(family_of(p.name));
+        const std::string look = "bar " + family_class(p.name);
         std::string text;
         if (p.x_high > p.x_low && p.x_low > 0) {
             text += line(x_.at(p.x_low), height_of(p.y), x_.at(p.x_high), height_of(p.y), look);
@@ -221,10 +227,9 @@ private:
     [[nodiscard]] std::string mark(const Point& p) const {
         return "<circle cx=\"" + units(x_.at(p.x)) + "\" cy=\"" + units(height_of(p.y)) +
                "\" r=\"5.5\" tabindex=\"0\" role=\"img\" aria-label=\"" + escaped(p.name) +
-               "\" class=\"point f" + std::to_string(family_of(p.name)) +
-               (p.hollow ? " hollow" : "") + "\" data-ladder=\"" + std::to_string(ladder_) +
-               "\" data-rung=\"" + std::to_string(p.rung) + "\"><title>" + escaped(p.name) +
-               "</title></circle>\n";
+               "\" class=\"point " + family_class(p.name) + (p.hollow ? " hollow" : "") +
+               "\" data-ladder=\"" + std::to_string(ladder_) + "\" data-rung=\"" +
+               std::to_string(p.rung) + "\"><title>" + escaped(p.name) + "</title></circle>\n";
     }
 
     void place(const Point& p) {
@@ -243,14 +248,15 @@ private:
             double y;
             const char* anchor;
         };
-        const std::array<Try, 8> tries = {{{x + 9, y + 4, "start"},
+        // Off the bars first, which go through the point along both axes.
+        const std::array<Try, 8> tries = {{{x + 7, y - 7, "start"},
+                                           {x + 7, y + 15, "start"},
+                                           {x - 7, y - 7, "end"},
+                                           {x - 7, y + 15, "end"},
+                                           {x + 9, y + 4, "start"},
                                            {x - 9, y + 4, "end"},
                                            {x, y - 10, "middle"},
-                                           {x, y + 19, "middle"},
-                                           {x + 7, y - 8, "start"},
-                                           {x + 7, y + 16, "start"},
-                                           {x - 7, y - 8, "end"},
-                                           {x - 7, y + 16, "end"}}};
+                                           {x, y + 19, "middle"}}};
         for (const Try& at : tries) {
             double left = at.x;
             if (at.anchor == std::string("end")) left -= wide;
@@ -321,13 +327,14 @@ std::string strata_body(std::size_t ladder, const std::vector<Rung>& rungs,
     for (const std::size_t r : shown) {
         std::string path;
         double last = kBottom;
-        const std::string family = "f" + std::to_string(family_of(rungs[r].name));
+        const std::string family = family_class(rungs[r].name);
         std::string marks;
         for (std::size_t column = 0; column < used.size(); ++column) {
             const double seconds = rungs[r].strata[used[column]].median_s;
             if (!(seconds > 0)) continue;
             last = y.at(seconds);
-            path += (path.empty() ? "M" : "L") + units(x_of(column)) + " " + units(last);
+            path += path.empty() ? "M" : "L";
+            path += units(x_of(column)) + " " + units(last);
             marks += "<circle cx=\"" + units(x_of(column)) + "\" cy=\"" + units(last) +
                      "\" r=\"4\" tabindex=\"0\" class=\"point " + family + "\" data-ladder=\"" +
                      std::to_string(ladder) + "\" data-rung=\"" + std::to_string(r) + "\"><title>" +

@@ -14,6 +14,7 @@
 
 #include "report/base64.h"
 #include "report/page_marks.h"
+#include "report/page_parts.h"
 #include "report/page_surface.h"
 #include "report/page_text.h"
 
@@ -80,54 +81,6 @@ std::string shortened(const std::string& name) {
     std::size_t end = kLongestName;
     while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
     return name.substr(0, end) + "...";
-}
-
-/// JSON for a script element: whatever a name holds, it cannot end the element. Bytes
-/// that are not UTF-8 become U+FFFD.
-std::string script_json(const json& value) {
-    const std::string plain = value.dump(-1, ' ', false, json::error_handler_t::replace);
-    std::string safe;
-    safe.reserve(plain.size());
-    for (const char letter : plain) {
-        if (letter == '<') {
-            safe += "\\u003c";
-        } else if (letter == '>') {
-            safe += "\\u003e";
-        } else if (letter == '&') {
-            safe += "\\u0026";
-        } else {
-            safe += letter;
-        }
-    }
-    return safe;
-}
-
-std::string escaped(std::string_view text) {
-    std::string safe;
-    for (const char letter : text) {
-        switch (letter) {
-            case '<':
-                safe += "&lt;";
-                break;
-            case '>':
-                safe += "&gt;";
-                break;
-            case '&':
-                safe += "&amp;";
-                break;
-            case '"':
-                safe += "&quot;";
-                break;
-            default:
-                safe += letter;
-        }
-    }
-    return safe;
-}
-
-std::string element(const std::string& id, const char* type, const std::string& content) {
-    return "<script type=\"" + std::string(type) + "\" id=\"" + id + "\">" + content +
-           "</script>\n";
 }
 
 /// Names of nodes as the places use them, each once.
@@ -274,10 +227,10 @@ Drawing draw(const PageMesh& mesh, const std::optional<PageFrame>& frame, std::s
         ghost = coarse_triangles(mesh.positions, mesh.triangles, *frame, chosen, ghost_cells);
     constexpr const char* kType = "text/plain";
     return {{{"triangles", chosen.size()}, {"whole", whole}, {"half", frame->half_box}},
-            element(id + "-positions", kType, packed(drawn.positions)) +
-                element(id + "-indices", kType, packed(drawn.indices)) +
-                element(id + "-ghost-positions", kType, packed(ghost.positions)) +
-                element(id + "-ghost-indices", kType, packed(ghost.indices))};
+            script_element(id + "-positions", kType, packed(drawn.positions)) +
+                script_element(id + "-indices", kType, packed(drawn.indices)) +
+                script_element(id + "-ghost-positions", kType, packed(ghost.positions)) +
+                script_element(id + "-ghost-indices", kType, packed(ghost.indices))};
 }
 
 std::string mesh_elements(const PageMesh& mesh, std::size_t index, const Limits& limits) {
@@ -301,7 +254,7 @@ std::string mesh_elements(const PageMesh& mesh, std::size_t index, const Limits&
                         {"nodes", nodes.names()},
                         {"verdicts", verdicts_json(mesh, limits.components)},
                         {"components", verdicts > 0 ? verdicts - 1 : 0}};
-    return element(id, "application/json", script_json(value)) + drawing.elements;
+    return script_element(id, "application/json", script_json(value)) + drawing.elements;
 }
 
 json summary_json(const PageMesh& mesh) {
@@ -336,7 +289,7 @@ std::string data_elements(std::span<const PageMesh> meshes, const Limits& limits
     json summaries = json::array();
     for (const PageMesh& mesh : meshes) summaries.push_back(summary_json(mesh));
     const json page = {{"rules", rules_json()}, {"meshes", std::move(summaries)}};
-    std::string elements = element("page-data", "application/json", script_json(page));
+    std::string elements = script_element("page-data", "application/json", script_json(page));
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         elements += mesh_elements(meshes[i], i, limits);
     }
@@ -346,24 +299,6 @@ std::string data_elements(std::span<const PageMesh> meshes, const Limits& limits
 std::string title_of(std::span<const PageMesh> meshes) {
     if (meshes.size() == 1) return shortened(meshes.front().report->input) + " - cdprep validate";
     return std::to_string(meshes.size()) + " meshes - cdprep validate";
-}
-
-/// The frame with each @name@ replaced. What is filled in is not looked at again.
-std::string filled(std::string_view frame,
-                   std::span<const std::pair<std::string_view, std::string>> parts) {
-    std::string page;
-    while (!frame.empty()) {
-        const auto starts = [&](const auto& part) { return frame.starts_with(part.first); };
-        const auto part = frame.front() == '@' ? std::ranges::find_if(parts, starts) : parts.end();
-        if (part == parts.end()) {
-            page += frame.front();
-            frame.remove_prefix(1);
-        } else {
-            page += part->second;
-            frame.remove_prefix(part->first.size());
-        }
-    }
-    return page;
 }
 
 }  // namespace

@@ -16,4 +16,8 @@ extern const std::string_view kLicense;   ///< of three.js
 extern const std::string_view kThree;     ///< three.js
 extern const std::string_view kControls;  ///< OrbitControls of three.js
 
+extern const std::string_view kAccuracyFrame;   ///< accuracy.html
+extern const std::string_view kAccuracyStyle;   ///< accuracy.css
+extern const std::string_view kAccuracyScript;  ///< accuracy.js
+
 }  // namespace cdprep::report::page
