@@ -23,6 +23,7 @@ Exit run(int argc, char** argv) {
     add_query(app, exit);
     add_reindex(app, exit);
     add_repair(app, exit);
+    add_accuracy(app, exit);
     watch_for_interrupts();
     try {
         app.parse(argc, argv);
