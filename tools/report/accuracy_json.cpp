@@ -100,10 +100,8 @@ Json ladder_json(const Ladder& ladder) {
         Json json = {{"from", ladder.rungs[step.from].name},
                      {"to", ladder.rungs[step.to].name},
                      {"time", step.time}};
-        if (std::isfinite(step.error)) {
-            json["error"] = step.error;
-            json["time_a_digit"] = step.time_a_digit;
-        }
+        if (std::isfinite(step.error)) json["error"] = step.error;
+        if (!std::isnan(step.time_a_digit)) json["time_a_digit"] = step.time_a_digit;
         steps.push_back(std::move(json));
     }
     return {{"name", ladder.name},        {"question", ladder.question},

@@ -16,6 +16,8 @@ namespace {
 using study::Ladder;
 using study::Rung;
 
+constexpr double kLeastPriced = 1.5;  ///< times the error
+
 std::string padded(std::string text, std::size_t width) {
     if (text.size() < width) text.insert(0, width - text.size(), ' ');
     return text;
@@ -217,9 +219,10 @@ std::vector<NextDigit> next_digits(const Ladder& ladder) {
         const double time = to.time.median_s / from.time.median_s;
         const double error =
             *to.error > 0 ? *from.error / *to.error : std::numeric_limits<double>::infinity();
-        const double digits = std::log10(error);
-        const double a_digit = std::isfinite(error) ? std::pow(time, 1 / digits)
-                                                    : std::numeric_limits<double>::quiet_NaN();
+        // Where the error hardly shrinks, its price by the digit means nothing.
+        const bool has_price = std::isfinite(error) && error >= kLeastPriced;
+        const double a_digit = has_price ? std::pow(time, 1 / std::log10(error))
+                                         : std::numeric_limits<double>::quiet_NaN();
         steps.push_back({front[k - 1], front[k], time, error, a_digit});
     }
     return steps;
@@ -237,11 +240,12 @@ std::vector<std::vector<std::string>> next_digit_table(const std::vector<Ladder>
     for (const Ladder& ladder : ladders) {
         for (const NextDigit& step : next_digits(ladder)) {
             const bool ends = !std::isfinite(step.error);
-            table.push_back({ladder.name + ": " + ladder.rungs[step.from].name + " -> " +
-                                 ladder.rungs[step.to].name,
-                             "x " + in_three_digits(step.time),
-                             ends ? "none left" : "/ " + in_three_digits(step.error),
-                             ends ? "" : "x " + in_three_digits(step.time_a_digit)});
+            table.push_back(
+                {ladder.name + ": " + ladder.rungs[step.from].name + " -> " +
+                     ladder.rungs[step.to].name,
+                 "x " + in_three_digits(step.time),
+                 ends ? "none left" : "/ " + in_three_digits(step.error),
+                 std::isnan(step.time_a_digit) ? "" : "x " + in_three_digits(step.time_a_digit)});
         }
     }
     return table;

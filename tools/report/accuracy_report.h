@@ -26,7 +26,8 @@ struct NextDigit {
     std::size_t to;       ///< rung
     double time;          ///< so many times as long
     double error;         ///< the error is so many times as small; infinite where it ends
-    double time_a_digit;  ///< times as long for a tenth of the error; NaN where it ends
+    double time_a_digit;  ///< times as long for a tenth of the error; NaN where it ends or hardly
+                          ///< shrinks
 };
 
 /// The steps along the front, by rising time. Rungs whose error is 0 are its end.

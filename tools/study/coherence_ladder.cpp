@@ -173,6 +173,7 @@ Ladder climb_coherence(const Climb& climb, std::uint64_t last_cache, Broken& bro
             Rung rung;
             rung.name = std::string(is_distance ? "distance, " : "collide, ") + kWays[w];
             rung.how = kHow[w];
+            rung.question = is_distance ? "how far apart" : "do they touch";
             rung.promise = Promise::exact;
             rung.time = timing_of(timings[w]);
             for (std::size_t i = 0; i < truth.size(); ++i) {

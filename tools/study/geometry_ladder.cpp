@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 #include <deque>
 #include <utility>
 
@@ -26,8 +27,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using format::SectionId;
 
-constexpr double kPieceShare_s = 30;  ///< of the clock: no search for more pieces begins later
-constexpr double kQuickPieceShare_s = 2;
+// Processor time of all threads for pieces. No search begins that would need more, if it takes
+// twice what the one for half as many took.
+constexpr double kPieceShare_s = 60;
+constexpr double kQuickPieceShare_s = 6;
 constexpr std::uint32_t kTetraThreshold = 4;
 
 constexpr format::SectionSet kTreeSections = {SectionId::bvh_nodes, SectionId::bvh_leaves,
@@ -37,6 +40,11 @@ struct Contender {
     Rung rung;
     std::function<Answer(std::size_t pose)> ask;
 };
+
+/// Of all threads.
+double processor_seconds() {
+    return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
 
 Answer hit_or_no(bool may_touch) {
     return may_touch ? Answer::yes : Answer::no;
@@ -205,17 +213,20 @@ private:
                                                     : std::vector<std::size_t>{2, 4, 8, 16, 32, 64};
         const double share = climb_.is_quick ? kQuickPieceShare_s : kPieceShare_s;
         double spent = 0;
+        double last = 0;
         for (const std::size_t count : counts) {
             climb_.begins(std::to_string(count) + " pieces");
-            if (spent > share) {
+            if (spent + 2 * last > share) {
                 ladder_.left_out.push_back(std::to_string(count) +
                                            " pieces: finding fewer took the time allowed.");
                 continue;
             }
+            const double begun = processor_seconds();
             auto a = make_piece_set(climb_.mesh_a, count, climb_.parallel_for, climb_.stop);
             auto b = make_piece_set(climb_.mesh_b, count, climb_.parallel_for, climb_.stop);
             if (!a || !b) return;
-            spent += 2 * (a->seconds + b->seconds);  // the next ones take about twice as long
+            last = processor_seconds() - begun;
+            spent += last;
             add_piece_rung(count, std::move(*a), std::move(*b));
         }
     }

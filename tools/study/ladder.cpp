@@ -131,7 +131,7 @@ std::vector<bool> dominated(const std::vector<Rung>& rungs) {
     std::vector<bool> beaten(rungs.size());
     for (std::size_t i = 0; i < rungs.size(); ++i) {
         for (const Rung& other : rungs) {
-            if (!rungs[i].error || !other.error) continue;
+            if (!rungs[i].error || !other.error || rungs[i].question != other.question) continue;
             const bool no_worse =
                 *other.error <= *rungs[i].error && other.time.median_s <= rungs[i].time.median_s;
             const bool better =

@@ -61,8 +61,9 @@ struct DistanceErrors {
 
 /// One way to answer, and what it costs and errs. What was not measured is absent.
 struct Rung {
-    std::string name;  ///< short, of its own in the ladder
-    std::string how;   ///< a sentence without a period
+    std::string name;        ///< short, of its own in the ladder
+    std::string how;         ///< a sentence without a period
+    std::string question{};  ///< where it is not the ladder's; others are not compared with it
     Promise promise = Promise::none;
     Timing time;                  ///< of all poses
     std::vector<double> seconds;  ///< by case of the ladder
@@ -128,8 +129,8 @@ void keep_time(const PoseSet& set, const Timings& timings, Rung& rung);
 /// "deep 3 (pose 12)": how pose number `pose` is called in sentences.
 [[nodiscard]] std::string pose_name(const PoseSet& set, std::size_t pose);
 
-/// Which rungs another one beats in time and in error, or in one and ties in the other; those
-/// without an error are none.
+/// Which rungs another one with the same question beats in time and in error, or in one and ties
+/// in the other; those without an error are none.
 [[nodiscard]] std::vector<bool> dominated(const std::vector<Rung>& rungs);
 
 }  // namespace cdprep::study

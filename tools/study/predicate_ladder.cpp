@@ -7,6 +7,7 @@
 #include "moved_model.h"
 #include "study/naive_contact.h"
 #include "study/seeded_random.h"
+#include "study/storage_ladder.h"
 #include "triangle_contact.h"
 
 namespace cdprep::study {
@@ -78,7 +79,7 @@ std::function<bool(const Candidate&)> naive(Number tolerance) {
     };
 }
 
-std::vector<Contender> all_contenders() {
+std::vector<Contender> all_contenders(bool has_float) {
     std::vector<Contender> contenders;
     const auto add = [&](const char* name, const char* how, Promise promise,
                          std::function<bool(const Candidate&)> ask) {
@@ -89,9 +90,11 @@ std::vector<Contender> all_contenders() {
         contender.ask = std::move(ask);
         contenders.push_back(std::move(contender));
     };
-    add("float, 1e-6", "signs in float; what is below 1e-6 counts as 0", Promise::none,
-        naive<float>(1e-6F));
-    add("float", "signs in float as they come out", Promise::none, naive<float>(0));
+    if (has_float) {
+        add("float, 1e-6", "signs in float; what is below 1e-6 counts as 0", Promise::none,
+            naive<float>(1e-6F));
+        add("float", "signs in float as they come out", Promise::none, naive<float>(0));
+    }
     add("double, 1e-12", "signs in double; what is below 1e-12 counts as 0", Promise::none,
         naive<double>(1e-12));
     add("double", "signs in double as they come out", Promise::none, naive<double>(0));
@@ -149,7 +152,9 @@ Ladder climb_predicates(const Climb& climb, Broken& broken) {
         ladder.left_out.push_back("All: too few pairs of triangles come near each other.");
         return ladder;
     }
-    std::vector<Contender> contenders = all_contenders();
+    const bool has_float = fits_float(climb.mesh_a) && fits_float(climb.mesh_b);
+    if (!has_float) ladder.left_out.emplace_back("float: coordinates are beyond its range.");
+    std::vector<Contender> contenders = all_contenders(has_float);
     std::vector<Question> questions;
     // Cases are spread over all poses.
     const std::size_t stride = pairs.size() / kPairsACase / cases * kPairsACase;

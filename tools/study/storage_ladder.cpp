@@ -180,6 +180,13 @@ mesh::Mesh on_grid(const mesh::Mesh& mesh, unsigned bits) {
     return result;
 }
 
+bool fits_float(const mesh::Mesh& mesh) noexcept {
+    constexpr double kMost = 0x1p120;
+    return std::ranges::all_of(mesh.positions, [](const Double3& p) {
+        return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) <= kMost;
+    });
+}
+
 Ladder climb_storage(const Climb& climb, Broken& broken) {
     Ladder ladder;
     ladder.name = "storage";
@@ -189,6 +196,10 @@ Ladder climb_storage(const Climb& climb, Broken& broken) {
     Ways ways(climb);
     for (const Way& way : kWays) {
         climb.begins(std::string("storage: ") + way.name);
+        if (way.bytes == 12 && !(fits_float(climb.mesh_a) && fits_float(climb.mesh_b))) {
+            ladder.left_out.emplace_back("float: coordinates are beyond its range.");
+            continue;
+        }
         ways.add(way);
         if (climb.must_stop()) return ladder;
     }

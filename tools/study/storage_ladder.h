@@ -13,4 +13,8 @@ namespace cdprep::study {
 /// around the mesh.
 [[nodiscard]] mesh::Mesh on_grid(const mesh::Mesh& mesh, unsigned bits);
 
+/// Whether all coordinates are so far within the range of float that they stay there when
+/// the mesh is turned and moved about another one of its size.
+[[nodiscard]] bool fits_float(const mesh::Mesh& mesh) noexcept;
+
 }  // namespace cdprep::study

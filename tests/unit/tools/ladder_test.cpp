@@ -99,6 +99,12 @@ TEST(Dominated, IsWhatAnotherBeatsInTimeAndError) {
     EXPECT_EQ(beaten, (std::vector<bool>{false, false, true, true, false, false}));
 }
 
+TEST(Dominated, RungsOfAnotherQuestionAreNotCompared) {
+    Rung distance = at(9, 0);
+    distance.question = "how far apart";
+    EXPECT_EQ(dominated({at(1, 0), distance}), (std::vector<bool>{false, false}));
+}
+
 // Of two that are alike neither beats the other.
 TEST(Dominated, EqualsAreBothOnTheFront) {
     EXPECT_EQ(dominated({at(1, 0.5), at(1, 0.5)}), (std::vector<bool>{false, false}));

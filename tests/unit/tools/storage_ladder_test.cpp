@@ -32,6 +32,14 @@ TEST(OnGrid, MovesByHalfAStepAtMost) {
     EXPECT_EQ(stored.triangles, ball.triangles);
 }
 
+TEST(FitsFloat, LeavesRoomToMove) {
+    mesh::Mesh point;
+    point.positions = {{0, -0x1p120, 0}};
+    EXPECT_TRUE(fits_float(point));
+    point.positions = {{0, -0x1p121, 0}};
+    EXPECT_FALSE(fits_float(point));
+}
+
 TEST(OnGrid, TakesWhatHasNoExtent) {
     EXPECT_TRUE(on_grid({}, 16).positions.empty());
     mesh::Mesh point;
