@@ -21,21 +21,27 @@ bool must_stop(const TimingOptions& options) {
     return options.stop && options.stop();
 }
 
-double seconds_for(const Question& question, std::size_t number, std::size_t times) {
-    const double begun = thread_seconds();
+double now_by(TimedBy by) {
+    if (by == TimedBy::thread) return thread_seconds();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
+double seconds_for(const Question& question, std::size_t number, std::size_t times, TimedBy by) {
+    const double begun = now_by(by);
     static_cast<void>(question(number, times));
-    return thread_seconds() - begun;
+    return now_by(by) - begun;
 }
 
 /// How often to ask so that it takes long enough; asks at least twice, so that the first
 /// answer, which finds nothing in the caches, decides little.
-std::size_t times_for(const Question& question, std::size_t number, double least_s) {
+std::size_t times_for(const Question& question, std::size_t number, const TimingOptions& options) {
     static_cast<void>(question(number, 1));
     std::size_t times = 1;
     while (times < kMostTimes) {
-        const double taken = seconds_for(question, number, times);
-        if (taken >= least_s) break;
-        const double wanted = taken > 0 ? 1.2 * least_s / taken : 16;
+        const double taken = seconds_for(question, number, times, options.by);
+        if (taken >= options.least_sample_s) break;
+        const double wanted = taken > 0 ? 1.2 * options.least_sample_s / taken : 16;
         times = std::min(
             kMostTimes, static_cast<std::size_t>(
                             std::ceil(static_cast<double>(times) * std::clamp(wanted, 1.5, 16.0))));
@@ -93,7 +99,7 @@ std::vector<Timings> time_questions(std::size_t cases, std::span<const Question>
     for (std::size_t q = 0; q < questions.size(); ++q) {
         all[q].seconds.resize(cases);
         for (std::size_t i = 0; i < cases && !must_stop(options); ++i) {
-            all[q].times.push_back(times_for(questions[q], i, options.least_sample_s));
+            all[q].times.push_back(times_for(questions[q], i, options));
         }
     }
     for (std::size_t round = 0; round < std::max<std::size_t>(1, options.rounds); ++round) {
@@ -104,7 +110,7 @@ std::vector<Timings> time_questions(std::size_t cases, std::span<const Question>
             for (std::size_t i = 0; i < cases; ++i) {
                 if (must_stop(options)) return all;
                 const std::size_t times = all[q].times[i];
-                all[q].seconds[i].push_back(seconds_for(questions[q], i, times) /
+                all[q].seconds[i].push_back(seconds_for(questions[q], i, times, options.by) /
                                             static_cast<double>(times));
             }
         }

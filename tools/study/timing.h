@@ -29,6 +29,12 @@ template <class Ask>
     };
 }
 
+/// Whose seconds are measured.
+enum class TimedBy : std::uint8_t {
+    thread,  ///< the processor's, for the calling thread: others on the machine count little
+    wall,    ///< the clock's: for work that several threads share
+};
+
 struct TimingOptions {
     std::size_t rounds = 5;  ///< how often each case is measured; 1 at least
     /// A measurement asks as often as takes this long, so that the clock does not count:
@@ -37,6 +43,7 @@ struct TimingOptions {
     /// No round after the first begins later than this; those begun are ended.
     double budget_s = std::numeric_limits<double>::infinity();
     std::function<bool()> stop{};  ///< true ends all soon; what is returned is then no result
+    TimedBy by = TimedBy::thread;
 };
 
 /// What one question took: seconds of processor time, by case and round.

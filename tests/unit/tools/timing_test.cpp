@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
+#include <thread>
 
 namespace cdprep::study {
 namespace {
@@ -78,6 +80,18 @@ TEST(TimeQuestions, EndsWhenItIsToStop) {
     static_cast<void>(time_questions(100, std::span(&question, 1),
                                      {.rounds = 1'000'000, .stop = [&] { return asked > 500; }}));
     EXPECT_GT(asked, 500U);
+}
+
+// A thread that sleeps takes time by the wall, and next to none of the processor.
+TEST(TimeQuestions, TheWallCountsWhatTheThreadDoesNot) {
+    const std::array<Question, 1> sleeps = {question_of([](std::size_t) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        return 0;
+    })};
+    TimingOptions options = {.rounds = 1, .least_sample_s = 0, .by = TimedBy::wall};
+    EXPECT_GE(time_questions(1, sleeps, options)[0].seconds[0][0], 0.005);
+    options.by = TimedBy::thread;
+    EXPECT_LT(time_questions(1, sleeps, options)[0].seconds[0][0], 0.005);
 }
 
 }  // namespace
