@@ -10,8 +10,12 @@
 #include "cdprep/format/checksum.h"
 #include "cdprep/format/make_user_block.h"
 #include "cdprep/format/sections.h"
+#include "convex/contact_arrays.h"
 #include "convex/find_bounds.h"
 #include "convex/hull_sections.h"
+#include "convex/piece_arrays.h"
+#include "convex/piece_tree.h"
+#include "convex/surface_pieces.h"
 #include "mesh/degenerate.h"
 #include "mesh/topology.h"
 #include "mesh/tree_order.h"
@@ -144,6 +148,30 @@ void add_hulls(Sections& sections, const convex::HullSections& hulls) {
     sections.add(SectionId::hull_starts, hulls.starts);
 }
 
+void add_pieces(Sections& sections, const mesh::Mesh& mesh, const build::Frame& frame,
+                const mesh::StopCheck& stop, ParallelFor run, BuildSeconds& seconds) {
+    const auto pieces = timed(seconds.pieces, [&] {
+        return convex::make_piece_arrays(
+            mesh, convex::find_surface_pieces(mesh, {.parallel_for = run, .stop = stop}), run);
+    });
+    if (stop && stop()) return;
+    sections.add(SectionId::pieces, pieces.pieces);
+    sections.add(SectionId::piece_triangles, pieces.triangles);
+    sections.add(SectionId::piece_vertices, pieces.vertices);
+    sections.add(SectionId::piece_facets, pieces.facets);
+    const auto tree = timed(seconds.piece_tree,
+                            [&] { return convex::make_piece_tree(mesh, pieces, frame, run); });
+    sections.add(SectionId::piece_nodes, tree.nodes);
+    sections.add(SectionId::piece_swept, tree.swept);
+    sections.add(SectionId::piece_leaves, tree.leaves);
+    sections.add(SectionId::piece_node_hulls, tree.hulls);
+    const auto contacts =
+        timed(seconds.contacts, [&] { return convex::make_contact_arrays(mesh, pieces, run); });
+    sections.add(SectionId::piece_adjacency, contacts.adjacency);
+    sections.add(SectionId::edge_convexity, contacts.convexity);
+    sections.add(SectionId::triangle_piece, contacts.piece_of);
+}
+
 format::FileHeader facts_of(const mesh::Mesh& mesh, const build::Bvh& bvh, bool is_closed) {
     format::FileHeader facts{};
     facts.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
@@ -185,6 +213,7 @@ bool add_parts(Sections& sections, const mesh::Mesh& mesh, const build::Frame& f
                            return build::build_tetra_tree(mesh.positions, mesh.triangles, options);
                        }));
     }
+    if (parts.pieces) add_pieces(sections, mesh, frame, parts.stop, run, seconds);
     if (!parts.hulls) return true;
     const auto hulls =
         timed(seconds.hulls, [&] { return convex::make_hull_sections(mesh, {}, 0, run); });

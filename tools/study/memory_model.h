@@ -16,6 +16,7 @@
 #include "cdprep/model.h"
 #include "cdprep/parallel_for.h"
 #include "mesh/mesh.h"
+#include "mesh/stop.h"
 
 namespace cdprep::study {
 
@@ -45,7 +46,9 @@ struct MemoryParts {
     std::optional<build::OctreeOptions> octree{};
     std::optional<build::AdaptiveOctreeOptions> adaptive_octree{};
     std::optional<build::TetraTreeOptions> tetra_tree{};
-    bool hulls = false;  ///< exact, of the whole and, of several, of each component
+    bool hulls = false;   ///< exact, of the whole and, of several, of each component
+    bool pieces = false;  ///< convex ones, exact, the hierarchy over them, and what contacts need
+    mesh::StopCheck stop{};  ///< ends the search for pieces: the model is then of no use
 };
 
 /// What building took: seconds of the clock.
@@ -55,6 +58,9 @@ struct BuildSeconds {
     double adaptive_octree = 0;
     double tetra_tree = 0;
     double hulls = 0;
+    double pieces = 0;
+    double piece_tree = 0;
+    double contacts = 0;
 };
 
 /// A model that was baked into memory, as a file would hold it but for HDF5 around it.

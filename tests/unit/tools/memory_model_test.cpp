@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cdprep/contacts.h"
 #include "cdprep/level_of_detail.h"
 #include "cdprep/model_hulls.h"
 #include "cdprep/overlap_through.h"
@@ -29,6 +30,7 @@ TEST(MemoryModel, AnswersAsAFileDoesThroughEveryPart) {
     parts.tetra_tree =
         build::TetraTreeOptions{.level = 3, .bounding = format::TetraBounding::boxes};
     parts.hulls = true;
+    parts.pieces = true;
     const auto made = make_memory_model(test::mesh_of(mesh), parts);
     ASSERT_TRUE(made);
     const Model& model = made.value().model;
@@ -37,14 +39,17 @@ TEST(MemoryModel, AnswersAsAFileDoesThroughEveryPart) {
     const Placement placement = Placement::b_moves(pose.value());
     const auto expected = pairs_of(tiny.model, tiny.model, {}, placement);
     EXPECT_GT(expected.size(), 20U);
-    for (const Structure structure : {Structure::bvh, Structure::octree, Structure::hashed_octree,
-                                      Structure::adaptive_octree, Structure::tetra_tree}) {
+    for (const Structure structure :
+         {Structure::bvh, Structure::octree, Structure::hashed_octree, Structure::adaptive_octree,
+          Structure::tetra_tree, Structure::pieces}) {
         EXPECT_EQ(pairs_of(model, model, {.structure = structure}, placement), expected);
     }
     EXPECT_TRUE(model.is_closed());
     EXPECT_TRUE(find_hull(model, format::HullScope::whole));
     EXPECT_EQ(bytes_of(made.value(), {SectionId::triangles}), mesh.triangles.size() * 12);
-    EXPECT_EQ(bytes_of(made.value(), {SectionId::pieces}), 0U);
+    EXPECT_EQ(bytes_of(made.value(), {SectionId::triangle_piece}), mesh.triangles.size() * 4);
+    Workspace workspace;
+    EXPECT_GT(contacts(model, model, placement, 0.01, workspace, {}), 0U);
 }
 
 TEST(MemoryModel, IsAMeshAgain) {
@@ -53,6 +58,7 @@ TEST(MemoryModel, IsAMeshAgain) {
     ASSERT_TRUE(made);
     const mesh::Mesh again = mesh_of(made.value().model);
     ASSERT_EQ(again.triangles.size(), mesh.triangles.size());
+    EXPECT_EQ(bytes_of(made.value(), {SectionId::pieces}), 0U);
     EXPECT_FALSE(again.single_precision);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
