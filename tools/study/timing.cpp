@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <iterator>
 #include <numeric>
 #include <tuple>
 
@@ -122,8 +123,11 @@ double seconds_of(const Timings& timings, std::size_t number) {
     return quantile(timings.seconds[number], 0.5);
 }
 
-Timing timing_of(const Timings& timings, std::span<const std::size_t> cases) {
+Timing timing_of(const Timings& timings, std::span<const std::size_t> wanted) {
     Timing timing;
+    std::vector<std::size_t> cases;
+    std::ranges::copy_if(wanted, std::back_inserter(cases),
+                         [&](std::size_t number) { return !timings.seconds[number].empty(); });
     if (cases.empty()) return timing;
     const std::vector<double> seconds = case_seconds(timings, cases);
     timing.median_s = quantile(seconds, 0.5);

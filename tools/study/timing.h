@@ -74,7 +74,7 @@ struct Timing {
     std::size_t asked = 0;  ///< in all, the round that found out not counted
 };
 
-/// All zero without cases.
+/// Of the cases that were measured, which are all unless it was stopped. All zero without any.
 [[nodiscard]] Timing timing_of(const Timings& timings);
 
 /// The same over some of the cases.

@@ -39,6 +39,15 @@ TEST(TimingOf, ACaseIsTheMedianOfItsRounds) {
     EXPECT_EQ(timing_of({}).median_s, 0);
 }
 
+// Stopped in the middle, some cases have no rounds.
+TEST(TimingOf, LeavesOutCasesThatWereNotMeasured) {
+    const Timings timings{{{2}, {}, {}}, {1}};
+    const Timing timing = timing_of(timings);
+    EXPECT_EQ(timing.median_s, 2);
+    EXPECT_EQ(timing.cases, 1U);
+    EXPECT_EQ(timing_of(Timings{{{}, {}}, {}}).median_s, 0);
+}
+
 // By hand: the rounds' sums are 3 and 6, of the other 2 and 2.
 TEST(RatioOf, ComparesRoundByRound) {
     const Timings slow{{{1, 2}, {2, 4}}, {1, 1}};
