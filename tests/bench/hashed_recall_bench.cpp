@@ -28,13 +28,11 @@
 #include "contact_pairs.h"
 #include "octree_codes.h"
 #include "octree_search.h"
-#include "potential_set.h"
+#include "study/pruning.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 
 #include "cdprep/overlap_through.h"
-#include "cdprep/query_counts.h"
-#include "cdprep/touching_box.h"
 
 namespace cdprep {
 namespace {
@@ -54,9 +52,9 @@ test::OpenModel open_with_octree(const std::filesystem::path& path,
     return test::open_tiny(test::with_octree(bytes, options));
 }
 
-/// Means over the poses of a set.
+/// Sums over the poses of a set.
 struct Row {
-    std::map<std::string, double> sum;
+    study::Pruning sum;
     std::array<std::vector<double>, 3> us;  ///< of the contenders, by pose
 };
 
@@ -81,28 +79,11 @@ public:
     }
 
 private:
-    [[nodiscard]] StructureOptions through(Structure structure) const {
-        return {.structure = structure, .search = search_};
-    }
-    std::vector<TrianglePair> pairs_through(Structure structure, const Placement& placement) {
-        const StructureOptions options = through(structure);
-        std::vector<TrianglePair> pairs(
-            overlapping_triangles_through(options, a_, b_, placement, workspace_, {}));
-        pairs.resize(overlapping_triangles_through(options, a_, b_, placement, workspace_, pairs));
-        return pairs;
-    }
-    QueryCounts counts_of(Structure structure, const Placement& placement) {
-        QueryCounts counts;
-        workspace_.count_into(&counts);
-        count(structure, placement);
-        workspace_.count_into(nullptr);
-        return counts;
-    }
     std::size_t count(Structure structure, const Placement& placement) {
-        return overlapping_triangles_through(through(structure), a_, b_, placement, workspace_, {});
+        return overlapping_triangles_through({.structure = structure, .search = search_}, a_, b_,
+                                             placement, workspace_, {});
     }
     void time(const Placement& placement, int rounds, Row& row);
-    [[nodiscard]] double leaves_left(const Placement& placement);
 
     const Model& a_;
     const Model& b_;
@@ -110,27 +91,6 @@ private:
     Workspace workspace_;
     std::vector<TrianglePair> missed_;
 };
-
-double distinct(const std::vector<TrianglePair>& pairs, std::uint32_t TrianglePair::*side) {
-    std::vector<std::uint32_t> numbers;
-    for (const TrianglePair& pair : pairs) numbers.push_back(pair.*side);
-    std::sort(numbers.begin(), numbers.end());
-    return static_cast<double>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());
-}
-
-double Study::leaves_left(const Placement& placement) {
-    const PotentialSet set(a_, b_, placement);
-    double triangles = 0;
-    if (set.is_empty()) return 0;
-    walk_nodes(
-        b_, workspace_.storage(), [&](const format::BvhNode& node) { return set.judge(node); },
-        [&](const TriangleRun& run) {
-            triangles += run.last - run.first;
-            return true;
-        },
-        [](const TriangleRun&) { return true; });
-    return triangles;
-}
 
 void Study::time(const Placement& placement, int rounds, Row& row) {
     std::array<std::vector<double>, kContenders.size()> us;
@@ -148,50 +108,45 @@ void Study::time(const Placement& placement, int rounds, Row& row) {
 
 void Study::ask(const Pose& pose, int rounds, Row& row) {
     const Placement placement = Placement::b_moves(pose);
-    const auto all = pairs_through(Structure::bvh, placement);
-    if (pairs_through(Structure::hashed_octree, placement) != all) stop("The pairs differ.");
-    const auto found = pairs_through(Structure::hashed_octree_literal, placement);
-    missed_.clear();
-    std::set_difference(all.begin(), all.end(), found.begin(), found.end(),
-                        std::back_inserter(missed_));
-    auto& sum = row.sum;
-    sum["pairs"] += static_cast<double>(all.size());
-    sum["found"] += static_cast<double>(found.size());
-    sum["cs_a"] += distinct(all, &TrianglePair::a);
-    sum["cs_b"] += distinct(all, &TrianglePair::b);
-    sum["literal_cs_a"] += distinct(found, &TrianglePair::a);
-    sum["literal_cs_b"] += distinct(found, &TrianglePair::b);
-    sum["all_b"] += b_.triangle_count();
-    const Box box = {a_.bounds()->lower, a_.bounds()->upper};
-    sum["box_b"] += static_cast<double>(
-        touching_triangles(b_, box, workspace_, {}, {.world_from_model = pose}));
-    sum["leaf_b"] += leaves_left(placement);
-    const QueryCounts literal = counts_of(Structure::hashed_octree_literal, placement);
-    const QueryCounts repaired = counts_of(Structure::hashed_octree, placement);
-    sum["pcs_b"] += static_cast<double>(literal.potential);
-    sum["held_b"] += static_cast<double>(repaired.potential);
-    sum["listed_literal"] += static_cast<double>(literal.references);
-    sum["listed_repaired"] += static_cast<double>(repaired.references);
+    const study::Pruning pruning = study::prune(a_, b_, pose, search_, workspace_, missed_);
+    const std::size_t repaired = count(Structure::hashed_octree, placement);
+    if (static_cast<double>(repaired) != pruning.pairs) stop("The pairs differ.");
+    row.sum += pruning;
     time(placement, rounds, row);
 }
 
-constexpr std::array<const char*, 12> kMeans = {
-    "pairs", "found", "cs_a",   "cs_b",  "literal_cs_a", "literal_cs_b",
-    "all_b", "box_b", "leaf_b", "pcs_b", "held_b",       "listed_literal"};
+struct Mean {
+    const char* name;
+    double study::Pruning::*member;
+};
+constexpr std::array<Mean, 13> kMeans = {{
+    {"pairs", &study::Pruning::pairs},
+    {"found", &study::Pruning::found},
+    {"cs_a", &study::Pruning::cs_a},
+    {"cs_b", &study::Pruning::cs_b},
+    {"literal_cs_a", &study::Pruning::literal_cs_a},
+    {"literal_cs_b", &study::Pruning::literal_cs_b},
+    {"all_b", &study::Pruning::all_b},
+    {"box_b", &study::Pruning::box_b},
+    {"leaf_b", &study::Pruning::leaf_b},
+    {"pcs_b", &study::Pruning::pcs_b},
+    {"held_b", &study::Pruning::held_b},
+    {"listed_literal", &study::Pruning::listed_literal},
+    {"listed_repaired", &study::Pruning::listed_repaired},
+}};
 
-void print(const std::string& pair, const char* kind, std::size_t poses, Row& row) {
+void print(const std::string& pair, const char* kind, std::size_t poses, const Row& row) {
     std::printf("%s,%s,%zu", pair.c_str(), kind, poses);
-    for (const char* name : kMeans) {
-        std::printf(",%.1f", row.sum[name] / static_cast<double>(poses));
+    for (const Mean& mean : kMeans) {
+        std::printf(",%.1f", row.sum.*mean.member / static_cast<double>(poses));
     }
     std::array<char, 16> recall = {'-'};
-    if (row.sum["pairs"] > 0) {
-        std::snprintf(recall.data(), recall.size(), "%.4f", row.sum["found"] / row.sum["pairs"]);
+    if (row.sum.pairs > 0) {
+        std::snprintf(recall.data(), recall.size(), "%.4f", row.sum.found / row.sum.pairs);
     }
     const double bvh = median(row.us[0]), repaired = median(row.us[1]), literal = median(row.us[2]);
-    std::printf(",%.1f,%s,%.2f,%.2f,%.2f,%.2f,%.2f\n",
-                row.sum["listed_repaired"] / static_cast<double>(poses), recall.data(), bvh,
-                repaired, literal, repaired / bvh, literal / bvh);
+    std::printf(",%s,%.2f,%.2f,%.2f,%.2f,%.2f\n", recall.data(), bvh, repaired, literal,
+                repaired / bvh, literal / bvh);
     std::fflush(stdout);
 }
 
@@ -314,9 +269,8 @@ CellSearch search_named(const char* name) {
 
 void run(const Arguments& arguments) {
     std::printf("pair,set,poses");
-    for (const char* name : kMeans) std::printf(",%s", name);
-    std::printf(
-        ",listed_repaired,recall,bvh_us,repaired_us,literal_us,repaired_times,literal_times\n");
+    for (const Mean& mean : kMeans) std::printf(",%s", mean.name);
+    std::printf(",recall,bvh_us,repaired_us,literal_us,repaired_times,literal_times\n");
     std::map<std::string, test::OpenModel> models;
     const auto model = [&](const std::string& name) -> const Model& {
         auto at = models.find(name);

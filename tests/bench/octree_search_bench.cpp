@@ -30,88 +30,16 @@
 #include <cstdlib>
 #include <map>
 
-#include "octree_study.h"
-#include "pointer_octrees.h"
+#include "octree_meshes.h"
+#include "study/cell_searches.h"
 
 namespace cdprep {
 namespace {
 
+using namespace study::search;  // NOLINT(google-build-using-namespace)
+
 constexpr std::array<std::uint32_t, 4> kDepths = {6, 8, 10, 12};
 constexpr std::uint32_t kThreshold = 8;
-
-/// The deepest level whose cell is stored is where the leaf is, if any.
-std::uint32_t find_by_levels(const OctreeIndex& index, std::uint64_t code) {
-    std::uint32_t found = 0;
-    std::uint32_t least = 0;
-    std::uint32_t most = index.deepest;
-    while (least < most && !is_leaf(index.nodes[found])) {
-        const std::uint32_t level = (least + most + 1) / 2;
-        const std::uint64_t key = key_at(code, level);
-        const std::uint32_t node =
-            find_chained(index, index.mixed_table, format::mixed_slot(key, index.slot_bits), key);
-        if (node == kNoNode) {
-            most = level - 1;
-        } else {
-            least = level;
-            found = node;
-        }
-    }
-    return is_leaf(index.nodes[found]) ? found : kNoNode;
-}
-
-/// All forms of one octree; the contenders refer to it.
-struct Forms {
-    explicit Forms(build::Octree made) : octree(std::move(made)) {}
-
-    build::Octree octree;
-    PointerOctree<BoxNode> boxes = box_octree(octree.grid, octree.nodes);
-    PointerOctree<CentreNode> centres = centre_octree(octree.grid, octree.nodes);
-    PointerOctree<PlainNode> plain = plain_octree(octree.nodes);
-};
-
-void add_hierarchical(const Forms& forms, std::vector<Contender>& to) {
-    const format::OctreeGrid& grid = forms.octree.grid;
-    const auto& nodes = forms.octree.nodes;
-    to.push_back(contender("H0", memory_of(forms.boxes.pool()),
-                           [&](const Double3& p) { return find_by_boxes(forms.boxes.root(), p); }));
-    to.push_back(contender("H1", memory_of(forms.centres.pool()), [&](const Double3& p) {
-        return find_by_centres(forms.centres.root(), p);
-    }));
-    to.push_back(contender("H2", memory_of(forms.plain.pool()), [&](const Double3& p) {
-        return find_by_bits(forms.plain.root(), code_at(grid, p));
-    }));
-    to.push_back(contender("H3", memory_of(nodes), [&](const Double3& p) {
-        return find_by_masks(nodes, code_at(grid, p));
-    }));
-}
-
-void add_by_key(const Forms& forms, std::vector<Contender>& to) {
-    const build::Octree& octree = forms.octree;
-    const format::OctreeGrid& grid = octree.grid;
-    const OctreeIndex index = octree_index(octree);
-    const Memory modulus = memory_of(octree.nodes, octree.modulus_table);
-    const Memory mixed = memory_of(octree.nodes, octree.mixed_table);
-    to.push_back(contender("K0", modulus, [=, &grid](const Double3& p) {
-        return find_leaf(index, CellSearch::modulus, code_at(grid, p));
-    }));
-    to.push_back(contender("K1", mixed, [=, &grid](const Double3& p) {
-        return find_leaf(index, CellSearch::mixed, code_at(grid, p));
-    }));
-    to.push_back(contender("K2", mixed, [=, &grid](const Double3& p) {
-        return find_by_levels(index, code_at(grid, p));
-    }));
-    to.push_back(contender("L1", memory_of(octree.nodes, octree.leaf_nodes, octree.leaf_codes),
-                           [=, &grid](const Double3& p) {
-                               const std::uint64_t code = code_at(grid, p);
-                               return last_leaf(index, count_without_branch(index.leaf_codes, code),
-                                                code);
-                           }));
-    to.push_back(
-        contender("L2", memory_of(octree.nodes, octree.leaf_nodes, octree.leaf_codes, octree.top),
-                  [=, &grid](const Double3& p) {
-                      return find_leaf(index, CellSearch::sorted, code_at(grid, p));
-                  }));
-}
 
 /// What each contender takes in one case of the experiment: a mesh, a depth, a set, a state.
 struct Case {
@@ -125,17 +53,15 @@ struct Cases {
     std::vector<Case> tenths;
 };
 
-void measure(const StudyMesh& mesh, std::uint32_t depth, std::size_t rounds, Cases& cases) {
+void measure(const OctreeMesh& mesh, std::uint32_t depth, std::size_t rounds, Cases& cases) {
     const Forms forms(build::build_octree(mesh.mesh.positions, mesh.mesh.triangles,
                                           {.level = depth, .threshold = kThreshold}));
-    std::vector<Contender> contenders;
-    add_hierarchical(forms, contenders);
-    add_by_key(forms, contenders);
+    const std::vector<Contender> contenders = search_contenders(forms);
     Random random(7);
     for (const QuerySet& set :
          {uniform_set(forms.octree.grid, kQueries, random),
           surface_set(mesh.mesh, kQueries, random), walk_set(mesh.mesh, kQueries, random)}) {
-        const double found = compare_leaves(contenders, set.points);
+        const double found = share_found(contenders, set.points);
         for (const State state : {warm, in_turn, cold}) {
             const auto ns = time_all(contenders, set.points, state, rounds);
             Case& made = cases.medians.emplace_back(Case{state, {}});
@@ -226,12 +152,12 @@ void print_winners(const std::vector<Case>& cases) {
     }
 }
 
-void run(const std::vector<StudyMesh>& meshes, std::size_t rounds) {
+void run(const std::vector<OctreeMesh>& meshes, std::size_t rounds) {
     std::printf(
         "mesh,triangles,depth,nodes,leaves,deepest,points,found,state,contender,median_ns,"
         "spread_ns,tenth_ns,timings,bytes,of_h0,of_h2\n");
     Cases cases;
-    for (const StudyMesh& mesh : meshes) {
+    for (const OctreeMesh& mesh : meshes) {
         for (const std::uint32_t depth : kDepths) measure(mesh, depth, rounds, cases);
     }
     for (const State state : {warm, in_turn, cold}) {
@@ -256,5 +182,5 @@ int main(int count, char** arguments) {
         count > 2 ? static_cast<std::size_t>(std::max(1, std::atoi(arguments[2]))) : 9;
     std::vector<std::string> names(arguments + std::min(count, 3), arguments + count);
     if (names.empty()) names = {"bunny", "armadillo", "dragon"};
-    cdprep::run(cdprep::study_meshes(count > 1 ? arguments[1] : "", names), rounds);
+    cdprep::run(cdprep::octree_meshes(count > 1 ? arguments[1] : "", names), rounds);
 }

@@ -21,11 +21,13 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "octree_study.h"
+#include "octree_meshes.h"
 #include "prefetch.h"
 
 namespace cdprep {
 namespace {
+
+using namespace study::search;  // NOLINT(google-build-using-namespace)
 
 constexpr std::array<std::uint32_t, 2> kDepths = {8, 12};
 constexpr std::uint32_t kThreshold = 8;
@@ -106,7 +108,7 @@ std::vector<Contender> top_contenders(const build::Octree& octree,
     return made;
 }
 
-void print_rows(const StudyMesh& mesh, std::uint32_t depth, const build::Octree& octree,
+void print_rows(const OctreeMesh& mesh, std::uint32_t depth, const build::Octree& octree,
                 const std::vector<Contender>& contenders, const QuerySet& set, State state,
                 std::size_t rounds) {
     const auto ns = time_all(contenders, set.points, state, rounds);
@@ -119,7 +121,7 @@ void print_rows(const StudyMesh& mesh, std::uint32_t depth, const build::Octree&
     std::fflush(stdout);
 }
 
-void measure_tops(const StudyMesh& mesh, std::uint32_t depth, const build::Octree& octree,
+void measure_tops(const OctreeMesh& mesh, std::uint32_t depth, const build::Octree& octree,
                   std::size_t rounds) {
     std::vector<std::vector<std::uint32_t>> tops;
     for (std::uint32_t level = 0; level <= kMostTopLevel; ++level) {
@@ -130,7 +132,7 @@ void measure_tops(const StudyMesh& mesh, std::uint32_t depth, const build::Octre
     for (const QuerySet& set :
          {uniform_set(octree.grid, kQueries, random), surface_set(mesh.mesh, kQueries, random),
           walk_set(mesh.mesh, kQueries, random)}) {
-        compare_leaves(contenders, set.points);
+        share_found(contenders, set.points);
         for (const State state : {warm, in_turn, cold}) {
             print_rows(mesh, depth, octree, contenders, set, state, rounds);
         }
@@ -177,11 +179,11 @@ std::vector<Contender> key_contenders(const format::OctreeGrid& grid) {
     return made;
 }
 
-void measure_keys(const StudyMesh& mesh, const build::Octree& octree, std::size_t rounds) {
+void measure_keys(const OctreeMesh& mesh, const build::Octree& octree, std::size_t rounds) {
     const std::vector<Contender> contenders = key_contenders(octree.grid);
     Random random(7);
     const QuerySet set = surface_set(mesh.mesh, kQueries, random);
-    compare_leaves(contenders, set.points);
+    share_found(contenders, set.points);
     for (const State state : {warm, in_turn}) {
         print_rows(mesh, octree.grid.level, octree, contenders, set, state, rounds);
     }
@@ -205,7 +207,7 @@ std::vector<Contender> node_contenders(const build::Octree& octree) {
                       by(CellSearch::mixed))};
 }
 
-void measure_nodes(const StudyMesh& mesh, const build::Octree& octree, std::size_t rounds) {
+void measure_nodes(const OctreeMesh& mesh, const build::Octree& octree, std::size_t rounds) {
     Random random(7);
     QuerySet set{"nodes", {}};
     for (std::size_t i = 0; i < kQueries; ++i) {
@@ -213,16 +215,16 @@ void measure_nodes(const StudyMesh& mesh, const build::Octree& octree, std::size
         set.points.push_back({std::bit_cast<double>(key), 0, 0});
     }
     const std::vector<Contender> contenders = node_contenders(octree);
-    compare_leaves(contenders, set.points);
+    share_found(contenders, set.points);
     for (const State state : {warm, in_turn, cold}) {
         print_rows(mesh, octree.grid.level, octree, contenders, set, state, rounds);
     }
 }
 
-void run(const std::vector<StudyMesh>& meshes, std::size_t rounds) {
+void run(const std::vector<OctreeMesh>& meshes, std::size_t rounds) {
     std::printf(
         "mesh,depth,leaves,points,state,contender,median_ns,spread_ns,tenth_ns,timings,bytes\n");
-    for (const StudyMesh& mesh : meshes) {
+    for (const OctreeMesh& mesh : meshes) {
         for (const std::uint32_t depth : kDepths) {
             const build::Octree octree =
                 build::build_octree(mesh.mesh.positions, mesh.mesh.triangles,
@@ -242,5 +244,5 @@ int main(int count, char** arguments) {
         count > 2 ? static_cast<std::size_t>(std::max(1, std::atoi(arguments[2]))) : 9;
     std::vector<std::string> names(arguments + std::min(count, 3), arguments + count);
     if (names.empty()) names = {"bunny", "armadillo", "dragon"};
-    cdprep::run(cdprep::study_meshes(count > 1 ? arguments[1] : "", names), rounds);
+    cdprep::run(cdprep::octree_meshes(count > 1 ? arguments[1] : "", names), rounds);
 }

@@ -133,7 +133,8 @@ void add_tetra_tree(Sections& sections, const build::TetraTree& tetra) {
     sections.add(SectionId::tetra_nodes, tetra.nodes);
     sections.add(SectionId::tetra_references, tetra.references);
     sections.add(SectionId::tetra_top, tetra.top);
-    if (tetra.boxes.empty()) return;
+    // There even when the triangles that hold the centre are all, and no cone has any.
+    if (tetra.tree.bounding != format::TetraBounding::boxes) return;
     sections.add(SectionId::tetra_boxes, tetra.boxes);
     sections.add(SectionId::tetra_oriented, tetra.oriented);
 }

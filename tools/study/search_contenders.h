@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <numeric>
 #include <random>
@@ -20,35 +19,14 @@
 #include <immintrin.h>
 #endif
 
-#include "bench_input.h"
+#include "mesh/mesh.h"
 #include "octree_codes.h"
 #include "octree_search.h"
-#include "support/meshes.h"
-#include "support/more_sections.h"
 
-namespace cdprep {
+/// How octrees' cells are found, as benchmarks and comparisons time it.
+namespace cdprep::study::search {
 
-/// A mesh that octrees are made of.
-struct StudyMesh {
-    std::string name;
-    test::BuilderInput mesh;
-};
-
-/// The bakes of these names, or, without a folder, a sphere of 327,680 triangles.
-inline std::vector<StudyMesh> study_meshes(const std::filesystem::path& bakes,
-                                           const std::vector<std::string>& names) {
-    std::vector<StudyMesh> meshes;
-    if (bakes.empty()) {
-        const test::TestMesh sphere = test::icosphere(7);
-        meshes.push_back({"sphere", {sphere.positions, sphere.triangles}});
-        return meshes;
-    }
-    for (const std::string& name : names) {
-        const Model model = open_or_stop(bakes / (name + ".cdp.h5"));
-        meshes.push_back({name, test::builder_input(model)});
-    }
-    return meshes;
-}
+using format::Double3;
 
 /// Points at which cells are searched, in the order in which they are asked.
 struct QuerySet {
@@ -80,7 +58,7 @@ inline double dot(const Double3& a, const Double3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-inline std::array<Double3, 3> corners_of(const test::BuilderInput& mesh, std::size_t triangle) {
+inline std::array<Double3, 3> corners_of(const mesh::Mesh& mesh, std::size_t triangle) {
     const auto& vertex = mesh.triangles[triangle].vertex;
     return {mesh.positions[vertex[0]], mesh.positions[vertex[1]], mesh.positions[vertex[2]]};
 }
@@ -102,7 +80,7 @@ inline double area(const std::array<Double3, 3>& t) {
 }
 
 /// Equally dense everywhere on the surface, each far from the one before.
-inline QuerySet surface_set(const test::BuilderInput& mesh, std::size_t count, Random& random) {
+inline QuerySet surface_set(const mesh::Mesh& mesh, std::size_t count, Random& random) {
     std::vector<double> sums;
     double sum = 0;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -119,7 +97,7 @@ inline QuerySet surface_set(const test::BuilderInput& mesh, std::size_t count, R
 }
 
 /// For each triangle those across its edges; itself where there is none.
-inline std::vector<std::array<std::uint32_t, 3>> neighbours(const test::BuilderInput& mesh) {
+inline std::vector<std::array<std::uint32_t, 3>> neighbours(const mesh::Mesh& mesh) {
     struct Side {
         std::pair<std::uint32_t, std::uint32_t> edge;
         std::uint32_t triangle;
@@ -147,7 +125,7 @@ inline std::vector<std::array<std::uint32_t, 3>> neighbours(const test::BuilderI
 
 /// From triangle to triangle across edges, towards a direction that changes every 64
 /// steps, one point in each.
-inline QuerySet walk_set(const test::BuilderInput& mesh, std::size_t count, Random& random) {
+inline QuerySet walk_set(const mesh::Mesh& mesh, std::size_t count, Random& random) {
     const auto across = neighbours(mesh);
     const auto middle = [&](std::uint32_t t) {
         return point_in(corners_of(mesh, t), 1. / 3, 1. / 3);
@@ -307,23 +285,29 @@ inline std::vector<std::vector<double>> time_all(const std::vector<Contender>& c
     return ns;
 }
 
-/// Ends the program unless all find the same leaves. Returns the share of points that lie in
-/// one.
-inline double compare_leaves(const std::vector<Contender>& contenders,
-                             std::span<const Double3> points) {
+/// What a search of all points comes to.
+struct Found {
+    double share = 0;   ///< of points that lie in a leaf
+    std::string other;  ///< a contender that finds other leaves than the first; empty: none
+};
+
+/// Holds the contenders' answers against each other.
+[[nodiscard]] inline Found compare_leaves(const std::vector<Contender>& contenders,
+                                          std::span<const Double3> points) {
     std::vector<std::uint32_t> expected(points.size());
     contenders.front().ask(points, expected);
     std::vector<std::uint32_t> leaves(points.size());
+    Found found;
     for (const Contender& contender : contenders) {
         for (const auto* ask : {&contender.ask, &contender.ask_in_turn}) {
             std::fill(leaves.begin(), leaves.end(), 0);
             (*ask)(points, leaves);
-            if (leaves == expected) continue;
-            stop(contender.name + " finds other leaves than " + contenders.front().name + ".");
+            if (leaves != expected) found.other = contender.name;
         }
     }
     const auto none = std::count(expected.begin(), expected.end(), kNoNode);
-    return 1 - static_cast<double>(none) / static_cast<double>(points.size());
+    found.share = 1 - static_cast<double>(none) / static_cast<double>(points.size());
+    return found;
 }
 
-}  // namespace cdprep
+}  // namespace cdprep::study::search

@@ -1,4 +1,4 @@
-// SPDX-License-Identifier: MIT
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "octree_search.h"
 
-namespace cdprep {
+namespace cdprep::study::search {
 
 /// Where a node's cell begins, and its level.
 struct NodeCell {
@@ -167,4 +167,4 @@ inline std::uint32_t find_by_masks(const std::vector<format::OctreeNode>& nodes,
     return node;
 }
 
-}  // namespace cdprep
+}  // namespace cdprep::study::search

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "study/machine.h"
+#include "study/pose_set.h"
+#include "study/table.h"
+
+namespace cdprep::study {
+
+/// A model as it stands in a comparison.
+struct ComparedModel {
+    std::string name;
+    std::string file;
+    std::size_t read_vertices = 0;
+    std::size_t read_triangles = 0;
+    std::uint64_t read_hash = 0;
+    std::size_t built_vertices = 0;
+    std::size_t built_triangles = 0;
+    std::uint64_t built_hash = 0;
+    std::string likeness;  ///< a sentence
+};
+
+/// The poses at which a pair was asked.
+struct ComparedPair {
+    std::string a;
+    std::string b;
+    PoseSet poses;
+};
+
+/// How everything was measured: with the models, enough to measure it again.
+struct ComparisonSettings {
+    std::string version;  ///< of the program
+    bool quick = false;
+    std::uint64_t seed = 1;
+    std::size_t poses = 0;  ///< of each stratum
+    std::size_t rounds = 0;
+    std::size_t threads = 0;
+};
+
+/// The papers' tables on some models.
+struct Comparison {
+    ComparisonSettings settings;
+    Machine machine;
+    std::vector<ComparedModel> models;
+    std::vector<ComparedPair> pairs;
+    std::vector<Table> tables;
+    std::vector<Check> checks;
+    std::vector<std::string> errata;  ///< of the papers: a sentence each
+    std::vector<std::string> peers;   ///< who answered beside us, or why nobody did: sentences
+};
+
+}  // namespace cdprep::study

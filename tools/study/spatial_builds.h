@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cdprep/parallel_for.h"
+#include "cdprep/structure_presets.h"
+#include "study/study_mesh.h"
+#include "study/timing.h"
+
+namespace cdprep::study {
+
+enum class SpatialKind : std::uint8_t {
+    tetra_tree,
+    octree,
+    hashed_octree,
+    adaptive_median,  ///< octrees with split points of their own
+    adaptive_area
+};
+
+/// What one build came to.
+struct SpatialFigures {
+    std::uint64_t nodes_all = 0;  ///< with those that no triangle touches
+    std::uint64_t nodes = 0;      ///< without
+    std::uint64_t leaves = 0;
+    std::uint64_t references = 0;
+    std::uint64_t largest_leaf = 0;
+    std::uint64_t formula_all = 0;  ///< bytes by the published formula, over nodes_all
+    std::uint64_t formula = 0;      ///< over nodes
+    std::uint64_t bytes = 0;        ///< as stored
+};
+
+/// One structure at one setting.
+struct SpatialBuild {
+    std::string setting;  ///< "paper", "nearest" (to the published size) or "tuned"
+    SpatialKind kind{};
+    build::TreeLimits limits{};
+    bool boxes = false;  ///< around what cells hold
+    SpatialFigures figures{};
+    Timing one{};  ///< on one thread
+    Timing all{};  ///< on all; by the wall
+};
+
+struct SpatialOptions {
+    std::size_t rounds = 5;
+    bool nearest = true;  ///< look for the settings nearest to the published sizes
+    ParallelFor parallel_for = serial_for;
+    std::function<bool()> stop{};
+};
+
+/// Builds every structure over a mesh, each way in its turn.
+[[nodiscard]] std::vector<SpatialBuild> measure_spatial_builds(const StudyMesh& mesh,
+                                                               const SpatialOptions& options);
+
+/// What was published of that structure over the model that a mesh is; null where nothing was.
+[[nodiscard]] const PublishedBuild* find_published_build(const Likeness& likeness,
+                                                         SpatialKind kind) noexcept;
+
+}  // namespace cdprep::study

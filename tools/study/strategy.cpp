@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/strategy.h"
+
+#include "cdprep/convex_distance.h"
+#include "cdprep/distance_through.h"
+#include "cdprep/model_hulls.h"
+#include "cdprep/overlap_through.h"
+
+namespace cdprep::study {
+
+std::span<const Strategy> strategies() {
+    // The talk's table of cells is chained, by the last bits of the key.
+    static const std::vector<Strategy> kStrategies = {
+        {"tetra-tree", "paper", &ModelForms::paper, {.structure = Structure::tetra_tree}},
+        {"octree", "paper", &ModelForms::paper, {.structure = Structure::octree}},
+        {"hashed octree",
+         "paper",
+         &ModelForms::paper,
+         {.structure = Structure::hashed_octree, .search = CellSearch::modulus}},
+        {"hashed octree, literal",
+         "paper",
+         &ModelForms::paper,
+         {.structure = Structure::hashed_octree_literal, .search = CellSearch::modulus}},
+        {"tetra-tree", "tuned", &ModelForms::tuned, {.structure = Structure::tetra_tree}},
+        {"octree", "tuned", &ModelForms::tuned, {.structure = Structure::octree}},
+        {"hashed octree",
+         "tuned",
+         &ModelForms::tuned_hashed,
+         {.structure = Structure::hashed_octree}},
+        {"PQP-style BVH", "", &ModelForms::swept, {.structure = Structure::bvh}},
+        {"SWIFT++-style pieces", "", &ModelForms::plain, {.structure = Structure::pieces}},
+        {"GJK on hulls", "", &ModelForms::plain, {}, true},
+        {"exact BVH", "", &ModelForms::plain, {.structure = Structure::bvh}},
+    };
+    return kStrategies;
+}
+
+StrategyPair::StrategyPair(const Strategy& strategy, const ModelForms& a, const ModelForms& b)
+    : strategy_(strategy),
+      a_((a.*strategy.form).model),
+      b_((b.*strategy.form).model),
+      pairs_(std::size_t{1} << 16) {
+    if (!strategy.of_hulls) return;
+    const auto hull_a = find_hull(a_, format::HullScope::whole);
+    const auto hull_b = find_hull(b_, format::HullScope::whole);
+    if (!hull_a || !hull_b) return;
+    hull_a_ = convex_points(a_, *hull_a);
+    hull_b_ = convex_points(b_, *hull_b);
+}
+
+std::string StrategyPair::find_reason(Asked asked) const {
+    const Structure structure = strategy_.through.structure;
+    if (strategy_.of_hulls) {
+        if (asked == Asked::overlap) return "a hull does not know the triangles";
+        if (asked == Asked::contacts) return "of pieces only";
+        return hull_a_ && hull_b_ ? "" : "a model has no hull";
+    }
+    if (asked == Asked::contacts && structure != Structure::pieces) return "of pieces only";
+    const bool measures = structure == Structure::bvh || structure == Structure::pieces;
+    if ((asked == Asked::distance || asked == Asked::within) && !measures) {
+        return "cells do not bound distances";
+    }
+    return "";
+}
+
+bool StrategyPair::collides(const Placement& placement) {
+    if (strategy_.of_hulls) return convex_collide(*hull_a_, *hull_b_, placement);
+    return any_overlap_through(strategy_.through, a_, b_, placement, workspace_);
+}
+
+std::size_t StrategyPair::count_pairs(const Placement& placement) {
+    return overlapping_triangles_through(strategy_.through, a_, b_, placement, workspace_, pairs_);
+}
+
+std::span<const TrianglePair> StrategyPair::pairs(const Placement& placement) {
+    std::size_t count = count_pairs(placement);
+    if (count > pairs_.size()) {
+        pairs_.resize(count);
+        count = count_pairs(placement);
+    }
+    return std::span(pairs_).first(count);
+}
+
+Gap StrategyPair::gap(const Placement& placement) {
+    if (strategy_.of_hulls) {
+        const auto found = convex_distance(*hull_a_, *hull_b_, placement);
+        return {found->lower, found->upper};
+    }
+    const auto found = distance_through(strategy_.through, a_, b_, placement, workspace_);
+    return found ? Gap{found->lower, found->upper} : Gap{};
+}
+
+bool StrategyPair::is_within(const Placement& placement, double tolerance) {
+    if (strategy_.of_hulls) return convex_is_within(*hull_a_, *hull_b_, placement, tolerance);
+    return is_within_through(strategy_.through, a_, b_, placement, tolerance, workspace_);
+}
+
+std::size_t StrategyPair::contacts(const Placement& placement, double tolerance,
+                                   std::span<PieceContact> room) {
+    return cdprep::contacts(a_, b_, placement, tolerance, workspace_, room);
+}
+
+}  // namespace cdprep::study
