@@ -52,6 +52,7 @@ void add_progress(CLI::App& command, std::string& progress);
 /// Each adds its subcommand; its callback stores how it went in `exit`.
 void add_accuracy(CLI::App& app, Exit& exit);
 void add_bake(CLI::App& app, Exit& exit);
+void add_compare(CLI::App& app, Exit& exit);
 void add_decompose(CLI::App& app, Exit& exit);
 void add_explain(CLI::App& app, Exit& exit);
 void add_hull(CLI::App& app, Exit& exit);

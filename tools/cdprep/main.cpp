@@ -16,6 +16,7 @@ Exit run(int argc, char** argv) {
     Exit exit = Exit::success;
     add_bake(app, exit);
     add_validate(app, exit);
+    add_compare(app, exit);
     add_decompose(app, exit);
     add_explain(app, exit);
     add_hull(app, exit);

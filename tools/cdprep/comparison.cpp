@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "comparison.h"
+
+#include <algorithm>
+#include <deque>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "interrupt.h"
+#include "load_mesh.h"
+#include "peer_program.h"
+#include "report/peer_json.h"
+#include "study/cell_search.h"
+#include "study/feature_probes.h"
+#include "study/pair_tables.h"
+#include "study/preparation.h"
+#include "study/pruning.h"
+#include "study/published.h"
+#include "study/spatial_tables.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kPoses = 20;
+constexpr std::size_t kQuickPoses = 3;
+constexpr std::size_t kRounds = 5;
+constexpr std::size_t kQuickRounds = 1;
+/// Seconds for each question to a pair: rounds after the first that would begin later are
+/// left out.
+constexpr double kBudget = 10;
+constexpr double kQuickBudget = 0.2;
+
+/// Two numbers of models.
+struct Pair {
+    std::size_t a;
+    std::size_t b;
+};
+
+class Comparing {
+public:
+    Comparing(const ComparisonOptions& options, const Threads& threads, ProgressStyle style,
+              std::size_t models)
+        : options_(options), threads_(threads), progress_(style, 4 * models + 1) {}
+
+    Result<study::Comparison> run(const std::vector<fs::path>& files) {
+        if (const auto error = read(files)) return *error;
+        describe();
+        const TableChoice& tables = options_.tables;
+        if (tables.features) {
+            if (const auto error = probe_features()) return *error;
+        }
+        if (tables.spatial) compare_builds();
+        if (tables.preparation || tables.pairs || tables.talk) {
+            if (const auto error = make_forms()) return *error;
+        }
+        if (tables.preparation) compare_preparation();
+        if (tables.pairs || tables.talk) {
+            if (const auto error = compare_pairs()) return *error;
+        }
+        if (options_.peers.empty()) {
+            comparison_.peers.emplace_back(
+                "Peers (FCL, ODE, Bullet, CGAL; PQP and SWIFT++ have no package) were not asked: "
+                "name a program with --peers.");
+        }
+        if (is_interrupted()) return interrupted(files.front());
+        for (const char* erratum : study::published_errata()) {
+            comparison_.errata.emplace_back(erratum);
+        }
+        return std::move(comparison_);
+    }
+
+private:
+    std::optional<Error> read(const std::vector<fs::path>& files) {
+        std::map<std::string, std::size_t> taken;
+        for (const fs::path& file : files) {
+            step(file.filename().string() + ": read");
+            LoadOptions load;
+            load.import = options_.import;
+            load.import.parallel_for = threads_.parallel_for();
+            Result<mesh::TriangleSoup> soup = load_soup(file, load);
+            if (!soup) return soup.error();
+            if (is_interrupted()) return interrupted(file);
+            if (soup.value().triangles.empty()) {
+                return Error{ErrorCode::unreadable,
+                             file.string() + ": has no triangles; there is nothing to compare."};
+            }
+            std::string name = file.stem().string();
+            if (const std::size_t before = taken[name]++; before > 0) {
+                name += " (" + std::to_string(before + 1) + ")";
+            }
+            meshes_.push_back(
+                study::make_study_mesh(std::move(name), file, std::move(soup).value()));
+        }
+        return std::nullopt;
+    }
+
+    void describe() {
+        comparison_.machine = study::describe_machine();
+        const std::size_t threads =
+            options_.threads == 0 ? comparison_.machine.processors : options_.threads;
+        comparison_.settings = {CDPREP_VERSION, options_.quick,  options_.seed,
+                                options_.poses, options_.rounds, threads};
+        for (const study::StudyMesh& mesh : meshes_) {
+            comparison_.models.push_back({mesh.name, mesh.file.string(), mesh.read_vertices,
+                                          mesh.read_triangles, mesh.read_hash,
+                                          mesh.mesh.positions.size(), mesh.mesh.triangles.size(),
+                                          mesh.built_hash, mesh.likeness.sentence});
+        }
+    }
+
+    std::optional<Error> probe_features() {
+        step("features");
+        Result<study::Table> table = study::feature_table();
+        if (!table) return table.error();
+        add({study::feature_check(table.value())});
+        comparison_.tables.push_back(std::move(table).value());
+        return std::nullopt;
+    }
+
+    void compare_builds() {
+        std::vector<study::SpatialMesh> measured;
+        for (const study::StudyMesh& mesh : meshes_) {
+            step(mesh.name + ": spatial decompositions");
+            measured.push_back({&mesh, study::measure_spatial_builds(
+                                           mesh, {.rounds = options_.rounds,
+                                                  .nearest = !options_.quick,
+                                                  .parallel_for = threads_.parallel_for(),
+                                                  .stop = is_interrupted})});
+            if (is_interrupted()) return;
+        }
+        comparison_.tables.push_back(study::spatial_table(measured));
+        for (const study::SpatialMesh& mesh : measured) {
+            comparison_.tables.push_back(study::spatial_details(mesh));
+        }
+        add(study::spatial_checks(measured));
+    }
+
+    std::optional<Error> make_forms() {
+        for (const study::StudyMesh& mesh : meshes_) {
+            step(mesh.name + ": every structure");
+            Result<study::ModelForms> made =
+                study::make_model_forms(mesh, threads_.parallel_for(), is_interrupted);
+            if (is_interrupted()) return interrupted(mesh.file);
+            if (!made) {
+                return Error{made.error().code, mesh.file.string() + ": " + made.error().message};
+            }
+            forms_.push_back(std::move(made).value());
+        }
+        return std::nullopt;
+    }
+
+    void compare_preparation() {
+        std::vector<study::Preparation> prepared;
+        for (std::size_t i = 0; i < meshes_.size(); ++i) {
+            step(meshes_[i].name + ": hull, hierarchy and pieces");
+            prepared.push_back(study::measure_preparation(meshes_[i], forms_[i],
+                                                          {.rounds = options_.rounds,
+                                                           .pieces_alone = !options_.quick,
+                                                           .parallel_for = threads_.parallel_for(),
+                                                           .stop = is_interrupted}));
+            if (is_interrupted()) return;
+        }
+        comparison_.tables.push_back(study::preparation_table(meshes_, prepared));
+        comparison_.tables.push_back(study::preparation_details(meshes_, prepared));
+        add(study::preparation_checks(meshes_, prepared));
+    }
+
+    [[nodiscard]] study::PairStudy study_of(const Pair& pair) const {
+        const study::PairOptions options = {
+            .poses = {.seed = options_.seed,
+                      .per_stratum = options_.poses,
+                      .parallel_for = threads_.parallel_for(),
+                      .stop = is_interrupted},
+            .timing = {.rounds = options_.rounds,
+                       .budget_s = options_.quick ? kQuickBudget : kBudget,
+                       .stop = is_interrupted}};
+        study::PairStudy study;
+        if (options_.tables.pairs) {
+            study = study::study_pair(forms_[pair.a], forms_[pair.b], options);
+        } else {
+            study.poses = study::make_pose_set(forms_[pair.a].swept.model,
+                                               forms_[pair.b].swept.model, options.poses);
+        }
+        study.a = pair.a;
+        study.b = pair.b;
+        return study;
+    }
+
+    /// Sets the peers beside our strategies, if there is a program that asks them.
+    std::optional<Error> ask_peers(const Pair& pair, study::PairStudy& study) {
+        if (options_.peers.empty() || !options_.tables.pairs) return std::nullopt;
+        const Result<std::string> printed =
+            run_peers(options_.peers, {.a = std::as_const(forms_[pair.a].plain.image).span(),
+                                       .b = std::as_const(forms_[pair.b].plain.image).span(),
+                                       .poses = study::peer_questions(study.poses),
+                                       .tolerance = study::kWithinShare * study.poses.diagonal,
+                                       .rounds = options_.rounds,
+                                       .budget_s = options_.quick ? kQuickBudget : kBudget});
+        if (!printed) return printed.error();
+        const Result<study::PeerRun> run = report::read_peers(printed.value());
+        if (!run) return unusable(run.error().message);
+        for (const study::PeerAnswers& peer : run.value().peers) {
+            const std::string wrong = study::add_peer(peer, study);
+            if (!wrong.empty()) return unusable(wrong);
+            keep_line(peer.name + ": " + peer.note + "; timed in a program of its own.");
+        }
+        for (const std::string& absent : run.value().absent) keep_line(absent);
+        return std::nullopt;
+    }
+
+    [[nodiscard]] Error unusable(const std::string& what) const {
+        return {ErrorCode::unreadable,
+                options_.peers.string() + ", which asks peers, cannot be used: " + what};
+    }
+
+    void keep_line(const std::string& line) {
+        auto& lines = comparison_.peers;
+        if (std::ranges::find(lines, line) == lines.end()) lines.push_back(line);
+    }
+
+    std::optional<Error> compare_pairs() {
+        std::vector<study::PairStudy> studies;
+        for (const Pair& pair : pairs()) {
+            step(meshes_[pair.a].name + " x " + meshes_[pair.b].name);
+            studies.push_back(study_of(pair));
+            if (is_interrupted()) return std::nullopt;
+            if (const auto error = ask_peers(pair, studies.back())) return error;
+        }
+        for (const study::PairStudy& study : studies) {
+            comparison_.pairs.push_back(
+                {meshes_[study.a].name, meshes_[study.b].name, study.poses});
+        }
+        if (options_.tables.pairs) {
+            comparison_.tables.push_back(study::pair_table(meshes_, studies));
+            for (const study::PairStudy& study : studies) {
+                comparison_.tables.push_back(study::pair_details(meshes_, study));
+            }
+            add(study::pair_checks(meshes_, studies));
+        }
+        if (!options_.tables.talk) return std::nullopt;
+        step("the talk's figures");
+        std::vector<const study::ModelForms*> forms;
+        for (const study::ModelForms& form : forms_) forms.push_back(&form);
+        study::Table table = study::pruning_table(meshes_, studies, forms);
+        add(study::pruning_checks(table));
+        comparison_.tables.push_back(std::move(table));
+        study::CellSearchOptions search = {.rounds = options_.rounds, .stop = is_interrupted};
+        if (options_.quick) search.depths = {8};
+        study::Table cells = study::cell_search_table(meshes_, search);
+        add(study::cell_search_checks(cells));
+        comparison_.tables.push_back(std::move(cells));
+        return std::nullopt;
+    }
+
+    /// The paper's pairs in the paper's order, with every mesh that stands for one of its models.
+    [[nodiscard]] std::vector<Pair> paper_pairs() const {
+        std::vector<Pair> found;
+        for (const study::PublishedPair& pair : study::kPublishedPairs) {
+            for (std::size_t a = 0; a < meshes_.size(); ++a) {
+                for (std::size_t b = 0; b < meshes_.size(); ++b) {
+                    const bool is_it =
+                        meshes_[a].likeness.model == pair.a && meshes_[b].likeness.model == pair.b;
+                    if (is_it && (pair.a != pair.b || a <= b)) found.push_back({a, b});
+                }
+            }
+        }
+        return found;
+    }
+
+    [[nodiscard]] std::vector<Pair> pairs() const {
+        const bool are_published = std::ranges::all_of(
+            meshes_, [](const study::StudyMesh& mesh) { return mesh.likeness.model.has_value(); });
+        if (options_.pairs == PairChoice::paper ||
+            (options_.pairs == PairChoice::fitting && are_published)) {
+            std::vector<Pair> found = paper_pairs();
+            if (!found.empty() || options_.pairs == PairChoice::paper) return found;
+        }
+        if (meshes_.size() == 1) return {{0, 0}};
+        std::vector<Pair> all;
+        for (std::size_t a = 0; a < meshes_.size(); ++a) {
+            for (std::size_t b = a + 1; b < meshes_.size(); ++b) all.push_back({a, b});
+        }
+        return all;
+    }
+
+    void add(std::vector<study::Check> checks) {
+        comparison_.checks.insert(comparison_.checks.end(), std::make_move_iterator(checks.begin()),
+                                  std::make_move_iterator(checks.end()));
+    }
+
+    void step(const std::string& what) {
+        progress_.show(done_++, what);
+    }
+
+    const ComparisonOptions& options_;
+    const Threads& threads_;
+    Progress progress_;
+    std::size_t done_ = 0;
+    std::vector<study::StudyMesh> meshes_;
+    std::deque<study::ModelForms> forms_;
+    study::Comparison comparison_;
+};
+
+}  // namespace
+
+ComparisonOptions settled(ComparisonOptions options) {
+    if (options.poses == 0) options.poses = options.quick ? kQuickPoses : kPoses;
+    if (options.rounds == 0) options.rounds = options.quick ? kQuickRounds : kRounds;
+    return options;
+}
+
+Result<study::Comparison> compare_models(const std::vector<fs::path>& files,
+                                         const ComparisonOptions& options, const Threads& threads,
+                                         ProgressStyle style) {
+    return Comparing(options, threads, style, files.size()).run(files);
+}
+
+}  // namespace cdprep::cli
