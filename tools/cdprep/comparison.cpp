@@ -43,12 +43,16 @@ class Comparing {
 public:
     Comparing(const ComparisonOptions& options, const Threads& threads, ProgressStyle style,
               std::size_t models)
-        : options_(options), threads_(threads), progress_(style, 4 * models + 1) {}
+        : options_(options), threads_(threads), style_(style) {
+        progress_.emplace(style, models);
+    }
 
     Result<study::Comparison> run(const std::vector<fs::path>& files) {
         if (const auto error = read(files)) return *error;
         describe();
         const TableChoice& tables = options_.tables;
+        done_ = 0;
+        progress_.emplace(style_, count_steps());
         if (tables.features) {
             if (const auto error = probe_features()) return *error;
         }
@@ -261,8 +265,8 @@ private:
         for (const study::PublishedPair& pair : study::kPublishedPairs) {
             for (std::size_t a = 0; a < meshes_.size(); ++a) {
                 for (std::size_t b = 0; b < meshes_.size(); ++b) {
-                    const bool is_it =
-                        meshes_[a].likeness.model == pair.a && meshes_[b].likeness.model == pair.b;
+                    const bool is_it = meshes_[a].likeness.version_of == pair.a &&
+                                       meshes_[b].likeness.version_of == pair.b;
                     if (is_it && (pair.a != pair.b || a <= b)) found.push_back({a, b});
                 }
             }
@@ -271,8 +275,9 @@ private:
     }
 
     [[nodiscard]] std::vector<Pair> pairs() const {
-        const bool are_published = std::ranges::all_of(
-            meshes_, [](const study::StudyMesh& mesh) { return mesh.likeness.model.has_value(); });
+        const bool are_published = std::ranges::all_of(meshes_, [](const study::StudyMesh& mesh) {
+            return mesh.likeness.version_of.has_value();
+        });
         if (options_.pairs == PairChoice::paper ||
             (options_.pairs == PairChoice::fitting && are_published)) {
             std::vector<Pair> found = paper_pairs();
@@ -292,12 +297,25 @@ private:
     }
 
     void step(const std::string& what) {
-        progress_.show(done_++, what);
+        progress_->show(done_++, what);
+    }
+
+    /// How often step() is called once the models are read.
+    [[nodiscard]] std::size_t count_steps() const {
+        const TableChoice& tables = options_.tables;
+        const std::size_t models = meshes_.size();
+        std::size_t steps = tables.features ? 1 : 0;
+        if (tables.spatial) steps += models;
+        if (tables.preparation || tables.pairs || tables.talk) steps += models;
+        if (tables.preparation) steps += models;
+        if (tables.pairs || tables.talk) steps += pairs().size();
+        return steps + (tables.talk ? 1 : 0);
     }
 
     const ComparisonOptions& options_;
     const Threads& threads_;
-    Progress progress_;
+    ProgressStyle style_;
+    std::optional<Progress> progress_;
     std::size_t done_ = 0;
     std::vector<study::StudyMesh> meshes_;
     std::deque<study::ModelForms> forms_;

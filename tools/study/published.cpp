@@ -156,15 +156,16 @@ const PublishedPair* find_published_pair(std::size_t a, std::size_t b) noexcept 
 Likeness find_likeness(std::size_t vertices, std::size_t triangles, std::uint64_t hash) {
     for (const Known& known : kKnown) {
         if (known.hash != hash) continue;
-        if (!known.has_counts) return {std::nullopt, Mark::none, known.sentence};
-        return {known.model, known.mark, known.sentence};
+        if (!known.has_counts) return {std::nullopt, Mark::none, known.sentence, known.model};
+        return {known.model, known.mark, known.sentence, known.model};
     }
     for (std::size_t i = 0; i < kPublished.size(); ++i) {
         const PublishedModel& model = kPublished[i];
         if (vertices == model.vertices && triangles == model.triangles) {
             return {i, Mark::none,
                     "has the published counts of " + std::string(model.name) +
-                        "; whether it is that mesh is not known"};
+                        "; whether it is that mesh is not known",
+                    i};
         }
     }
     for (const Alternative& other : kAlternatives) {
@@ -173,7 +174,8 @@ Likeness find_likeness(std::size_t vertices, std::size_t triangles, std::uint64_
                 "has " + counts_sentence(vertices, triangles) + ", as a version of " +
                     kPublished[other.model].name + "; published " +
                     counts_sentence(kPublished[other.model].vertices,
-                                    kPublished[other.model].triangles)};
+                                    kPublished[other.model].triangles),
+                other.model};
     }
     return {std::nullopt, Mark::none,
             "no published model has " + counts_sentence(vertices, triangles)};

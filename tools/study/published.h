@@ -53,9 +53,12 @@ extern const std::array<PublishedPair, 12> kPublishedPairs;
 
 /// Which published model a mesh is, and how surely.
 struct Likeness {
-    std::optional<std::size_t> model;  ///< in kPublished
+    std::optional<std::size_t> model;  ///< in kPublished; its figures may stand beside
     Mark mark = Mark::none;            ///< none: the published counts
     std::string sentence;  ///< for people: what the mesh is, or why nothing stands beside
+    /// The model that it is a version of, if of any, also where counts are too far apart for
+    /// figures to stand beside.
+    std::optional<std::size_t> version_of{};
 };
 
 /// By the hash of its geometry where that is known, else by its counts. A mesh with counts of

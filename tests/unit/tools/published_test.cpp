@@ -65,9 +65,11 @@ TEST(Likeness, OtherVersionsOfAScanAreMarked) {
 TEST(Likeness, OtherCountsHaveNoFiguresBesideThem) {
     const Likeness reduced = find_likeness(49990, 99976, 0x05745eeab25131b7);
     EXPECT_FALSE(reduced.model);
+    EXPECT_EQ(reduced.version_of, 3U);
     EXPECT_NE(reduced.sentence.find("Armadillo"), std::string::npos);
     EXPECT_FALSE(beside(reduced, 1.0));
     EXPECT_FALSE(find_likeness(3582, 7171, 1).model);
+    EXPECT_FALSE(find_likeness(3582, 7171, 1).version_of);
 }
 
 // An erratum is one whatever the mesh is.
