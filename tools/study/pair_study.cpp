@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "study/flush_caches.h"
+
 namespace cdprep::study {
 namespace {
 
@@ -77,21 +79,25 @@ QueryCounts counts_of(Asking& asking, std::size_t who, std::span<const std::size
     return sum;
 }
 
-void time_asked(Asked asked, Asking& asking, const TimingOptions& timing, PairStudy& study) {
-    const std::vector<std::size_t> cases = cases_of(asked, study.poses);
+/// Times all who can be asked that, over those poses; one Timings a strategy, without cases
+/// where it cannot.
+std::vector<Timings> time_asked(Asked asked, std::span<const std::size_t> cases, Asking& asking,
+                                TimingOptions timing, const PairStudy& study,
+                                const std::function<void(std::size_t)>& before) {
     std::vector<Question> questions;
     std::vector<std::size_t> who;
     for (std::size_t i = 0; i < asking.pairs.size(); ++i) {
         if (!study.contenders[i].reasons[static_cast<std::size_t>(asked)].empty()) continue;
         who.push_back(i);
-        questions.push_back(question_of([&asking, &cases, i, asked](std::size_t number) {
+        questions.push_back(question_of([&asking, cases, i, asked](std::size_t number) {
             return asking.ask(i, asked, cases[number]);
         }));
     }
+    if (before) timing.before = [&](std::size_t question) { before(who[question]); };
+    std::vector<Timings> taken(asking.pairs.size());
     std::vector<Timings> timings = time_questions(cases.size(), questions, timing);
-    for (std::size_t q = 0; q < who.size(); ++q) {
-        study.contenders[who[q]].timings[static_cast<std::size_t>(asked)] = std::move(timings[q]);
-    }
+    for (std::size_t q = 0; q < who.size(); ++q) taken[who[q]] = std::move(timings[q]);
+    return taken;
 }
 
 constexpr std::array<Stratum, 4> kOfCollide = {Stratum::deep, Stratum::shallow, Stratum::touching,
@@ -148,9 +154,27 @@ PairStudy study_pair(const ModelForms& a, const ModelForms& b, const PairOptions
                 counts_of(asking, i, study.poses.of(static_cast<Stratum>(s)));
         }
     }
-    for (std::size_t asked = 0; asked < kAsked; ++asked) {
+    for (std::size_t number_of_asked = 0; number_of_asked < kAsked; ++number_of_asked) {
         if (is_stopped(options.timing)) break;
-        time_asked(static_cast<Asked>(asked), asking, options.timing, study);
+        const auto asked = static_cast<Asked>(number_of_asked);
+        const std::vector<std::size_t> cases = cases_of(asked, study.poses);
+        std::vector<Timings> taken = time_asked(asked, cases, asking, options.timing, study, {});
+        for (std::size_t i = 0; i < taken.size(); ++i) {
+            study.contenders[i].timings[number_of_asked] = std::move(taken[i]);
+        }
+    }
+    const std::vector<std::size_t> deep = study.poses.of(Stratum::deep);
+    const auto make_cold = [&](std::size_t who) {
+        const Strategy& strategy = strategies()[who];
+        flush(memory_of((a.*strategy.form).image.span(), (b.*strategy.form).image.span()));
+    };
+    for (const Asked asked : {Asked::collide, Asked::overlap}) {
+        if (is_stopped(options.timing)) break;
+        std::vector<Timings> taken =
+            time_asked(asked, deep, asking, options.timing, study, make_cold);
+        for (std::size_t i = 0; i < taken.size(); ++i) {
+            study.contenders[i].cold[static_cast<std::size_t>(asked)] = std::move(taken[i]);
+        }
     }
     return study;
 }

@@ -36,6 +36,9 @@ struct Contender {
     bool is_peer = false;  ///< timed in a program of its own
     /// By Asked, over cases_of(); without cases where it was not asked.
     std::array<Timings, kAsked> timings{};
+    /// The same over the deep poses, with caches that hold nothing of the models; of collide and
+    /// overlap alone.
+    std::array<Timings, kAsked> cold{};
     std::array<std::string, kAsked> reasons{};  ///< why it was not asked
     std::size_t agreeing = 0;  ///< answers to collide and overlap equal to the exact ones
     std::size_t answers = 0;   ///< compared

@@ -41,6 +41,15 @@ Cell time_cell(const PairStudy& study, const Contender& contender, Asked asked, 
     return seconds_cell(*timing);
 }
 
+/// The same with cold caches, over the deep poses.
+Cell cold_cell(const Contender& contender, Asked asked) {
+    const std::string& reason = contender.reasons[static_cast<std::size_t>(asked)];
+    if (!reason.empty()) return without(reason);
+    if (contender.is_peer) return without("peers are asked with warm caches");
+    const Timing timing = timing_of(contender.cold[static_cast<std::size_t>(asked)]);
+    return timing.cases > 0 ? seconds_cell(timing) : without("no pose is deep");
+}
+
 const Contender* find_contender(const PairStudy& study, const std::string& title) {
     const auto at = std::ranges::find_if(
         study.contenders, [&](const Contender& contender) { return title_of(contender) == title; });
@@ -295,6 +304,8 @@ Table pair_details(const std::vector<StudyMesh>& meshes, const PairStudy& study)
                        Unit::seconds);
         }
     }
+    add_column(table, "collide_deep_cold", "collide, deep, cold", Unit::seconds);
+    add_column(table, "overlap_deep_cold", "overlap, deep, cold", Unit::seconds);
     add_column(table, "agreement", "answers as the exact", Unit::share);
     add_column(table, "found", "pairs found", Unit::share);
     add_column(table, "boxes_deep", "boxes tested, deep", Unit::count);
@@ -317,6 +328,8 @@ Table pair_details(const std::vector<StudyMesh>& meshes, const PairStudy& study)
                 row.cells.push_back(std::move(cell));
             }
         }
+        row.cells.push_back(cold_cell(contender, Asked::collide));
+        row.cells.push_back(cold_cell(contender, Asked::overlap));
         row.cells.push_back(agreement_cell(contender));
         row.cells.push_back(found_cell(contender));
         row.cells.push_back(counted_cell(contender, &QueryCounts::box_pairs, Stratum::deep));
@@ -337,6 +350,9 @@ Table pair_details(const std::vector<StudyMesh>& meshes, const PairStudy& study)
         }
     }
     table.notes.push_back(poses + ".");
+    table.notes.emplace_back(
+        "Cold: everything that both models hold in the form that is asked was "
+        "dropped from the caches before each question.");
     const std::string reason = no_figures(meshes, study);
     if (!reason.empty()) table.notes.push_back("No published figures: " + reason + ".");
     return table;

@@ -8,25 +8,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <numeric>
 #include <random>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#if defined(__x86_64__) || defined(_M_X64)
-#include <immintrin.h>
-#endif
-
 #include "mesh/mesh.h"
 #include "octree_codes.h"
 #include "octree_search.h"
+#include "study/flush_caches.h"
 
 /// How octrees' cells are found, as benchmarks and comparisons time it.
 namespace cdprep::study::search {
 
 using format::Double3;
+using study::bytes_of;
+using study::Memory;
+using study::memory_of;
 
 /// Points at which cells are searched, in the order in which they are asked.
 struct QuerySet {
@@ -177,18 +176,6 @@ inline std::uint32_t last_leaf(const OctreeIndex& index, std::size_t before, std
     return key_at(code, level_of(key)) == key ? node : kNoNode;
 }
 
-using Memory = std::vector<std::span<const std::byte>>;
-
-template <class... Arrays>
-Memory memory_of(const Arrays&... arrays) {
-    return {std::as_bytes(std::span(arrays))...};
-}
-
-inline std::size_t bytes_of(const Memory& memory) {
-    return std::accumulate(memory.begin(), memory.end(), std::size_t{0},
-                           [](std::size_t sum, const auto& part) { return sum + part.size(); });
-}
-
 /// One way to find the leaf of a point.
 struct Contender {
     std::string name;
@@ -216,20 +203,6 @@ Contender contender(std::string name, Memory memory, Find find) {
                     zero >>= 32;
                 }
             }};
-}
-
-/// Drops the memory from all caches.
-inline void flush(const Memory& memory) {
-#if defined(__x86_64__) || defined(_M_X64)
-    for (const auto& part : memory) {
-        for (std::size_t i = 0; i < part.size(); i += 64) _mm_clflush(part.data() + i);
-    }
-    _mm_mfence();
-#else
-    static std::vector<char> more_than_any_cache(std::size_t{256} << 20);
-    for (std::size_t i = 0; i < more_than_any_cache.size(); i += 64) ++more_than_any_cache[i];
-    (void)memory;
-#endif
 }
 
 /// How the searches follow each other.

@@ -100,7 +100,7 @@ std::vector<Timings> time_questions(std::size_t cases, std::span<const Question>
     for (std::size_t q = 0; q < questions.size(); ++q) {
         all[q].seconds.resize(cases);
         for (std::size_t i = 0; i < cases && !must_stop(options); ++i) {
-            all[q].times.push_back(times_for(questions[q], i, options));
+            all[q].times.push_back(options.before ? 1 : times_for(questions[q], i, options));
         }
     }
     for (std::size_t round = 0; round < std::max<std::size_t>(1, options.rounds); ++round) {
@@ -111,6 +111,7 @@ std::vector<Timings> time_questions(std::size_t cases, std::span<const Question>
             for (std::size_t i = 0; i < cases; ++i) {
                 if (must_stop(options)) return all;
                 const std::size_t times = all[q].times[i];
+                if (options.before) options.before(q);
                 all[q].seconds[i].push_back(seconds_for(questions[q], i, times, options.by) /
                                             static_cast<double>(times));
             }

@@ -44,6 +44,9 @@ struct TimingOptions {
     double budget_s = std::numeric_limits<double>::infinity();
     std::function<bool()> stop{};  ///< true ends all soon; what is returned is then no result
     TimedBy by = TimedBy::thread;
+    /// Called before every time that this question of all is asked, and not timed; each
+    /// measurement then asks once. Drops what the question reads from the caches, say.
+    std::function<void(std::size_t question)> before{};
 };
 
 /// What one question took: seconds of processor time, by case and round.

@@ -103,5 +103,24 @@ TEST(TimeQuestions, TheWallCountsWhatTheThreadDoesNot) {
     EXPECT_LT(time_questions(1, sleeps, options)[0].seconds[0][0], 0.005);
 }
 
+// By hand: two questions, three cases, two rounds, and none asked twice in a measurement.
+TEST(TimeQuestions, WhatComesBeforeComesBeforeEveryQuestion) {
+    std::array<int, 2> before{};
+    std::array<int, 2> asked{};
+    const auto question = [&](std::size_t q) {
+        return question_of([&asked, q](std::size_t) { return ++asked[q]; });
+    };
+    const std::array<Question, 2> questions = {question(0), question(1)};
+    TimingOptions options = {.rounds = 2};
+    options.before = [&](std::size_t q) {
+        EXPECT_EQ(before[q], asked[q]);
+        ++before[q];
+    };
+    const auto timings = time_questions(3, questions, options);
+    EXPECT_EQ(asked, (std::array<int, 2>{6, 6}));
+    EXPECT_EQ(before, asked);
+    EXPECT_EQ(timings[1].times, (std::vector<std::size_t>{1, 1, 1}));
+}
+
 }  // namespace
 }  // namespace cdprep::study
