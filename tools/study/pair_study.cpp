@@ -100,6 +100,9 @@ std::vector<Timings> time_asked(Asked asked, std::span<const std::size_t> cases,
     return taken;
 }
 
+/// Fewer would be all on one side of 1 by chance too often.
+constexpr std::size_t kRoundsAgainstItself = 9;
+
 constexpr std::array<Stratum, 4> kOfCollide = {Stratum::deep, Stratum::shallow, Stratum::touching,
                                                Stratum::near};
 constexpr std::array<Stratum, 3> kOfOverlap = {Stratum::deep, Stratum::shallow, Stratum::touching};
@@ -164,6 +167,15 @@ PairStudy study_pair(const ModelForms& a, const ModelForms& b, const PairOptions
         }
     }
     const std::vector<std::size_t> deep = study.poses.of(Stratum::deep);
+    if (!deep.empty() && !is_stopped(options.timing)) {
+        TimingOptions timing = options.timing;
+        timing.rounds = kRoundsAgainstItself;
+        study.itself = ratio_to_itself(deep.size(), question_of([&](std::size_t number) {
+                                           return asking.ask(asking.pairs.size() - 1,
+                                                             Asked::collide, deep[number]);
+                                       }),
+                                       timing);
+    }
     const auto make_cold = [&](std::size_t who) {
         const Strategy& strategy = strategies()[who];
         flush(memory_of((a.*strategy.form).image.span(), (b.*strategy.form).image.span()));

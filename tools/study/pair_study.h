@@ -59,6 +59,9 @@ struct PairStudy {
     std::size_t b = 0;
     PoseSet poses;
     ExactAnswers exact;
+    /// The exact strategy's collide over the deep poses against itself: what the clock can tell
+    /// apart here.
+    TimeRatio itself;
     std::vector<Contender> contenders;
 };
 

@@ -236,6 +236,17 @@ Check exact_agree(const std::vector<StudyMesh>& meshes, const PairStudy& study) 
     return check;
 }
 
+/// Whether the machine was quiet enough for the rest to mean anything.
+Check one_by_itself(const std::vector<StudyMesh>& meshes, const PairStudy& study) {
+    const TimeRatio& itself = study.itself;
+    return {
+        name_of(meshes, study) + ": the exact BVH measured against itself takes 1 times as long",
+        formatted("%.3f times", itself.ratio) + formatted(" (%.3f", itself.low) +
+            formatted(" to %.3f)", itself.high) +
+            (itself.holds_one() ? "" : ": the machine was too busy"),
+        verdict_of(itself.holds_one())};
+}
+
 }  // namespace
 
 Table pair_table(const std::vector<StudyMesh>& meshes, const std::vector<PairStudy>& studies) {
@@ -363,6 +374,7 @@ std::vector<Check> pair_checks(const std::vector<StudyMesh>& meshes,
     std::vector<Check> checks;
     for (const PairStudy& study : studies) {
         checks.push_back(exact_agree(meshes, study));
+        checks.push_back(one_by_itself(meshes, study));
         checks.push_back(overlap_takes_longer(meshes, study));
         for (const Stratum stratum : {Stratum::shallow, Stratum::deep}) {
             for (const char* setting : {"paper", "tuned"}) {
