@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "support/exact_contact.h"
+#include "support/exact_pairs.h"
 
 namespace cdprep::test {
 namespace {
@@ -41,7 +42,7 @@ ExactRational nearer_inside(const Vector& p, const Vector& p_end, const Vector& 
 }  // namespace
 
 ExactRational exact_squared_distance(const Corners& a, const Corners& b) {
-    if (triangles_touch_by_segments(a, b)) return 0.0;
+    if (exact_contact(a, b) != TriangleContact::disjoint) return 0.0;
     ExactRational best = exact_squared_distance(a[0], b);
     for (std::size_t i = 0; i < 3; ++i) {
         best = std::min({best, exact_squared_distance(a[i], b), exact_squared_distance(b[i], a)});

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "support/brute_force.h"
-#include "support/exact_contact.h"
-#include "support/exact_rational.h"
+#include "support/hard_meshes.h"
+#include "triangle_contact.h"
 
 namespace cdprep::test {
 namespace {
@@ -130,16 +129,11 @@ void add_needles(std::vector<HardPlacement>& all) {
 
 /// Every coordinate rounded to a multiple of `step`, without what becomes collinear.
 TestMesh snapped(const TestMesh& fine, double step) {
-    TestMesh mesh;
-    for (const Double3& p : fine.positions) {
-        mesh.positions.push_back({step * std::nearbyint(p.x / step),
-                                  step * std::nearbyint(p.y / step),
-                                  step * std::nearbyint(p.z / step)});
-    }
-    for (const Triangle& t : fine.triangles) {
+    TestMesh mesh = on_grid(fine, step);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
         const auto at = [&](std::size_t i) { return mesh.positions[t.vertex[i]]; };
-        if (!is_degenerate({at(0), at(1), at(2)})) mesh.triangles.push_back(t);
-    }
+        return is_degenerate({at(0), at(1), at(2)});
+    });
     return mesh;
 }
 
@@ -187,14 +181,6 @@ std::vector<HardPlacement> hard_placements_of(const TestMesh& armadillo, const T
     all.push_back({"the same, vertices at 1e6", moved_by(armadillo, 1, {1e6, 1e6, 1e6}),
                    moved_horse, still(), kPairs});
     return all;
-}
-
-std::vector<TrianglePair> pairs_by_definition(const TestMesh& a, const TestMesh& b,
-                                              const Placement& placement) {
-    return boxed_pairs(a, b, placement, [](const Corners& s, const Corners& t) {
-        return contact_by_definition(exact<ExactNumber>(s), exact<ExactNumber>(t)) !=
-               TriangleContact::disjoint;
-    });
 }
 
 }  // namespace cdprep::test

@@ -33,9 +33,4 @@ struct HardPlacement {
 [[nodiscard]] std::vector<HardPlacement> hard_placements_of(const TestMesh& armadillo,
                                                             const TestMesh& horse);
 
-/// Every overlapping pair, by the definition in exact numbers: for each two
-/// triangles whose boxes meet, whether their Minkowski difference holds the origin.
-[[nodiscard]] std::vector<TrianglePair> pairs_by_definition(const TestMesh& a, const TestMesh& b,
-                                                            const Placement& placement);
-
 }  // namespace cdprep::test

@@ -118,6 +118,22 @@ void add_unequal_sizes(std::vector<HardPair>& all) {
     all.push_back({"T16 tiny, through", kA, through, true, true});
     const Corners inside = {{{q, q, 0}, {q + e, q, 0}, {q, q + e, 0}}};
     all.push_back({"T16 tiny, in the plane", kA, inside, true, true});
+
+    // At the origin it can be smaller still: differences then need more bits than machine
+    // integers have.
+    constexpr double f = 0x1p-80;
+    const Corners around = {{{-1, -1, 0}, {3, -1, 0}, {-1, 3, 0}}};
+    for (const int step : {-2, -1, 0, 1}) {
+        const double z = step * f;
+        const Corners b = {{{f, 0, z}, {2 * f, f, z + f}, {0, 2 * f, z + f}}};
+        all.push_back(by_definition("T16 tinier, step " + std::to_string(step), around, b));
+    }
+    const Corners flat = {{{f, 0, 0}, {2 * f, f, 0}, {0, 2 * f, 0}}};
+    all.push_back({"T16 tinier, in the plane", around, flat, true, true});
+    const Corners beside = {{{f, 0, 0}, {1, 1, 1}, {2, -1, 1}}};
+    all.push_back({"T16 a corner 2^-80 from the origin", around, beside, true, false});
+    const Corners above = {{{f, 0, f}, {1, 1, 1}, {2, -1, 1}}};
+    all.push_back({"T16 a corner 2^-80 above", around, above, false, false});
 }
 
 void add_others(std::vector<HardPair>& all) {
@@ -165,6 +181,26 @@ std::optional<HardPair> scaled(const HardPair& pair, int exponent) {
         x = std::ldexp(x, exponent);
         return std::ldexp(x, -exponent) == before;
     });
+}
+
+std::optional<HardPair> mapped(const HardPair& pair, const std::array<double, 9>& matrix) {
+    HardPair result = pair;
+    for (Corners* corners : {&result.a, &result.b}) {
+        for (Double3& p : *corners) {
+            const std::array<double, 3> old = {p.x, p.y, p.z};
+            std::array<double, 3> made{};
+            for (std::size_t i = 0; i < 3; ++i) {
+                ExactNumber exact;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    made[i] += matrix[3 * i + k] * old[k];
+                    exact = exact + ExactNumber(matrix[3 * i + k]) * ExactNumber(old[k]);
+                }
+                if (ExactNumber(made[i]) != exact) return std::nullopt;
+            }
+            p = {made[0], made[1], made[2]};
+        }
+    }
+    return result;
 }
 
 std::optional<HardPair> shifted(const HardPair& pair, double shift) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -27,6 +28,10 @@ struct HardPair {
 
 /// All coordinates times 2^exponent; nothing when one of them cannot be held.
 [[nodiscard]] std::optional<HardPair> scaled(const HardPair& pair, int exponent);
+/// Every point times a matrix, row by row, which is not singular: what touches, crosses or shares
+/// area still does. Nothing when a coordinate cannot be held.
+[[nodiscard]] std::optional<HardPair> mapped(const HardPair& pair,
+                                             const std::array<double, 9>& matrix);
 /// All coordinates plus `shift`; nothing when one of them cannot be held.
 [[nodiscard]] std::optional<HardPair> shifted(const HardPair& pair, double shift);
 

@@ -7,16 +7,13 @@
 #include <random>
 
 #include "cdprep/collide.h"
+#include "support/hard_points.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 #include "winding.h"
 
 namespace cdprep::test {
 namespace {
-
-TestMesh cube_at(double low, double high) {
-    return moved_by(unit_cube(), high - low, {low, low, low});
-}
 
 Inclusion where(const TestMesh& mesh, const Double3& p) {
     const OpenModel model = open_tiny(mesh, {.double_precision = true});
@@ -72,15 +69,7 @@ TEST(Containment, WindingNumbersAddUp) {
 
 // P01: the ray runs through a folded vertex, where once-per-sign rules fail.
 TEST(Containment, FoldedVertexIsCountedRight) {
-    const TestMesh folded{{{0, 0, 0}, {3, 4, -2}, {4, 5, 1}, {-5, 0, -3}, {5, -5, 0}, {-6, -6, -6}},
-                          {{{0, 1, 2}},
-                           {{0, 2, 3}},
-                           {{0, 3, 4}},
-                           {{0, 4, 1}},
-                           {{5, 2, 1}},
-                           {{5, 3, 2}},
-                           {{5, 4, 3}},
-                           {{5, 1, 4}}}};
+    const TestMesh folded = folded_corner();
     const Double3 o{0, 0, -20}, q{0, 0, -0.5};
     int winding = 0;
     for (const Triangle& t : folded.triangles) {

@@ -9,6 +9,7 @@
 #include "cdprep/convex_penetration.h"
 #include "predicates.h"
 #include "support/exact_hull_pair.h"
+#include "support/hard_hulls.h"
 #include "support/hull_pairs.h"
 #include "support/meshes.h"
 #include "support/small_hull.h"
@@ -65,22 +66,6 @@ double width(const ConvexDistance& distance) {
 }
 double width(const Penetration& depth) {
     return depth.upper - depth.lower;
-}
-
-Points scaled(Points points, double scale) {
-    for (Double3& p : points) p = {scale * p.x, scale * p.y, scale * p.z};
-    return points;
-}
-
-/// A prism over a regular polygon of n corners, from z = 0 to 1.
-Points prism(int n) {
-    Points points;
-    for (int i = 0; i < n; ++i) {
-        const double angle = 2 * 3.14159265358979 * i / n;
-        points.push_back({std::cos(angle), std::sin(angle), 0});
-        points.push_back({std::cos(angle), std::sin(angle), 1});
-    }
-    return points;
 }
 
 // By hand: faces 3 apart, corner to corner (1, 2, 2) apart, one inside the other.
@@ -155,46 +140,18 @@ TEST(ConvexDistance, PermittedErrorsAreKept) {
     }
 }
 
-// G01: the poses that two reports against a widely used library name, where its search for the
-// depth denied a contact that its search for the distance had found.
+// G01
 TEST(ConvexDistance, KissingBoxesHaveTheSignOfTheGivenDoubles) {
-    const std::array<double, 9> turn = {
-        0.96193976625564348026,  0.15401279915737359216,  0.22572537250328919556,
-        -0.19134171618254486313, 0.96936494951283913579,  0.15401279915737359216,
-        -0.19509032201612822033, -0.19134171618254486313, 0.96193976625564348026};
-    const Points half = box_corners(0.25, 0.25, 0.25);
-    const Pose first =
-        pose_of(turn, {2.0770063995786869349, 0.48468247475641951239, 1.1543291419087275962});
-    const Placement kissing = Placement::world(first, pose_of(turn, {2, 0, 1.25}));
-    const Answered one = ask<ExactNumber>(half, half, kissing);
-    EXPECT_LT(one.meet ? one.depth->upper : one.distance.upper, 1e-14);
-
-    const std::array<double, 9> other = {
-        0.94096063217417758029,  0.29296840037289501035, 0.16959541586174811667,
-        -0.23569836841299879326, 0.92661523595848427348, -0.29296840037289506586,
-        -0.2429801799032638987,  0.23569836841299884878, 0.94096063217417758029};
-    const Points quarter = box_corners(0.125, 0.125, 0.125);
-    const Pose second =
-        pose_of(other, {0.073242100093223821977, 0.2316538089896212349, 1.3089245921032497399});
-    const Placement apart = Placement::world(second, pose_of(other, {0, 0, 1.25}));
-    const Answered two = ask<ExactNumber>(quarter, quarter, apart);
-    EXPECT_LT(two.meet ? two.depth->upper : two.distance.upper, 1e-14);
+    for (const HardHulls& boxes : kissing_boxes()) {
+        const Answered answered = ask<ExactNumber>(boxes.a, boxes.b, boxes.placement);
+        EXPECT_LT(answered.meet ? answered.depth->upper : answered.distance.upper, 1e-14);
+    }
 }
 
-// G02: the pose of a report where a face of no area ended the search for the depth.
+// G02
 TEST(ConvexDistance, PlateAndTiltedBoxHaveADepth) {
-    const std::array<double, 9> turn = {
-        0.10758262492983036718,  -0.6624881850015212903,  -0.74130653817877356637,
-        0.22682184885125472595,  -0.709614040775253474,   0.6670830248314786326,
-        -0.96797615037608542021, -0.23991106241273435495, 0.07392465377049164954};
-    const Pose plate =
-        pose_of({1, 0, 0, 0, 1, 0, 0, 0, 1},
-                {-0.72099999999999997424, -0.77200000000000001954, 0.81000000000000005329});
-    const Pose tilted =
-        pose_of(turn, {-0.42677133002999478872, -0.76596851247746788882, 0.80746731400091054098});
-    const Points a = box_corners(0.23, 0.24, 0.005);
-    const Points b = box_corners(0.049521 / 2, 0.146 / 2, 0.0725 / 2);
-    const Answered answered = ask<ExactNumber>(a, b, Placement::world(plate, tilted));
+    const HardHulls hard = plate_and_tilted_box();
+    const Answered answered = ask<ExactNumber>(hard.a, hard.b, hard.placement);
     ASSERT_TRUE(answered.meet);
     EXPECT_LT(width(*answered.depth), 1e-14);
 }
@@ -217,39 +174,12 @@ TEST(ConvexDistance, ContactsOnFacesOfSimplicesAreKept) {
 // G04: a polytope for which a published implementation of the signed volumes was reported to
 // answer a wrong distance; its faces are squares, hexagons and rectangles.
 TEST(ConvexDistance, PolytopeOf24CornersIsMeasuredRightly) {
-    constexpr double kLong = 0.414213562373, kShort = 0.171572875254;
-    Points points;
-    for (std::size_t small = 0; small < 3; ++small) {
-        for (unsigned sign = 0; sign < 8; ++sign) {
-            std::array<double, 3> p{};
-            for (std::size_t i = 0; i < 3; ++i) {
-                p[i] = (i == small ? kShort : kLong) * ((sign >> i & 1) != 0 ? -1 : 1);
-            }
-            points.push_back({p[0], p[1], p[2]});
-        }
-    }
+    const Points points = polytope_of_24_corners();
     for (const Double3& q : {Double3{1, 1, 1}, Double3{0.5, 0.5, 0.5}, Double3{0, 0.4, -0.5},
                              Double3{0.3, 0.3, 0.3}}) {
         const Answered answered = ask<ExactNumber>(points, {q}, shifted({}));
         EXPECT_LE(width(answered.distance), 1e-14);
     }
-}
-
-/// What a direction proves about the distance, without rounding; nothing when it does not
-/// separate the hulls.
-std::optional<SquaredLength<ExactNumber>> proof_by(const Double3& direction, const Points& a,
-                                                   const Points& b) {
-    const auto along = [&](const Double3& p) {
-        return ExactNumber(direction.x) * ExactNumber(p.x) +
-               ExactNumber(direction.y) * ExactNumber(p.y) +
-               ExactNumber(direction.z) * ExactNumber(p.z);
-    };
-    ExactNumber highest = along(a[0]), lowest = along(b[0]);
-    for (const Double3& p : a) highest = std::max(highest, along(p));
-    for (const Double3& p : b) lowest = std::min(lowest, along(p));
-    const ExactNumber gap = lowest - highest;
-    if (gap.sign() <= 0) return std::nullopt;
-    return SquaredLength<ExactNumber>{gap * gap, along(direction)};
 }
 
 bool holds(const SmallHull& hull, const Points& at, const Double3& p) {
@@ -275,11 +205,7 @@ bool surfaces_meet(const SmallHull& a, const Points& at_a, const SmallHull& b, c
 // has triangles that touch, or one hull inside the other.
 TEST(ConvexDistance, NothingIsZeroWithoutACommonPoint) {
     std::mt19937 random(3383);
-    std::normal_distribution<double> normal;
-    Points points_a(60), points_b(80);
-    for (Points* points : {&points_a, &points_b}) {
-        for (Double3& p : *points) p = {normal(random), normal(random), normal(random)};
-    }
+    const Points points_a = normal_points(random, 60), points_b = normal_points(random, 80);
     const SmallHull a(points_a), b(points_b);
     int apart = 0;
     for (int i = 0; i < 3000; ++i) {
@@ -370,7 +296,7 @@ TEST(ConvexDistance, FlatHullsAreHulls) {
 // against what the direction between the hulls proves without rounding.
 TEST(ConvexDistance, FineHullsASmallGapApartAreMeasured) {
     constexpr double kScale = 1.0 / 1024;
-    const SmallHull hull(scaled(lattice_sphere(1001), kScale));
+    const SmallHull hull(lattice_ball(1001, kScale));
     ASSERT_GT(hull.points().size(), 9000u);
     const double top = 1001 * kScale;
     const double shift = 2 * top + 1e-9;
@@ -465,19 +391,10 @@ TEST(ConvexDistance, NearlyFlatSimplicesEndTheSearch) {
     std::mt19937 random(14);
     for (int i = 0; i < 60; ++i) {
         SCOPED_TRACE(i);
-        const double g = std::ldexp(1, -30 - static_cast<int>(random() % 25));
-        Points bumpy, top = {{0.5, 0.25, 1}};
-        for (int k = 0; k < 6; ++k) {
-            bumpy.push_back(
-                {double(random() % 4), double(random() % 4), (random() & 1) != 0 ? g : 0.0});
-        }
-        for (int k = 0; k < 4; ++k) {
-            top.push_back({double(random() % 4) - 0.5, double(random() % 4) - 0.25,
-                           (random() & 1) != 0 ? 2 * g : g});
-        }
-        const Answered answered = ask<ExactNumber>(bumpy, top, shifted({}));
+        const HardHulls hard = nearly_flat_hulls(random);
+        const Answered answered = ask<ExactNumber>(hard.a, hard.b, shifted({}));
         EXPECT_LE(width(answered.distance), 1e-13);
-        const SmallHull a(bumpy), b(top);
+        const SmallHull a(hard.a), b(hard.b);
         QueryCounts counts;
         (void)convex_distance(a.view(), b.view(), shifted({}), {}, nullptr, &counts);
         EXPECT_LE(counts.hull_steps + counts.exact_steps, 64u);

@@ -9,6 +9,7 @@
 #include "cdprep/distance.h"
 #include "cdprep/query_counts.h"
 #include "support/brute_force_distance.h"
+#include "support/hard_distances.h"
 #include "support/hard_triangles.h"
 #include "support/open_tiny.h"
 #include "support/placements.h"
@@ -217,8 +218,7 @@ TEST(DistanceLaws, ParallelFacesKeepTheirGapWhenTurned) {
     const TestMesh cube = unit_cube();
     const Pose pose = Pose::from_quaternion(1, 2, 3, 4, {0.5, -0.25, 2}).value();
     for (const double gap : {0x1p-3, 0x1p-20, 0x1p-40, 1e-12}) {
-        TestMesh beside = cube;
-        for (Double3& p : beside.positions) p.x += p.x == 0 ? 1 + gap : 1;
+        const TestMesh beside = cube_beside(gap);
         const OpenModel a = open_tiny(cube, {.double_precision = true});
         const OpenModel b = open_tiny(beside, {.double_precision = true});
         Workspace workspace;
@@ -305,13 +305,7 @@ TEST(DistanceLaws, ASolidInsideAnotherIsNotApart) {
 // a plate each is as near as the others. By rationals: whoever answers is as near as any, and the
 // same answers again, with a cache too.
 TEST(DistanceLaws, EqualMinimaHaveOneWitness) {
-    TestMesh tips;
-    for (const double x : {0.0, 4.0}) {
-        for (const double y : {0.0, 4.0}) {
-            TestMesh tip{{{x, y, 0}, {x + 1, y, 1}, {x, y + 1, 1}}, {{{0, 1, 2}}}};
-            tips = joined(tips, tip);
-        }
-    }
+    const TestMesh tips = four_tips();
     const TestMesh plate = moved_by(unit_cube(), 8, {-2, -2, -8});
     std::mt19937 random(51);
     const Placement above =

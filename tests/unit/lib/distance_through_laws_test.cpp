@@ -11,6 +11,7 @@
 #include "cdprep/overlap_through.h"
 #include "cdprep/query_counts.h"
 #include "support/guarded_pages.h"
+#include "support/hard_distances.h"
 #include "support/hard_triangles.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
@@ -254,8 +255,7 @@ TEST(DistanceThroughLaws, AFrontIsLostWhereModelsJump) {
 TEST(DistanceThroughLaws, ParallelFacesKeepTheirGapWhenTurned) {
     const Pose pose = Pose::from_quaternion(1, 2, 3, 4, {0.5, -0.25, 2}).value();
     for (const double gap : {0x1p-3, 0x1p-20, 0x1p-40, 1e-12, 0.0}) {
-        TestMesh beside = unit_cube();
-        for (Double3& p : beside.positions) p.x += p.x == 0 ? 1 + gap : 1;
+        const TestMesh beside = cube_beside(gap);
         Asked pair{open_pieces(unit_cube(), {.double_precision = true}),
                    open_pieces(beside, {.double_precision = true})};
         pair.expect_same_answers(Placement::b_moves(Pose()), nullptr);

@@ -6,6 +6,7 @@
 #include "cdprep/collide.h"
 #include "cdprep/split_overlap.h"
 #include "support/brute_force.h"
+#include "support/exact_pairs.h"
 #include "support/hard_triangles.h"
 #include "support/open_tiny.h"
 #include "support/run_threads.h"
@@ -51,7 +52,7 @@ std::vector<TrianglePair> ask(const HardPlacement& p) {
 /// triangle_contact_laws_test holds against the definition.
 std::vector<TrianglePair> exact_pairs(const HardPlacement& p) {
     constexpr std::size_t kLarge = 250;
-    if (p.a.triangles.size() < kLarge) return pairs_by_definition(p.a, p.b, p.placement);
+    if (p.a.triangles.size() < kLarge) return exact_pairs(p.a, p.b, p.placement).closed;
     return boxed_pairs(p.a, p.b, p.placement, triangles_touch_by_segments);
 }
 

@@ -8,16 +8,13 @@
 #include <limits>
 
 #include "support/every_structure.h"
+#include "support/hard_points.h"
 #include "support/meshes.h"
 
 #include "cdprep/query_counts.h"
 
 namespace cdprep::test {
 namespace {
-
-TestMesh cube_at(double low, double high) {
-    return moved_by(unit_cube(), high - low, {low, low, low});
-}
 
 /// A model with every structure, asked through each of them in turn.
 class Asked {
@@ -112,15 +109,7 @@ TEST(IncludesThrough, WindingNumbersAddUp) {
 // P01: the ray from the origin leaves through a folded vertex, where once-per-sign rules
 // fail; winding_laws_test knows the numbers.
 TEST(IncludesThrough, AFoldedVertexIsCountedOnce) {
-    const TestMesh folded{{{0, 0, 0}, {3, 4, -2}, {4, 5, 1}, {-5, 0, -3}, {5, -5, 0}, {-6, -6, -6}},
-                          {{{0, 1, 2}},
-                           {{0, 2, 3}},
-                           {{0, 3, 4}},
-                           {{0, 4, 1}},
-                           {{5, 2, 1}},
-                           {{5, 3, 2}},
-                           {{5, 4, 3}},
-                           {{5, 1, 4}}}};
+    const TestMesh folded = folded_corner();
     Asked asked(folded);
     for (const double z : {-0.5, -0.25, -1.0}) EXPECT_EQ(asked.at({0, 0, z}).winding, 1) << z;
     const Double3 c = asked.model().tetra_tree()->centre;

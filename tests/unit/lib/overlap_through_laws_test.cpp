@@ -10,14 +10,13 @@
 
 #include "support/brute_force.h"
 #include "support/guarded_pages.h"
+#include "support/hard_meshes.h"
 #include "support/hard_placements.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 #include "support/tiny_pieces.h"
-
-#include "walked_trees.h"
-#include "workspace_storage.h"
+#include "support/waiting_leaves.h"
 
 namespace cdprep::test {
 namespace {
@@ -178,46 +177,14 @@ TEST(OverlapThroughLaws, AgreesWithTheHierarchyInRandomPoses) {
     EXPECT_LT(hits, 140);
 }
 
-/// What is found in pairs of leaves of pieces, tested so many views at a time.
-Pairs pairs_in_leaves(const Model& a, const Model& b, const std::vector<TrianglePair>& leaves,
-                      std::size_t views, Workspace& workspace) {
-    const PlacedBoxes placed = place_boxes(a, b, Placement::b_moves(Pose()));
-    const PieceTrees trees(a, b, workspace.storage());
-    LeafBatch batch(a, b, placed, workspace.storage());
-    Pairs pairs;
-    const auto found = [&](std::uint32_t at_a, std::uint32_t at_b, bool /*certain*/) {
-        pairs.push_back({trees.triangle_a(at_a), trees.triangle_b(at_b)});
-        return true;
-    };
-    const auto test = [&](const LeafView& in_a, const LeafView& in_b) {
-        batch.add(in_a, in_b);
-        return batch.size() < views || batch.flush(found);
-    };
-    for (const auto& [leaf_a, leaf_b] : leaves) trees.each_pair(batch, leaf_a, leaf_b, test);
-    batch.flush(found);
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
-}
-
 // Leaves of pieces are put together in fewer places than there are leaves. Those of a pair that
 // waits to be tested must not give way to others, also where a batch was tested amid a pair.
 TEST(OverlapThroughLaws, PiecesKeepWaitingLeaves) {
-    std::mt19937 random(64);
-    const auto soup = [&] {
-        const TestMesh mesh = random_soup(random(), 4000, 0.5);
-        return open_tiny(with_piece_tree(bake_tiny(mesh.positions, mesh.triangles)));
-    };
-    const OpenModel a = soup(), b = soup();
-    // Three leaves for each of a few places.
-    const auto any_leaf = [&] { return random() % 6 + kernels::kLeafPlaces * (random() % 3); };
-    std::vector<TrianglePair> leaves(3000);
-    for (TrianglePair& pair : leaves) {
-        pair = {static_cast<std::uint32_t>(any_leaf()), static_cast<std::uint32_t>(any_leaf())};
-    }
+    const WaitingLeaves leaves = waiting_leaves(64, 3000);
     Workspace workspace;
-    const Pairs expected = pairs_in_leaves(a.model, b.model, leaves, 1, workspace);
+    const Pairs expected = pairs_in_leaves(leaves, 1, workspace);
     EXPECT_GT(expected.size(), 1000u);
-    const Pairs pairs = pairs_in_leaves(a.model, b.model, leaves, kernels::kLeafBatch, workspace);
+    const Pairs pairs = pairs_in_leaves(leaves, kernels::kLeafBatch, workspace);
     EXPECT_TRUE(pairs == expected) << first_difference(pairs, expected);
 }
 
@@ -333,26 +300,9 @@ TEST(OverlapThroughLaws, LargeTrianglesMeetSmallCells) {
     expect_pairs(exchanged(expected), b.model, a.model, still, workspace);
 }
 
-// B13: planes of cells, faces of cones, the centre itself. Corners are whole numbers, so
-// are the planes of the first levels; by symmetry the centre is 0, which fans hold.
+// B13: planes of cells, faces of cones, the centre itself, which fans hold.
 TEST(OverlapThroughLaws, TrianglesOnCellBoundariesAreOneAnswerEach) {
-    TestMesh planes;
-    const auto add = [&](const Double3& p, const Double3& q, const Double3& r) {
-        const auto first = static_cast<std::uint32_t>(planes.positions.size());
-        for (const Double3& corner : {p, q, r}) planes.positions.push_back(corner);
-        for (const Double3& corner : {p, q, r}) {
-            planes.positions.push_back({-corner.x, -corner.y, -corner.z});
-        }
-        planes.triangles.push_back({{first, first + 1, first + 2}});
-        planes.triangles.push_back({{first + 3, first + 4, first + 5}});
-    };
-    add({2, 0, 0}, {0, 2, 0}, {0, 0, 2});
-    add({1, 1, 0}, {1, -1, 0}, {-1, 0, 0});  // holds the centre
-    add({1, 0, 0}, {0, 1, 0}, {0, 0, 0});    // has a corner there
-    add({1, 0, 0}, {2, 0, 0}, {3, 0, 0});    // a segment towards it
-    add({1, 1, 1}, {1, 1, 1}, {1, 1, 1});
-    add({0, 2, 1}, {0, -2, 1}, {0, 0, -2});  // in a plane of an axis, around it
-    add({4, 4, 0}, {4, -4, 0}, {-4, 4, 0});
+    const TestMesh planes = triangles_on_cell_planes();
     const TestMesh around = joined(planes, in_floats(fan(12)));
     Workspace workspace;
     for (const std::uint32_t level : {1U, 3U}) {

@@ -12,6 +12,7 @@
 
 #include "support/brute_force.h"
 #include "support/exact_winding.h"
+#include "support/hard_points.h"
 #include "support/meshes.h"
 
 namespace cdprep::test {
@@ -114,14 +115,7 @@ TEST(WindingLaws, DoesNotDependOnOrderOrFirstCorner) {
 
 // P01: the ray from o leaves through a folded vertex, at every height.
 TEST(WindingLaws, AFoldedVertexIsCountedOnce) {
-    const std::vector<Double3> p = {{0, 0, 0},   {3, 4, -2}, {4, 5, 1},
-                                    {-5, 0, -3}, {5, -5, 0}, {-6, -6, -6}};
-    std::vector<Corners> surface;
-    for (std::size_t i = 1; i <= 4; ++i) {
-        const std::size_t next = i % 4 + 1;
-        surface.push_back({p[0], p[i], p[next]});
-        surface.push_back({p[5], p[next], p[i]});
-    }
+    const std::vector<Corners> surface = surface_of(folded_corner());
     for (const double z : {-0.5, -0.25, -1.0, -2.0, 0.5, 3.0, -10.0}) {
         ASSERT_EQ(winding(surface, {0, 0, -20}, {0, 0, z}), exact_winding(surface, {0, 0, z})) << z;
     }

@@ -3,12 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <numeric>
-#include <random>
 
 #include "convex/convex_hull.h"
+#include "support/hard_point_sets.h"
 #include "support/meshes.h"
 #include "unit/tools/hull_flaw.h"
 
@@ -21,18 +19,6 @@ using Facet = std::array<std::uint32_t, 3>;
 
 std::size_t face_count(const ConvexHull& hull) {
     return hull.groups.size() - 1;
-}
-
-Points cube_corners(double size) {
-    Points corners = test::unit_cube().positions;
-    for (Double3& p : corners) p = {p.x * size, p.y * size, p.z * size};
-    return corners;
-}
-
-Points shuffled(Points points, std::uint32_t seed) {
-    std::mt19937 random(seed);
-    std::shuffle(points.begin(), points.end(), random);
-    return points;
 }
 
 // C01: points that are collinear or coplanar but for the last bit span more, exactly.
@@ -48,10 +34,7 @@ TEST(ConvexHullLaws, AlmostFlatPointsAreWhatTheirBitsSay) {
 
 // C02, by hand: a lattice is a cube.
 TEST(ConvexHullLaws, LatticeHasEightCornersAndSixFaces) {
-    Points points;
-    for (int i = 0; i < 1'000'000; ++i) {
-        points.push_back({double(i % 100), double(i / 100 % 100), double(i / 10'000)});
-    }
+    const Points points = test::lattice(100);
     const ConvexHull hull = convex_hull(points);
     EXPECT_EQ(hull.numbers, (std::vector<std::uint32_t>{0, 99, 9'900, 9'999, 990'000, 990'099,
                                                         999'900, 999'999}));
@@ -61,17 +44,7 @@ TEST(ConvexHullLaws, LatticeHasEightCornersAndSixFaces) {
 
 // C03, by hand: nor do points on a cube's faces and edges add corners.
 TEST(ConvexHullLaws, PointsOnFacesAreNoCorners) {
-    std::mt19937 random(3);
-    std::uniform_int_distribution<int> inside(0, 1 << 20);
-    Points points = cube_corners(1 << 20);
-    for (int i = 0; i < 100'000; ++i) {
-        std::array<double, 3> p = {double(inside(random)), double(inside(random)),
-                                   double(inside(random))};
-        p[static_cast<std::size_t>(i % 3)] = i % 2 == 0 ? 0 : 1 << 20;
-        if (i % 7 == 0) p[static_cast<std::size_t>((i + 1) % 3)] = 0;
-        points.push_back({p[0], p[1], p[2]});
-    }
-    points = shuffled(points, 4);
+    const Points points = test::crowded_faces(100'000);
     const ConvexHull hull = convex_hull(points);
     EXPECT_EQ(hull.points.size(), 8U);
     EXPECT_EQ(face_count(hull), 6U);
@@ -80,7 +53,7 @@ TEST(ConvexHullLaws, PointsOnFacesAreNoCorners) {
 
 // C04: all points of a sphere are extreme, whatever planes they share.
 TEST(ConvexHullLaws, CosphericalPointsAreAllExtreme) {
-    Points points = shuffled(test::lattice_sphere(1155), 1);
+    Points points = test::shuffled(test::lattice_sphere(1155), 1);
     ASSERT_EQ(points.size(), 17'550U);
     points.resize(10'000);
     const ConvexHull hull = convex_hull(points);
@@ -93,33 +66,14 @@ TEST(ConvexHullLaws, CosphericalPointsAreAllExtreme) {
     EXPECT_EQ(hull_flaw(symmetric, faces), "");
 }
 
-Points moment_curve(int count) {
-    Points points;
-    for (int t = 1; t <= count; ++t) {
-        const double x = t;
-        points.push_back({x, x * x, x * x * x});
-    }
-    return points;
-}
-
-/// Gale: neighbours with the first or with the last point are the facets of a cyclic
-/// polytope; seen from later points, earlier ones turn counter-clockwise.
-std::vector<Facet> cyclic_facets(std::uint32_t count) {
-    std::vector<Facet> facets;
-    for (std::uint32_t i = 1; i + 1 < count; ++i) facets.push_back({0, i + 1, i});
-    for (std::uint32_t i = 0; i + 2 < count; ++i) facets.push_back({i, i + 1, count - 1});
-    std::sort(facets.begin(), facets.end());
-    return facets;
-}
-
 // C05: n vertices, 2n - 4 facets, known one by one.
 TEST(ConvexHullLaws, MomentCurveIsACyclicPolytope) {
     for (const int count : {5, 100, 1 << 12, 1 << 16}) {
-        const Points points = moment_curve(count);
+        const Points points = test::moment_curve(count);
         const ConvexHull hull = convex_hull(points);
         EXPECT_EQ(hull.points.size(), points.size());
         EXPECT_EQ(face_count(hull), 2 * points.size() - 4);
-        EXPECT_EQ(hull.facets, cyclic_facets(static_cast<std::uint32_t>(count)));
+        EXPECT_EQ(hull.facets, test::cyclic_facets(static_cast<std::uint32_t>(count)));
         if (count > 100) continue;
         EXPECT_EQ(hull_flaw(points, hull), "");
     }
@@ -128,12 +82,7 @@ TEST(ConvexHullLaws, MomentCurveIsACyclicPolytope) {
 // C06, by hand: one bit above a face's centre is a corner; on it or below it is none.
 TEST(ConvexHullLaws, BumpsOnACubeAreCorners) {
     for (const double bump : {0x1p-52, 0.0, -0x1p-52, 0.25}) {
-        Points points = cube_corners(1);
-        for (int axis = 0; axis < 6; ++axis) {
-            std::array<double, 3> p = {0.5, 0.5, 0.5};
-            p[static_cast<std::size_t>(axis % 3)] = axis < 3 ? 1 + bump : -bump;
-            points.push_back({p[0], p[1], p[2]});
-        }
+        const Points points = test::cube_with_bumps(bump);
         const ConvexHull hull = convex_hull(points);
         EXPECT_EQ(hull.points.size(), bump > 0 ? 14U : 8U);
         EXPECT_EQ(face_count(hull), bump > 0 ? 24U : 6U);
@@ -143,35 +92,12 @@ TEST(ConvexHullLaws, BumpsOnACubeAreCorners) {
 
 // C07: a plane but for the last bit, at three heights.
 TEST(ConvexHullLaws, NoisyPlaneHoldsAllPoints) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> flat(-1, 1);
-    std::uniform_int_distribution<int> noise(-1, 1);
     for (const double height : {1.0, 0.0, 1e300}) {
-        Points points;
-        for (int i = 0; i < 10'000; ++i) {
-            const int step = noise(random);
-            const double z = step == 0 ? height : std::nextafter(height, step * 1e308);
-            points.push_back({flat(random), flat(random), z});
-        }
+        const Points points = test::noisy_plane(10'000, height);
         const ConvexHull hull = convex_hull(points);
         EXPECT_EQ(hull.dimension, 3);
         EXPECT_EQ(hull_flaw(points, hull), "");
     }
-}
-
-Points mixed_points(std::uint32_t seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> fine(-1, 1);
-    std::uniform_int_distribution<int> grid(-2, 2);
-    Points points;
-    for (int i = 0; i < 60; ++i) {
-        if (seed % 2 == 0) {
-            points.push_back({fine(random), fine(random), fine(random)});
-        } else {
-            points.push_back({double(grid(random)), double(grid(random)), double(grid(random))});
-        }
-    }
-    return points;
 }
 
 using Triangles = std::vector<std::array<std::array<double, 3>, 3>>;
@@ -212,8 +138,8 @@ std::vector<std::vector<std::uint32_t>> faces_of(const ConvexHull& hull) {
 // C08
 TEST(ConvexHullLaws, OrderOfPointsChangesNothingButNumbers) {
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
-        const Points points = mixed_points(seed);
-        const Points other = shuffled(points, seed);
+        const Points points = test::mixed_points(seed);
+        const Points other = test::shuffled(points, seed);
         EXPECT_EQ(triangles_of(convex_hull(points)), triangles_of(convex_hull(other)));
     }
 }
@@ -221,7 +147,7 @@ TEST(ConvexHullLaws, OrderOfPointsChangesNothingButNumbers) {
 // C08
 TEST(ConvexHullLaws, RepeatedPointsChangeNothing) {
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
-        const Points points = mixed_points(seed);
+        const Points points = test::mixed_points(seed);
         Points twice = points;
         twice.insert(twice.end(), points.rbegin(), points.rend());
         const ConvexHull once = convex_hull(points), again = convex_hull(twice);
@@ -235,7 +161,7 @@ TEST(ConvexHullLaws, RepeatedPointsChangeNothing) {
 TEST(ConvexHullLaws, ScalingByPowersOfTwoChangesNothing) {
     for (const int exponent : {-1000, -400, -3, 50, 400, 1000}) {
         for (std::uint32_t seed = 0; seed < 20; ++seed) {
-            const Points points = mixed_points(seed);
+            const Points points = test::mixed_points(seed);
             Points scaled = points;
             for (Double3& p : scaled) {
                 p = {std::ldexp(p.x, exponent), std::ldexp(p.y, exponent),
@@ -252,7 +178,7 @@ TEST(ConvexHullLaws, ScalingByPowersOfTwoChangesNothing) {
 // C08: the faces stay; their diagonals follow the order of the axes.
 TEST(ConvexHullLaws, SwappedAxesChangeNoFace) {
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
-        const Points points = mixed_points(seed);
+        const Points points = test::mixed_points(seed);
         Points swapped = points, turned = points;
         for (Double3& p : swapped) p = {p.y, p.x, p.z};
         for (Double3& p : turned) p = {-p.z, p.x, p.y};
@@ -264,7 +190,7 @@ TEST(ConvexHullLaws, SwappedAxesChangeNoFace) {
 
 TEST(ConvexHullLaws, HullOfAHullIsIt) {
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
-        const ConvexHull hull = convex_hull(mixed_points(seed));
+        const ConvexHull hull = convex_hull(test::mixed_points(seed));
         const ConvexHull again = convex_hull(hull.points);
         EXPECT_EQ(again.points.size(), hull.points.size());
         EXPECT_EQ(again.facets, hull.facets);
@@ -274,13 +200,7 @@ TEST(ConvexHullLaws, HullOfAHullIsIt) {
 
 // C09: a million points of a ball, all inside by exact numbers.
 TEST(ConvexHullLaws, MillionPointsAreInside) {
-    std::mt19937 random(9);
-    std::uniform_real_distribution<double> inside(-1, 1);
-    Points points;
-    while (points.size() < 1'000'000) {
-        const Double3 p = {inside(random), inside(random), inside(random)};
-        if (p.x * p.x + p.y * p.y + p.z * p.z <= 1) points.push_back(p);
-    }
+    const Points points = test::points_in_a_ball(1'000'000);
     const ConvexHull hull = convex_hull(points);
     EXPECT_GT(hull.points.size(), 1000U);
     EXPECT_EQ(hull_flaw(points, hull), "");

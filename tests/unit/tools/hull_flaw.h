@@ -53,7 +53,7 @@ inline ExactPlane exact_plane(const Double3& a, const Double3& b, const Double3&
 
 /// side() of many points, where doubles settle those that are far from the plane: the
 /// rounded value is off by less than 2^-40 of the sum of the terms' magnitudes, for
-/// coordinates whose products neither over- nor underflow.
+/// coordinates below 2^100 whose products do not overflow, unless that is next to nothing.
 class FilteredPlane {
 public:
     FilteredPlane(const Double3& a, const Double3& b, const Double3& c)
@@ -69,6 +69,8 @@ public:
         const double height = normal_.x * x + normal_.y * y + normal_.z * z;
         const double most =
             size_.x * std::fabs(x) + size_.y * std::fabs(y) + size_.z * std::fabs(z);
+        constexpr double kNoUnderflow = 0x1p-900;
+        if (most < kNoUnderflow) return exact_.side(p);
         if (height < -0x1p-40 * most) return -1;
         if (height > 0x1p-40 * most) return 1;
         return exact_.side(p);

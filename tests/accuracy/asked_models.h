@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include "support/every_structure.h"
+#include "support/tiny_pieces.h"
+
+#include "cdprep/cdprep.h"
+#include "cdprep/placement.h"
+
+namespace cdprep::test {
+
+inline constexpr std::array kAllBounds = {
+    build::BvhBounds::aligned,          build::BvhBounds::oriented,
+    build::BvhBounds::swept_points,     build::BvhBounds::swept_lines,
+    build::BvhBounds::swept_rectangles, build::BvhBounds::oriented_and_swept};
+inline constexpr std::array kBoundsNames = {"aligned",     "oriented",         "swept points",
+                                            "swept lines", "swept rectangles", "both"};
+
+/// A mesh baked with everything that a question goes through. What is baked in several ways
+/// alternates with `turn`: bounds, how far structures divide, how coordinates are stored, how
+/// well the hierarchy is built.
+class AskedModel {
+public:
+    AskedModel(const TestMesh& mesh, std::size_t turn)
+        : open_(open_tiny(baked(mesh, turn))), bounds_(kBoundsNames[turn % kAllBounds.size()]) {}
+
+    [[nodiscard]] const Model& model() const {
+        return open_.model;
+    }
+    [[nodiscard]] const char* bounds() const {
+        return bounds_;
+    }
+    [[nodiscard]] std::span<const std::byte> bytes() const {
+        return open_.bytes.span();
+    }
+
+private:
+    static bool is_in_floats(const TestMesh& mesh) {
+        return in_floats(mesh).positions == mesh.positions;
+    }
+    static AlignedBytes baked(const TestMesh& mesh, std::size_t turn) {
+        const bool is_fine = turn % 2 == 1;
+        const TinyOptions options = {
+            .double_precision = turn % 3 != 0 || !is_in_floats(mesh),
+            .bounds = kAllBounds[turn % kAllBounds.size()],
+            .quality = turn % 4 == 3 ? build::Quality::fast : build::Quality::best};
+        const Division division = {
+            .level = is_fine ? 4U : 2U, .threshold = is_fine ? 4U : 1U, .boxes = is_fine};
+        return with_piece_tree(
+            with_every_structure(bake_tiny(mesh.positions, mesh.triangles, options), division));
+    }
+
+    OpenModel open_;
+    const char* bounds_;
+};
+
+/// The same file, open through the C face; and a C workspace.
+struct CloseC {
+    void operator()(cdprep_model* model) const {
+        cdprep_close(model);
+    }
+};
+using CModel = std::unique_ptr<cdprep_model, CloseC>;
+
+inline CModel open_in_c(std::span<const std::byte> bytes) {
+    cdprep_model* model = nullptr;
+    if (cdprep_open_memory(bytes.data(), bytes.size(), "memory", &model, nullptr) != CDPREP_OK) {
+        std::abort();
+    }
+    return CModel(model);
+}
+
+class CWorkspace {
+public:
+    CWorkspace() : memory_(cdprep_workspace_size() + cdprep_workspace_alignment()) {
+        void* at = memory_.data();
+        std::size_t room = memory_.size();
+        std::align(cdprep_workspace_alignment(), cdprep_workspace_size(), at, room);
+        workspace_ = cdprep_make_workspace(at, room);
+    }
+    [[nodiscard]] cdprep_workspace* get() const {
+        return workspace_;
+    }
+
+private:
+    std::vector<std::byte> memory_;
+    cdprep_workspace* workspace_ = nullptr;
+};
+
+inline cdprep_pose in_c(const Pose& pose) {
+    cdprep_pose result{};
+    for (std::size_t i = 0; i < 9; ++i) result.rows[i] = pose.rotation()[i];
+    result.rows[9] = pose.translation().x;
+    result.rows[10] = pose.translation().y;
+    result.rows[11] = pose.translation().z;
+    return result;
+}
+
+inline cdprep_placement in_c(const Placement& placement) {
+    const std::uint32_t kind = !placement.a_is_moved()   ? CDPREP_B_MOVES
+                               : !placement.b_is_moved() ? CDPREP_A_MOVES
+                                                         : CDPREP_WORLD;
+    return {sizeof(cdprep_placement), kind, in_c(placement.pose_a()), in_c(placement.pose_b())};
+}
+
+}  // namespace cdprep::test

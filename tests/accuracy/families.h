@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace cdprep::test {
+
+/// A family of the catalogue of numerically hard cases.
+struct HardFamily {
+    std::string_view id;
+    std::string_view what;
+};
+
+/// All of them, and after them failures that were found since (F).
+inline constexpr std::array kHardFamilies = std::to_array<HardFamily>({
+    {"T01", "shared vertex"},
+    {"T02", "shared edge, folded"},
+    {"T03", "vertex on a face"},
+    {"T04", "vertex on an edge"},
+    {"T05", "edges cross in a point"},
+    {"T06", "coplanar, overlapping"},
+    {"T07", "coplanar, part of an edge"},
+    {"T08", "coplanar, a vertex alone"},
+    {"T09", "coplanar, nested"},
+    {"T10", "coplanar, apart"},
+    {"T11", "one grid step above"},
+    {"T12", "needles of 2^-40"},
+    {"T13", "segments"},
+    {"T14", "points"},
+    {"T15", "far from the origin"},
+    {"T16", "size ratio 2^40"},
+    {"T17", "subnormal scale"},
+    {"T18", "huge scale"},
+    {"T19", "identical triangles"},
+    {"T20", "relabelling"},
+    {"T21", "NaN, infinity, -0"},
+    {"T22", "edge in the other's plane"},
+    {"T23", "planes 2^-30 apart"},
+    {"P01", "fold vertex"},
+    {"P02", "the centre itself"},
+    {"P03", "diagonals from the centre"},
+    {"P04", "planes of faces, outside"},
+    {"P05", "on the boundary"},
+    {"P06", "nested shells"},
+    {"P07", "non-manifold solids"},
+    {"P08", "open input"},
+    {"P09", "overlap, inversion"},
+    {"G01", "kissing boxes"},
+    {"G02", "plate and tilted box"},
+    {"G03", "origin on a simplex face"},
+    {"G04", "24 corners, point queries"},
+    {"G05", "false zeros"},
+    {"G06", "coaxial 1000-gon prisms"},
+    {"G07", "continuum of witnesses"},
+    {"G08", "coincident shapes"},
+    {"G09", "lower dimension"},
+    {"G10", "fine hulls, small gap"},
+    {"G11", "scale extremes"},
+    {"G12", "needle in a cube"},
+    {"G13", "support ties"},
+    {"G14", "nearly coplanar support"},
+    {"B01", "a mesh against itself"},
+    {"B02", "nested shells"},
+    {"B03", "parallel sheets"},
+    {"B04", "interlocked tori"},
+    {"B05", "identical triangles"},
+    {"B06", "fan"},
+    {"B07", "one against many"},
+    {"B08", "diagonal slivers"},
+    {"B09", "geometric progression"},
+    {"B10", "quantised boxes"},
+    {"B11", "trivial meshes"},
+    {"B12", "big triangle, small cells"},
+    {"B13", "cell boundaries"},
+    {"B14", "poses"},
+    {"B15", "order"},
+    {"B16", "corrupted file"},
+    {"C01", "low dimension"},
+    {"C02", "lattice"},
+    {"C03", "crowded faces"},
+    {"C04", "co-spherical"},
+    {"C05", "moment curve"},
+    {"C06", "bumps"},
+    {"C07", "noisy plane"},
+    {"C08", "invariances"},
+    {"C09", "ball"},
+    {"D01", "convex input"},
+    {"D02", "prisms"},
+    {"D03", "curved concave"},
+    {"D04", "thin shell"},
+    {"D05", "non-manifold"},
+    {"D06", "non-orientable"},
+    {"D07", "open"},
+    {"D08", "dirty soup"},
+    {"D09", "slot"},
+    {"D10", "one-ulp reflex edge"},
+    {"D11", "coplanar strip"},
+    {"X01", "parallel faces"},
+    {"X02", "near-parallel edges"},
+    {"X03", "degenerate triangle"},
+    {"X04", "touching, one step apart"},
+    {"X05", "equal minima"},
+    {"X06", "cancellation"},
+    {"X07", "tolerance equality"},
+    {"X08", "error sweep"},
+    {"X09", "contained objects"},
+    {"S01", "stack"},
+    {"S02", "mass ratio"},
+    {"S03", "thin shell"},
+    {"S04", "bullet"},
+    {"S05", "spinning needle"},
+    {"S06", "resting drift"},
+    {"S07", "friction threshold"},
+    {"S08", "bounce"},
+    {"S09", "cradle"},
+    {"S10", "internal edges"},
+    {"S11", "corner"},
+    {"S12", "deformation"},
+    {"S13", "tearing"},
+    {"S14", "haptic rate"},
+    {"S15", "determinism"},
+    {"F01", "where libraries lose pairs"},
+    {"F02", "leaves of pieces that wait"},
+});
+
+/// The library simulates nothing: these cannot be asked.
+constexpr bool needs_simulation(std::string_view family) {
+    return family.starts_with('S');
+}
+/// Hulls of points and pieces of surfaces are made offline.
+constexpr bool needs_tools(std::string_view family) {
+    return family.starts_with('C') || family.starts_with('D');
+}
+
+}  // namespace cdprep::test

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+// The scoreboard of numerically hard cases: every family of the catalogue that a feature
+// reaches, each case on every structure, kind of bounds and instruction set that claims to
+// answer it, relabelled, swapped, turned, scaled and shifted where that loses no bit. Truths
+// are known by hand, or from exact numbers that ask nothing of the library.
+//
+// Usage: hard_cases [--full] [--family F] [--csv FILE] [--json FILE]
+//                   [--peers PROGRAM] [--peer-csv FILE] [--limit SECONDS]
+// --full: cases as large as the catalogue has them. --family: those whose names begin so.
+// --peers: the same families on other libraries, asked by PROGRAM (hard_peers), a case that
+// takes longer than the limit (10) counts as one that hangs.
+//
+// Exits with 1 when an answer was wrong, or a family was not reached; with 2 when asked wrongly.
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/ask_peers.h"
+#include "accuracy/families.h"
+#include "accuracy/hard_cases.h"
+#include "accuracy/print_scoreboard.h"
+#include "kernels.h"
+
+namespace cdprep::test {
+namespace {
+
+struct Arguments {
+    HardCaseOptions cases;
+    bool only_rows = false;  ///< a child, which asks with its kernels alone
+    std::string csv;
+    std::string json;
+    std::string peers;  ///< the program that asks them
+    std::string peer_csv;
+    double limit_s = 10;  ///< for each case of a peer
+};
+
+std::optional<Arguments> read(int count, char** values) {
+    Arguments arguments;
+    for (int i = 1; i < count; ++i) {
+        const std::string name = values[i];
+        const auto value = [&](std::string& into) {
+            if (i + 1 >= count) return false;
+            into = values[++i];
+            return true;
+        };
+        if (name == "--full") {
+            arguments.cases.size = CaseSize::full;
+        } else if (name == "--rows") {
+            arguments.only_rows = true;
+        } else if (name == "--family") {
+            if (!value(arguments.cases.family)) return std::nullopt;
+        } else if (name == "--csv") {
+            if (!value(arguments.csv)) return std::nullopt;
+        } else if (name == "--json") {
+            if (!value(arguments.json)) return std::nullopt;
+        } else if (name == "--peers") {
+            if (!value(arguments.peers)) return std::nullopt;
+        } else if (name == "--peer-csv") {
+            if (!value(arguments.peer_csv)) return std::nullopt;
+        } else if (name == "--limit") {
+            std::string seconds;
+            if (!value(seconds)) return std::nullopt;
+            arguments.limit_s = std::strtod(seconds.c_str(), nullptr);
+            if (!(arguments.limit_s > 0)) return std::nullopt;
+        } else {
+            return std::nullopt;
+        }
+    }
+    return arguments;
+}
+
+/// What every instruction set is asked.
+void score_with_kernels(const HardCaseOptions& options, Scoreboard& board) {
+    score_overlaps(options, board);
+    score_inclusion(options, board);
+    score_hulls(options, board);
+    score_distances(options, board);
+}
+
+/// What knows no instruction sets.
+void score_once(const HardCaseOptions& options, Scoreboard& board) {
+    score_refusals(options, board);
+#ifdef CDPREP_HAVE_TOOLS
+    score_point_sets(options, board);
+    score_surfaces(options, board);
+#endif
+}
+
+/// Runs this program again with other kernels.
+class Child {
+public:
+    Child(const std::string& program, const Arguments& arguments, const char* kernels) {
+        std::string command = std::string("CDPREP_KERNELS=") + kernels + " '" + program +
+                              "' --rows --family '" + arguments.cases.family + "'";
+        if (arguments.cases.size == CaseSize::full) command += " --full";
+        output_ = popen(command.c_str(), "r");  // NOLINT(cert-env33-c): our own program
+    }
+    /// What it printed; nothing when it failed.
+    [[nodiscard]] std::optional<std::string> rows() {
+        if (output_ == nullptr) return std::nullopt;
+        std::string text;
+        std::array<char, 4096> part{};
+        while (const std::size_t read = std::fread(part.data(), 1, part.size(), output_)) {
+            text.append(part.data(), read);
+        }
+        if (pclose(output_) != 0) return std::nullopt;
+        return text;
+    }
+
+private:
+    std::FILE* output_ = nullptr;
+};
+
+bool score(const std::string& program, const Arguments& arguments, Scoreboard& board) {
+    const kernels::Available tables = kernels::available();
+    std::vector<Child> children;
+    for (std::size_t i = 0; i < tables.count; ++i) {
+        children.emplace_back(program, arguments, tables.table[i]->name);
+    }
+    score_once(arguments.cases, board);
+    for (std::size_t i = 0; i < tables.count; ++i) {
+        const auto rows = children[i].rows();
+        if (rows && board.add_rows(*rows)) continue;
+        // A crash is the worst of wrong answers.
+        std::printf("the cases with kernels %s came to no end\n", tables.table[i]->name);
+        return false;
+    }
+    return true;
+}
+
+/// Whether all families were asked that can be. Says which were not.
+bool is_complete(const Scoreboard& board) {
+    bool complete = true;
+    for (const HardFamily& family : kHardFamilies) {
+        std::size_t asked = 0;
+        for (const auto& [cell, tally] : board.cells()) {
+            if (cell.family == family.id) asked += tally.asked;
+        }
+#ifndef CDPREP_HAVE_TOOLS
+        if (needs_tools(family.id)) continue;
+#endif
+        if (asked > 0 || needs_simulation(family.id)) continue;
+        std::printf("%s was not reached\n", std::string(family.id).c_str());
+        complete = false;
+    }
+    std::printf("S01 to S15 were not reached: they ask a simulation, and there is none\n");
+    return complete;
+}
+
+bool write(const std::string& path, const std::string& text) {
+    if (path.empty()) return true;
+    std::ofstream file(path);
+    file << text;
+    return static_cast<bool>(file.flush());
+}
+
+int run(const std::string& program, const Arguments& arguments) {
+    Scoreboard board;
+    if (arguments.only_rows) {
+        score_with_kernels(arguments.cases, board);
+        std::fputs(board.rows(kernels::active().name).c_str(), stdout);
+        return 0;
+    }
+    bool right = score(program, arguments, board);
+    std::fputs(as_text(board).c_str(), stdout);
+    if (arguments.cases.family.empty()) right = is_complete(board) && right;
+    PeerBoard peers;
+    if (!arguments.peers.empty()) {
+        peers = ask_peers(arguments.peers, arguments.limit_s);
+        std::printf("\n%s", as_text(peers).c_str());
+    }
+    const std::string csv = std::string(kScoreboardHeader) + "\n" + board.rows("");
+    const std::string peer_csv = "peer,family,asked,wrong,crashed,hung,uneven\n" + as_rows(peers);
+    if (!write(arguments.csv, csv) || !write(arguments.json, as_json(board)) ||
+        !write(arguments.peer_csv, peer_csv)) {
+        std::fprintf(stderr, "hard_cases: a result could not be written\n");
+        return 2;
+    }
+    return right && board.total().wrong == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace cdprep::test
+
+int main(int count, char** values) {
+    const auto arguments = cdprep::test::read(count, values);
+    if (!arguments) {
+        std::fprintf(stderr,
+                     "usage: hard_cases [--full] [--family F] [--csv FILE] [--json FILE] "
+                     "[--peers PROGRAM] [--peer-csv FILE] [--limit SECONDS]\n");
+        return 2;
+    }
+    std::error_code none;
+    const auto self = std::filesystem::read_symlink("/proc/self/exe", none);
+    return cdprep::test::run(none ? values[0] : self.string(), *arguments);
+}

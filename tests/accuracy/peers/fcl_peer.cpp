@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#ifdef CDPREP_HAVE_FCL
+#include <fcl/fcl.h>
+
+#include "accuracy/peers/peer.h"
+#include "support/small_hull.h"
+
+namespace cdprep::test {
+namespace {
+
+template <class Volume>
+fcl::BVHModel<Volume> model_of(const TestMesh& mesh) {
+    std::vector<fcl::Vector3d> points;
+    for (const Double3& p : mesh.positions) points.emplace_back(p.x, p.y, p.z);
+    std::vector<fcl::Triangle> triangles;
+    for (const Triangle& t : mesh.triangles) {
+        triangles.emplace_back(t.vertex[0], t.vertex[1], t.vertex[2]);
+    }
+    fcl::BVHModel<Volume> made;
+    made.beginModel();
+    made.addSubModel(points, triangles);
+    made.endModel();
+    return made;
+}
+
+PeerAnswer collide(const TestMesh& a, const TestMesh& b) {
+    const auto model_a = model_of<fcl::OBBd>(a), model_b = model_of<fcl::OBBd>(b);
+    constexpr std::size_t kMost = 1 << 20;
+    fcl::CollisionResultd result;
+    fcl::collide(&model_a, fcl::Transform3d::Identity(), &model_b, fcl::Transform3d::Identity(),
+                 fcl::CollisionRequestd(kMost, false), result);
+    PeerAnswer answer = {result.isCollision(), std::vector<TrianglePair>()};
+    for (std::size_t i = 0; i < result.numContacts(); ++i) {
+        const auto& contact = result.getContact(i);
+        answer.pairs->push_back(
+            {static_cast<std::uint32_t>(contact.b1), static_cast<std::uint32_t>(contact.b2)});
+    }
+    return answer;
+}
+
+double distance(const TestMesh& a, const TestMesh& b) {
+    const auto model_a = model_of<fcl::RSSd>(a), model_b = model_of<fcl::RSSd>(b);
+    fcl::DistanceResultd result;
+    return fcl::distance(&model_a, fcl::Transform3d::Identity(), &model_b,
+                         fcl::Transform3d::Identity(), fcl::DistanceRequestd(false, false, 0, 0),
+                         result);
+}
+
+/// A body of triangles; nothing of points in a plane, which FCL's Convex is not made for.
+std::optional<fcl::Convexd> convex_of(const Points& points) {
+    const SmallHull hull(points);
+    if (hull.triangles().empty()) return std::nullopt;
+    auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+    for (const Double3& p : hull.points()) vertices->emplace_back(p.x, p.y, p.z);
+    auto faces = std::make_shared<std::vector<int>>();
+    for (const auto& t : hull.triangles()) {
+        faces->push_back(3);
+        for (const std::uint32_t v : t) faces->push_back(static_cast<int>(v));
+    }
+    return fcl::Convexd(vertices, static_cast<int>(hull.triangles().size()), faces);
+}
+
+bool hulls_collide(const Points& a, const Points& b, fcl::GJKSolverType solver) {
+    auto hull_a = convex_of(a), hull_b = convex_of(b);
+    if (!hull_a || !hull_b) throw std::invalid_argument("flat");
+    fcl::CollisionRequestd request(1, false);
+    request.gjk_solver_type = solver;
+    fcl::CollisionResultd result;
+    fcl::collide(&*hull_a, fcl::Transform3d::Identity(), &*hull_b, fcl::Transform3d::Identity(),
+                 request, result);
+    return result.isCollision();
+}
+
+double hull_distance(const Points& a, const Points& b, fcl::GJKSolverType solver) {
+    auto hull_a = convex_of(a), hull_b = convex_of(b);
+    if (!hull_a || !hull_b) throw std::invalid_argument("flat");
+    fcl::DistanceRequestd request(false, true, 0, 0);
+    request.gjk_solver_type = solver;
+    fcl::DistanceResultd result;
+    fcl::distance(&*hull_a, fcl::Transform3d::Identity(), &*hull_b, fcl::Transform3d::Identity(),
+                  request, result);
+    return result.min_distance;
+}
+
+}  // namespace
+
+void add_fcl(std::vector<Peer>& peers) {
+    peers.push_back({"FCL", collide, distance});
+    for (const auto& [name, solver] :
+         {std::pair("FCL-libccd", fcl::GST_LIBCCD), std::pair("FCL-indep", fcl::GST_INDEP)}) {
+        Peer peer = {name};
+        peer.hulls_collide = [solver = solver](const Points& a, const Points& b) {
+            return hulls_collide(a, b, solver);
+        };
+        peer.hull_distance = [solver = solver](const Points& a, const Points& b) {
+            return hull_distance(a, b, solver);
+        };
+        peers.push_back(peer);
+    }
+}
+
+}  // namespace cdprep::test
+#endif

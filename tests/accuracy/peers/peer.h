@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "support/meshes.h"
+
+#include "cdprep/overlapping_triangles.h"
+
+namespace cdprep::test {
+
+/// What a peer says of two meshes.
+struct PeerAnswer {
+    bool hit = false;
+    std::optional<std::vector<TrianglePair>> pairs{};  ///< where it names them
+};
+
+using Points = std::vector<Double3>;
+
+/// Another library. What it does not answer is empty.
+struct Peer {
+    std::string name;
+    std::function<PeerAnswer(const TestMesh& a, const TestMesh& b)> collide{};
+    std::function<double(const TestMesh& a, const TestMesh& b)> distance{};
+    std::function<bool(const Points& a, const Points& b)> hulls_collide{};
+    std::function<double(const Points& a, const Points& b)> hull_distance{};
+};
+
+// Each is there where its library was found at configure time.
+void add_fcl(std::vector<Peer>& peers);
+void add_ccd(std::vector<Peer>& peers);
+void add_bullet(std::vector<Peer>& peers);
+void add_ode(std::vector<Peer>& peers);
+
+[[nodiscard]] std::vector<Peer> all_peers();
+
+}  // namespace cdprep::test
