@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "report/comparison_report.h"
-#include "report/page_parts.h"
 #include "report/fixed.h"
 #include "report/json_layout.h"
+#include "report/page_parts.h"
 #include "report/page_text.h"
 #include "study/cells.h"
 

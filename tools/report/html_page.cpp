@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "report/base64.h"
-#include "report/page_parts.h"
 #include "report/page_marks.h"
+#include "report/page_parts.h"
 #include "report/page_surface.h"
 #include "report/page_text.h"
 

@@ -19,6 +19,6 @@ extern const std::string_view kControls;  ///< OrbitControls of three.js
 extern const std::string_view kAccuracyFrame;   ///< accuracy.html
 extern const std::string_view kAccuracyStyle;   ///< accuracy.css
 extern const std::string_view kAccuracyScript;  ///< accuracy.js
-extern const std::string_view kTables;  ///< tables.css, of the page of a comparison
+extern const std::string_view kTables;          ///< tables.css, of the page of a comparison
 
 }  // namespace cdprep::report::page
