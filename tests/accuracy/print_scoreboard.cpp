@@ -69,7 +69,7 @@ std::vector<std::string> columns_of(const Scoreboard& board, char letter) {
 }
 
 std::string table_of(const Scoreboard& board, const Part& part) {
-    constexpr std::size_t kWide = 30, kNarrow = 11;
+    constexpr std::size_t kWide = 30, kNarrow = 13;
     const std::vector<std::string> columns = columns_of(board, part.letter);
     if (columns.empty()) return "";
     std::string text = std::string(part.title) + "\n" + padded("", kWide);

@@ -46,10 +46,8 @@ double distance(const TestMesh& a, const TestMesh& b) {
                          result);
 }
 
-/// A body of triangles; nothing of points in a plane, which FCL's Convex is not made for.
-std::optional<fcl::Convexd> convex_of(const Points& points) {
+fcl::Convexd convex_of(const Points& points) {
     const SmallHull hull(points);
-    if (hull.triangles().empty()) return std::nullopt;
     auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
     for (const Double3& p : hull.points()) vertices->emplace_back(p.x, p.y, p.z);
     auto faces = std::make_shared<std::vector<int>>();
@@ -62,22 +60,20 @@ std::optional<fcl::Convexd> convex_of(const Points& points) {
 
 bool hulls_collide(const Points& a, const Points& b, fcl::GJKSolverType solver) {
     auto hull_a = convex_of(a), hull_b = convex_of(b);
-    if (!hull_a || !hull_b) throw std::invalid_argument("flat");
     fcl::CollisionRequestd request(1, false);
     request.gjk_solver_type = solver;
     fcl::CollisionResultd result;
-    fcl::collide(&*hull_a, fcl::Transform3d::Identity(), &*hull_b, fcl::Transform3d::Identity(),
+    fcl::collide(&hull_a, fcl::Transform3d::Identity(), &hull_b, fcl::Transform3d::Identity(),
                  request, result);
     return result.isCollision();
 }
 
 double hull_distance(const Points& a, const Points& b, fcl::GJKSolverType solver) {
     auto hull_a = convex_of(a), hull_b = convex_of(b);
-    if (!hull_a || !hull_b) throw std::invalid_argument("flat");
     fcl::DistanceRequestd request(false, true, 0, 0);
     request.gjk_solver_type = solver;
     fcl::DistanceResultd result;
-    fcl::distance(&*hull_a, fcl::Transform3d::Identity(), &*hull_b, fcl::Transform3d::Identity(),
+    fcl::distance(&hull_a, fcl::Transform3d::Identity(), &hull_b, fcl::Transform3d::Identity(),
                   request, result);
     return result.min_distance;
 }
@@ -89,6 +85,7 @@ void add_fcl(std::vector<Peer>& peers) {
     for (const auto& [name, solver] :
          {std::pair("FCL-libccd", fcl::GST_LIBCCD), std::pair("FCL-indep", fcl::GST_INDEP)}) {
         Peer peer = {name};
+        peer.takes_flat_hulls = false;  // its Convex is a body of triangles
         peer.hulls_collide = [solver = solver](const Points& a, const Points& b) {
             return hulls_collide(a, b, solver);
         };

@@ -27,6 +27,7 @@
 #include "support/hard_hulls.h"
 #include "support/hard_meshes.h"
 #include "support/hard_triangles.h"
+#include "support/small_hull.h"
 
 namespace cdprep::test {
 namespace {
@@ -146,9 +147,14 @@ private:
         }
     }
 
+    static bool is_flat(const Points& points) {
+        return SmallHull(points, Edges::none).triangles().empty();
+    }
+
     void run_hulls() {
         for (const HardHulls& hard : hard_hulls(false)) {
             if (hard.is_large && !hard.gap && !hard.depth) continue;
+            if (!peer_.takes_flat_hulls && (is_flat(hard.a) || is_flat(hard.b))) continue;
             each(hard.id, [&] {
                 const HullTruth truth = hull_truth(hard);
                 const Points a = moved_points(hard.a, hard.placement.pose_a());

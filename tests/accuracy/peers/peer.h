@@ -27,6 +27,7 @@ struct Peer {
     std::function<double(const TestMesh& a, const TestMesh& b)> distance{};
     std::function<bool(const Points& a, const Points& b)> hulls_collide{};
     std::function<double(const Points& a, const Points& b)> hull_distance{};
+    bool takes_flat_hulls = true;  ///< squares, segments and points too
 };
 
 // Each is there where its library was found at configure time.
