@@ -182,7 +182,7 @@ private:
                         [this](std::size_t i) {
                             return hit_or_no(may_touch_aligned(aligned_a_, aligned_b_, pose(i)));
                         });
-        keep_all_read(box, box_s, 2 * 6 * sizeof(double));
+        keep_all_read(box, box_s, sizeof(double) * 2 * 6);
         box.outer = outside_.of_points(corners_of(aligned_a_), corners_of(aligned_b_));
         Rung& oriented = add("oriented box", "oriented boxes, by fifteen axes", Promise::no_misses,
                              [this](std::size_t i) {

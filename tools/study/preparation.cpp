@@ -61,9 +61,10 @@ constexpr format::SectionSet kPieces = {
 HierarchyFigures measure_hierarchy(const mesh::Mesh& mesh, const ModelForms& forms,
                                    const PreparationOptions& options, TimingOptions timing) {
     const build::BvhBounds as_baked = build::BvhOptions{}.bounds;
-    const std::array<Question, 2> alone = {
-        builds(mesh, serial_for, as_baked),
-        builds(mesh, serial_for, build::BvhBounds::oriented_and_swept)};
+    std::vector<Question> alone;
+    alone.reserve(2);
+    alone.push_back(builds(mesh, serial_for, as_baked));
+    alone.push_back(builds(mesh, serial_for, build::BvhBounds::oriented_and_swept));
     const std::vector<Timings> one = time_questions(1, alone, timing);
     timing.by = TimedBy::wall;
     const std::array<Question, 1> shared = {builds(mesh, options.parallel_for, as_baked)};

@@ -31,6 +31,7 @@ double as_double(std::size_t count) {
 
 double distinct(const std::vector<TrianglePair>& pairs, std::uint32_t TrianglePair::*side) {
     std::vector<std::uint32_t> numbers;
+    numbers.reserve(pairs.size());
     for (const TrianglePair& pair : pairs) numbers.push_back(pair.*side);
     std::ranges::sort(numbers);
     return static_cast<double>(std::unique(numbers.begin(), numbers.end()) - numbers.begin());

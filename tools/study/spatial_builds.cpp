@@ -165,6 +165,7 @@ TreeLimits nearest_limits(const Input& input, SpatialKind kind, double mebibytes
 std::vector<SpatialBuild> planned(const StudyMesh& mesh, const Input& input,
                                   const SpatialOptions& options) {
     std::vector<SpatialBuild> builds;
+    builds.reserve(2 * kKinds.size() + 2);
     for (const SpatialKind kind : kKinds) {
         builds.push_back({"paper", kind, limits_of(build::kPaperPreset, kind)});
     }
@@ -186,6 +187,7 @@ std::vector<SpatialBuild> planned(const StudyMesh& mesh, const Input& input,
 std::vector<Timing> time_builds(const Input& input, const std::vector<SpatialBuild>& builds,
                                 ParallelFor run, const TimingOptions& options) {
     std::vector<Question> questions;
+    questions.reserve(builds.size());
     for (const SpatialBuild& how : builds) {
         questions.push_back(question_of([&input, &how, run](std::size_t) {
             return build_once(input, how, run,

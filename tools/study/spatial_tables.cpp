@@ -211,6 +211,7 @@ Table spatial_details(const SpatialMesh& mesh) {
 
 std::vector<Check> spatial_checks(const std::vector<SpatialMesh>& meshes) {
     std::vector<Check> checks;
+    checks.reserve(meshes.size());
     for (const SpatialMesh& mesh : meshes) checks.push_back(order_of_builds(mesh));
     for (const SpatialMesh& mesh : meshes) {
         const Likeness& likeness = mesh.mesh->likeness;
