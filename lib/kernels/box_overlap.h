@@ -64,7 +64,7 @@ F sum_of(const F* v) noexcept {
     return v[0] + v[1] + v[2];
 }
 
-/// B's boxes as the tests along A's axes want them: shifted, with the slack.
+/// B's boxes as the tests along A's axes want them: shifted, with the slack and the tolerance.
 template <class F>
 Boxes<F> turned_to_a(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
     Boxes<F> turned;
@@ -72,7 +72,7 @@ Boxes<F> turned_to_a(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
         const float* r = p.rotation + 3 * axis;
         const float* q = p.abs_rotation + 3 * axis;
         turned.centre[axis] = combined(r[0], r[1], r[2], boxes.centre) + F(p.shift[axis]);
-        turned.half[axis] = combined(q[0], q[1], q[2], boxes.half) + F(p.slack);
+        turned.half[axis] = combined(q[0], q[1], q[2], boxes.half) + F(p.slack + p.tolerance);
     }
     return turned;
 }
@@ -83,7 +83,7 @@ Boxes<F> shifted_in_b(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
     Boxes<F> shifted;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         shifted.centre[axis] = boxes.centre[axis] + F(p.shift_in_b[axis]);
-        shifted.half[axis] = boxes.half[axis] + F(p.slack);
+        shifted.half[axis] = boxes.half[axis] + F(p.slack + p.tolerance);
     }
     return shifted;
 }
@@ -212,7 +212,7 @@ void turn_oriented(const OrientedBoxes<F>& boxes, const BoxPlacement& p,
 }
 
 /// How far boxes are apart along the three axes of either; negative: by how much
-/// they overlap. The slack is taken off.
+/// they overlap. The slack and the tolerance are taken off.
 template <class R>
 struct FaceGaps {
     R of_a[3];
@@ -239,16 +239,16 @@ FaceGaps<R> oriented_gaps(const OrientedBoxes<R>& a, const OrientedRows& rows, R
         t[i] = R::spread(rows.centre[i], at) - a.centre[i];
     }
     R q[3][3];
-    const R slack(p.slack);
+    const R wider(p.slack + p.tolerance);
     FaceGaps<R> gaps;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k < 3; ++k) q[i][k] = abs(dot(a.axis[i], b[k]));
         const R reach = fma(q[i][2], half_b[2], fma(q[i][1], half_b[1], q[i][0] * half_b[0]));
-        gaps.of_a[i] = abs(dot(t, a.axis[i])) - (a.half[i] + slack + reach);
+        gaps.of_a[i] = abs(dot(t, a.axis[i])) - (a.half[i] + wider + reach);
     }
     for (std::size_t k = 0; k < 3; ++k) {
         const R reach = fma(q[2][k], a.half[2], fma(q[1][k], a.half[1], q[0][k] * a.half[0]));
-        gaps.of_b[k] = abs(dot(t, b[k])) - (half_b[k] + slack + reach);
+        gaps.of_b[k] = abs(dot(t, b[k])) - (half_b[k] + wider + reach);
     }
     return gaps;
 }

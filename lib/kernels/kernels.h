@@ -29,6 +29,10 @@ struct BoxPlacement {
     float scale_a;
     float scale_b;
     float slack;  ///< added to every sum of half extents; covers all rounding
+    /// Pair units: boxes that are no farther apart overlap still. Added once, however many slacks
+    /// a test takes. It is to be 0 where a test finds how far boxes are apart, and larger by 2^-18
+    /// of itself than what it stands for: tests round it.
+    float tolerance;
 };
 
 /// The boxes of one node: 48 floats, lower x, y, z, then upper x, y, z, eight

@@ -25,7 +25,8 @@
 // products w.u, w.v: 8 v (s_a + s_b); the sum of five terms: 21 v (s_a + s_b) + 9 v |t|;
 // length, root and quotient: 7 v (s_a + s_b + |t|); a face direction's length: 14 v of
 // the same instead. Together below 96 v (s_a + s_b + |t|): three times BoxPlacement's
-// slack, which also covers all that was rounded before.
+// slack, which also covers all that was rounded before. A tolerance is rounded by 5 v of
+// itself where the radii are summed and squared: its caller has made it larger.
 #pragma once
 
 #include "distances.h"
@@ -57,8 +58,8 @@ void load_swept(const float* node, float scale, SweptSpheres<F>& spheres) noexce
     }
 }
 
-/// Swept spheres of B along A's axes, one to be spread over all lanes; the slack is in
-/// the radius.
+/// Swept spheres of B along A's axes, one to be spread over all lanes; the slack and the
+/// tolerance are in the radius.
 struct SweptRows {
     alignas(32) float centre[3][kLanes];
     alignas(32) float radius[kLanes];
@@ -78,7 +79,7 @@ void turn_swept(const SweptSpheres<F>& spheres, const BoxPlacement& p, SweptRows
             turned[k][i].store(rows.axis[k][i]);
         }
     }
-    (spheres.radius + F(kSweptSlack * p.slack)).store(rows.radius);
+    (spheres.radius + F(kSweptSlack * p.slack + p.tolerance)).store(rows.radius);
     for (std::size_t k = 0; k < kSides; ++k) spheres.half[k].store(rows.half[k]);
     if (kSides < 2) return;
     F face[3];
@@ -92,7 +93,7 @@ struct SweptPair {
     R d[3];  ///< from A's middle to B's
     R axis_b[2][3];
     R half_b[2];
-    R radii;  ///< both, and the slack
+    R radii;  ///< both, the slack and the tolerance
 };
 
 template <int kSides, class R>

@@ -11,7 +11,7 @@
 namespace cdprep {
 
 /// Boxes are apart by this share of what their test was widened by: their axes are
-/// unit up to 2^-20, and the widened slack is rounded.
+/// unit up to 2^-20, and a sum with it is rounded.
 inline constexpr double kProved = 1 - 0x1p-18;
 
 /// A gap is worth a proof when it lasts some questions: it is sought this many steps
@@ -144,13 +144,12 @@ bool CachedSearch::walk_all(Narrow narrow) noexcept {
 }
 
 inline bool CachedSearch::walk() noexcept {
-    const float slack = placed_.placement.slack;
     const double margin =
         std::min(std::ldexp(next_margin(cache_), placed_.exponent), kGreatestMargin);
-    placed_.placement.slack += static_cast<float>(margin);
+    placed_.placement.tolerance = static_cast<float>(margin);
     bool proves = margin > 0 && !placed_.apart;
     const auto narrow = [&] {
-        placed_.placement.slack = slack;
+        placed_.placement.tolerance = 0;
         proves = false;
     };
     if (walk_all(narrow)) return true;

@@ -19,7 +19,7 @@ namespace cdprep {
 namespace {
 
 /// A direction of a box test is unit up to 2^-20, and a sum with the tolerance rounds a
-/// few times.
+/// few times (BoxPlacement::tolerance).
 constexpr double kBoxRounding = 1 + 0x1p-18;
 
 /// A search for the triangles within a tolerance above 0.
@@ -91,7 +91,7 @@ bool WithinSearch<Trees>::run(Found&& found) noexcept {
     const double scaled = std::ldexp(tolerance_, placed_.exponent);
     reach_.limit = float_reach(scaled * kBoxRounding);
     reach_.certain = static_cast<float>(std::min(scaled, kMostReach) / kBoxRounding);
-    placed_.placement.slack += reach_.limit;
+    placed_.placement.tolerance = reach_.limit;
     const auto decide = [&](std::uint32_t at_a, std::uint32_t at_b,
                             const kernels::TriangleGap& gap) {
         at_a = trees_.triangle_a(at_a);
