@@ -84,6 +84,7 @@ void score_with_kernels(const HardCaseOptions& options, Scoreboard& board) {
 
 /// What knows no instruction sets.
 void score_once(const HardCaseOptions& options, Scoreboard& board) {
+    score_predicates(options, board);
     score_refusals(options, board);
 #ifdef CDPREP_HAVE_TOOLS
     score_point_sets(options, board);

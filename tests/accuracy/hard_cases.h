@@ -23,6 +23,8 @@ struct HardCaseOptions {
 
 /// T, B and what D05 to D07 ask of overlaps: which triangles of two meshes overlap.
 void score_overlaps(const HardCaseOptions& options, Scoreboard& board);
+/// T: how two triangles stand, by the predicates alone, which know no instruction sets.
+void score_predicates(const HardCaseOptions& options, Scoreboard& board);
 /// P: which points are inside.
 void score_inclusion(const HardCaseOptions& options, Scoreboard& board);
 /// G: how far convex hulls are apart, and how deep in each other.

@@ -117,13 +117,40 @@ std::vector<HardSurface> hard_surfaces(bool full) {
     return all;
 }
 
-std::string flaw_of(const HardSurface& hard, const mesh::Mesh& mesh, const SurfacePieces& pieces,
-                    PieceOrder order) {
-    if (std::string flaw = partition_flaw(mesh, pieces); !flaw.empty()) return flaw;
-    if (std::string flaw = hull_face_flaw(mesh, pieces); !flaw.empty()) return flaw;
-    if (hard.is_solid) {
-        if (std::string flaw = containment_flaw(mesh, pieces); !flaw.empty()) return flaw;
+/// What is wrong with where pieces lie. Most orders find the same pieces: those are judged once.
+class PieceJudge {
+public:
+    PieceJudge(const HardSurface& hard, const mesh::Mesh& mesh) : hard_(hard), mesh_(mesh) {}
+
+    std::string flaw_of(const SurfacePieces& pieces) {
+        const bool is_judged = judged_ && is_same(*judged_, pieces);
+        if (!is_judged) flaw_ = exact_flaw_of(pieces);
+        judged_ = pieces;
+        return flaw_;
     }
+
+private:
+    static bool is_same(const SurfacePieces& a, const SurfacePieces& b) {
+        return a.triangles == b.triangles && a.first == b.first &&
+               std::equal(a.pieces.begin(), a.pieces.end(), b.pieces.begin(), b.pieces.end(),
+                          [](const convex::SurfacePiece& p, const convex::SurfacePiece& q) {
+                              return p.contained == q.contained;
+                          });
+    }
+    [[nodiscard]] std::string exact_flaw_of(const SurfacePieces& pieces) const {
+        if (std::string flaw = partition_flaw(mesh_, pieces); !flaw.empty()) return flaw;
+        if (std::string flaw = hull_face_flaw(mesh_, pieces); !flaw.empty()) return flaw;
+        return hard_.is_solid ? containment_flaw(mesh_, pieces) : "";
+    }
+
+    const HardSurface& hard_;
+    const mesh::Mesh& mesh_;
+    std::optional<SurfacePieces> judged_;
+    std::string flaw_;
+};
+
+/// What is wrong with how many they are, and of what kind.
+std::string flaw_of(const HardSurface& hard, const SurfacePieces& pieces, PieceOrder order) {
     if (order == PieceOrder::greedy && hard.pieces && pieces.pieces.size() != *hard.pieces) {
         return std::to_string(pieces.pieces.size()) + " pieces";
     }
@@ -144,9 +171,11 @@ std::string flaw_of(const HardSurface& hard, const mesh::Mesh& mesh, const Surfa
 void ask_pieces(const HardSurface& hard, Scoreboard& board, bool few) {
     const auto ask = [&](const TestMesh& of, const std::string& change) {
         const mesh::Mesh mesh = mesh::weld(soup_of(of)).mesh;
+        PieceJudge judge(hard, mesh);
         for (std::size_t i = 0; i < kOrders.size(); ++i) {
             const SurfacePieces pieces = convex::find_surface_pieces(mesh, {.order = kOrders[i]});
-            const std::string flaw = flaw_of(hard, mesh, pieces, kOrders[i]);
+            std::string flaw = judge.flaw_of(pieces);
+            if (flaw.empty()) flaw = flaw_of(hard, pieces, kOrders[i]);
             board.of(hard.id, std::string("pieces/") + kOrderNames[i]).expect(flaw.empty(), [&] {
                 return hard.id + ": " + change + ": " + flaw;
             });
@@ -205,9 +234,6 @@ void ask_zoo(const HardCaseOptions& options, Scoreboard& board) {
                 });
             }
         }
-        // Importers mark such triangles, which a bare soup cannot.
-        constexpr int kOutOfRange = 102;
-        if (zoo[i].found.contains(kOutOfRange)) continue;
         mesh::RepairOptions solid;
         solid.steps = *mesh::find_repair_preset("closed");
         const mesh::Repaired mended = mesh::repair(soup_of(zoo[i].mesh), solid);

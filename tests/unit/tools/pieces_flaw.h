@@ -60,13 +60,14 @@ inline std::string partition_flaw(const mesh::Mesh& mesh, const convex::SurfaceP
 /// piece is above its plane. Exact.
 inline std::string hull_face_flaw(const mesh::Mesh& mesh, const convex::SurfacePieces& pieces) {
     for (std::size_t i = 0; i < pieces.pieces.size(); ++i) {
-        const std::vector<Double3> points = piece_points(mesh, pieces.of(i));
+        const std::vector<std::uint32_t> vertices = piece_vertices(mesh, pieces.of(i));
         for (const std::uint32_t t : pieces.of(i)) {
             const auto& v = mesh.triangles[t].vertex;
             const FilteredPlane plane(mesh.positions[v[0]], mesh.positions[v[1]],
                                       mesh.positions[v[2]]);
-            for (const Double3& p : points) {
-                if (plane.side(p) > 0) {
+            for (const std::uint32_t vertex : vertices) {
+                if (vertex == v[0] || vertex == v[1] || vertex == v[2]) continue;
+                if (plane.side(mesh.positions[vertex]) > 0) {
                     return "triangle " + std::to_string(t) + " is below a vertex of piece " +
                            std::to_string(i);
                 }
