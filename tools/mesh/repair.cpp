@@ -35,6 +35,25 @@ RepairMesh as_repair_mesh(const TriangleSoup& soup) {
     return mesh;
 }
 
+/// The soup as an import gives it: triangles with a corner out of range have all corners at
+/// vertex 0, and are listed. Nothing where no such corner is left.
+std::optional<TriangleSoup> marked(const TriangleSoup& soup) {
+    const std::size_t limit = soup.positions.size();
+    std::optional<TriangleSoup> result;
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        const auto& corners = soup.triangles[t].vertex;
+        const auto bad = std::find_if(corners.begin(), corners.end(),
+                                      [limit](std::uint32_t vertex) { return vertex >= limit; });
+        if (bad == corners.end()) continue;
+        if (!result) result = soup;
+        result->triangles[t] = {{0, 0, 0}};
+        result->bad_numbers.push_back({BadNumber::Kind::index_out_of_range, 0, t, *bad,
+                                       static_cast<std::int64_t>(limit)});
+        ++result->bad_number_count;
+    }
+    return result;
+}
+
 std::vector<std::uint32_t> out_of_range(const TriangleSoup& soup) {
     std::vector<std::uint32_t> triangles;
     for (const BadNumber& bad : soup.bad_numbers) {
@@ -215,6 +234,21 @@ private:
     std::vector<StepReport> reports_;
 };
 
+/// Triangles without any vertex, which no import gives: all are dropped.
+Repaired without_vertices(const TriangleSoup& soup) {
+    Repaired empty;
+    StepReport step(RepairStep::drop_bad_numbers);
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        step.dropped.push_back({t, DropReason::out_of_range});
+    }
+    empty.mesh.single_precision = soup.single_precision;
+    empty.report.counts.source_triangles = empty.report.counts.dropped = step.dropped.size();
+    empty.report.steps.push_back(std::move(step));
+    empty.report.before = empty.report.after = verdict_of(empty.mesh);
+    empty.report.settled = true;
+    return empty;
+}
+
 RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
     RepairCounts counts;
     counts.source_triangles = soup.triangles.size();
@@ -310,7 +344,10 @@ std::optional<RepairSteps> find_repair_preset(std::string_view name) noexcept {
     return std::nullopt;
 }
 
-Repaired repair(const TriangleSoup& soup, const RepairOptions& options) {
+Repaired repair(const TriangleSoup& bare, const RepairOptions& options) {
+    if (bare.positions.empty() && !bare.triangles.empty()) return without_vertices(bare);
+    const std::optional<TriangleSoup> other = marked(bare);
+    const TriangleSoup& soup = other ? *other : bare;
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begin = Clock::now();
     const StopCheck stop = [&] {

@@ -80,7 +80,9 @@ struct Repaired {
 /// Nothing is moved, dropped or made that the report does not list; a step that would
 /// make the verdict worse (is_worse()) is undone, and says so. What it returns is a fixed
 /// point: the steps are taken again, at most a few times, until nothing changes. The same
-/// for any parallel_for.
+/// for any parallel_for. A triangle with a corner out of range that the soup does not list is
+/// taken for one that an import marked: without drop_bad_numbers it stays, all its corners at
+/// vertex 0. Where there is no vertex at all, it is dropped by whatever steps.
 [[nodiscard]] Repaired repair(const TriangleSoup& soup, const RepairOptions& options);
 
 }  // namespace cdprep::mesh

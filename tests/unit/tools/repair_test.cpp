@@ -107,6 +107,76 @@ TEST(Repair, BadNumbersAndRepeatedCornersAreListedAndDropped) {
     EXPECT_TRUE(is_closed_manifold(mended.report.after));
 }
 
+/// The same bad corners, as an import marks them.
+TriangleSoup as_imported(TriangleSoup soup) {
+    const auto limit = static_cast<std::int64_t>(soup.positions.size());
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
+        for (const std::uint32_t vertex : soup.triangles[t].vertex) {
+            if (vertex < limit) continue;
+            soup.bad_numbers.push_back(
+                {BadNumber::Kind::index_out_of_range, 0, t, vertex, limit});
+            soup.triangles[t] = {{0, 0, 0}};
+            break;
+        }
+    }
+    soup.bad_number_count = soup.bad_numbers.size();
+    return soup;
+}
+
+// Importers mark such triangles; a soup made by hand has the corners themselves.
+TEST(Repair, CornersOutOfRangeAreDroppedWhetherMarkedOrNot) {
+    TriangleSoup bare = soup_of(unit_cube());
+    bare.triangles.insert(bare.triangles.begin() + 3, {{0, 1, 8}});
+    bare.triangles.push_back({{kNone, kNone - 1, 1'000'000}});
+    for (const char* preset : {"safe", "closed", "solid"}) {
+        const Repaired mended = repaired(bare, preset);
+        const Repaired marked = repaired(as_imported(bare), preset);
+        EXPECT_EQ(mended.mesh.positions, marked.mesh.positions);
+        EXPECT_EQ(mended.mesh.triangles, marked.mesh.triangles);
+        EXPECT_EQ(mended.mesh.triangles.size(), 12U);
+        EXPECT_EQ(mended.report.counts.kept, 12U);
+        EXPECT_EQ(mended.report.counts.dropped, 2U);
+        const StepReport* bad = step_of(mended.report, RepairStep::drop_bad_numbers);
+        ASSERT_NE(bad, nullptr) << preset;
+        ASSERT_EQ(bad->dropped.size(), 2U);
+        EXPECT_EQ(bad->dropped[0].source, 3U);
+        EXPECT_EQ(bad->dropped[1].source, 13U);
+        for (const DroppedTriangle& dropped : bad->dropped) {
+            EXPECT_EQ(dropped.reason, DropReason::out_of_range);
+        }
+        EXPECT_TRUE(is_closed_manifold(mended.report.after));
+        EXPECT_EQ(mended.report.output_to_input.upper, 0.0);
+    }
+}
+
+// Nobody asked to drop it: it keeps its place, with nowhere to be.
+TEST(Repair, ACornerOutOfRangeStaysWhereNothingDropsIt) {
+    TriangleSoup bare = soup_of(unit_cube());
+    bare.triangles.push_back({{0, 1, 8}});
+    RepairOptions only_weld;
+    only_weld.steps.set(static_cast<std::size_t>(RepairStep::weld));
+    const Repaired mended = repair(bare, only_weld);
+    const Repaired marked = repair(as_imported(bare), only_weld);
+    ASSERT_EQ(mended.mesh.triangles.size(), 13U);
+    EXPECT_EQ(mended.mesh.triangles, marked.mesh.triangles);
+    EXPECT_EQ(mended.mesh.triangles.back(), (test::Triangle{{0, 0, 0}}));
+}
+
+TEST(Repair, TrianglesWithoutAnyVertexAreDropped) {
+    TriangleSoup bare;
+    bare.triangles = {{{0, 0, 0}}, {{0, 1, 2}}};
+    for (const char* preset : {"safe", "closed", "solid"}) {
+        const Repaired mended = repaired(bare, preset);
+        EXPECT_TRUE(mended.mesh.triangles.empty());
+        EXPECT_EQ(mended.report.counts.source_triangles, 2U);
+        EXPECT_EQ(mended.report.counts.dropped, 2U);
+        const StepReport* bad = step_of(mended.report, RepairStep::drop_bad_numbers);
+        ASSERT_NE(bad, nullptr);
+        EXPECT_EQ(bad->dropped.size(), 2U);
+        EXPECT_EQ(repaired(TriangleSoup{}, preset).report.counts.dropped, 0U);
+    }
+}
+
 TEST(Repair, ADuplicateNamesTheTriangleThatStays) {
     TestMesh sheet = test::grid_sheet(2, 2);
     sheet.triangles.push_back(test::Triangle(sheet.triangles[3]));
