@@ -207,7 +207,7 @@ private:
         for (std::size_t i = 0; i < best.size(); ++i) {
             const std::string x = units(x_.at(best[i].x));
             const std::string y = units(height_of(best[i].y));
-            path += i == 0 ? "M" + x + " " + y : "H" + x + "V" + y;
+            path.append(i == 0 ? "M" : "H").append(x).append(i == 0 ? " " : "V").append(y);
         }
         return best.size() < 2 ? "" : "<path d=\"" + path + "\" class=\"front\"/>\n";
     }
@@ -340,7 +340,8 @@ std::string strata_body(std::size_t ladder, const std::vector<Rung>& rungs,
                      std::to_string(ladder) + "\" data-rung=\"" + std::to_string(r) + "\"><title>" +
                      escaped(rungs[r].name) + "</title></circle>\n";
         }
-        text += "<path d=\"" + path + "\" class=\"trend " + family + "\"/>\n" + marks;
+        text.append("<path d=\"").append(path).append("\" class=\"trend ").append(family);
+        text.append("\"/>\n").append(marks);
         ends.push_back({r, last});
     }
     std::ranges::sort(ends, {}, &End::y);
@@ -492,8 +493,9 @@ std::string chart_style() {
                                                      "#a0609a", "#b8860b", "#000000"};
     for (std::size_t i = 0; i < kColours.size(); ++i) {
         const std::string look = ".f" + std::to_string(i);
-        style += ".point" + look + "{fill:" + kColours[i] + "}" + look + "{stroke:" + kColours[i] +
-                 "}.block" + look + "{fill:" + kColours[i] + ";stroke:none}";
+        style.append(".point").append(look).append("{fill:").append(kColours[i]).append("}");
+        style.append(look).append("{stroke:").append(kColours[i]).append("}.block").append(look);
+        style.append("{fill:").append(kColours[i]).append(";stroke:none}");
     }
     return style;
 }

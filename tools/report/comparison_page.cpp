@@ -100,12 +100,14 @@ public:
     }
     [[nodiscard]] std::string lines(double bottom) const {
         std::string svg = "<g class=\"axis\">";
-        for (double power = low_; power <= std::max(high_, low_ + 1); ++power) {
-            const double seconds = std::pow(10.0, power);
+        const int powers = static_cast<int>(std::max(high_ - low_, 1.0));
+        for (int power = 0; power <= powers; ++power) {
+            const double seconds = std::pow(10.0, low_ + power);
             const std::string x = fixed(at(seconds), 1);
-            svg += "<line x1=\"" + x + "\" x2=\"" + x + "\" y1=\"20\" y2=\"" + fixed(bottom, 0) +
-                   "\"/><text text-anchor=\"middle\" y=\"14\" x=\"" + x + "\">" +
-                   study::seconds_text(seconds) + "</text>";
+            svg.append("<line x1=\"").append(x).append("\" x2=\"").append(x);
+            svg.append("\" y1=\"20\" y2=\"").append(fixed(bottom, 0)).append("\"/>");
+            svg.append("<text text-anchor=\"middle\" y=\"14\" x=\"").append(x).append("\">");
+            svg.append(study::seconds_text(seconds)).append("</text>");
         }
         return svg + "</g>\n";
     }
