@@ -155,6 +155,7 @@ private:
         step.pairs &= lanes_.kept(a_, step.a, b_, step.b);
         if (counts_ != nullptr) {
             counts_->box_pairs += std::uint64_t{bits_in(side_a.lanes)} * bits_in(side_b.lanes);
+            ++counts_->node_pairs;
         }
     }
 

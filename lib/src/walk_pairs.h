@@ -145,6 +145,7 @@ inline void count_step(const Tree& a, const Tree& b, const PendingPair& pair,
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
     const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
     counts.box_pairs += std::uint64_t{side_a.last - side_a.first} * (side_b.last - side_b.first);
+    ++counts.node_pairs;
 }
 
 /// Of a node's swept spheres, what its kind's test reads.

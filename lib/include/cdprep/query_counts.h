@@ -12,6 +12,7 @@ namespace cdprep {
 /// the library may need more or less of anything.
 struct QueryCounts {
     std::uint64_t box_pairs = 0;       ///< boxes of A's hierarchy against boxes of B's
+    std::uint64_t node_pairs = 0;      ///< nodes of those, up to 8 boxes each, read for them
     std::uint64_t leaf_pairs = 0;      ///< pairs of leaves whose triangles were looked at
     std::uint64_t triangle_pairs = 0;  ///< of triangles in those: at most 64 each
 

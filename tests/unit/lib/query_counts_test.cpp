@@ -30,6 +30,7 @@ TEST(QueryCounts, SayWhatOnePairOfTrianglesTakes) {
     workspace.count_into(&counts);
     EXPECT_EQ(overlapping_triangles(a.model, b.model, shifted(0, 0, 0), workspace, {}), 1u);
     EXPECT_EQ(counts.box_pairs, 1u);
+    EXPECT_EQ(counts.node_pairs, 1u);
     EXPECT_EQ(counts.leaf_pairs, 1u);
     EXPECT_EQ(counts.triangle_pairs, 1u);
     EXPECT_EQ(counts.by_kernel, 1u);
@@ -79,6 +80,9 @@ TEST(QueryCounts, AreTakenForEveryQuestionAboutTwoModels) {
         [&] { EXPECT_GT(all_pairs(ball.model, ball.model, crossing, workspace).size(), 50u); });
     EXPECT_GT(hit.leaf_pairs, 0u);
     EXPECT_LT(hit.box_pairs, all.box_pairs);  // the first hit ends it
+    // Nodes hold up to eight boxes, and of most pairs of nodes several boxes are tested.
+    EXPECT_LT(all.node_pairs, all.box_pairs);
+    EXPECT_GE(64 * all.node_pairs, all.box_pairs);
     const QueryCounts apart =
         taken([&] { EXPECT_TRUE(distance(ball.model, ball.model, near, workspace)); });
     EXPECT_GT(apart.measured, 0u);
