@@ -23,6 +23,10 @@ Json share_json(const study::ShareInterval& share) {
     return {{"count", share.count}, {"of", share.of}, {"low", share.low}, {"high", share.high}};
 }
 
+Json band_json(const study::ShareBand& band) {
+    return {{"value", band.share}, {"low", band.low}, {"high", band.high}};
+}
+
 Json timing_json(const study::Timing& timing) {
     return {{"median_s", timing.median_s}, {"p95_s", timing.p95_s},   {"p999_s", timing.p999_s},
             {"spread_s", timing.spread_s}, {"low_s", timing.low_s},   {"high_s", timing.high_s},
@@ -46,11 +50,12 @@ Json strata_json(const Rung& rung) {
 
 void add_errors(const Rung& rung, Json& json) {
     if (rung.pairs) {
-        json["pairs"] = {{"wanted", rung.pairs->wanted},
-                         {"found", rung.pairs->found},
-                         {"both", rung.pairs->both},
-                         {"recall", rung.pairs->recall()},
-                         {"precision", rung.pairs->precision()}};
+        json["pairs"] = {{"wanted", rung.pairs->all.wanted},
+                         {"found", rung.pairs->all.found},
+                         {"both", rung.pairs->all.both},
+                         {"recall", band_json(rung.pairs->recall)},
+                         {"precision", band_json(rung.pairs->precision)},
+                         {"wrong", band_json(rung.pairs->wrong)}};
     }
     if (rung.distance) {
         json["distance"] = {{"median_error", rung.distance->median},
@@ -58,7 +63,13 @@ void add_errors(const Rung& rung, Json& json) {
                             {"worst_error_of_diagonal", rung.distance->worst_of_diagonal},
                             {"interval_holds", share_json(rung.distance->holds)}};
     }
+    if (rung.rigid) {
+        json["rigid"] = {{"misses", share_json(rung.rigid->misses)},
+                         {"false_hits", share_json(rung.rigid->false_hits)},
+                         {"undecided", rung.rigid->undecided}};
+    }
     if (rung.outer) json["outer"] = *rung.outer;
+    if (rung.inner) json["inner"] = *rung.inner;
     if (rung.displacement) json["displacement"] = *rung.displacement;
     if (rung.degenerate) json["degenerate"] = *rung.degenerate;
     if (rung.worst_pose) json["worst"] = {{"pose", *rung.worst_pose}, {"what", rung.worst}};
@@ -70,8 +81,7 @@ Json rung_json(const Rung& rung, bool is_dominated, bool has_strata) {
                  {"promise", promise_name(rung.promise)},
                  {"time", timing_json(rung.time)}};
     if (rung.error) {
-        json["error"] = {
-            {"value", *rung.error}, {"low", rung.error_low}, {"high", rung.error_high}};
+        json["error"] = band_json({*rung.error, rung.error_low, rung.error_high});
     }
     json["dominated"] = is_dominated;
     if (rung.build_s) json["build_s"] = *rung.build_s;
@@ -84,6 +94,13 @@ Json rung_json(const Rung& rung, bool is_dominated, bool has_strata) {
         Json answers = Json::array();
         for (const Answer answer : rung.answers) answers.push_back(answer_name(answer));
         json["answers"] = std::move(answers);
+    }
+    if (!rung.pair_counts.empty()) {
+        Json counts = Json::array();
+        for (const study::PairCounts& pose : rung.pair_counts) {
+            counts.push_back({pose.wanted, pose.found, pose.both});
+        }
+        json["pairs_by_pose"] = std::move(counts);
     }
     return json;
 }
@@ -192,6 +209,7 @@ std::string accuracy_page_data(const AccuracyReport& report) {
         for (Json& rung : ladder["rungs"]) {
             rung.erase("seconds");
             rung.erase("answers");
+            rung.erase("pairs_by_pose");
         }
     }
     return script_json(json);

@@ -66,7 +66,15 @@ std::string misses_word(const Rung& rung) {
         misses += stratum.misses.count;
         of += stratum.misses.of;
     }
-    return std::to_string(misses) + "/" + std::to_string(of);
+    const study::ShareInterval share = study::clopper_pearson(misses, of);
+    return std::to_string(misses) + "/" + std::to_string(of) + " (" + per_cent(share.low) + ".." +
+           per_cent(share.high) + ")";
+}
+
+/// Wrong flags of the poses at which the truth is proved of the exact rotation.
+std::string rigid_word(const study::RigidErrors& rigid) {
+    return std::to_string(rigid.misses.count + rigid.false_hits.count) + "/" +
+           std::to_string(rigid.misses.of + rigid.false_hits.of);
 }
 
 /// Which columns a ladder has something to say in.
@@ -76,6 +84,7 @@ struct Columns {
     bool outer = false;
     bool build = false;
     bool bytes = false;
+    bool touched = false;
     bool moved = false;
     bool distance = false;
 };
@@ -88,6 +97,7 @@ Columns columns_of(const Ladder& ladder) {
         columns.outer |= rung.outer.has_value();
         columns.build |= rung.build_s.has_value();
         columns.bytes |= rung.bytes.has_value();
+        columns.touched |= rung.touched.has_value();
         columns.moved |= rung.displacement.has_value();
         columns.distance |= rung.distance.has_value();
     }
@@ -103,10 +113,14 @@ std::vector<std::string> head_of(const Columns& columns) {
     std::vector<std::string> head = {"rung", "median", "p95", "p99.9"};
     if (columns.build) head.emplace_back("build");
     if (columns.bytes) head.emplace_back("size");
+    if (columns.touched) head.emplace_back("reads");
     if (columns.outer) head.emplace_back("sticks out");
     if (columns.moved) head.emplace_back("moved");
     head.emplace_back("error");
-    if (columns.misses) head.emplace_back("misses");
+    if (columns.misses) {
+        head.emplace_back("misses");
+        head.emplace_back("wrong at E3");
+    }
     if (columns.pairs) {
         head.emplace_back("recall");
         head.emplace_back("precision");
@@ -121,15 +135,19 @@ std::vector<std::string> row_of(const Rung& rung, const Columns& columns) {
     const auto bytes = [](std::uint64_t value) { return in_bytes(static_cast<double>(value)); };
     if (columns.build) row.push_back(or_dash(rung.build_s, in_time));
     if (columns.bytes) row.push_back(or_dash(rung.bytes, bytes));
+    if (columns.touched) row.push_back(or_dash(rung.touched, in_bytes));
     if (columns.outer) row.push_back(or_dash(rung.outer, per_cent));
     if (columns.moved) row.push_back(or_dash(rung.displacement, per_cent));
     row.push_back(error_word(rung));
-    if (columns.misses) row.push_back(misses_word(rung));
+    if (columns.misses) {
+        row.push_back(misses_word(rung));
+        row.push_back(or_dash(rung.rigid, rigid_word));
+    }
     if (columns.pairs) {
         row.push_back(
-            or_dash(rung.pairs, [](const auto& pairs) { return fixed(pairs.recall(), 5); }));
+            or_dash(rung.pairs, [](const auto& pairs) { return fixed(pairs.recall.share, 5); }));
         row.push_back(
-            or_dash(rung.pairs, [](const auto& pairs) { return fixed(pairs.precision(), 5); }));
+            or_dash(rung.pairs, [](const auto& pairs) { return fixed(pairs.precision.share, 5); }));
     }
     if (columns.distance) {
         row.push_back(or_dash(rung.distance, [](const auto& distance) {
@@ -175,6 +193,116 @@ std::string ladder_text(const Ladder& ladder) {
     text += ladder.rungs.empty() ? "  no rung was climbed\n" : aligned(ladder_table(ladder));
     for (const std::string& sentence : ladder.left_out) text += "  left out: " + sentence + "\n";
     return text;
+}
+
+/// Text that needs no quotes.
+std::string in_csv(std::string text) {
+    std::ranges::replace(text, ',', ';');
+    std::ranges::replace(text, '"', '\'');
+    return printable(text);
+}
+
+/// The cells of a row, one after the other; those of what was not measured are empty.
+class CsvRow {
+public:
+    void add(const std::string& cell) {
+        text_ += text_.empty() ? cell : "," + cell;
+    }
+    void add(double value) {
+        std::array<char, 40> text;
+        std::snprintf(text.data(), text.size(), "%.9g", value);
+        add(std::string(text.data()));
+    }
+    void add_count(std::size_t count) {
+        add(std::to_string(count));
+    }
+    template <class Value>
+    void add_any(const std::optional<Value>& value) {
+        value ? add(static_cast<double>(*value)) : add(std::string());
+    }
+    void add_none(std::size_t cells) {
+        for (std::size_t i = 0; i < cells; ++i) add(std::string());
+    }
+    [[nodiscard]] std::string line() const {
+        return text_ + "\n";
+    }
+
+private:
+    std::string text_;
+};
+
+void add_shares(const study::ShareInterval& misses, const study::ShareInterval& false_hits,
+                CsvRow& row) {
+    for (const std::size_t count : {misses.count, misses.of, false_hits.count, false_hits.of}) {
+        row.add_count(count);
+    }
+}
+
+void add_flags(const Rung& rung, CsvRow& row) {
+    if (rung.answers.empty() || !rung.rigid) return row.add_none(7);
+    std::size_t misses = 0;
+    std::size_t false_hits = 0;
+    for (const auto& stratum : rung.strata) {
+        misses += stratum.misses.count;
+        false_hits += stratum.false_hits.count;
+    }
+    row.add_count(misses);
+    row.add_count(false_hits);
+    add_shares(rung.rigid->misses, rung.rigid->false_hits, row);
+    row.add_count(rung.rigid->undecided);
+}
+
+void add_errors(const Rung& rung, CsvRow& row) {
+    if (rung.pairs) {
+        for (const study::ShareBand& band : {rung.pairs->recall, rung.pairs->precision}) {
+            for (const double share : {band.share, band.low, band.high}) row.add(share);
+        }
+    } else {
+        row.add_none(6);
+    }
+    if (rung.distance) {
+        row.add(rung.distance->worst);
+        row.add(rung.distance->median);
+        row.add(rung.distance->holds.share());
+    } else {
+        row.add_none(3);
+    }
+}
+
+std::string csv_row(const std::string& ladder, const Rung& rung, bool is_dominated) {
+    CsvRow row;
+    row.add(ladder);
+    row.add(in_csv(rung.name));
+    row.add(std::string(promise_name(rung.promise)));
+    for (const double seconds : {rung.time.median_s, rung.time.p95_s, rung.time.p999_s,
+                                 rung.time.spread_s, rung.time.low_s, rung.time.high_s}) {
+        row.add(seconds);
+    }
+    row.add_count(rung.time.cases);
+    row.add_count(rung.time.asked);
+    row.add_any(rung.build_s);
+    row.add_any(rung.bytes);
+    row.add_any(rung.touched);
+    row.add_any(rung.error);
+    row.add_any(rung.error ? std::optional(rung.error_low) : std::nullopt);
+    row.add_any(rung.error ? std::optional(rung.error_high) : std::nullopt);
+    add_flags(rung, row);
+    add_errors(rung, row);
+    row.add_any(rung.outer);
+    row.add_any(rung.inner);
+    row.add_any(rung.displacement);
+    row.add_any(rung.degenerate);
+    row.add(std::string(is_dominated ? "1" : "0"));
+    for (const auto& stratum : rung.strata) {
+        row.add_any(stratum.median_s > 0 ? std::optional(stratum.median_s) : std::nullopt);
+        if (rung.answers.empty()) {
+            row.add_none(5);
+            continue;
+        }
+        add_shares(stratum.misses, stratum.false_hits, row);
+        row.add_count(stratum.unknown);
+    }
+    return row.line();
 }
 
 }  // namespace
@@ -260,9 +388,9 @@ std::vector<std::vector<std::string>> study_facts(const study::AccuracyStudy& st
     return {{"poses", strata_text(study.set) + "; seed " + std::to_string(study.set.seed) +
                           "; shares are of " + in_six_digits(study.set.diagonal) +
                           ", the smaller diagonal"},
-            {"truth", "exact for the vertices as moved; at " + std::to_string(study.rigid) +
+            {"truth", "exact for the vertices as moved (E1); at " + std::to_string(study.rigid) +
                           " of " + std::to_string(study.set.poses.size()) +
-                          " poses proved to be that of the exact rotation too"},
+                          " poses proved to be that of the exact rotation too (E3)"},
             {"machine", machine.processor + ", kernels " + machine.kernels + ", " +
                             machine.compiler + ", " + machine.build + "; one thread, " +
                             std::to_string(study.timing.rounds) + " rounds"},
@@ -288,83 +416,26 @@ std::string accuracy_text(const AccuracyReport& report) {
 
 std::string accuracy_csv(const AccuracyReport& report) {
     const study::AccuracyStudy& study = report.study;
-    const auto plain = [](std::string text) {
-        std::ranges::replace(text, ',', ';');
-        std::ranges::replace(text, '"', '\'');
-        return printable(text);
-    };
-    const auto exact = [](double value) {
-        std::array<char, 40> text;
-        std::snprintf(text.data(), text.size(), "%.9g", value);
-        return std::string(text.data());
-    };
-    std::string text = "# " + plain(report.input) + " against " + plain(report.input_b) +
+    std::string text = "# " + in_csv(report.input) + " against " + in_csv(report.input_b) +
                        "; seed " + std::to_string(study.set.seed) + "; " +
-                       plain(study.machine.processor) + "; " + plain(study.machine.compiler) +
+                       in_csv(study.machine.processor) + "; " + in_csv(study.machine.compiler) +
                        "; kernels " + study.machine.kernels + "; rounds " +
                        std::to_string(study.timing.rounds) + "\n";
     text +=
         "ladder,rung,promise,median_s,p95_s,p999_s,spread_s,low_s,high_s,cases,asked,build_s,bytes,"
-        "touched_bytes,error,error_low,error_high,misses,false_hits,recall,precision,"
-        "distance_worst,distance_median,interval_holds,outer,displacement,degenerate,dominated";
+        "touched_bytes,error,error_low,error_high,misses,false_hits,e3_misses,e3_hits,"
+        "e3_false_hits,e3_apart,e3_undecided,recall,recall_low,recall_high,precision,"
+        "precision_low,precision_high,distance_worst,distance_median,interval_holds,outer,inner,"
+        "displacement,degenerate,dominated";
     for (const char* name : study::kStratumNames) {
         text += std::string(",") + name + "_s," + name + "_misses," + name + "_hits," + name +
                 "_false_hits," + name + "_apart," + name + "_unknown";
     }
     text += "\n";
-    const auto value = [&](const auto& optional) {
-        return optional ? exact(static_cast<double>(*optional)) : std::string();
-    };
     for (const Ladder& ladder : study.ladders) {
         const std::vector<bool> beaten = study::dominated(ladder.rungs);
         for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
-            const Rung& rung = ladder.rungs[i];
-            std::size_t misses = 0;
-            std::size_t false_hits = 0;
-            for (const auto& stratum : rung.strata) {
-                misses += stratum.misses.count;
-                false_hits += stratum.false_hits.count;
-            }
-            const bool has_flags = !rung.answers.empty();
-            std::vector<std::string> cells = {
-                ladder.name,
-                plain(rung.name),
-                promise_name(rung.promise),
-                exact(rung.time.median_s),
-                exact(rung.time.p95_s),
-                exact(rung.time.p999_s),
-                exact(rung.time.spread_s),
-                exact(rung.time.low_s),
-                exact(rung.time.high_s),
-                std::to_string(rung.time.cases),
-                std::to_string(rung.time.asked),
-                value(rung.build_s),
-                value(rung.bytes),
-                value(rung.touched),
-                value(rung.error),
-                rung.error ? exact(rung.error_low) : "",
-                rung.error ? exact(rung.error_high) : "",
-                has_flags ? std::to_string(misses) : "",
-                has_flags ? std::to_string(false_hits) : "",
-                rung.pairs ? exact(rung.pairs->recall()) : "",
-                rung.pairs ? exact(rung.pairs->precision()) : "",
-                rung.distance ? exact(rung.distance->worst) : "",
-                rung.distance ? exact(rung.distance->median) : "",
-                rung.distance ? exact(rung.distance->holds.share()) : "",
-                value(rung.outer),
-                value(rung.displacement),
-                value(rung.degenerate),
-                beaten[i] ? "1" : "0"};
-            for (const auto& stratum : rung.strata) {
-                cells.push_back(stratum.median_s > 0 ? exact(stratum.median_s) : "");
-                for (const std::size_t count :
-                     {stratum.misses.count, stratum.misses.of, stratum.false_hits.count,
-                      stratum.false_hits.of, stratum.unknown}) {
-                    cells.push_back(has_flags ? std::to_string(count) : "");
-                }
-            }
-            for (std::size_t c = 0; c < cells.size(); ++c) text += (c > 0 ? "," : "") + cells[c];
-            text += "\n";
+            text += csv_row(ladder.name, ladder.rungs[i], beaten[i]);
         }
     }
     return text;

@@ -30,7 +30,7 @@ struct Weight {
     double full;
     double quick;
 };
-constexpr std::array<Weight, 16> kWeights = {{
+constexpr std::array<Weight, 18> kWeights = {{
     {"models", 1, 1},
     {"poses", 3, 0.8},
     {"self-check", 1, 0.3},
@@ -41,6 +41,8 @@ constexpr std::array<Weight, 16> kWeights = {{
     {"16 pieces", 2, 0},
     {"32 pieces", 4, 0},
     {"64 pieces", 7, 0},
+    {"128 pieces", 0.1, 0},
+    {"256 pieces", 0.1, 0},
     {"tetra-tree", 3, 1},
     {"octree", 3, 0.5},
     {"geometry: asking", 14, 1},

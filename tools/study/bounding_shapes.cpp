@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 
 #include "convex/find_bounds.h"
 #include "mesh/vectors.h"
@@ -33,6 +34,93 @@ double slack_of(const Double3& centre_a, double size_a, const Double3& centre_b,
                 const Pose& pose) {
     return kSlack *
            (length(centre_a) + size_a + length(centre_b) + size_b + length(pose.translation()));
+}
+
+constexpr std::array<Double3, BoundingDop::kDirections> kDopDirections = {{{1, 0, 0},
+                                                                           {0, 1, 0},
+                                                                           {0, 0, 1},
+                                                                           {1, 1, 1},
+                                                                           {1, 1, -1},
+                                                                           {1, -1, 1},
+                                                                           {-1, 1, 1},
+                                                                           {1, 1, 0},
+                                                                           {1, -1, 0},
+                                                                           {1, 0, 1},
+                                                                           {1, 0, -1},
+                                                                           {0, 1, 1},
+                                                                           {0, 1, -1}}};
+
+/// Rounding of the planes and of the points where three of them meet, of the polytope's size.
+constexpr double kDopRounding = 1e-12;
+
+struct Plane {
+    Double3 normal;
+    double at;
+};
+
+/// The point of three planes, where they meet in one: by Cramer's rule.
+std::optional<Double3> meeting_of(const Plane& p, const Plane& q, const Plane& r) {
+    const Double3 qr = cross(q.normal, r.normal);
+    const double volume = dot(p.normal, qr);  // whole numbers
+    if (volume == 0) return std::nullopt;
+    const Double3 rp = cross(r.normal, p.normal);
+    const Double3 pq = cross(p.normal, q.normal);
+    const auto along = [&](double of_qr, double of_rp, double of_pq) {
+        return (p.at * of_qr + q.at * of_rp + r.at * of_pq) / volume;
+    };
+    return Double3{along(qr.x, rp.x, pq.x), along(qr.y, rp.y, pq.y), along(qr.z, rp.z, pq.z)};
+}
+
+bool is_within(const BoundingDop& dop, const Double3& p, double slack) {
+    for (std::size_t i = 0; i < BoundingDop::kDirections; ++i) {
+        const double at = dot(kDopDirections[i], p);
+        if (at < dop.lower[i] - slack || at > dop.upper[i] + slack) return false;
+    }
+    return true;
+}
+
+/// Of all points where three planes meet those that none cuts off.
+std::vector<Double3> dop_corners(const BoundingDop& dop, double slack) {
+    std::vector<Plane> planes;
+    for (std::size_t i = 0; i < BoundingDop::kDirections; ++i) {
+        planes.push_back({kDopDirections[i], dop.lower[i]});
+        planes.push_back({kDopDirections[i], dop.upper[i]});
+    }
+    std::vector<Double3> corners;
+    const auto is_known = [&](const Double3& p) {
+        return std::ranges::any_of(
+            corners, [&](const Double3& known) { return length(minus(known, p)) <= slack; });
+    };
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+        for (std::size_t j = i + 1; j < planes.size(); ++j) {
+            for (std::size_t k = j + 1; k < planes.size(); ++k) {
+                const auto p = meeting_of(planes[i], planes[j], planes[k]);
+                if (p && is_within(dop, *p, slack) && !is_known(*p)) corners.push_back(*p);
+            }
+        }
+    }
+    return corners;
+}
+
+/// More than the diagonal.
+double size_of(const BoundingDop& dop) {
+    return dop.upper[0] - dop.lower[0] + dop.upper[1] - dop.lower[1] + dop.upper[2] - dop.lower[2];
+}
+
+/// From where to where points reach along an axis.
+struct Shadow {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+};
+
+Shadow shadow_of(const std::vector<Double3>& points, const Double3& along) {
+    Shadow shadow;
+    for (const Double3& p : points) {
+        const double at = dot(p, along);
+        shadow.low = std::min(shadow.low, at);
+        shadow.high = std::max(shadow.high, at);
+    }
+    return shadow;
 }
 
 /// How far the box reaches along an axis from its centre.
@@ -84,6 +172,25 @@ BoundingBox oriented_box(const mesh::Mesh& mesh) {
     return {bounds.oriented_centre, bounds.axis, bounds.half_extent};
 }
 
+BoundingDop bounding_dop(const mesh::Mesh& mesh) {
+    BoundingDop dop;
+    if (mesh.positions.empty()) return dop;
+    const BoundingBox box = aligned_box(mesh);
+    dop.centre = box.centre;
+    dop.lower.fill(std::numeric_limits<double>::infinity());
+    dop.upper.fill(-std::numeric_limits<double>::infinity());
+    for (const Double3& p : mesh.positions) {
+        const Double3 d = minus(p, dop.centre);
+        for (std::size_t i = 0; i < BoundingDop::kDirections; ++i) {
+            const double at = dot(kDopDirections[i], d);
+            dop.lower[i] = std::min(dop.lower[i], at);
+            dop.upper[i] = std::max(dop.upper[i], at);
+        }
+    }
+    dop.corners = dop_corners(dop, kDopRounding * length(box.half));
+    return dop;
+}
+
 bool may_touch(const BoundingSphere& a, const BoundingSphere& b, const Pose& a_from_b) noexcept {
     const double slack = slack_of(a.centre, a.radius, b.centre, b.radius, a_from_b);
     const Double3 d = minus(moved(a_from_b, b.centre), a.centre);
@@ -123,6 +230,30 @@ bool may_touch(const BoundingBox& a, const BoundingBox& b, const Pose& a_from_b)
         for (const Double3& of_b : axes) {
             if (parts(cross(of_a, of_b))) return false;
         }
+    }
+    return true;
+}
+
+bool may_touch(const BoundingDop& a, const BoundingDop& b, const Pose& a_from_b) noexcept {
+    if (a.corners.empty() || b.corners.empty()) return false;
+    // Directions are up to two long.
+    const double slack = 2 * slack_of(a.centre, size_of(a), b.centre, size_of(b), a_from_b);
+    const Double3 d = minus(moved(a_from_b, b.centre), a.centre);
+    const auto& r = a_from_b.rotation();
+    for (std::size_t i = 0; i < BoundingDop::kDirections; ++i) {
+        const Double3& along = kDopDirections[i];
+        const Double3 in_b = {r[0] * along.x + r[3] * along.y + r[6] * along.z,
+                              r[1] * along.x + r[4] * along.y + r[7] * along.z,
+                              r[2] * along.x + r[5] * along.y + r[8] * along.z};
+        const Shadow of_b = shadow_of(b.corners, in_b);
+        const double at = dot(d, along);
+        if (at + of_b.low > a.upper[i] + slack || at + of_b.high < a.lower[i] - slack) return false;
+    }
+    for (std::size_t i = 0; i < BoundingDop::kDirections; ++i) {
+        const Double3 along = turned(a_from_b, kDopDirections[i]);
+        const Shadow of_a = shadow_of(a.corners, along);
+        const double at = dot(d, along);
+        if (at + b.lower[i] > of_a.high + slack || at + b.upper[i] < of_a.low - slack) return false;
     }
     return true;
 }

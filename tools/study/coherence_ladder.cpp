@@ -7,6 +7,7 @@
 
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
+#include "study/bytes_read.h"
 #include "study/seeded_random.h"
 
 namespace cdprep::study {
@@ -107,6 +108,18 @@ public:
         return {found->lower, found->upper};
     }
 
+    /// Bytes that a frame's question reads, with what was found before or without.
+    [[nodiscard]] double bytes_read(const std::vector<Walk>& walks, bool is_coherent) {
+        return mean_bytes_read(climb_.a.model, climb_.b.model, workspace_, walks.size(),
+                               [&](std::size_t number) {
+                                   PairCache cache;
+                                   for (const Pose& pose : walks[number]) {
+                                       static_cast<void>(ask(pose, is_coherent ? &cache : nullptr));
+                                   }
+                               }) /
+               static_cast<double>(walks.front().size());
+    }
+
 private:
     const Climb& climb_;
     bool is_distance_;
@@ -175,6 +188,7 @@ Ladder climb_coherence(const Climb& climb, std::uint64_t last_cache, Broken& bro
             rung.how = kHow[w];
             rung.question = is_distance ? "how far apart" : "do they touch";
             rung.promise = Promise::exact;
+            rung.touched = asker.bytes_read(walks, static_cast<Way>(w) == Way::coherent);
             rung.time = timing_of(timings[w]);
             for (std::size_t i = 0; i < truth.size(); ++i) {
                 rung.seconds.push_back(seconds_of(timings[w], i));

@@ -10,6 +10,7 @@
 #include "cdprep/convex_distance.h"
 #include "cdprep/distance.h"
 #include "cdprep/model_hulls.h"
+#include "study/bytes_read.h"
 
 namespace cdprep::study {
 namespace {
@@ -120,6 +121,12 @@ public:
         }
     }
 
+    [[nodiscard]] double bytes_read(const Contender& contender,
+                                    const std::vector<std::size_t>& poses) {
+        return mean_bytes_read(climb_.a.model, climb_.b.model, workspace_, poses.size(),
+                               [&](std::size_t k) { contender.ask(poses[k]); });
+    }
+
 private:
     [[nodiscard]] Placement placement(std::size_t pose) const {
         return Placement::b_moves(climb_.set.poses[pose].a_from_b);
@@ -172,6 +179,8 @@ Ladder climb_distance(const Climb& climb, Broken& broken) {
     ladder.question = "how far apart are the surfaces, in the poses that do not touch";
     ladder.error = "greatest error, as a share of the distance";
     ladder.cases = "pose that does not touch";
+    ladder.left_out.emplace_back(
+        "Bytes that the hull's rung reads: which corners its search passes is not counted.");
     climb.begins("distance: asking");
     Contenders contenders(climb);
     contenders.add_hull();
@@ -183,6 +192,7 @@ Ladder climb_distance(const Climb& climb, Broken& broken) {
     std::vector<Question> questions;
     for (Contender& contender : contenders.all()) {
         judge(climb, poses, contender, broken);
+        if (!contender.is_bound) contender.rung.touched = contenders.bytes_read(contender, poses);
         questions.push_back(question_of([&contender, &poses](std::size_t k) {
             return contender.ask(poses[k]).lower > 0 ? 1 : 0;
         }));

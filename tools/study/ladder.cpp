@@ -37,22 +37,41 @@ Wrong find_wrong(const PoseSet& set, const Rung& rung) {
     return wrong;
 }
 
-StratumErrors errors_in(const PoseSet& set, const Rung& rung, Stratum stratum) {
+/// Wrong flags of some of the poses.
+struct WrongFlags {
+    ShareInterval misses;
+    ShareInterval false_hits;
+};
+
+WrongFlags wrong_flags(const PoseSet& set, const Rung& rung,
+                       const std::vector<std::size_t>& poses) {
     std::size_t hits = 0;
-    std::size_t apart = 0;
     std::size_t misses = 0;
     std::size_t false_hits = 0;
-    StratumErrors errors;
-    for (const std::size_t i : set.of(stratum)) {
+    for (const std::size_t i : poses) {
         const StudyPose& pose = set.poses[i];
-        ++(pose.hit ? hits : apart);
+        if (pose.hit) ++hits;
         if (is_miss(pose, rung.answers[i])) ++misses;
         if (is_false_hit(pose, rung.answers[i])) ++false_hits;
-        if (rung.answers[i] == Answer::unknown) ++errors.unknown;
     }
-    errors.misses = clopper_pearson(misses, hits);
-    errors.false_hits = clopper_pearson(false_hits, apart);
-    return errors;
+    return {clopper_pearson(misses, hits), clopper_pearson(false_hits, poses.size() - hits)};
+}
+
+StratumErrors errors_in(const PoseSet& set, const Rung& rung, Stratum stratum) {
+    const std::vector<std::size_t> poses = set.of(stratum);
+    const WrongFlags wrong = wrong_flags(set, rung, poses);
+    const auto unknown = std::ranges::count_if(
+        poses, [&](std::size_t i) { return rung.answers[i] == Answer::unknown; });
+    return {wrong.misses, wrong.false_hits, static_cast<std::size_t>(unknown), 0};
+}
+
+RigidErrors rigid_errors(const PoseSet& set, const Rung& rung) {
+    std::vector<std::size_t> proved;
+    for (std::size_t i = 0; i < set.poses.size(); ++i) {
+        if (set.poses[i].is_rigid) proved.push_back(i);
+    }
+    const WrongFlags wrong = wrong_flags(set, rung, proved);
+    return {wrong.misses, wrong.false_hits, set.poses.size() - proved.size()};
 }
 
 /// The deepest miss; without one the false hit that is farthest apart.
@@ -90,6 +109,7 @@ void judge_answers(const std::string& ladder, const PoseSet& set, Rung& rung, Br
         rung.strata[s] = errors_in(set, rung, static_cast<Stratum>(s));
         rung.strata[s].median_s = median;
     }
+    rung.rigid = rigid_errors(set, rung);
     const Wrong wrong = find_wrong(set, rung);
     find_worst(set, wrong, rung);
     std::size_t apart = 0;
@@ -114,6 +134,12 @@ void judge_answers(const std::string& ladder, const PoseSet& set, Rung& rung, Br
     if (is_both || promise == Promise::no_false_hits) {
         assert_none(ladder, set, rung, wrong.false_promise, "hits in", broken);
     }
+}
+
+void keep_error(const ShareBand& error, Rung& rung) {
+    rung.error = error.share;
+    rung.error_low = error.low;
+    rung.error_high = error.high;
 }
 
 void keep_time(const PoseSet& set, const Timings& timings, Rung& rung) {

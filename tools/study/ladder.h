@@ -12,6 +12,7 @@
 #include "cdprep/containment.h"
 #include "cdprep/parallel_for.h"
 #include "study/memory_model.h"
+#include "study/pair_errors.h"
 #include "study/pose_set.h"
 #include "study/share_interval.h"
 #include "study/timing.h"
@@ -37,18 +38,12 @@ struct StratumErrors {
     double median_s = 0;       ///< time
 };
 
-/// The set of overlapping triangle pairs against the exact one, over all poses that touch.
-struct PairErrors {
-    std::size_t wanted = 0;  ///< pairs of the exact sets
-    std::size_t found = 0;
-    std::size_t both = 0;
-
-    [[nodiscard]] double recall() const noexcept {
-        return wanted == 0 ? 1 : static_cast<double>(both) / static_cast<double>(wanted);
-    }
-    [[nodiscard]] double precision() const noexcept {
-        return found == 0 ? 1 : static_cast<double>(both) / static_cast<double>(found);
-    }
+/// The same flags against the truth of the exact rotation (level E3), over the poses at which
+/// it is proved. At the others it may be either.
+struct RigidErrors {
+    ShareInterval misses;       ///< called apart, of the poses that touch
+    ShareInterval false_hits;   ///< not called apart, of the poses that do not touch
+    std::size_t undecided = 0;  ///< poses at which nothing is proved
 };
 
 /// Distances against the exact ones, over the poses that do not touch.
@@ -69,17 +64,23 @@ struct Rung {
     std::vector<double> seconds;  ///< by case of the ladder
     std::vector<Answer> answers;  ///< by pose; empty where the question is another
     std::array<StratumErrors, kStrata> strata{};
-    std::optional<double> error;  ///< what the chart shows, 0 of an exact rung
-    double error_low = 0;         ///< 95 % confidence
+    std::optional<RigidErrors> rigid;  ///< where there are answers
+    std::optional<double> error;       ///< what the chart shows, 0 of an exact rung
+    double error_low = 0;              ///< 95 % confidence
     double error_high = 0;
     std::optional<double> build_s;       ///< both models; what its structures took
     std::optional<std::uint64_t> bytes;  ///< both models; of what it reads of
-    std::optional<double> touched;       ///< bytes that a question reads, on average
-    std::optional<PairErrors> pairs;
+    /// Bytes that a question reads, on average over the cases, counted as in bytes_read.h.
+    std::optional<double> touched;
+    std::vector<PairCounts> pair_counts;  ///< by pose; empty where no pairs are asked for
+    std::optional<PairErrors> pairs;      ///< of these
     std::optional<DistanceErrors> distance;
     /// No point of the shape is farther from the solid (or surface) than this, by the
     /// diagonal; proved. The greater of both models.
     std::optional<double> outer;
+    /// No point of the model is farther from the shape than this, by the diagonal; 0 where the
+    /// shape encloses.
+    std::optional<double> inner;
     std::optional<double> displacement;       ///< of a vertex at most, by the diagonal
     std::optional<std::uint64_t> degenerate;  ///< triangles that became so
     std::optional<std::size_t> worst_pose;    ///< number of the pose with the worst answer
@@ -122,6 +123,9 @@ struct Climb {
 /// `error` (false hits where the rung promises no misses), and the worst pose. Adds what breaks
 /// the promise.
 void judge_answers(const std::string& ladder, const PoseSet& set, Rung& rung, Broken& broken);
+
+/// Fills in the error with its band.
+void keep_error(const ShareBand& error, Rung& rung);
 
 /// Fills in time, in all and by stratum, of timings by pose.
 void keep_time(const PoseSet& set, const Timings& timings, Rung& rung);

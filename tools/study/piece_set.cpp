@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cdprep/convex_distance.h"
+#include "cdprep/query_counts.h"
 #include "convex/approximate_pieces.h"
 
 namespace cdprep::study {
@@ -27,6 +28,11 @@ BoundingSphere sphere_around(const convex::ConvexHull& hull) {
     mesh::Mesh corners;
     corners.positions = hull.points;
     return bounding_sphere(corners);
+}
+
+std::size_t bytes_of(const ConvexPoints& points) {
+    const std::size_t blocks = (points.count + format::kHullLanes - 1) / format::kHullLanes;
+    return blocks * sizeof(format::HullBlock);
 }
 
 double size_of(const Double3& p) {
@@ -73,17 +79,22 @@ std::optional<PieceSet> make_piece_set(const mesh::Mesh& mesh, std::size_t count
 }
 
 bool pieces_touch(const PieceSet& a, const PieceSet& b, const Pose& a_from_b,
-                  std::vector<Double3>& moved_centres) {
+                  std::vector<Double3>& moved_centres, std::uint64_t* read) {
     moved_centres.clear();
     for (const BoundingSphere& sphere : b.around) {
         moved_centres.push_back(moved(a_from_b, sphere.centre));
     }
     const Placement placement = Placement::b_moves(a_from_b);
     const double shift = size_of(a_from_b.translation());
+    const auto reads = [&](std::size_t bytes) {
+        if (read != nullptr) *read += bytes;
+    };
+    reads(sizeof(BoundingSphere) * b.around.size());
     for (std::size_t i = 0; i < a.around.size(); ++i) {
         const BoundingSphere& of_a = a.around[i];
         for (std::size_t j = 0; j < b.around.size(); ++j) {
             const BoundingSphere& of_b = b.around[j];
+            reads(2 * sizeof(BoundingSphere));
             const double slack = kSlack * (size_of(of_a.centre) + of_a.radius +
                                            size_of(of_b.centre) + of_b.radius + shift);
             const double x = moved_centres[j].x - of_a.centre.x;
@@ -91,9 +102,14 @@ bool pieces_touch(const PieceSet& a, const PieceSet& b, const Pose& a_from_b,
             const double z = moved_centres[j].z - of_a.centre.z;
             const double reach = of_a.radius + of_b.radius + slack;
             if (x * x + y * y + z * z > reach * reach) continue;
-            if (convex_collide(points_of(a.sections, i), points_of(b.sections, j), placement)) {
-                return true;
-            }
+            const ConvexPoints in_a = points_of(a.sections, i);
+            const ConvexPoints in_b = points_of(b.sections, j);
+            QueryCounts counts;
+            const bool touch =
+                convex_collide(in_a, in_b, placement, nullptr, read != nullptr ? &counts : nullptr);
+            // Without neighbours a step looks at all points of both.
+            reads(counts.hull_steps * (bytes_of(in_a) + bytes_of(in_b)));
+            if (touch) return true;
         }
     }
     return false;

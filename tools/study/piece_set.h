@@ -33,8 +33,9 @@ struct PieceSet {
                                                      const std::function<bool()>& stop);
 
 /// Whether any piece of A has a point in common with one of B as moved: spheres first, then
-/// convex_collide(). `moved_centres` is scratch.
+/// convex_collide(). `moved_centres` is scratch. To `read`, or null, it adds the bytes of what it
+/// reads; what it reads again counts again.
 [[nodiscard]] bool pieces_touch(const PieceSet& a, const PieceSet& b, const Pose& a_from_b,
-                                std::vector<Double3>& moved_centres);
+                                std::vector<Double3>& moved_centres, std::uint64_t* read = nullptr);
 
 }  // namespace cdprep::study

@@ -87,6 +87,7 @@ std::vector<Contender> all_contenders(bool has_float) {
         contender.rung.name = name;
         contender.rung.how = how;
         contender.rung.promise = promise;
+        contender.rung.touched = 2 * sizeof(Corners);
         contender.ask = std::move(ask);
         contenders.push_back(std::move(contender));
     };
@@ -107,30 +108,43 @@ std::vector<Contender> all_contenders(bool has_float) {
     return contenders;
 }
 
+/// Right answers of a pose, as pairs that are wanted and found.
+using RightAnswers = std::vector<PairCounts>;
+
+/// The share of wrong answers. Its band is the wider one of two: poses drawn again, for pairs
+/// of one pose are alike, and Clopper's and Pearson's, which is none too narrow where no answer
+/// is wrong.
+void keep_wrong_share(const RightAnswers& right, Rung& rung) {
+    const PairErrors drawn = pair_errors(right);
+    const std::size_t wrong = drawn.all.wanted - drawn.all.both;
+    const ShareInterval share = clopper_pearson(wrong, drawn.all.wanted);
+    keep_error({share.share(), std::min(share.low, 1 - drawn.recall.high),
+                std::max(share.high, 1 - drawn.recall.low)},
+               rung);
+}
+
 void judge(const Climb& climb, const std::vector<Candidate>& pairs, Contender& contender,
            Broken& broken) {
     Rung& rung = contender.rung;
-    PairErrors errors;
-    std::vector<std::size_t> wrong_in(climb.set.poses.size());
-    std::size_t wrong = 0;
+    rung.pair_counts.resize(climb.set.poses.size());
+    RightAnswers right(climb.set.poses.size());
     for (const Candidate& pair : pairs) {
         const bool found = contender.ask(pair);
-        errors.wanted += pair.touch ? 1 : 0;
-        errors.found += found ? 1 : 0;
-        errors.both += found && pair.touch ? 1 : 0;
-        if (found == pair.touch) continue;
-        ++wrong;
-        ++wrong_in[pair.pose];
+        PairCounts& counts = rung.pair_counts[pair.pose];
+        if (pair.touch) ++counts.wanted;
+        if (found) ++counts.found;
+        if (found && pair.touch) ++counts.both;
+        ++right[pair.pose].wanted;
+        ++right[pair.pose].found;
+        if (found == pair.touch) ++right[pair.pose].both;
     }
-    rung.pairs = errors;
-    const ShareInterval share = clopper_pearson(wrong, pairs.size());
-    rung.error = share.share();
-    rung.error_low = share.low;
-    rung.error_high = share.high;
-    if (wrong == 0) return;
-    const auto worst = std::ranges::max_element(wrong_in);
-    rung.worst_pose = static_cast<std::size_t>(worst - wrong_in.begin());
-    rung.worst = std::to_string(*worst) + " pairs wrong";
+    rung.pairs = pair_errors(rung.pair_counts);
+    keep_wrong_share(right, rung);
+    const auto wrong = [](const PairCounts& counts) { return counts.wanted - counts.both; };
+    const auto worst = std::ranges::max_element(right, {}, wrong);
+    if (worst == right.end() || wrong(*worst) == 0) return;
+    rung.worst_pose = static_cast<std::size_t>(worst - right.begin());
+    rung.worst = std::to_string(wrong(*worst)) + " pairs wrong";
     if (rung.promise == Promise::exact) {
         broken.push_back("predicates, " + rung.name + ": wrong about a pair in " +
                          pose_name(climb.set, *rung.worst_pose) + ".");

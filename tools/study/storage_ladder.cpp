@@ -12,6 +12,7 @@
 #include "cdprep/overlapping_triangles.h"
 #include "mesh/degenerate.h"
 #include "study/bounding_shapes.h"
+#include "study/bytes_read.h"
 
 namespace cdprep::study {
 namespace {
@@ -101,6 +102,8 @@ public:
         rung.displacement =
             std::max(moved_by(climb_.mesh_a, mesh_a), moved_by(climb_.mesh_b, mesh_b)) /
             climb_.set.diagonal;
+        // Every point of a triangle moves by at most what its corners do, either way.
+        rung.outer = rung.inner = rung.displacement;
         rung.promise = *rung.displacement == 0 ? Promise::exact : Promise::none;
         const std::size_t before = degenerate_count(climb_.mesh_a, climb_.parallel_for) +
                                    degenerate_count(climb_.mesh_b, climb_.parallel_for);
@@ -123,8 +126,13 @@ public:
             .hit;
     }
 
+    [[nodiscard]] double bytes_read(const Stored& way) {
+        return mean_bytes_read(way.a.model, way.b.model, workspace_, climb_.set.poses.size(),
+                               [&](std::size_t i) { static_cast<void>(hits(way, i)); });
+    }
+
     void judge(Stored& way, Broken& broken) {
-        PairErrors errors;
+        std::vector<PairCounts>& counts = way.rung.pair_counts;
         for (std::size_t i = 0; i < climb_.set.poses.size() && !climb_.must_stop(); ++i) {
             way.rung.answers.push_back(hits(way, i) ? Answer::yes : Answer::no);
             const Pose& pose = climb_.set.poses[i].a_from_b;
@@ -132,25 +140,19 @@ public:
             const Pairs found = pairs_of(way.a, way.b, pose, workspace_);
             Pairs both;
             std::ranges::set_intersection(truth, found, std::back_inserter(both));
-            errors.wanted += truth.size();
-            errors.found += found.size();
-            errors.both += both.size();
+            counts.push_back({truth.size(), found.size(), both.size()});
         }
         if (climb_.must_stop()) return;
+        const PairErrors errors = pair_errors(counts);
         way.rung.pairs = errors;
         judge_answers("storage", climb_.set, way.rung, broken);
         if (way.rung.promise == Promise::exact &&
-            (errors.both != errors.wanted || errors.both != errors.found)) {
+            (errors.all.both != errors.all.wanted || errors.all.both != errors.all.found)) {
             broken.push_back("storage, " + way.rung.name +
                              ": other pairs of triangles, though no vertex moved.");
         }
         // Few flags change; how many pairs do tells more.
-        const std::size_t either = errors.wanted + errors.found - errors.both;
-        const auto wrong = static_cast<double>(either - errors.both);
-        way.rung.error = either == 0 ? 0 : wrong / static_cast<double>(either);
-        // Pairs of one pose change together: no interval is known.
-        way.rung.error_low = *way.rung.error;
-        way.rung.error_high = *way.rung.error;
+        keep_error(errors.wrong, way.rung);
     }
 
 private:
@@ -207,6 +209,7 @@ Ladder climb_storage(const Climb& climb, Broken& broken) {
     std::vector<Question> questions;
     for (Stored& way : ways.all()) {
         ways.judge(way, broken);
+        way.rung.touched = ways.bytes_read(way);
         questions.push_back(
             question_of([&ways, &way](std::size_t i) { return ways.hits(way, i) ? 1 : 0; }));
     }

@@ -49,13 +49,15 @@ TEST(StudyAccuracy, NoPromiseBreaksAndEveryLadderIsClimbed) {
 TEST(StudyAccuracy, ShapesThatFitBetterErrLess) {
     const Ladder& ladder = studied().ladders[0];
     EXPECT_GE(*rung_of(ladder, "sphere").error, *rung_of(ladder, "hull").error);
+    EXPECT_GE(*rung_of(ladder, "26-DOP").error, *rung_of(ladder, "hull").error);
+    EXPECT_GE(*rung_of(ladder, "box").outer, *rung_of(ladder, "26-DOP").outer);
     EXPECT_GE(*rung_of(ladder, "box").error, *rung_of(ladder, "hull").error);
     EXPECT_GT(*rung_of(ladder, "sphere").error, 0);
     EXPECT_GT(*rung_of(ladder, "hull").outer, *rung_of(ladder, "8 pieces").outer);
     EXPECT_GT(*rung_of(ladder, "octree 3").outer, *rung_of(ladder, "octree 5").outer);
     EXPECT_EQ(*rung_of(ladder, "exact").error, 0);
-    EXPECT_EQ(rung_of(ladder, "float, doubt hits").pairs->recall(), 1);
-    EXPECT_EQ(rung_of(ladder, "float, doubt misses").pairs->precision(), 1);
+    EXPECT_EQ(rung_of(ladder, "float, doubt hits").pairs->recall.share, 1);
+    EXPECT_EQ(rung_of(ladder, "float, doubt misses").pairs->precision.share, 1);
 }
 
 TEST(StudyAccuracy, IntervalsHoldTheTruthAndShrink) {

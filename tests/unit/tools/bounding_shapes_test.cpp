@@ -43,12 +43,59 @@ TEST(BoundingShapes, OrientedBoxesTellTurnedCubesApart) {
     EXPECT_FALSE(may_touch(box, box, turned));
 }
 
+// By hand: of the unit cube only the three pairs of faces cut, and its corners stay; the
+// octahedron |x| + |y| + |z| <= 1 has six, as no other plane cuts any off.
+TEST(BoundingShapes, PolytopesOfSimpleSolidsHaveTheirCorners) {
+    EXPECT_EQ(bounding_dop(test::mesh_of(test::unit_cube())).corners.size(), 8U);
+    const mesh::Mesh octahedron =
+        test::mesh_of({{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                       {{{0, 2, 4},
+                         {2, 1, 4},
+                         {1, 3, 4},
+                         {3, 0, 4},
+                         {2, 0, 5},
+                         {1, 2, 5},
+                         {3, 1, 5},
+                         {0, 3, 5}}}});
+    const BoundingDop dop = bounding_dop(octahedron);
+    ASSERT_EQ(dop.corners.size(), 6U);
+    for (const Double3& p : dop.corners) {
+        EXPECT_NEAR(std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z), 1, 1e-12);
+        EXPECT_NEAR(p.x * p.x + p.y * p.y + p.z * p.z, 1, 1e-12);
+    }
+}
+
+// By hand: octahedra corner to corner touch at a distance of 2; face to face, along the
+// diagonal, at 2 / sqrt(3), where boxes around them meet up to 2.
+TEST(BoundingShapes, PolytopesTellApartWhatBoxesDoNot) {
+    const mesh::Mesh octahedron =
+        test::mesh_of({{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                       {{{0, 2, 4},
+                         {2, 1, 4},
+                         {1, 3, 4},
+                         {3, 0, 4},
+                         {2, 0, 5},
+                         {1, 2, 5},
+                         {3, 1, 5},
+                         {0, 3, 5}}}});
+    const BoundingDop dop = bounding_dop(octahedron);
+    const BoundingBox box = aligned_box(octahedron);
+    EXPECT_TRUE(may_touch(dop, dop, shifted(2)));
+    EXPECT_FALSE(may_touch(dop, dop, shifted(2.001)));
+    EXPECT_TRUE(may_touch(dop, dop, shifted(0.66, 0.66, 0.66)));
+    EXPECT_FALSE(may_touch(dop, dop, shifted(0.67, 0.67, 0.67)));
+    EXPECT_TRUE(may_touch_aligned(box, box, shifted(0.67, 0.67, 0.67)));
+    EXPECT_FALSE(may_touch(BoundingDop{}, dop, shifted(0)));
+}
+
 // Of models that touch, shapes around them do: exact answers against all three.
 TEST(BoundingShapes, NeverMissAndOftenTellApart) {
     const test::TestMesh first = test::torus(1, 0.3, 16, 8);
     const test::TestMesh second = test::random_soup(5, 30, 0.5);
     const mesh::Mesh a = test::mesh_of(first);
     const mesh::Mesh b = test::mesh_of(second);
+    const BoundingDop dop_a = bounding_dop(a);
+    const BoundingDop dop_b = bounding_dop(b);
     const MemoryModel model_a = make_memory_model(a).value();
     const MemoryModel model_b = make_memory_model(b).value();
     Workspace workspace;
@@ -60,12 +107,13 @@ TEST(BoundingShapes, NeverMissAndOftenTellApart) {
         const bool by_sphere = may_touch(bounding_sphere(a), bounding_sphere(b), pose);
         const bool by_box = may_touch_aligned(aligned_box(a), aligned_box(b), pose);
         const bool by_oriented = may_touch(oriented_box(a), oriented_box(b), pose);
-        apart += by_sphere && by_box && by_oriented ? 0 : 1;
+        const bool by_dop = may_touch(dop_a, dop_b, pose);
+        apart += by_sphere && by_box && by_oriented && by_dop ? 0 : 1;
         if (!collide(model_a.model, model_b.model, Placement::b_moves(pose), workspace).hit) {
             continue;
         }
         ++hits;
-        EXPECT_TRUE(by_sphere && by_box && by_oriented);
+        EXPECT_TRUE(by_sphere && by_box && by_oriented && by_dop);
     }
     EXPECT_GT(hits, 300);
     EXPECT_GT(apart, 300);

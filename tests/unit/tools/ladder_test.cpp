@@ -55,6 +55,22 @@ TEST(JudgeAnswers, ShapesThatEncloseErrByFalseHits) {
     EXPECT_EQ(far.misses.of, 0U);
 }
 
+// By hand: the second pose, which is missed, and the fourth, a false hit, are not proved.
+TEST(JudgeAnswers, ErrorsOfTheExactRotationAreThoseOfProvedPoses) {
+    PoseSet set = five_poses();
+    for (const std::size_t i : {0U, 2U, 4U}) set.poses[i].is_rigid = true;
+    Rung rung;
+    rung.answers = {kYes, kNo, kYes, kYes, kNo};
+    Broken broken;
+    judge_answers("ladder", set, rung, broken);
+    ASSERT_TRUE(rung.rigid);
+    EXPECT_EQ(rung.rigid->undecided, 2U);
+    EXPECT_EQ(rung.rigid->misses.count, 0U);
+    EXPECT_EQ(rung.rigid->misses.of, 1U);
+    EXPECT_EQ(rung.rigid->false_hits.count, 1U);
+    EXPECT_EQ(rung.rigid->false_hits.of, 2U);
+}
+
 TEST(JudgeAnswers, AMissBreaksThePromiseToMissNothing) {
     Broken broken;
     const Rung rung = judged(Promise::no_misses, {kYes, kNo, kNo, kNo, kNo}, broken);

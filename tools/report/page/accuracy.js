@@ -21,6 +21,13 @@ function in_bytes(bytes) {
   return bytes < 1e7 ? `${digits(bytes / 1e3)} kB` : `${digits(bytes / 1e6)} MB`;
 }
 
+/** A share with its 95 % band, where that is wider than a point. */
+function in_band(band) {
+  const value = band.value.toFixed(5);
+  return band.low < band.high ? `${value} (${band.low.toFixed(5)} to ${band.high.toFixed(5)})`
+    : value;
+}
+
 /** How poses of a rung's stratum went: "deep: 4.1 us, 0 of 50 missed". */
 function stratum_line(name, stratum) {
   const parts = [];
@@ -44,18 +51,26 @@ function facts_of(ladder, rung) {
     ["measured", `${time.cases} cases, ${time.rounds} rounds, spread ${in_time(time.spread_s)}`]];
   if (rung.build_s !== undefined) facts.push(["build", in_time(rung.build_s)]);
   if (rung.bytes !== undefined) facts.push(["size", in_bytes(rung.bytes)]);
+  if (rung.touched_bytes !== undefined) {
+    facts.push(["reads", `${in_bytes(Math.round(rung.touched_bytes))} a question`]);
+  }
   if (rung.error) {
     facts.push(["error", `${per_cent(rung.error.value)} (${per_cent(rung.error.low)} to `
       + `${per_cent(rung.error.high)})`]);
   }
   if (rung.outer !== undefined) facts.push(["sticks out", `${per_cent(rung.outer)} of the diagonal`]);
   if (rung.pairs) {
-    facts.push(["pairs", `recall ${rung.pairs.recall.toFixed(5)}, precision `
-      + rung.pairs.precision.toFixed(5)]);
+    facts.push(["pairs", `recall ${in_band(rung.pairs.recall)}, `
+      + `precision ${in_band(rung.pairs.precision)}`]);
   }
   if (rung.distance) {
     const holds = rung.distance.interval_holds;
     facts.push(["interval", `holds the truth in ${holds.count} of ${holds.of}`]);
+  }
+  if (rung.rigid) {
+    const {misses, false_hits, undecided} = rung.rigid;
+    facts.push(["at E3", `${misses.count} of ${misses.of} missed, ${false_hits.count} of `
+      + `${false_hits.of} false hits; ${undecided} poses not proved`]);
   }
   for (const [name, stratum] of Object.entries(rung.strata || {})) {
     const line = stratum_line(name, stratum);
