@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "command.h"
 #include "import_limits.h"
@@ -29,6 +33,7 @@ struct Arguments {
     fs::path a;
     fs::path b;
     fs::path output;
+    std::vector<fs::path> saves;  ///< more files, of formats by their names
     bool is_quick = false;
     std::uint64_t seed = 1;
     std::vector<std::string> ladders;
@@ -61,13 +66,50 @@ private:
     Clock::time_point begun_ = Clock::now();
 };
 
+constexpr std::array<const char*, 5> kFormats = {"text", "json", "csv", "svg", "html"};
+
+/// One place to which the study is written.
+struct Output {
+    std::string format;
+    ReportOutput to;
+};
+
+/// The format that a file's name asks for.
+Result<std::string> format_of(const fs::path& path) {
+    std::string end = path.extension().string();
+    if (!end.empty()) end.erase(0, 1);
+    if (end == "txt") return std::string("text");
+    if (end != "text" && std::ranges::count(kFormats, end) > 0) return end;
+    return Error{ErrorCode::bad_argument, path.string() +
+                                              ": what to save must end in .txt, .json, .csv, .svg "
+                                              "or .html, which says how."};
+}
+
 /// Begins the file, so that a place where none can be is said before the work.
-Result<ReportOutput> open_output(const Arguments& arguments) {
+Result<Output> open_output(const Arguments& arguments, const fs::path& path,
+                           const std::string& format) {
     for (const fs::path* input : {&arguments.a, &arguments.b}) {
-        if (arguments.output.empty()) break;
-        if (auto error = find_replaced_input(*input, arguments.output)) return *error;
+        if (path.empty()) break;
+        if (auto error = find_replaced_input(*input, path)) return *error;
     }
-    return ReportOutput::open(arguments.output);
+    Result<ReportOutput> opened = ReportOutput::open(path);
+    if (!opened) return opened.error();
+    return Output{format, std::move(opened).value()};
+}
+
+Result<std::vector<Output>> open_outputs(const Arguments& arguments) {
+    std::vector<Output> outputs;
+    Result<Output> first = open_output(arguments, arguments.output, arguments.format);
+    if (!first) return first.error();
+    outputs.push_back(std::move(first).value());
+    for (const fs::path& path : arguments.saves) {
+        const Result<std::string> format = format_of(path);
+        if (!format) return format.error();
+        Result<Output> opened = open_output(arguments, path, format.value());
+        if (!opened) return opened.error();
+        outputs.push_back(std::move(opened).value());
+    }
+    return outputs;
 }
 
 Result<study::AccuracyStudy> study_pair(const Arguments& arguments, Progress& progress) {
@@ -107,10 +149,12 @@ std::string written_as(const std::string& format, const report::AccuracyReport& 
 }
 
 /// Writes what was found; an output that fails says so.
-Exit write(const Arguments& arguments, const report::AccuracyReport& report, ReportOutput& output) {
-    Result<Done> written = output.append(written_as(arguments.format, report));
-    if (written) written = output.finish();
-    if (!written) return fail("accuracy", written.error());
+Exit write(const report::AccuracyReport& report, std::vector<Output>& outputs) {
+    for (Output& output : outputs) {
+        Result<Done> written = output.to.append(written_as(output.format, report));
+        if (written) written = output.to.finish();
+        if (!written) return fail("accuracy", written.error());
+    }
     for (const std::string& sentence : report.study.broken) {
         std::cerr << "cdprep accuracy: a promise is broken: " << sentence << '\n';
     }
@@ -120,8 +164,8 @@ Exit write(const Arguments& arguments, const report::AccuracyReport& report, Rep
 Exit run(const Arguments& arguments) {
     const Result<ProgressStyle> style = parse_progress(arguments.progress);
     if (!style) return fail("accuracy", style.error());
-    Result<ReportOutput> output = open_output(arguments);
-    if (!output) return fail("accuracy", output.error());
+    Result<std::vector<Output>> outputs = open_outputs(arguments);
+    if (!outputs) return fail("accuracy", outputs.error());
     Progress progress(style.value(), 100);
     Result<study::AccuracyStudy> studied = study_pair(arguments, progress);
     progress.clear();
@@ -139,7 +183,7 @@ Exit run(const Arguments& arguments) {
     }
     report.study = std::move(studied).value();
     if (!report.study.broken.empty()) report.exit = static_cast<int>(Exit::internal);
-    return write(arguments, report, output.value());
+    return write(report, outputs.value());
 }
 
 }  // namespace
@@ -156,6 +200,10 @@ void add_accuracy(CLI::App& app, Exit& exit) {
     command->add_option("A", arguments->a, "A mesh file or a baked file; it stays")->required();
     command->add_option("B", arguments->b, "The other one; it moves")->required();
     command->add_option("-o,--output", arguments->output, "A file instead of standard output");
+    command
+        ->add_option("--save", arguments->saves,
+                     "Another file: .txt, .json, .csv, .svg or .html; may be given again")
+        ->allow_extra_args(false);
     command->add_flag("--quick", arguments->is_quick,
                       "Seconds instead of a minute or two: fewer poses, rounds and rungs");
     command->add_option("--seed", arguments->seed, "Of the poses")->capture_default_str();
@@ -166,7 +214,7 @@ void add_accuracy(CLI::App& app, Exit& exit) {
         ->check(CLI::IsMember(
             std::vector<std::string>(study::kLadderNames.begin(), study::kLadderNames.end())));
     command->add_option("--format", arguments->format, "text, json, csv, svg or html")
-        ->check(CLI::IsMember({"text", "json", "csv", "svg", "html"}))
+        ->check(CLI::IsMember(std::vector<std::string>(kFormats.begin(), kFormats.end())))
         ->capture_default_str();
     add_normalize(*command, arguments->load.normalize);
     add_weld(*command, arguments->load.weld_distance);
