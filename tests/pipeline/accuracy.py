@@ -1,7 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 """Studies two sample meshes through the program: what every format holds, what is asserted,
-what is refused in which words, and that the page tells of a rung when one points at it."""
+what is refused in which words, and that the page tells of a rung when one points at it.
+
+Usage: accuracy.py CDPREP FAULTY
+FAULTY is the program with cells of octrees that never meet.
+"""
 import csv
 import json
 import math
@@ -13,11 +17,15 @@ import tempfile
 import time
 import xml.etree.ElementTree
 
+import jsonschema
+
 from browser import Browser, find_chromium
 from shared_models import bake, must, run
 
-PROGRAM = sys.argv[1]
-MESHES = pathlib.Path(__file__).resolve().parents[2] / "samples" / "meshes"
+PROGRAM, FAULTY = sys.argv[1:3]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+MESHES = ROOT / "samples" / "meshes"
+SCHEMA = json.loads((ROOT / "tools/report/accuracy.schema.json").read_text())
 BOLT, BRACKET = MESHES / "bolt.obj", MESHES / "bracket.obj"
 LADDERS = ["geometry", "distance", "predicates", "storage", "coherence"]
 STRATA = ["deep", "shallow", "touching", "near", "far"]
@@ -29,13 +37,31 @@ def accuracy(*arguments, code=0):
     return done
 
 
-def wrong_flags(study, rung):
+def check_schema(study):
+    error = jsonschema.exceptions.best_match(
+        jsonschema.Draft202012Validator(SCHEMA).iter_errors(study))
+    must(error is None, error and f"at {list(error.absolute_path)}: {error.message[:400]}")
+
+
+def wrong_flags(study, rung, rigid_only=False):
     """False hits and misses, counted anew from the answers by pose."""
-    misses = sum(pose["hit"] and answer == "no"
-                 for pose, answer in zip(study["poses"], rung["answers"]))
-    false_hits = sum(not pose["hit"] and answer != "no"
-                     for pose, answer in zip(study["poses"], rung["answers"]))
+    asked = [(pose, answer) for pose, answer in zip(study["poses"], rung["answers"])
+             if pose["rigid"] or not rigid_only]
+    misses = sum(pose["hit"] and answer == "no" for pose, answer in asked)
+    false_hits = sum(not pose["hit"] and answer != "no" for pose, answer in asked)
     return misses, false_hits
+
+
+def check_pairs(where, rung):
+    """Sums by pose, and shares of the sums, within their bands."""
+    pairs = rung["pairs"]
+    wanted, found, both = (sum(pose[i] for pose in rung["pairs_by_pose"]) for i in range(3))
+    must([wanted, found, both] == [pairs["wanted"], pairs["found"], pairs["both"]],
+         f"{where}: {pairs}")
+    for name, part, whole in [("recall", both, wanted), ("precision", both, found)]:
+        band = pairs[name]
+        must(math.isclose(band["value"], part / whole if whole else 1), f"{where}: {band}")
+        must(band["low"] <= band["value"] <= band["high"], f"{where}: {band}")
 
 
 def check_rung(study, ladder, rung):
@@ -45,8 +71,15 @@ def check_rung(study, ladder, rung):
     must(len(rung["seconds"]) == times["cases"], f"{where}: {len(rung['seconds'])} times")
     median = sorted(rung["seconds"])[(times["cases"] + 1) // 2 - 1]
     must(math.isclose(median, times["median_s"], rel_tol=1e-9), f"{where}: median {median}")
+    if "pairs" in rung:
+        check_pairs(where, rung)
     if "answers" not in rung:
         return
+    rigid = rung["rigid"]
+    must(wrong_flags(study, rung, True) == (rigid["misses"]["count"], rigid["false_hits"]["count"]),
+         f"{where}: {rigid}")
+    must(rigid["misses"]["of"] + rigid["false_hits"]["of"] == study["rigid"]
+         == len(study["poses"]) - rigid["undecided"], f"{where}: {rigid}")
     must(len(rung["answers"]) == len(study["poses"]), f"{where}: answers")
     misses, false_hits = wrong_flags(study, rung)
     strata = rung["strata"].values()
@@ -63,6 +96,7 @@ def check_json(folder):
     output = folder / "study.json"
     accuracy(BOLT, BRACKET, "--quick", "--format", "json", "-o", output)
     study = json.loads(output.read_text())
+    check_schema(study)
     must(study["exit"] == 0 and study["broken"] == [], f"broken: {study['broken']}")
     must([ladder["name"] for ladder in study["ladders"]] == LADDERS, "ladders")
     must({pose["stratum"] for pose in study["poses"]} == set(STRATA), "strata")
@@ -74,6 +108,8 @@ def check_json(folder):
     for ladder in study["ladders"]:
         for rung in ladder["rungs"]:
             check_rung(study, ladder, rung)
+            is_told = "touched_bytes" in rung or any("hull" in left for left in ladder["left_out"])
+            must(is_told, f"{rung['name']}: bytes that it reads")
     for rung in study["ladders"][1]["rungs"]:
         holds = rung["distance"]["interval_holds"]
         must(holds["count"] == holds["of"] > 0, f"distance, {rung['name']}: {holds}")
@@ -110,8 +146,9 @@ def check_other_formats(folder):
     table = list(csv.DictReader(row for row in rows if not row.startswith("#")))
     must({row["ladder"] for row in table} == {"predicates", "storage"}, "ladders of the CSV")
     must(all(float(row["median_s"]) > 0 and None not in row for row in table), "cells of the CSV")
-    svg = folder / "charts.svg"
-    accuracy(BOLT, BRACKET, *short, "--format", "svg", "-o", svg)
+    svg, again = folder / "charts.svg", folder / "again.csv"
+    rows = accuracy(BOLT, BRACKET, *short, "--format", "csv", "--save", svg, "--save", again).stdout
+    must(again.read_text() == rows, "what is saved is not what is printed")
     root = xml.etree.ElementTree.parse(svg).getroot()
     must(root.tag == "{http://www.w3.org/2000/svg}svg", root.tag)
     must(len(root.findall(".//{*}circle")) >= 11, "marks of the charts")
@@ -148,6 +185,21 @@ def check_page(folder):
         must(not browser.complaints, f"the console says {browser.complaints}")
 
 
+def check_broken_promise(folder):
+    """A program whose octrees miss what they enclose says so in every format, and exits with 6."""
+    output = folder / "broken.json"
+    short = ["accuracy", BOLT, BRACKET, "--quick", "--ladder", "geometry"]
+    done = run(FAULTY, *short, "--format", "json", "-o", output)
+    must(done.returncode == 6, f"exit {done.returncode}: {done.stderr}")
+    must("a promise is broken: geometry, octree 3: " in done.stderr, done.stderr)
+    study = json.loads(output.read_text())
+    check_schema(study)
+    must(study["exit"] == 6 and len(study["broken"]) == 2, study["broken"])
+    must(all("misses" in sentence for sentence in study["broken"]), study["broken"])
+    done = run(FAULTY, *short)
+    must(done.returncode == 6 and "BROKEN PROMISE: geometry, octree 3" in done.stdout, done.stdout)
+
+
 def check_refusals(folder):
     """Asked wrongly: 2; unreadable: 3; not written: 4; each in a sentence."""
     empty = folder / "empty.obj"
@@ -156,6 +208,7 @@ def check_refusals(folder):
             ([BOLT, empty, "--quick"], 2, "second model has no triangles"),
             ([BOLT, folder / "missing.obj"], 3, "missing.obj"),
             ([BOLT, BRACKET, "--quick", "--ladder", "stairs"], 2, "stairs"),
+            ([BOLT, BRACKET, "--quick", "--save", BOLT], 2, "must end in .txt"),
             ([BOLT, BRACKET, "--quick", "-o", BOLT], 2, "is the input and would be replaced"),
             ([folder / "bolt.cdp.h5", BRACKET, "--normalize"], 2, "is baked already"),
             ([BOLT, BRACKET, "--progress", "loud"], 2, "must be auto"),
@@ -165,6 +218,7 @@ def check_refusals(folder):
         must(words in done.stderr, f"{arguments}: {done.stderr}")
         must(done.stdout == "", f"{arguments} printed {done.stdout[:80]}")
     failed = json.loads(accuracy(BOLT, empty, "--format", "json", code=2).stdout)
+    check_schema(failed)
     must(failed["exit"] == 2 and "no triangles" in failed["error"], failed)
 
 
@@ -191,6 +245,7 @@ def main():
         check_baked(study, baked)
         check_other_formats(folder)
         check_page(folder)
+        check_broken_promise(folder)
         check_refusals(folder)
         check_interrupt(folder)
     print(f"{len(study['poses'])} poses, {sum(len(l['rungs']) for l in study['ladders'])} rungs")
