@@ -76,6 +76,41 @@ def check_sample(program, folder, name, tolerance):
     return report["pieces"]
 
 
+def write_obj(path, *bodies):
+    """A group for each (name, corners, faces)."""
+    lines, first = [], 1
+    for name, corners, faces in bodies:
+        lines += [f"v {x} {y} {z}" for x, y, z in corners]
+        lines += [f"g {name}"] + ["f " + " ".join(str(first + i) for i in face) for face in faces]
+        first += len(corners)
+    path.write_text("\n".join(lines) + "\n")
+
+
+def prism(outline):
+    """A polygon from z = 0 to 1: two faces and a square for each edge."""
+    n = len(outline)
+    faces = [tuple(reversed(range(n))), tuple(range(n, 2 * n))]
+    faces += [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n)]
+    return [(x, y, z) for z in (0, 1) for x, y in outline], faces
+
+
+def check_names(program, folder):
+    """Names that say convex: the surface is cut by what it is, what encloses heeds them."""
+    box = prism([(4, 0), (5, 0), (5, 1), (4, 1)])
+    corner = prism([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
+    tagged, plain = folder / "tagged.obj", folder / "plain.obj"
+    write_obj(tagged, ("UCX_box", *box), ("corner_convex", *corner))
+    write_obj(plain, ("box", *box), ("corner", *corner))
+    count = {}
+    for path in (tagged, plain):
+        for options in ((), ("--max-error", "1e-3")):
+            done = run(program, "decompose", path, "--format", "json", *options)
+            must(done.returncode in (0, 1), f"decompose {path}: {done.stderr}")
+            count[path, bool(options)] = json.loads(done.stdout)["pieces"]
+    must(count[tagged, False] == count[plain, False] == 3, f"a box and two of an L: {count}")
+    must(count[tagged, True] == 2 and count[plain, True] == 3, f"hulls of what is named: {count}")
+
+
 def main():
     program = sys.argv[1]
     with tempfile.TemporaryDirectory() as scratch:
@@ -96,6 +131,7 @@ def main():
             counts = {s["name"]: s["count"] for s in json.loads(done.stdout)["sections"]}
             must(counts["pieces"] == exact, f"{counts['pieces']} pieces baked, {exact} reported")
 
+        check_names(program, folder)
         bolt = SAMPLES / "bolt.obj"
         decompose(program, bolt, "-o", folder / "x.stl", code=2)
         decompose(program, bolt, "--exact", "--tolerance", 1, code=2)

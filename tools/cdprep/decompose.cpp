@@ -179,9 +179,12 @@ void add_decompose(CLI::App& app, Exit& exit) {
     command->footer(
         "Cuts the surface into patches that lie on the boundary of their convex hulls, exactly\n"
         "or, with --tolerance, nearly. Takes any mesh: borders, edges that are not manifold and\n"
-        "edges whose triangles are wound against each other are never crossed.\n"
+        "edges whose triangles are wound against each other are never crossed. No name of a node\n"
+        "counts there: a convex body is one piece whatever its name, cut only where it has edges\n"
+        "in common with others, and the hull of one that is not would not lie on it.\n"
         "With --max-error or --parts, encloses the mesh in few convex pieces instead, which stick\n"
-        "out of the solid by no more than is stated, and proved; components and nodes stay apart.\n"
+        "out of the solid by no more than is stated, and proved; components and nodes stay apart,\n"
+        "and nodes named UCX_..., ...-convex or ..._convex become their hulls.\n"
         "Exits with 1 when it could not be done as asked; what was found is written all the\n"
         "same. Which node of the file a piece is of is in --table.");
     add_input(*command, arguments->input);
