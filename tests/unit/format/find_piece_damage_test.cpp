@@ -2,15 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 
 #include "cdprep/format/content_hash.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/pieces.h"
 #include "cdprep/format/sections.h"
+#include "support/changed_sections.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
-#include "support/reseal.h"
 
 namespace cdprep::format {
 namespace {
@@ -90,15 +89,7 @@ TEST(FindPieceDamage, AcceptsSoundPieces) {
 TEST(FindPieceDamage, RefusesPiecesOfWhichAPartIsMissing) {
     const AlignedBytes whole = file_of(two_pieces());
     for (const SectionId missing : kIds) {
-        std::vector<test::TinySection> sections;
-        for (std::uint32_t id = 1; id < 64; ++id) {
-            const auto entry = find_section(whole.span(), SectionId{id});
-            if (!entry || SectionId{id} == missing) continue;
-            const auto bytes =
-                whole.span().subspan(entry->offset, entry->count * entry->element_size);
-            sections.push_back({entry->id, {bytes.begin(), bytes.end()}});
-        }
-        const AlignedBytes file = test::assemble(read_header(whole.span()), sections);
+        const AlignedBytes file = test::without(whole, missing);
         const auto damage = find_damage(file.span(), SectionSet::all());
         ASSERT_TRUE(damage) << section_name(missing);
         EXPECT_EQ(damage->kind, DamageKind::missing_section);

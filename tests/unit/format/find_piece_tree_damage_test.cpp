@@ -8,8 +8,8 @@
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/pieces.h"
 #include "cdprep/format/sections.h"
+#include "support/changed_sections.h"
 #include "support/meshes.h"
-#include "support/reseal.h"
 #include "support/tiny_pieces.h"
 
 namespace cdprep::format {
@@ -27,25 +27,10 @@ AlignedBytes baked() {
         test::bake_tiny(ball.positions, ball.triangles, {.double_precision = true}));
 }
 
-/// What a file is but for one section, which is gone or has other bytes.
-template <class Change>
-AlignedBytes with_changed(SectionId id, Change change) {
-    const AlignedBytes whole = baked();
-    std::vector<test::TinySection> sections;
-    for (std::uint32_t number = 1; number < 64; ++number) {
-        const auto entry = find_section(whole.span(), SectionId{number});
-        if (!entry) continue;
-        const auto bytes = whole.span().subspan(entry->offset, entry->count * entry->element_size);
-        test::TinySection section{entry->id, {bytes.begin(), bytes.end()}};
-        if (entry->id != id || change(section.bytes)) sections.push_back(std::move(section));
-    }
-    return test::assemble(read_header(whole.span()), sections);
-}
-
 /// After `change` of element `index`, the damage is of this kind, in this section.
 template <class T, class Change>
 void expect(DamageKind kind, SectionId id, std::size_t index, Change change) {
-    const AlignedBytes file = with_changed(id, [&](std::vector<std::byte>& bytes) {
+    const AlignedBytes file = test::with_changed(baked(), id, [&](std::vector<std::byte>& bytes) {
         T element;
         std::memcpy(&element, bytes.data() + index * sizeof element, sizeof element);
         change(element);
@@ -69,8 +54,7 @@ TEST(FindPieceTreeDamage, AcceptsASoundHierarchy) {
 
 TEST(FindPieceTreeDamage, RefusesAHierarchyOfWhichAPartIsMissing) {
     for (const SectionId missing : kIds) {
-        const AlignedBytes file =
-            with_changed(missing, [](std::vector<std::byte>&) { return false; });
+        const AlignedBytes file = test::without(baked(), missing);
         const auto damage = find_damage(file.span(), SectionSet::all());
         ASSERT_TRUE(damage) << section_name(missing);
         EXPECT_EQ(damage->kind, DamageKind::missing_section);
@@ -80,10 +64,11 @@ TEST(FindPieceTreeDamage, RefusesAHierarchyOfWhichAPartIsMissing) {
 
 TEST(FindPieceTreeDamage, RefusesSectionsOfAnotherLength) {
     for (const SectionId id : kIds) {
-        const AlignedBytes file = with_changed(id, [&](std::vector<std::byte>& bytes) {
-            bytes.resize(bytes.size() - element_size(id));
-            return true;
-        });
+        const AlignedBytes file =
+            test::with_changed(baked(), id, [&](std::vector<std::byte>& bytes) {
+                bytes.resize(bytes.size() - element_size(id));
+                return true;
+            });
         const auto damage = find_damage(file.span(), SectionSet::all());
         ASSERT_TRUE(damage) << section_name(id);
         EXPECT_EQ(damage->kind, DamageKind::bad_count) << section_name(id);
@@ -106,7 +91,7 @@ TEST(FindPieceTreeDamage, RefusesLeavesThatAreNoRunsOfTheirPiece) {
 // By hand: what is sound to read is not right.
 TEST(FindPieceTreeDamage, DeepCheckRefusesBoundsThatAreTooSmall) {
     const auto damage_of = [](SectionId id, auto change) {
-        const AlignedBytes file = with_changed(id, change);
+        const AlignedBytes file = test::with_changed(baked(), id, change);
         EXPECT_FALSE(find_damage(file.span(), SectionSet::all())) << section_name(id);
         return find_deep_damage(file.span());
     };

@@ -2,22 +2,24 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <random>
 
 #include "cdprep/format/content_hash.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/format/tetra_tree.h"
+#include "support/changed_sections.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
-#include "support/reseal.h"
 
 namespace cdprep::format {
 namespace {
 
 using test::AlignedBytes;
+using test::element;
+using test::entry_of;
+using test::with;
 
 AlignedBytes baked(const test::TestMesh& mesh, const build::TetraTreeOptions& options) {
     return test::with_tetra_tree(
@@ -38,27 +40,6 @@ AlignedBytes small_tree(TetraBounding bounding = TetraBounding::caps) {
 
 std::optional<Damage> check(const AlignedBytes& file, SectionSet wanted = SectionSet::all()) {
     return find_damage(file.span(), wanted);
-}
-
-SectionEntry entry_of(const AlignedBytes& file, SectionId id) {
-    return find_section(file.span(), id).value();
-}
-
-/// The file with other bytes at a place of a section, sealed again.
-template <class T>
-AlignedBytes with(const AlignedBytes& file, SectionId id, std::uint64_t at, const T& value) {
-    AlignedBytes changed(file.span());
-    std::memcpy(changed.span().data() + entry_of(file, id).offset + at, &value, sizeof value);
-    test::reseal(changed.span());
-    return changed;
-}
-
-template <class T>
-T element(const AlignedBytes& file, SectionId id, std::uint64_t index) {
-    T value;
-    std::memcpy(&value, file.span().data() + entry_of(file, id).offset + index * sizeof value,
-                sizeof value);
-    return value;
 }
 
 TEST(FindTetraDamage, AcceptsWhatTheBuilderMakes) {
@@ -86,15 +67,7 @@ TEST(FindTetraDamage, RefusesATreeOfWhichAPartIsMissing) {
     for (const SectionId missing :
          {SectionId::tetra_tree, SectionId::tetra_nodes, SectionId::tetra_references,
           SectionId::tetra_top, SectionId::tetra_boxes, SectionId::tetra_oriented}) {
-        std::vector<test::TinySection> sections;
-        for (std::uint32_t id = 1; id < 64; ++id) {
-            const auto entry = find_section(whole.span(), SectionId{id});
-            if (!entry || SectionId{id} == missing) continue;
-            const auto bytes =
-                whole.span().subspan(entry->offset, entry->count * entry->element_size);
-            sections.push_back({entry->id, {bytes.begin(), bytes.end()}});
-        }
-        const auto damage = check(test::assemble(read_header(whole.span()), sections));
+        const auto damage = check(test::without(whole, missing));
         ASSERT_TRUE(damage) << section_name(missing);
         EXPECT_EQ(damage->kind, DamageKind::missing_section);
         EXPECT_EQ(damage->section, missing);

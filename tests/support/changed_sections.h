@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "cdprep/format/sections.h"
+#include "support/aligned_bytes.h"
+#include "support/reseal.h"
+#include "support/tiny_baker.h"
+
+namespace cdprep::test {
+
+// Files of which one section is not what it was, and else sound.
+
+[[nodiscard]] inline format::SectionEntry entry_of(const AlignedBytes& file, format::SectionId id) {
+    return format::find_section(file.span(), id).value();
+}
+
+/// Element `index` of a section.
+template <class T>
+[[nodiscard]] T element(const AlignedBytes& file, format::SectionId id, std::uint64_t index) {
+    T value;
+    std::memcpy(&value, file.span().data() + entry_of(file, id).offset + index * sizeof value,
+                sizeof value);
+    return value;
+}
+
+/// The file with other bytes at a place of a section, sealed again.
+template <class T>
+[[nodiscard]] AlignedBytes with(const AlignedBytes& file, format::SectionId id, std::uint64_t at,
+                                const T& value) {
+    AlignedBytes changed(file.span());
+    std::memcpy(changed.span().data() + entry_of(file, id).offset + at, &value, sizeof value);
+    reseal(changed.span());
+    return changed;
+}
+
+/// The file after `change` of a section's bytes, or without the section when that returns false.
+template <class Change>
+[[nodiscard]] AlignedBytes with_changed(const AlignedBytes& file, format::SectionId id,
+                                        Change change) {
+    std::vector<TinySection> sections;
+    for (std::uint32_t number = 1; number < 64; ++number) {
+        const auto entry = format::find_section(file.span(), format::SectionId{number});
+        if (!entry) continue;
+        const auto bytes = file.span().subspan(entry->offset, entry->count * entry->element_size);
+        TinySection section{entry->id, {bytes.begin(), bytes.end()}};
+        if (entry->id != id || change(section.bytes)) sections.push_back(std::move(section));
+    }
+    return assemble(format::read_header(file.span()), sections);
+}
+
+[[nodiscard]] inline AlignedBytes without(const AlignedBytes& file, format::SectionId id) {
+    return with_changed(file, id, [](std::vector<std::byte>& /*bytes*/) { return false; });
+}
+
+}  // namespace cdprep::test
