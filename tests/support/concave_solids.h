@@ -14,6 +14,7 @@ namespace cdprep::test {
 /// A polygon in the plane z = 0, counter-clockwise, drawn out to z = 1; `triangles` fill it.
 [[nodiscard]] TestMesh prism(const std::vector<std::array<double, 2>>& outline,
                              const std::vector<std::array<std::uint32_t, 3>>& triangles);
+/// Three unit cubes in a row with a corner: the notch is where x and y are above 1.
 [[nodiscard]] TestMesh l_prism();
 [[nodiscard]] TestMesh u_prism();
 [[nodiscard]] TestMesh plus_prism();

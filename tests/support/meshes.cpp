@@ -257,6 +257,15 @@ TestMesh moved_by(TestMesh mesh, double scale, const Double3& shift) {
     return mesh;
 }
 
+TestMesh turned(TestMesh mesh, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (Double3& p : mesh.positions) {
+        p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+        p = {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
+    }
+    return mesh;
+}
+
 TestMesh reversed(TestMesh mesh) {
     for (Triangle& t : mesh.triangles) std::swap(t.vertex[1], t.vertex[2]);
     return mesh;

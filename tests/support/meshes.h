@@ -52,6 +52,8 @@ struct TestMesh {
 [[nodiscard]] TestMesh joined(const TestMesh& first, const TestMesh& second);
 /// Every vertex at scale * p + shift, rounded once per operation.
 [[nodiscard]] TestMesh moved_by(TestMesh mesh, double scale, const Double3& shift);
+/// By an angle about the z axis and then about the x axis: no edge of a box stays along an axis.
+[[nodiscard]] TestMesh turned(TestMesh mesh, double angle);
 /// Every triangle with its winding reversed.
 [[nodiscard]] TestMesh reversed(TestMesh mesh);
 /// Coordinates rounded to floats, so that single precision loses nothing.

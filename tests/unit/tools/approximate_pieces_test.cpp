@@ -8,10 +8,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "mesh/weld.h"
+#include "support/concave_solids.h"
 #include "support/run_threads.h"
+#include "unit/tools/soup_of.h"
 
 #include "predicates.h"
 
@@ -19,44 +22,27 @@ namespace cdprep::convex {
 namespace {
 
 using mesh::Mesh;
-
-/// A prism over a polygon whose corners turn counter-clockwise, given its triangles.
-Mesh prism(const std::vector<std::array<double, 2>>& outline,
-           const std::vector<std::array<std::uint32_t, 3>>& cap, double height) {
-    Mesh mesh;
-    const auto n = static_cast<std::uint32_t>(outline.size());
-    for (const double z : {0.0, height}) {
-        for (const auto& [x, y] : outline) mesh.positions.push_back({x, y, z});
-    }
-    for (const auto& [a, b, c] : cap) {
-        mesh.triangles.push_back({{a + n, b + n, c + n}});
-        mesh.triangles.push_back({{c, b, a}});
-    }
-    for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t j = (i + 1) % n;
-        mesh.triangles.push_back({{i, j, j + n}});
-        mesh.triangles.push_back({{i, j + n, i + n}});
-    }
-    return mesh;
-}
+using test::mesh_of;
 
 Mesh cube(const Double3& at, double side) {
-    Mesh mesh = prism({{0, 0}, {side, 0}, {side, side}, {0, side}}, {{0, 1, 2}, {0, 2, 3}}, side);
-    for (Double3& p : mesh.positions) p = {p.x + at.x, p.y + at.y, p.z + at.z};
-    return mesh;
+    return mesh_of(test::moved_by(test::unit_cube(), side, at));
 }
 
 Mesh l_prism() {
-    return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
-                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}}, 1);
+    return mesh_of(test::l_prism());
+}
+
+Mesh turned(Mesh mesh, double angle) {
+    mesh.positions = test::turned({std::move(mesh.positions), {}}, angle).positions;
+    return mesh;
 }
 
 /// A block 4 x 2 x 1 with a slot of this width from above, 1.5 deep: a U.
 Mesh slotted(double width) {
     const double a = 2 - width / 2;
     const double b = 2 + width / 2;
-    return prism({{0, 0}, {4, 0}, {4, 2}, {b, 2}, {b, 0.5}, {a, 0.5}, {a, 2}, {0, 2}},
-                 {{0, 5, 7}, {7, 5, 6}, {0, 4, 5}, {0, 1, 4}, {1, 2, 4}, {4, 2, 3}}, 1);
+    return mesh_of(test::prism({{0, 0}, {4, 0}, {4, 2}, {b, 2}, {b, 0.5}, {a, 0.5}, {a, 2}, {0, 2}},
+                               {{0, 5, 7}, {7, 5, 6}, {0, 4, 5}, {0, 1, 4}, {1, 2, 4}, {4, 2, 3}}));
 }
 
 void append(Mesh& mesh, const Mesh& more) {
@@ -98,17 +84,6 @@ TEST(ApproximatePieces, OfACubeIsTheCubeExactly) {
     }
 }
 
-/// Turned about an axis that is none of a box's.
-Mesh turned(Mesh mesh, double angle) {
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    for (Double3& p : mesh.positions) {
-        p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
-        p = {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
-    }
-    return mesh;
-}
-
 // One hull bridges the corner, half a side away in the middle; 2 boxes do without an error,
 // and the fewest of them, however they are asked for and turned.
 TEST(ApproximatePieces, OfAnLPrismAreTwoBoxesUnlessOneHullWillDo) {
@@ -139,29 +114,7 @@ TEST(ApproximatePieces, OfAnLPrismAreTwoBoxesUnlessOneHullWillDo) {
 
 // Two bars that cross: no hull of an arm and a half lies in the solid, so 2 are the fewest.
 TEST(ApproximatePieces, OfACrossAreTwoBarsThatCross) {
-    const Mesh cross = prism({{1, 0},
-                              {2, 0},
-                              {2, 1},
-                              {3, 1},
-                              {3, 2},
-                              {2, 2},
-                              {2, 3},
-                              {1, 3},
-                              {1, 2},
-                              {0, 2},
-                              {0, 1},
-                              {1, 1}},
-                             {{0, 1, 2},
-                              {0, 2, 11},
-                              {2, 3, 4},
-                              {2, 4, 5},
-                              {5, 6, 7},
-                              {5, 7, 8},
-                              {8, 9, 10},
-                              {8, 10, 11},
-                              {11, 2, 5},
-                              {11, 5, 8}},
-                             1);
+    const Mesh cross = mesh_of(test::plus_prism());
     for (const double angle : {0.0, 0.7}) {
         const ApproximatePieces found = within(turned(cross, angle), 0.01);
         EXPECT_EQ(found.pieces.size(), 2u) << angle;

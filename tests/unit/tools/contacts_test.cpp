@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/brute_force.h"
+#include "support/concave_solids.h"
 #include "unit/tools/with_pieces.h"
 
 namespace cdprep::test {
@@ -47,26 +48,11 @@ TestMesh roof() {
     return mesh;
 }
 
-/// An L with arms 2 long, 1 wide and 1 high; the notch is where x and y are above 1.
-TestMesh l_prism() {
-    TestMesh mesh;
-    for (const double z : {0.0, 1.0}) {
-        for (const auto& [x, y] :
-             {std::array{0., 0.}, {2., 0.}, {2., 1.}, {1., 1.}, {1., 2.}, {0., 2.}}) {
-            mesh.positions.push_back({x, y, z});
-        }
-    }
-    for (const auto& [a, b, c] :
-         {std::array{0U, 1U, 2U}, {0U, 2U, 3U}, {0U, 3U, 4U}, {0U, 4U, 5U}}) {
-        mesh.triangles.push_back({{a + 6, b + 6, c + 6}});
-        mesh.triangles.push_back({{c, b, a}});
-    }
-    for (std::uint32_t i = 0; i < 6; ++i) {
-        const std::uint32_t j = (i + 1) % 6;
-        mesh.triangles.push_back({{i, j, j + 6}});
-        mesh.triangles.push_back({{i, j + 6, i + 6}});
-    }
-    return mesh;
+/// An L with arms 2 long, 1 wide and 1 high, whose notch is where x and y are above 1: cut so that
+/// a seam between its pieces crosses its faces.
+TestMesh l_with_a_seam() {
+    return prism({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
+                 {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}});
 }
 
 // By hand: one cube over the other by a gap, or into it: faces, and the corners of the square
@@ -158,7 +144,7 @@ TEST(Contacts, AVertexOverAFaceAnswersAsThat) {
 // By hand: a cube in the notch of an L is near one arm on either side, and the virtual faces
 // inside the L answer nothing.
 TEST(Contacts, ACubeInANotchTouchesBothArms) {
-    const OpenModel arms = open_with_pieces(l_prism()), cube = open_with_pieces(unit_cube());
+    const OpenModel arms = open_with_pieces(l_with_a_seam()), cube = open_with_pieces(unit_cube());
     ASSERT_GT(arms.model.pieces().size(), 1U);
     const auto found = all_contacts(arms, cube, shifted({1.0625, 1.125, 0}), 0.25);
     bool has_x = false, has_y = false;
@@ -386,7 +372,7 @@ TEST(Contacts, AFloorPushesATiltedBoxUp) {
 // between pieces: each is flat, and every piece that is met from outside pushes along the common
 // face. A wall that a corner of the box has come near to in the solid does not.
 TEST(Contacts, TheSeamsOfASolidDoNotPushSideways) {
-    const OpenModel arms = open_with_pieces(l_prism());
+    const OpenModel arms = open_with_pieces(l_with_a_seam());
     ASSERT_GT(arms.model.pieces().size(), 1U);
     const OpenModel box = open_with_pieces(moved_by(unit_cube(), 0.5, {-0.25, -0.25, 0}));
     std::size_t seen = 0, across = 0, behind = 0;

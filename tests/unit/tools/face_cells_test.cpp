@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "convex/join_cells.h"
-#include "support/meshes.h"
+#include "support/concave_solids.h"
+#include "unit/tools/soup_of.h"
 
 #include "predicates.h"
 
@@ -16,31 +17,11 @@ namespace cdprep::convex {
 namespace {
 
 using mesh::Mesh;
+using test::mesh_of;
 
-/// An L of three unit squares, 1 high, turned by an angle about two axes.
+/// Three unit cubes, turned.
 Mesh l_prism(double angle) {
-    constexpr std::array<std::array<double, 2>, 6> kOutline = {
-        {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}};
-    Mesh mesh;
-    for (const double z : {0.0, 1.0}) {
-        for (const auto& [x, y] : kOutline) mesh.positions.push_back({x, y, z});
-    }
-    for (std::uint32_t i = 0; i < 6; ++i) {
-        const std::uint32_t j = (i + 1) % 6;
-        mesh.triangles.push_back({{i, j, j + 6}});
-        mesh.triangles.push_back({{i, j + 6, i + 6}});
-    }
-    for (std::uint32_t i = 1; i < 5; ++i) {
-        mesh.triangles.push_back({{0, i + 1, i}});
-        mesh.triangles.push_back({{6, i + 6, i + 7}});
-    }
-    const double c = std::cos(angle);
-    const double s = std::sin(angle);
-    for (Double3& p : mesh.positions) {
-        p = {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
-        p = {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
-    }
-    return mesh;
+    return mesh_of(test::turned(test::l_prism(), angle));
 }
 
 std::optional<SolidCells> cells_of(const Mesh& mesh, const FaceCellOptions& options = {}) {
@@ -124,9 +105,7 @@ TEST(FaceCells, AreNothingWithManyFacesOrWithoutASolid) {
     Mesh open = l_prism(0);
     open.triangles.pop_back();
     EXPECT_FALSE(cells_of(open));
-    Mesh dented;
-    dented.positions = test::icosphere(3).positions;
-    dented.triangles = test::icosphere(3).triangles;
+    Mesh dented = mesh_of(test::icosphere(3));
     for (std::size_t i = 0; i < dented.positions.size(); i += 2) {
         Double3& p = dented.positions[i];
         p = {0.9 * p.x, 0.9 * p.y, 0.9 * p.z};

@@ -11,7 +11,8 @@
 #include <vector>
 
 #include "convex/is_convex.h"
-#include "support/meshes.h"
+#include "support/concave_solids.h"
+#include "unit/tools/soup_of.h"
 
 #include "point_triangle_distance.h"
 
@@ -19,13 +20,7 @@ namespace cdprep::convex {
 namespace {
 
 using mesh::Mesh;
-
-Mesh mesh_of(const test::TestMesh& test) {
-    Mesh mesh;
-    mesh.positions = test.positions;
-    mesh.triangles = test.triangles;
-    return mesh;
-}
+using test::mesh_of;
 
 HullError error_of(const ConvexHull& hull, const Mesh& mesh, const HullErrorOptions& options = {},
                    Reference reference = Reference::solid) {
@@ -35,26 +30,6 @@ HullError error_of(const ConvexHull& hull, const Mesh& mesh, const HullErrorOpti
 HullError error_of_own_hull(const Mesh& mesh, const HullErrorOptions& options = {},
                             Reference reference = Reference::solid) {
     return error_of(convex_hull(mesh.positions), mesh, options, reference);
-}
-
-/// An L of three unit squares, 1 high.
-Mesh l_prism() {
-    constexpr std::array<std::array<double, 2>, 6> kOutline = {
-        {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}};
-    Mesh mesh;
-    for (const double z : {0.0, 1.0}) {
-        for (const auto& [x, y] : kOutline) mesh.positions.push_back({x, y, z});
-    }
-    for (std::uint32_t i = 0; i < 6; ++i) {
-        const std::uint32_t j = (i + 1) % 6;
-        mesh.triangles.push_back({{i, j, j + 6}});
-        mesh.triangles.push_back({{i, j + 6, i + 6}});
-    }
-    for (std::uint32_t i = 1; i < 5; ++i) {
-        mesh.triangles.push_back({{0, i + 1, i}});
-        mesh.triangles.push_back({{6, i + 6, i + 7}});
-    }
-    return mesh;
 }
 
 /// A ball of radius 1 with one vertex pushed in by `depth`.
@@ -67,7 +42,7 @@ Mesh dented_ball(double depth) {
 
 // In the notch the point farthest from both walls is half a side from each.
 TEST(HullError, OfAnLPrismIsHalfASide) {
-    const HullError error = error_of_own_hull(l_prism());
+    const HullError error = error_of_own_hull(mesh_of(test::l_prism()));
     EXPECT_NEAR(error.lower, 0.5, 0.02);
     EXPECT_GE(error.upper, 0.5);
     EXPECT_LE(error.upper, 0.5 * 1.05);
@@ -127,8 +102,8 @@ TEST(HullError, OfASolidInsideOutIsThatOfTheSolid) {
 
 // What is far too large is not measured: bounds still hold, with less work.
 TEST(HullError, EndsEarlyWhereItIsTooMuch) {
-    const HullError all = error_of_own_hull(l_prism());
-    const HullError early = error_of_own_hull(l_prism(), {.too_much = 0.1});
+    const HullError all = error_of_own_hull(mesh_of(test::l_prism()));
+    const HullError early = error_of_own_hull(mesh_of(test::l_prism()), {.too_much = 0.1});
     EXPECT_GT(early.lower, 0.1);
     EXPECT_GE(early.upper, 0.5);
     EXPECT_LT(early.cells, all.cells);

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "mesh/vectors.h"
-#include "support/meshes.h"
 #include "support/run_threads.h"
+#include "unit/tools/soup_of.h"
 
 #include "predicates.h"
 
@@ -20,13 +20,7 @@ namespace cdprep::convex {
 namespace {
 
 using mesh::Mesh;
-
-Mesh mesh_of(const test::TestMesh& test) {
-    Mesh mesh;
-    mesh.positions = test.positions;
-    mesh.triangles = test.triangles;
-    return mesh;
-}
+using test::mesh_of;
 
 /// Of dyadic coordinates, and cut there: nothing is rounded.
 Mesh cube(double side) {
