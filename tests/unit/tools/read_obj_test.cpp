@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "unit/tools/read_text.h"
+
 namespace cdprep::import {
 namespace {
 
@@ -16,24 +18,16 @@ using mesh::Double3;
 using mesh::Triangle;
 using mesh::TriangleSoup;
 
-/// Reads from an allocation of exactly the text's size.
 Result<TriangleSoup> read(const std::string& text, const ImportOptions& options = {}) {
-    const std::vector<char> exact(text.begin(), text.end());
-    return read_obj(SourceFile("t.obj", {exact.data(), exact.size()}), options);
+    return test::read_text(read_obj, "t.obj", text, options);
 }
 
 TriangleSoup soup(const std::string& text) {
-    Result<TriangleSoup> result = read(text);
-    EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
-    return result.ok() ? std::move(result).value() : TriangleSoup{};
+    return test::sound(read(text), text);
 }
 
 std::string sentence(const std::string& text) {
-    const Result<TriangleSoup> result = read(text);
-    EXPECT_FALSE(result.ok());
-    if (result.ok()) return {};
-    EXPECT_EQ(result.error().code, ErrorCode::unreadable);
-    return result.error().message;
+    return test::refusal(read(text));
 }
 
 const std::string kFour = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "unit/tools/read_text.h"
+
 namespace cdprep::import {
 namespace {
 
@@ -14,22 +16,15 @@ using mesh::Triangle;
 using mesh::TriangleSoup;
 
 Result<TriangleSoup> read(const std::string& text) {
-    const std::vector<char> exact(text.begin(), text.end());
-    return read_off(SourceFile("t.off", {exact.data(), exact.size()}), {});
+    return test::read_text(read_off, "t.off", text);
 }
 
 TriangleSoup soup(const std::string& text) {
-    Result<TriangleSoup> result = read(text);
-    EXPECT_TRUE(result.ok()) << text << (result.ok() ? "" : result.error().message);
-    return result.ok() ? std::move(result).value() : TriangleSoup{};
+    return test::sound(read(text), text);
 }
 
 std::string sentence(const std::string& text) {
-    const Result<TriangleSoup> result = read(text);
-    EXPECT_FALSE(result.ok());
-    if (result.ok()) return {};
-    EXPECT_EQ(result.error().code, ErrorCode::unreadable);
-    return result.error().message;
+    return test::refusal(read(text));
 }
 
 const std::string kBody = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n";

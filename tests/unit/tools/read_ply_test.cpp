@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "unit/tools/read_text.h"
+
 namespace cdprep::import {
 namespace {
 
@@ -16,23 +18,16 @@ using mesh::Double3;
 using mesh::Triangle;
 using mesh::TriangleSoup;
 
-Result<TriangleSoup> read(const std::string& bytes) {
-    const std::vector<char> exact(bytes.begin(), bytes.end());
-    return read_ply(SourceFile("t.ply", {exact.data(), exact.size()}), {});
+Result<TriangleSoup> read(const std::string& text) {
+    return test::read_text(read_ply, "t.ply", text);
 }
 
-TriangleSoup soup(const std::string& bytes) {
-    Result<TriangleSoup> result = read(bytes);
-    EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
-    return result.ok() ? std::move(result).value() : TriangleSoup{};
+TriangleSoup soup(const std::string& text) {
+    return test::sound(read(text), text);
 }
 
-std::string sentence(const std::string& bytes) {
-    const Result<TriangleSoup> result = read(bytes);
-    EXPECT_FALSE(result.ok());
-    if (result.ok()) return {};
-    EXPECT_EQ(result.error().code, ErrorCode::unreadable);
-    return result.error().message;
+std::string sentence(const std::string& text) {
+    return test::refusal(read(text));
 }
 
 std::string header(const std::string& format, const std::string& elements) {

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "unit/tools/read_text.h"
+
 namespace cdprep::import {
 namespace {
 
@@ -16,21 +18,16 @@ using mesh::Double3;
 using mesh::Triangle;
 using mesh::TriangleSoup;
 
-Result<TriangleSoup> read(const std::string& bytes, const ImportOptions& options = {}) {
-    const std::vector<char> exact(bytes.begin(), bytes.end());
-    return read_stl(SourceFile("t.stl", {exact.data(), exact.size()}), options);
+Result<TriangleSoup> read(const std::string& text, const ImportOptions& options = {}) {
+    return test::read_text(read_stl, "t.stl", text, options);
 }
 
-TriangleSoup soup(const std::string& bytes) {
-    Result<TriangleSoup> result = read(bytes);
-    EXPECT_TRUE(result.ok()) << (result.ok() ? "" : result.error().message);
-    return result.ok() ? std::move(result).value() : TriangleSoup{};
+TriangleSoup soup(const std::string& text) {
+    return test::sound(read(text), text);
 }
 
-std::string sentence(const std::string& bytes) {
-    const Result<TriangleSoup> result = read(bytes);
-    EXPECT_FALSE(result.ok());
-    return result.ok() ? "" : result.error().message;
+std::string sentence(const std::string& text) {
+    return test::refusal(read(text));
 }
 
 /// A binary file; triangle i has the corners (i, 0, 0), (0, 1, 0), (0, 0, 1).
