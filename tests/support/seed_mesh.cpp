@@ -3,17 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
+
+#include "support/shared_models.h"
 
 namespace cdprep::test {
 namespace {
-
-std::filesystem::path shared_folder() {
-    if (const char* set = std::getenv("CDPREP_SHARED")) return set;
-    return std::filesystem::path(__FILE__).parent_path() / "../../../shared";
-}
 
 /// Used vertices' box, in double, as the pipeline's normalisation has it.
 void normalise(TestMesh& mesh) {
@@ -37,7 +32,9 @@ void normalise(TestMesh& mesh) {
 }  // namespace
 
 std::optional<TestMesh> seed_mesh_as_read(const std::string& name) {
-    std::ifstream file(shared_folder() / "models/seed" / (name + ".ply"), std::ios::binary);
+    const auto folder = shared_models("seed");
+    if (!folder) return std::nullopt;
+    std::ifstream file(*folder / "seed" / (name + ".ply"), std::ios::binary);
     std::size_t vertices = 0, faces = 0;
     for (std::string line; std::getline(file, line) && line != "end_header";) {
         if (line.starts_with("element vertex ")) vertices = std::stoul(line.substr(15));

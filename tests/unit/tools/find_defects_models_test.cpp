@@ -3,11 +3,9 @@
 // are not ours to keep here: without them everything is skipped.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -16,19 +14,10 @@
 
 #include "import/import_file.h"
 #include "mesh/find_defects.h"
+#include "support/shared_models.h"
 
 namespace cdprep::mesh {
 namespace {
-
-std::optional<std::filesystem::path> models() {
-    const char* const chosen = std::getenv("CDPREP_SHARED");
-    const std::filesystem::path beside =
-        std::filesystem::path(__FILE__).parent_path() / "../../../../shared";
-    const std::filesystem::path folder =
-        (chosen != nullptr ? std::filesystem::path(chosen) : beside) / "models";
-    if (!std::filesystem::is_directory(folder / "hard")) return std::nullopt;
-    return folder;
-}
 
 using Counts = std::map<std::string, std::uint64_t>;
 
@@ -178,7 +167,7 @@ TriangleSoup as_checked(const std::filesystem::path& path) {
 }
 
 TEST(FindDefectsModels, HardFilesHaveWhatWasMeasured) {
-    const auto folder = models();
+    const auto folder = test::shared_models("hard");
     if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     int read = 0;
     for (const auto& [name, counts] : measured(*folder / "hard" / "PROVENANCE.md")) {
@@ -190,7 +179,7 @@ TEST(FindDefectsModels, HardFilesHaveWhatWasMeasured) {
 }
 
 TEST(FindDefectsModels, SeedFilesHaveWhatWasMeasured) {
-    const auto folder = models();
+    const auto folder = test::shared_models("hard");
     if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     auto all = measured(*folder / "seed" / "PROVENANCE.md");
     // Its cell for the state as stored speaks of the dragon before vertices are joined.
@@ -204,7 +193,7 @@ TEST(FindDefectsModels, SeedFilesHaveWhatWasMeasured) {
 }
 
 TEST(FindDefectsModels, MalformedFilesHaveWhatWasMeasured) {
-    const auto folder = models();
+    const auto folder = test::shared_models("hard");
     if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     int read = 0;
     for (auto& [name, counts] : measured(*folder / "hard" / "PROVENANCE.md")) {
@@ -225,7 +214,7 @@ void expect_measured_of_soup(const TriangleSoup& soup, Counts expected, const ch
 }
 
 TEST(FindDefectsModels, TextReadAsDoublesHasWhatWasMeasured) {
-    const auto folder = models();
+    const auto folder = test::shared_models("hard");
     if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     const auto expected = measured(*folder / "hard" / "PROVENANCE.md");
     expect_measured_of_soup(as_checked(*folder / "hard" / "KitchenPot.obj"),
@@ -233,7 +222,7 @@ TEST(FindDefectsModels, TextReadAsDoublesHasWhatWasMeasured) {
 }
 
 TEST(FindDefectsModels, PolygonsCutIntoFansHaveWhatWasMeasured) {
-    const auto folder = models();
+    const auto folder = test::shared_models("hard");
     if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     const auto expected = measured(*folder / "hard" / "PROVENANCE.md");
     for (const char* name :
@@ -243,7 +232,7 @@ TEST(FindDefectsModels, PolygonsCutIntoFansHaveWhatWasMeasured) {
 }
 
 TEST(FindDefectsModels, MirroredInstancesTurnedBackHaveWhatWasMeasured) {
-    const auto folder = models();
+    const auto folder = test::shared_models("hard");
     if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     auto soup = import::import_file(*folder / "hard" / "cubes_with_mirroring_and_pivot.fbx");
     ASSERT_TRUE(soup.ok()) << soup.error().message;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "support/scratch_folder.h"
+#include "support/shared_models.h"
 
 namespace cdprep::import {
 namespace {
@@ -86,13 +86,9 @@ TEST_F(ImportFile, BinaryRubbishInATextFormatIsUnreadable) {
 // ------------------------------------------------- the models that are not ours
 
 std::optional<std::filesystem::path> hard_models() {
-    const char* const chosen = std::getenv("CDPREP_SHARED");
-    const std::filesystem::path beside =
-        std::filesystem::path(__FILE__).parent_path() / "../../../../shared";
-    const std::filesystem::path folder =
-        (chosen ? std::filesystem::path(chosen) : beside) / "models" / "hard";
-    if (!std::filesystem::is_directory(folder)) return std::nullopt;
-    return folder;
+    const auto folder = test::shared_models("hard");
+    if (!folder) return std::nullopt;
+    return *folder / "hard";
 }
 
 /// Triangles of each file, from the tables of PROVENANCE.md.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <set>
@@ -15,6 +14,7 @@
 #include "mesh/repair.h"
 #include "point_triangle_distance.h"
 #include "support/exact_winding.h"
+#include "support/shared_models.h"
 #include "unit/tools/soup_of.h"
 #include "winding.h"
 
@@ -252,16 +252,12 @@ TEST(RepairLaws, UnionsOfBoxesLoseNothingOfTheirOuterSurface) {
 }
 
 TEST(RepairLaws, HardModelsLoseNothingOfTheirOuterSurface) {
-    const char* const chosen = std::getenv("CDPREP_SHARED");
-    const std::filesystem::path beside =
-        std::filesystem::path(__FILE__).parent_path() / "../../../../shared";
-    const std::filesystem::path hard =
-        (chosen != nullptr ? std::filesystem::path(chosen) : beside) / "models/hard";
-    if (!std::filesystem::is_directory(hard)) GTEST_SKIP() << "no models in " << hard;
+    const auto folder = test::shared_models("hard");
+    if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     Samples samples;
     for (const char* name : {"Spider_ascii.stl", "al.obj", "hips.obj"}) {
         SCOPED_TRACE(name);
-        const Result<TriangleSoup> soup = import::import_file(hard / name, {});
+        const Result<TriangleSoup> soup = import::import_file(*folder / "hard" / name, {});
         ASSERT_TRUE(soup) << soup.error().message;
         const Repaired mended = repair(soup.value(), options_of("solid"));
         ASSERT_TRUE(find_meetings(mended.mesh, serial_for).empty());

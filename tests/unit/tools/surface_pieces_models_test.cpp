@@ -4,29 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <optional>
 
 #include "convex/surface_pieces.h"
 #include "import/import_file.h"
 #include "mesh/normalize.h"
 #include "mesh/weld.h"
 #include "support/run_threads.h"
+#include "support/shared_models.h"
 #include "unit/tools/pieces_flaw.h"
 
 namespace cdprep::convex {
 namespace {
-
-std::optional<std::filesystem::path> models() {
-    const char* const chosen = std::getenv("CDPREP_SHARED");
-    const std::filesystem::path beside =
-        std::filesystem::path(__FILE__).parent_path() / "../../../../shared";
-    const std::filesystem::path folder =
-        (chosen != nullptr ? std::filesystem::path(chosen) : beside) / "models";
-    if (!std::filesystem::is_directory(folder / "seed")) return std::nullopt;
-    return folder;
-}
 
 /// As bake does with --normalize; nothing where bake would refuse.
 std::optional<mesh::Mesh> load(const std::filesystem::path& path) {
@@ -52,7 +41,7 @@ struct Expected {
 };
 
 TEST(SurfacePiecesModels, SeedModelsAreCutExactlyIntoFewPieces) {
-    const auto folder = models();
+    const auto folder = test::shared_models("seed");
     if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     for (const Expected& expected :
          {Expected{"skull", 11413}, Expected{"bunny", 16702}, Expected{"armadillo", 26256},
@@ -71,7 +60,7 @@ TEST(SurfacePiecesModels, SeedModelsAreCutExactlyIntoFewPieces) {
 
 // Open, not manifold, crossing itself, without area: whatever is there.
 TEST(SurfacePiecesModels, HardModelsAreCutExactly) {
-    const auto folder = models();
+    const auto folder = test::shared_models("seed");
     if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     std::size_t cut = 0;
     for (const auto& entry : std::filesystem::directory_iterator(*folder / "hard")) {
@@ -91,7 +80,7 @@ TEST(SurfacePiecesModels, HardModelsAreCutExactly) {
 }
 
 TEST(SurfacePiecesModels, ToleranceSavesPieces) {
-    const auto folder = models();
+    const auto folder = test::shared_models("seed");
     if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     for (const auto& [name, most] : {std::pair{"bunny", 0.06}, std::pair{"dragon", 0.02}}) {
         const auto mesh = load(*folder / "seed" / (std::string(name) + ".ply"));
@@ -105,7 +94,7 @@ TEST(SurfacePiecesModels, ToleranceSavesPieces) {
 }
 
 TEST(SurfacePiecesModels, ThreadsChangeNothing) {
-    const auto folder = models();
+    const auto folder = test::shared_models("seed");
     if (!folder) GTEST_SKIP() << "no test models beside the checkout (set CDPREP_SHARED)";
     const auto mesh = load(*folder / "seed" / "skull.ply");
     ASSERT_TRUE(mesh);
