@@ -22,6 +22,15 @@ inline Corners corners_of(const TestMesh& mesh, std::size_t index, const Pose* p
     return corners;
 }
 
+[[nodiscard]] inline std::vector<Corners> surface_of(const TestMesh& mesh,
+                                                     const Pose* pose = nullptr) {
+    std::vector<Corners> surface;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        surface.push_back(corners_of(mesh, i, pose));
+    }
+    return surface;
+}
+
 /// Every overlapping pair, by all n m six-segment tests: no box, no tree.
 inline std::vector<TrianglePair> brute_force_pairs(const TestMesh& a, const TestMesh& b,
                                                    const Placement& placement) {

@@ -17,14 +17,6 @@
 namespace cdprep::test {
 namespace {
 
-std::vector<Corners> surface_of(const TestMesh& mesh, const Pose* pose) {
-    std::vector<Corners> surface;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        surface.push_back(corners_of(mesh, i, pose));
-    }
-    return surface;
-}
-
 /// A tetrahedron on a grid, any way round, or flat.
 TestMesh tetrahedron(std::mt19937& random, int grid) {
     std::uniform_int_distribution<int> step(-grid, grid);
@@ -57,7 +49,7 @@ TEST(IncludesLaws, AgreesWithExactRays) {
         for (int round = 0; round < 8; ++round) {
             const TestMesh mesh = moved_by(tetrahedra(random, 5 + 5 * round, 4), scale, {0, 0, 0});
             const OpenModel model = open_tiny(mesh, {.double_precision = true});
-            const std::vector<Corners> surface = surface_of(mesh, nullptr);
+            const std::vector<Corners> surface = surface_of(mesh);
             ASSERT_TRUE(model.model.is_closed());
             for (int i = 0; i < 25; ++i) {
                 const int x = half(random), y = half(random), z = half(random);

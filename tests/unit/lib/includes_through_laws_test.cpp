@@ -21,14 +21,6 @@
 namespace cdprep::test {
 namespace {
 
-std::vector<Corners> surface_of(const TestMesh& mesh) {
-    std::vector<Corners> surface;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        surface.push_back(corners_of(mesh, i, nullptr));
-    }
-    return surface;
-}
-
 Double3 grid_point(std::mt19937& random, int grid) {
     std::uniform_int_distribution<int> step(-grid, grid);
     const int x = step(random), y = step(random), z = step(random);

@@ -18,14 +18,6 @@
 namespace cdprep::test {
 namespace {
 
-std::vector<Corners> surface_of(const TestMesh& mesh) {
-    std::vector<Corners> surface;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        surface.push_back(corners_of(mesh, i, nullptr));
-    }
-    return surface;
-}
-
 /// The sum of all terms; nothing when q is on a triangle.
 std::optional<int> winding(const std::vector<Corners>& surface, const Double3& o,
                            const Double3& q) {
