@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <functional>
 #include <limits>
 
@@ -90,15 +91,14 @@ public:
         return from_ + std::clamp(share, 0.0, 1.0) * (to_ - from_);
     }
 
-    /// Powers of ten, with 2 and 5 between where these are few, and not all where many.
+    /// Powers of ten, with others between where these are few, and not all where many.
     [[nodiscard]] std::vector<double> ticks() const {
         std::vector<double> ticks;
-        const bool has_more = high_ - low_ < 2.5;
+        const std::vector<double> digits = digits_between();
         const int step = high_ - low_ > 8 ? 3 : 1;
         for (int power = static_cast<int>(std::floor(low_)); power <= high_ + 1; ++power) {
             if (power % step != 0) continue;
-            for (const double digit : {1.0, 2.0, 5.0}) {
-                if (digit > 1 && !has_more) continue;
+            for (const double digit : digits) {
                 const double log = std::log10(digit) + power;
                 if (log >= low_ - 1e-9 && log <= high_ + 1e-9) ticks.push_back(std::pow(10, log));
             }
@@ -107,6 +107,12 @@ public:
     }
 
 private:
+    [[nodiscard]] std::vector<double> digits_between() const {
+        if (high_ - low_ < 0.8) return {1, 1.5, 2, 3, 4, 5, 7};
+        if (high_ - low_ < 3.2) return {1, 2, 5};
+        return {1};
+    }
+
     double low_;
     double high_;
     double from_;
@@ -152,7 +158,8 @@ private:
         std::erase_if(values, [](double value) { return !(value > 0) || !std::isfinite(value); });
         if (values.empty()) values = {1};
         const auto [low, high] = std::ranges::minmax(values);
-        return {low / 1.5, high * 1.5, from, to};
+        const double room = std::max(1.5, std::pow(high / low, 0.05));  // for marks and names
+        return {low / room, high * room, from, to};
     }
     [[nodiscard]] Axis make_x() const {
         std::vector<double> values;
@@ -411,7 +418,8 @@ std::vector<Point> points_by_shape(const Ladder& ladder) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
         const Rung& rung = ladder.rungs[i];
-        if (!rung.outer || rung.time.cases == 0) continue;
+        // How far vertices moved is close to the error, and no shape.
+        if (!rung.outer || rung.displacement || rung.time.cases == 0) continue;
         points.push_back({i, rung.name, rung.time.median_s, rung.time.low_s, rung.time.high_s,
                           *rung.outer, *rung.outer, *rung.outer, false});
     }
@@ -467,6 +475,25 @@ void add_charts(std::size_t number, const Ladder& ladder, std::vector<Chart>& ch
                       kParetoHeight, strata_body(number, ladder.rungs, rungs_of_front(ladder))});
 }
 
+/// Without its folders, which may be long.
+std::string file_name(const std::string& path) {
+    return printable(std::filesystem::path(path).filename().string());
+}
+
+/// Cut at spaces into lines of at most so many letters.
+std::vector<std::string> lines_of(const std::string& text, std::size_t most) {
+    std::vector<std::string> lines;
+    std::size_t begin = 0;
+    while (text.size() - begin > most) {
+        const std::size_t space = text.rfind(' ', begin + most);
+        if (space == std::string::npos || space <= begin) break;
+        lines.push_back(text.substr(begin, space - begin));
+        begin = space + 1;
+    }
+    lines.push_back(text.substr(begin));
+    return lines;
+}
+
 }  // namespace
 
 std::vector<Chart> accuracy_charts(const AccuracyReport& report) {
@@ -503,13 +530,18 @@ std::string chart_style() {
 std::string accuracy_svg(const AccuracyReport& report) {
     constexpr int kHead = 64;
     constexpr int kTitle = 54;
+    constexpr int kLineHeight = 16;
+    constexpr std::size_t kLetters = 135;
     int height = kHead;
     std::string body;
     const std::vector<Chart> charts = accuracy_charts(report);
     for (const Chart& chart : charts) {
         body += words(20, height + 20, "start", "title", chart.title);
-        body += words(20, height + 38, "start", "name", chart.explanation);
-        height += kTitle;
+        for (const std::string& line : lines_of(chart.explanation, kLetters)) {
+            body += words(20, height + 38, "start", "name", line);
+            height += kLineHeight;
+        }
+        height += kTitle - kLineHeight;
         body += "<g transform=\"translate(0 " + std::to_string(height) + ")\">\n" + chart.body +
                 "</g>\n";
         height += chart.height + 16;
@@ -522,8 +554,8 @@ std::string accuracy_svg(const AccuracyReport& report) {
            ".title{font-size:15px;font-weight:600;fill:#1a1f27}</style>\n"
            "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
            words(20, 28, "start", "title",
-                 "What accuracy costs in time: " + printable(report.input) + " against " +
-                     printable(report.input_b)) +
+                 "What accuracy costs in time: " + file_name(report.input) + " against " +
+                     file_name(report.input_b)) +
            words(20, 48, "start", "name",
                  std::to_string(study.set.poses.size()) + " poses, seed " +
                      std::to_string(study.set.seed) + "; " + study.machine.processor +

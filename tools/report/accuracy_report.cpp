@@ -94,7 +94,7 @@ Columns columns_of(const Ladder& ladder) {
     for (const Rung& rung : ladder.rungs) {
         columns.misses |= !rung.answers.empty();
         columns.pairs |= rung.pairs.has_value();
-        columns.outer |= rung.outer.has_value();
+        columns.outer |= rung.outer.has_value() && !rung.displacement;
         columns.build |= rung.build_s.has_value();
         columns.bytes |= rung.bytes.has_value();
         columns.touched |= rung.touched.has_value();

@@ -474,7 +474,10 @@ Ladder climb_geometry(const Climb& climb, Broken& broken) {
     Ladder ladder;
     ladder.name = "geometry";
     ladder.question = "do the surfaces touch, by shapes around them";
-    ladder.error = "false hits, as a share of the poses that are apart";
+    ladder.error =
+        "false hits, as a share of the poses that are apart (of rungs that promise otherwise: "
+        "wrong "
+        "answers, of all poses)";
     ladder.cases = "pose";
     ladder.left_out.emplace_back(
         "Bytes that the hull's rung reads: which corners its search passes is not counted.");
