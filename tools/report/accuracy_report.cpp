@@ -43,6 +43,14 @@ std::string per_cent(double share) {
     return in_three_digits(value) + " %";
 }
 
+/// "1.5..7.2 %".
+std::string per_cent_between(double low, double high) {
+    std::string from = per_cent(low);
+    const std::string to = per_cent(high);
+    if (from.ends_with(" %") && to.ends_with(" %")) from.resize(from.size() - 2);
+    return from + ".." + to;
+}
+
 std::string in_bytes(double bytes) {
     if (bytes < 10'000) return fixed(bytes, 0) + " B";
     if (bytes < 1e7) return fixed(bytes / 1000, 0) + " kB";
@@ -53,7 +61,7 @@ std::string error_word(const Rung& rung) {
     if (!rung.error) return "-";
     std::string word = per_cent(*rung.error);
     if (rung.error_high > *rung.error) {
-        word += " (" + per_cent(rung.error_low) + ".." + per_cent(rung.error_high) + ")";
+        word += " (" + per_cent_between(rung.error_low, rung.error_high) + ")";
     }
     return word;
 }
@@ -67,8 +75,8 @@ std::string misses_word(const Rung& rung) {
         of += stratum.misses.of;
     }
     const study::ShareInterval share = study::clopper_pearson(misses, of);
-    return std::to_string(misses) + "/" + std::to_string(of) + " (" + per_cent(share.low) + ".." +
-           per_cent(share.high) + ")";
+    return std::to_string(misses) + "/" + std::to_string(of) + " (" +
+           per_cent_between(share.low, share.high) + ")";
 }
 
 /// Wrong flags of the poses at which the truth is proved of the exact rotation.

@@ -2,6 +2,7 @@
 #include "study/geometry_ladder.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -32,6 +33,10 @@ using format::SectionId;
 // twice what the one for half as many took.
 constexpr double kPieceShare_s = 60;
 constexpr double kQuickPieceShare_s = 6;
+// Of one search (convex::ApproximateOptions): about 4 s and 0.5 s of one core. Solids of few
+// plane faces take all that they are given.
+constexpr std::size_t kPieceWork = 400'000'000;
+constexpr std::size_t kQuickPieceWork = 50'000'000;
 constexpr std::uint32_t kTetraThreshold = 4;
 
 constexpr format::SectionSet kTreeSections = {SectionId::bvh_nodes, SectionId::bvh_leaves,
@@ -194,7 +199,7 @@ private:
                         [this](std::size_t i) {
                             return hit_or_no(may_touch_aligned(aligned_a_, aligned_b_, pose(i)));
                         });
-        keep_all_read(box, box_s, sizeof(double) * 2 * 6);
+        keep_all_read(box, box_s, 2 * sizeof(std::array<double, 6>));
         box.outer = outside_.of_points(corners_of(aligned_a_), corners_of(aligned_b_));
         Rung& oriented = add("oriented box", "oriented boxes, by fifteen axes", Promise::no_misses,
                              [this](std::size_t i) {
@@ -254,8 +259,9 @@ private:
                 continue;
             }
             const double begun = processor_seconds();
-            auto a = make_piece_set(climb_.mesh_a, count, climb_.parallel_for, climb_.stop);
-            auto b = make_piece_set(climb_.mesh_b, count, climb_.parallel_for, climb_.stop);
+            const std::size_t work = climb_.is_quick ? kQuickPieceWork : kPieceWork;
+            auto a = make_piece_set(climb_.mesh_a, count, work, climb_.parallel_for, climb_.stop);
+            auto b = make_piece_set(climb_.mesh_b, count, work, climb_.parallel_for, climb_.stop);
             if (!a || !b) return;
             last = processor_seconds() - begun;
             spent += last;

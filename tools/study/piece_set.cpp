@@ -46,7 +46,7 @@ std::uint64_t PieceSet::bytes() const noexcept {
            sections.hulls.size() * sizeof(format::Hull) + around.size() * sizeof(BoundingSphere);
 }
 
-std::optional<PieceSet> make_piece_set(const mesh::Mesh& mesh, std::size_t count,
+std::optional<PieceSet> make_piece_set(const mesh::Mesh& mesh, std::size_t count, std::size_t work,
                                        ParallelFor parallel_for,
                                        const std::function<bool()>& stop) {
     using Clock = std::chrono::steady_clock;
@@ -63,6 +63,7 @@ std::optional<PieceSet> make_piece_set(const mesh::Mesh& mesh, std::size_t count
         convex::ApproximateOptions how;
         how.parts = count;
         how.max_vertices = kMostCorners;
+        how.work = work;
         how.merge_components = true;
         how.parallel_for = run;
         const convex::ApproximatePieces found = convex::find_approximate_pieces(mesh, how);

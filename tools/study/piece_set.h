@@ -27,9 +27,10 @@ struct PieceSet {
     [[nodiscard]] std::uint64_t bytes() const noexcept;
 };
 
-/// At most so many pieces, of at most 64 corners each. Nothing when `stop` said so.
+/// At most so many pieces, of at most 64 corners each, by so much work
+/// (convex::ApproximateOptions). Nothing when `stop` said so.
 [[nodiscard]] std::optional<PieceSet> make_piece_set(const mesh::Mesh& mesh, std::size_t count,
-                                                     ParallelFor parallel_for,
+                                                     std::size_t work, ParallelFor parallel_for,
                                                      const std::function<bool()>& stop);
 
 /// Whether any piece of A has a point in common with one of B as moved: spheres first, then
