@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Other libraries answer about the same two models at the same poses, for `cdprep compare
-// --peers`: FCL, ODE (OPCODE), Bullet (GImpact) and CGAL, as far as each was found when this
-// was built. Not part of the product, and linked into nothing of it.
+// Other libraries answer about the same two models at the same poses, and build their structures
+// over one, for `cdprep compare --peers`: FCL, ODE (OPCODE), Bullet (GImpact), CGAL, Embree and
+// qhull, as far as each was found when this was built. Not part of the product, and linked into
+// nothing of it.
 //
-// Usage: peers A B QUESTIONS TOLERANCE ROUNDS SECONDS
-// A and B are baked models. A line of QUESTIONS is letters and 12 numbers: what is asked at that
-// pose (c collide, o overlap, d distance, w within TOLERANCE), then R row by row and T, a point
-// b of B being at R b + T in A's frame. Every question is asked ROUNDS times, or as often as
-// SECONDS allow for one question of one peer, once at least. One thread, processor time.
+// Usage: peers pair A B QUESTIONS TOLERANCE ROUNDS SECONDS
+//        peers build MODEL ROUNDS SECONDS
+// A, B and MODEL are baked models. A line of QUESTIONS is letters and 12 numbers: what is asked at
+// that pose (c collide, o overlap, d distance, w within TOLERANCE), then R row by row and T, a
+// point b of B being at R b + T in A's frame. All is done ROUNDS times, or as often as SECONDS
+// allow for one question of one peer, once at least. One thread, processor time.
 //
-// Prints JSON: {"peers": [{"name", "note", "build_s", "collide": {"seconds": [one a pose that
-// was asked], "answers": [...]}, ..., "reasons": {"overlap": why it was not asked}}],
-// "absent": [{"name", "reason"}]}. Answers: 0 or 1; of overlap, the number of pairs.
+// Prints JSON. pair: {"peers": [{"key", "name", "note", "collide": {"seconds": [a pose that was
+// asked: [a round, ...], ...], "answers": [...]}, ..., "reasons": {"overlap": why it was not
+// asked}}], "absent": [{"key", "name", "reason"}]}. Answers: 0 or 1; of overlap, the number of
+// pairs. build: {"builds": [{"key", "name", "note", "seconds": [...], "vertices", "facets"}],
+// "absent"}; vertices and facets are of hulls alone.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -19,8 +23,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
-#include <functional>
-#include <map>
 #include <memory>
 #include <set>
 #include <sstream>
@@ -45,6 +47,16 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Rigid_triangle_mesh_collision_detection.h>
 #include <CGAL/Surface_mesh.h>
+#endif
+#ifdef CDPREP_HAVE_EMBREE
+#include <embree3/rtcore.h>
+
+#include "study/naive_contact.h"
+#endif
+#ifdef CDPREP_HAVE_QHULL
+extern "C" {
+#include <libqhull_r/qhull_ra.h>
+}
 #endif
 
 namespace cdprep {
@@ -102,6 +114,7 @@ public:
     Peer(const Peer&) = delete;
     Peer& operator=(const Peer&) = delete;
     virtual ~Peer() = default;
+    [[nodiscard]] virtual const char* key() const = 0;
     [[nodiscard]] virtual std::string name() const = 0;
     [[nodiscard]] virtual std::string note() const = 0;
     /// Why it cannot be asked that; empty when it can.
@@ -118,6 +131,9 @@ public:
           spheres_a_(fcl_model<fcl::RSSd>(a)),
           spheres_b_(fcl_model<fcl::RSSd>(b)),
           tolerance_(tolerance) {}
+    [[nodiscard]] const char* key() const override {
+        return "fcl";
+    }
     [[nodiscard]] std::string name() const override {
         return "FCL " FCL_VERSION;
     }
@@ -156,6 +172,9 @@ private:
 class Ode final : public Peer {
 public:
     Ode(const Model& a, const Model& b) : a_(a), b_(b) {}
+    [[nodiscard]] const char* key() const override {
+        return "ode";
+    }
     [[nodiscard]] std::string name() const override {
         return "ODE 0.16 (OPCODE)";
     }
@@ -191,7 +210,6 @@ public:
         Library& operator=(const Library&) = delete;
     };
 
-private:
     struct Body {
         explicit Body(const Model& model) {
             const Mesh mesh(model);
@@ -219,6 +237,14 @@ private:
         dGeomID geom = nullptr;
     };
 
+    /// One model by itself.
+    struct Alone {
+        explicit Alone(const Model& model) : body(model) {}
+        Library library;
+        Body body;
+    };
+
+private:
     Library library_;
     Body a_;
     Body b_;
@@ -239,6 +265,9 @@ public:
     ~Bullet() override {
         world_.removeCollisionObject(&a_.object);
         world_.removeCollisionObject(&b_.object);
+    }
+    [[nodiscard]] const char* key() const override {
+        return "bullet";
     }
     [[nodiscard]] std::string name() const override {
         return "Bullet " + std::to_string(BT_BULLET_VERSION) + " (GImpact)";
@@ -263,7 +292,6 @@ public:
                              : touching.pairs.size();
     }
 
-private:
     struct Body {
         explicit Body(const Model& model) {
             const Mesh mesh(model);
@@ -292,6 +320,7 @@ private:
         btCollisionObject object;
     };
 
+private:
     struct Touching final : btCollisionWorld::ContactResultCallback {
         btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper* /*a*/,
                                  int /*part_a*/, int index_a, const btCollisionObjectWrapper* /*b*/,
@@ -318,6 +347,9 @@ public:
     Cgal(const Model& a, const Model& b) : a_(mesh_of(a)), b_(mesh_of(b)) {
         detection_.add_mesh(a_);
         detection_.add_mesh(b_);
+    }
+    [[nodiscard]] const char* key() const override {
+        return "cgal";
     }
     [[nodiscard]] std::string name() const override {
         return "CGAL " CGAL_VERSION_STR;
@@ -356,15 +388,185 @@ private:
         return made;
     }
 
+public:
+    /// One model by itself.
+    struct Alone {
+        explicit Alone(const Model& model) : surface(mesh_of(model)) {
+            detection.add_mesh(surface);
+        }
+        Surface surface;
+        CGAL::Rigid_triangle_mesh_collision_detection<Surface> detection;
+    };
+
+private:
     Surface a_;
     Surface b_;
     CGAL::Rigid_triangle_mesh_collision_detection<Surface> detection_;
 };
 #endif
 
+#ifdef CDPREP_HAVE_EMBREE
+/// A device that takes no other threads.
+class EmbreeDevice {
+public:
+    EmbreeDevice() : device_(rtcNewDevice("threads=1")) {
+        if (device_ == nullptr) stop("Embree has no device.");
+    }
+    EmbreeDevice(const EmbreeDevice&) = delete;
+    EmbreeDevice& operator=(const EmbreeDevice&) = delete;
+    ~EmbreeDevice() {
+        rtcReleaseDevice(device_);
+    }
+    [[nodiscard]] RTCDevice get() const {
+        return device_;
+    }
+
+private:
+    RTCDevice device_;
+};
+
+/// A model's triangles as Embree's user geometry: the only kind that rtcCollide() takes.
+class EmbreeBody {
+public:
+    using Contact = study::NaiveContact<float>;
+
+    EmbreeBody(RTCDevice device, const Model& model, RTCBuildQuality quality)
+        : mesh_(model), scene_(rtcNewScene(device)) {
+        place(Pose());
+        geometry_ = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(geometry_, static_cast<unsigned>(corners_.size()));
+        rtcSetGeometryUserData(geometry_, this);
+        rtcSetGeometryBoundsFunction(geometry_, bound, nullptr);
+        rtcSetGeometryBuildQuality(geometry_, quality);
+        if (quality == RTC_BUILD_QUALITY_REFIT) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
+        rtcAttachGeometry(scene_, geometry_);
+        commit();
+    }
+    EmbreeBody(const EmbreeBody&) = delete;
+    EmbreeBody& operator=(const EmbreeBody&) = delete;
+    ~EmbreeBody() {
+        rtcReleaseGeometry(geometry_);
+        rtcReleaseScene(scene_);
+    }
+
+    void move(const Pose& pose) {
+        place(pose);
+        commit();
+    }
+    [[nodiscard]] RTCScene scene() const {
+        return scene_;
+    }
+    [[nodiscard]] const Contact::Corners& corners(unsigned triangle) const {
+        return corners_[triangle];
+    }
+
+private:
+    void place(const Pose& pose) {
+        corners_.clear();
+        for (const auto& t : mesh_.triangles) {
+            corners_.push_back(
+                Contact::rounded({moved(pose, mesh_.points[t[0]]), moved(pose, mesh_.points[t[1]]),
+                                  moved(pose, mesh_.points[t[2]])}));
+        }
+    }
+    void commit() {
+        rtcCommitGeometry(geometry_);
+        rtcCommitScene(scene_);
+    }
+    static void bound(const RTCBoundsFunctionArguments* asked) {
+        const auto& body = *static_cast<const EmbreeBody*>(asked->geometryUserPtr);
+        const auto& [a, b, c] = body.corners_[asked->primID];
+        const auto low = [&](std::size_t k) { return std::min({a[k], b[k], c[k]}); };
+        const auto high = [&](std::size_t k) { return std::max({a[k], b[k], c[k]}); };
+        RTCBounds& box = *asked->bounds_o;
+        box = {low(0), low(1), low(2), 0, high(0), high(1), high(2), 0};
+    }
+
+    Mesh mesh_;
+    std::vector<Contact::Corners> corners_;
+    RTCScene scene_;
+    RTCGeometry geometry_ = nullptr;
+};
+
+class Embree final : public Peer {
+public:
+    Embree(const Model& a, const Model& b)
+        : a_(device_.get(), a, RTC_BUILD_QUALITY_MEDIUM),
+          b_(device_.get(), b, RTC_BUILD_QUALITY_REFIT) {}
+    [[nodiscard]] const char* key() const override {
+        return "embree";
+    }
+    [[nodiscard]] std::string name() const override {
+        return "Embree " RTC_VERSION_STRING;
+    }
+    [[nodiscard]] std::string note() const override {
+        return "rtcCollide: pairs of boxes, held against each other here by signs of volumes in "
+               "float; boxes do not turn, so B is moved and its tree refitted at each pose, and "
+               "there is no end at the first hit";
+    }
+    [[nodiscard]] std::string find_reason(char letter) const override {
+        return letter == 'c' || letter == 'o' ? "" : "has no distances of meshes";
+    }
+    std::size_t ask(char letter, const Pose& a_from_b) override {
+        b_.move(a_from_b);
+        found_ = 0;
+        rtcCollide(a_.scene(), b_.scene(), take, this);
+        return letter == 'c' ? std::min<std::size_t>(1, found_) : found_;
+    }
+
+private:
+    static void take(void* self, RTCCollision* collisions, unsigned count) {
+        auto& peer = *static_cast<Embree*>(self);
+        for (unsigned i = 0; i < count; ++i) {
+            const RTCCollision& pair = collisions[i];
+            if (peer.contact_.touch(peer.a_.corners(pair.primID0), peer.b_.corners(pair.primID1))) {
+                ++peer.found_;
+            }
+        }
+    }
+
+    EmbreeDevice device_;
+    EmbreeBody a_;
+    EmbreeBody b_;
+    EmbreeBody::Contact contact_{0};
+    std::size_t found_ = 0;
+};
+#endif
+
+/// What building a structure came to.
+struct Built {
+    std::vector<double> seconds;
+    std::size_t vertices = 0;  ///< of a hull; 0 of trees
+    std::size_t facets = 0;
+};
+
+#ifdef CDPREP_HAVE_QHULL
+Built build_hull(const Mesh& mesh) {
+    std::vector<double> numbers;
+    for (const Double3& p : mesh.points) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+    Built built;
+    qhT qhull;
+    qh_zero(&qhull, stderr);
+    std::array<char, 9> command = {"qhull Qt"};
+    const double before = thread_seconds();
+    const int failed = qh_new_qhull(&qhull, 3, static_cast<int>(mesh.points.size()), numbers.data(),
+                                    0, command.data(), nullptr, nullptr);
+    built.seconds.push_back(thread_seconds() - before);
+    if (failed == 0) {
+        built.vertices = static_cast<std::size_t>(qhull.num_vertices);
+        built.facets = static_cast<std::size_t>(qhull.num_facets);
+    }
+    qh_freeqhull(&qhull, !qh_ALL);
+    int current = 0;
+    int total = 0;
+    qh_memfreeshort(&qhull, &current, &total);
+    return built;
+}
+#endif
+
 /// What a peer took and said, of the cases that ask it.
 struct Answered {
-    std::vector<double> seconds;
+    std::vector<std::vector<double>> seconds;  ///< by case and round
     std::vector<std::size_t> answers;
 };
 
@@ -374,8 +576,8 @@ Answered ask_all(Peer& peer, char letter, const std::vector<Case>& cases, std::s
     for (const Case& one : cases) {
         if (one.letters.find(letter) != std::string::npos) asked.push_back(&one);
     }
-    std::vector<std::vector<double>> seconds(asked.size());
     Answered answered;
+    answered.seconds.resize(asked.size());
     answered.answers.resize(asked.size());
     const double begun = thread_seconds();
     for (std::size_t round = 0; round < rounds; ++round) {
@@ -383,45 +585,79 @@ Answered ask_all(Peer& peer, char letter, const std::vector<Case>& cases, std::s
         for (std::size_t i = 0; i < asked.size(); ++i) {
             const double before = thread_seconds();
             answered.answers[i] = peer.ask(letter, asked[i]->a_from_b);
-            seconds[i].push_back(thread_seconds() - before);
+            answered.seconds[i].push_back(thread_seconds() - before);
         }
     }
-    for (const auto& taken : seconds) answered.seconds.push_back(median(taken));
     return answered;
 }
 
 template <class Number>
-void print_list(const char* name, const std::vector<Number>& numbers) {
-    std::printf("\"%s\": [", name);
+void print_list(const std::vector<Number>& numbers) {
+    std::printf("[");
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         std::printf("%s%.9g", i > 0 ? ", " : "", static_cast<double>(numbers[i]));
     }
     std::printf("]");
 }
 
-class Output {
+/// The libraries, and why those that cannot be asked are not.
+struct Absent {
+    const char* key;
+    const char* name;
+    const char* reason;
+};
+
+[[maybe_unused]] constexpr const char* kLacks =
+    "its package was not installed when peers was built";
+constexpr const char* kNoPackage = "no Debian package; its licence is for research only";
+
+std::vector<Absent> absent_peers() {
+    std::vector<Absent> absent = {{"pqp", "PQP", kNoPackage}, {"swift", "SWIFT++", kNoPackage}};
+#ifndef CDPREP_HAVE_FCL
+    absent.push_back({"fcl", "FCL", kLacks});
+#endif
+#ifndef CDPREP_HAVE_ODE
+    absent.push_back({"ode", "ODE", kLacks});
+#endif
+#ifndef CDPREP_HAVE_BULLET
+    absent.push_back({"bullet", "Bullet", kLacks});
+#endif
+#ifndef CDPREP_HAVE_CGAL
+    absent.push_back({"cgal", "CGAL", kLacks});
+#endif
+#ifndef CDPREP_HAVE_EMBREE
+    absent.push_back({"embree", "Embree", kLacks});
+#endif
+#ifndef CDPREP_HAVE_QHULL
+    absent.push_back({"qhull", "qhull", kLacks});
+#endif
+    return absent;
+}
+
+void print_absent(std::vector<Absent> absent) {
+    std::printf("\"absent\": [");
+    for (std::size_t i = 0; i < absent.size(); ++i) {
+        std::printf("%s{\"key\": \"%s\", \"name\": \"%s\", \"reason\": \"%s\"}",
+                    i > 0 ? ",\n  " : "", absent[i].key, absent[i].name, absent[i].reason);
+    }
+    std::printf("]}\n");
+}
+
+/// Asks each peer and prints what it says.
+class Pairs {
 public:
-    template <class Make>
-    void add(Make make) {
-        const double before = thread_seconds();
-        const std::unique_ptr<Peer> peer = make();
-        const double build_s = thread_seconds() - before;
-        std::printf("%s  {\"name\": \"%s\", \"note\": \"%s\", \"build_s\": %.9g", separator(),
-                    peer->name().c_str(), peer->note().c_str(), build_s);
+    void add(Peer& peer) {
+        std::printf("%s  {\"key\": \"%s\", \"name\": \"%s\", \"note\": \"%s\"", separator(),
+                    peer.key(), peer.name().c_str(), peer.note().c_str());
         std::string reasons;
         for (std::size_t q = 0; q < kLetters.size(); ++q) {
-            const std::string reason = peer->find_reason(kLetters[q]);
+            const std::string reason = peer.find_reason(kLetters[q]);
             if (!reason.empty()) {
                 reasons += std::string(reasons.empty() ? "" : ", ") + "\"" + kNames[q] + "\": \"" +
                            reason + "\"";
                 continue;
             }
-            const Answered answered = ask_all(*peer, kLetters[q], cases, rounds, budget);
-            std::printf(",\n   \"%s\": {", kNames[q]);
-            print_list("seconds", answered.seconds);
-            std::printf(", ");
-            print_list("answers", answered.answers);
-            std::printf("}");
+            print(kNames[q], ask_all(peer, kLetters[q], cases, rounds, budget));
         }
         std::printf(",\n   \"reasons\": {%s}}", reasons.c_str());
         std::fflush(stdout);
@@ -432,53 +668,135 @@ public:
     double budget = 1;
 
 private:
+    static void print(const char* name, const Answered& answered) {
+        std::printf(",\n   \"%s\": {\"seconds\": [", name);
+        for (std::size_t i = 0; i < answered.seconds.size(); ++i) {
+            if (i > 0) std::printf(", ");
+            print_list(answered.seconds[i]);
+        }
+        std::printf("], \"answers\": ");
+        print_list(answered.answers);
+        std::printf("}");
+    }
     const char* separator() {
         return std::exchange(is_first_, false) ? "\n" : ",\n";
     }
     bool is_first_ = true;
 };
 
-int main_of(const std::vector<std::string>& arguments) {
-    if (arguments.size() != 6) stop("Usage: see the head of peers.cpp.");
+/// Builds each peer's structure and prints what that takes.
+class Builds {
+public:
+    /// `build` returns a Built of one time, or a structure, which is then timed here.
+    template <class Build>
+    void add(const char* key, const std::string& name, const std::string& note, Build build) {
+        Built all;
+        const double begun = thread_seconds();
+        for (std::size_t round = 0; round < rounds; ++round) {
+            if (round > 0 && thread_seconds() - begun > budget) break;
+            const Built one = build();
+            all.seconds.insert(all.seconds.end(), one.seconds.begin(), one.seconds.end());
+            all.vertices = one.vertices;
+            all.facets = one.facets;
+        }
+        std::printf("%s  {\"key\": \"%s\", \"name\": \"%s\", \"note\": \"%s\", \"seconds\": ",
+                    std::exchange(is_first_, false) ? "\n" : ",\n", key, name.c_str(),
+                    note.c_str());
+        print_list(all.seconds);
+        std::printf(", \"vertices\": %zu, \"facets\": %zu}", all.vertices, all.facets);
+    }
+
+    std::size_t rounds = 1;
+    double budget = 1;
+
+private:
+    bool is_first_ = true;
+};
+
+/// Times what makes a structure, and not what takes it down.
+template <class Make>
+Built timed(Make make) {
+    const double before = thread_seconds();
+    const auto made = make();
+    return {{thread_seconds() - before}};
+}
+
+int ask_pair(const std::vector<std::string>& arguments) {
     const Model a = open_or_stop(arguments[0]);
     const Model b = open_or_stop(arguments[1]);
-    Output output;
-    output.cases = read_cases(arguments[2]);
+    Pairs pairs;
+    pairs.cases = read_cases(arguments[2]);
     [[maybe_unused]] const double tolerance = std::strtod(arguments[3].c_str(), nullptr);
-    output.rounds = std::max<std::size_t>(1, std::strtoul(arguments[4].c_str(), nullptr, 10));
-    output.budget = std::strtod(arguments[5].c_str(), nullptr);
-    std::string absent =
-        "{\"name\": \"PQP\", \"reason\": \"no Debian package; its licence is for research "
-        "only\"},\n"
-        "  {\"name\": \"SWIFT++\", \"reason\": \"no Debian package; its licence is for research "
-        "only\"}";
-    [[maybe_unused]] const auto lacks = [&](const char* name) {
-        absent += std::string(",\n  {\"name\": \"") + name +
-                  "\", \"reason\": \"its package was not installed when peers was built\"}";
-    };
+    pairs.rounds = std::max<std::size_t>(1, std::strtoul(arguments[4].c_str(), nullptr, 10));
+    pairs.budget = std::strtod(arguments[5].c_str(), nullptr);
     std::printf("{\"peers\": [");
 #ifdef CDPREP_HAVE_FCL
-    output.add([&] { return std::make_unique<Fcl>(a, b, tolerance); });
-#else
-    lacks("FCL");
+    pairs.add(*std::make_unique<Fcl>(a, b, tolerance));
 #endif
 #ifdef CDPREP_HAVE_ODE
-    output.add([&] { return std::make_unique<Ode>(a, b); });
-#else
-    lacks("ODE");
+    pairs.add(*std::make_unique<Ode>(a, b));
 #endif
 #ifdef CDPREP_HAVE_BULLET
-    output.add([&] { return std::make_unique<Bullet>(a, b); });
-#else
-    lacks("Bullet");
+    pairs.add(*std::make_unique<Bullet>(a, b));
 #endif
 #ifdef CDPREP_HAVE_CGAL
-    output.add([&] { return std::make_unique<Cgal>(a, b); });
-#else
-    lacks("CGAL");
+    pairs.add(*std::make_unique<Cgal>(a, b));
 #endif
-    std::printf("],\n \"absent\": [%s]}\n", absent.c_str());
+#ifdef CDPREP_HAVE_EMBREE
+    pairs.add(*std::make_unique<Embree>(a, b));
+#endif
+    std::printf("],\n ");
+    print_absent(absent_peers());
     return 0;
+}
+
+int build_all(const std::vector<std::string>& arguments) {
+    const Model model = open_or_stop(arguments[0]);
+    [[maybe_unused]] const Mesh mesh(model);
+    Builds builds;
+    builds.rounds = std::max<std::size_t>(1, std::strtoul(arguments[1].c_str(), nullptr, 10));
+    builds.budget = std::strtod(arguments[2].c_str(), nullptr);
+    std::printf("{\"builds\": [");
+#ifdef CDPREP_HAVE_QHULL
+    builds.add("qhull", std::string("qhull ") + qh_version, "option Qt",
+               [&] { return build_hull(mesh); });
+#endif
+#ifdef CDPREP_HAVE_FCL
+    builds.add("fcl", "FCL " FCL_VERSION, "oriented boxes",
+               [&] { return timed([&] { return fcl_model<fcl::OBBd>(model); }); });
+    builds.add("fcl_swept", "FCL " FCL_VERSION, "swept rectangles, as PQP",
+               [&] { return timed([&] { return fcl_model<fcl::RSSd>(model); }); });
+#endif
+#ifdef CDPREP_HAVE_ODE
+    builds.add("ode", "ODE 0.16 (OPCODE)", "copies of the triangles included",
+               [&] { return timed([&] { return std::make_unique<Ode::Alone>(model); }); });
+#endif
+#ifdef CDPREP_HAVE_BULLET
+    builds.add("bullet", "Bullet (GImpact)", "copies of the triangles included",
+               [&] { return timed([&] { return std::make_unique<Bullet::Body>(model); }); });
+#endif
+#ifdef CDPREP_HAVE_CGAL
+    builds.add("cgal", "CGAL " CGAL_VERSION_STR, "a surface mesh and its tree of boxes",
+               [&] { return timed([&] { return std::make_unique<Cgal::Alone>(model); }); });
+#endif
+#ifdef CDPREP_HAVE_EMBREE
+    const EmbreeDevice device;
+    builds.add("embree", "Embree " RTC_VERSION_STRING, "user geometry, medium quality", [&] {
+        return timed([&] {
+            return std::make_unique<EmbreeBody>(device.get(), model, RTC_BUILD_QUALITY_MEDIUM);
+        });
+    });
+#endif
+    std::printf("],\n ");
+    print_absent(absent_peers());
+    return 0;
+}
+
+int main_of(const std::vector<std::string>& words) {
+    const std::vector<std::string> rest(words.begin() + (words.empty() ? 0 : 1), words.end());
+    if (!words.empty() && words[0] == "pair" && rest.size() == 6) return ask_pair(rest);
+    if (!words.empty() && words[0] == "build" && rest.size() == 3) return build_all(rest);
+    stop("Usage: see the head of peers.cpp.");
 }
 
 }  // namespace

@@ -140,7 +140,8 @@ class Browser:
     def settle(self):
         """Until the page stands still."""
         self.wait("document.readyState === 'complete' && location.href !== 'about:blank' && "
-                  "(document.body.classList.contains('no-webgl') || "
+                  "(!document.getElementById('view') || "
+                  "document.body.classList.contains('no-webgl') || "
                   "document.getElementById('view').getAttribute('aria-busy') === 'false')")
         self.value("new Promise((go) => requestAnimationFrame(() => requestAnimationFrame(go)))")
 

@@ -13,6 +13,7 @@
 #include "import_limits.h"
 #include "interrupt.h"
 #include "output_path.h"
+#include "pair_poses.h"
 #include "report/comparison_page.h"
 #include "report/comparison_report.h"
 #include "report_output.h"
@@ -36,6 +37,7 @@ const std::map<std::string, bool TableChoice::*> kTables = {{"1", &TableChoice::
 struct Arguments {
     std::vector<fs::path> inputs;
     fs::path output;
+    fs::path poses;  ///< a folder to write them to, or empty
     std::vector<std::string> tables;
     std::string pairs = "fitting";
     std::string format = "text";
@@ -102,6 +104,9 @@ Exit run(Arguments& arguments) {
     report.exit = static_cast<int>(exit);
     Result<Done> written = output.value().append(report_in(arguments.format, report));
     if (written) written = output.value().finish();
+    if (written && !arguments.poses.empty()) {
+        written = write_pair_poses(arguments.poses, report.comparison);
+    }
     if (!written) return fail("compare", written.error());
     if (exit != Exit::success) {
         std::cerr << "cdprep compare: a promise was broken; the report says which. Please report "
@@ -142,14 +147,24 @@ void add_compare(CLI::App& app, Exit& exit) {
         ->check(CLI::IsMember({"fitting", "paper", "all"}))
         ->capture_default_str();
     command->add_flag("--quick", options.quick, "A look: few poses, one round");
-    command
-        ->add_option("--poses", options.poses,
-                     "How many a pair in each of five strata, from deep to far. Default: 20; "
-                     "quick: 3")
-        ->check(CLI::Range(std::size_t{1}, kMostPoses));
+    CLI::Option* const drawn =
+        command
+            ->add_option("--per-stratum", options.per_stratum,
+                         "How many poses a pair in each of five strata, from deep to far. Default: "
+                         "20; quick: 3")
+            ->check(CLI::Range(std::size_t{1}, kMostPoses));
     command->add_option("--rounds", options.rounds, "Measured how often. Default: 5; quick: 1")
         ->check(CLI::Range(std::size_t{1}, kMostRounds));
-    command->add_option("--seed", options.seed, "Of the poses")->capture_default_str();
+    CLI::Option* const seed =
+        command->add_option("--seed", options.seed, "Of the poses")->capture_default_str();
+    command
+        ->add_option("--poses", options.poses,
+                     "Take them from A-B.pose in this folder instead, for every pair")
+        ->check(CLI::ExistingDirectory)
+        ->excludes(drawn)
+        ->excludes(seed);
+    command->add_option("--save-poses", arguments->poses,
+                        "Write them into this folder: others can then ask at the same ones");
     command->add_option("--peers", options.peers,
                         "A program that asks other libraries the same (tests/bench/peers)");
     add_jobs(*command, options.threads);

@@ -9,11 +9,14 @@
 
 #include "interrupt.h"
 #include "load_mesh.h"
+#include "pair_poses.h"
 #include "peer_program.h"
 #include "report/peer_json.h"
 #include "study/cell_search.h"
+#include "study/cells.h"
 #include "study/feature_probes.h"
 #include "study/pair_tables.h"
+#include "study/peer_tables.h"
 #include "study/preparation.h"
 #include "study/pruning.h"
 #include "study/published.h"
@@ -33,10 +36,12 @@ constexpr std::size_t kQuickRounds = 1;
 constexpr double kBudget = 10;
 constexpr double kQuickBudget = 0.2;
 
-/// Two numbers of models.
+/// Two numbers of models, and the poses that a file has for them.
 struct Pair {
     std::size_t a;
     std::size_t b;
+    fs::path pose_file{};
+    std::vector<study::GivenPose> given{};
 };
 
 class Comparing {
@@ -45,12 +50,17 @@ public:
               std::size_t models)
         : options_(options), threads_(threads), style_(style) {
         progress_.emplace(style, models);
+        if (options_.peers.empty()) {
+            not_asked_ = study::all_absent("peers were not asked: name a program with --peers");
+        }
     }
 
     Result<study::Comparison> run(const std::vector<fs::path>& files) {
         if (const auto error = read(files)) return *error;
-        describe();
         const TableChoice& tables = options_.tables;
+        if (tables.pairs || tables.talk) pairs_ = choose_pairs();
+        if (const auto error = read_poses()) return *error;
+        describe();
         done_ = 0;
         progress_.emplace(style_, count_steps());
         if (tables.features) {
@@ -60,14 +70,16 @@ public:
         if (tables.preparation || tables.pairs || tables.talk) {
             if (const auto error = make_forms()) return *error;
         }
-        if (tables.preparation) compare_preparation();
+        if (tables.preparation) {
+            if (const auto error = compare_preparation()) return *error;
+        }
         if (tables.pairs || tables.talk) {
             if (const auto error = compare_pairs()) return *error;
         }
         if (options_.peers.empty()) {
             comparison_.peers.emplace_back(
-                "Peers (FCL, ODE, Bullet, CGAL; PQP and SWIFT++ have no package) were not asked: "
-                "name a program with --peers.");
+                "Peers (FCL, ODE, Bullet, CGAL, Embree, qhull; PQP and SWIFT++ have no package) "
+                "were not asked: name a program with --peers.");
         }
         if (is_interrupted()) return interrupted(files.front());
         for (const char* erratum : study::published_errata()) {
@@ -101,12 +113,29 @@ private:
         return std::nullopt;
     }
 
+    /// The poses of each pair, where a folder has them.
+    std::optional<Error> read_poses() {
+        if (options_.poses.empty()) return std::nullopt;
+        for (Pair& pair : pairs_) {
+            pair.pose_file = pose_path(options_.poses, meshes_[pair.a].name, meshes_[pair.b].name);
+            Result<std::vector<study::GivenPose>> given = read_pair_poses(pair.pose_file);
+            if (!given) return given.error();
+            pair.given = std::move(given).value();
+        }
+        return std::nullopt;
+    }
+
     void describe() {
         comparison_.machine = study::describe_machine();
         const std::size_t threads =
             options_.threads == 0 ? comparison_.machine.processors : options_.threads;
-        comparison_.settings = {CDPREP_VERSION, options_.quick,  options_.seed,
-                                options_.poses, options_.rounds, threads};
+        comparison_.settings = {.version = CDPREP_VERSION,
+                                .quick = options_.quick,
+                                .seed = options_.seed,
+                                .per_stratum = options_.per_stratum,
+                                .poses = options_.poses.string(),
+                                .rounds = options_.rounds,
+                                .threads = threads};
         for (const study::StudyMesh& mesh : meshes_) {
             comparison_.models.push_back({mesh.name, mesh.file.string(), mesh.read_vertices,
                                           mesh.read_triangles, mesh.read_hash,
@@ -156,7 +185,7 @@ private:
         return std::nullopt;
     }
 
-    void compare_preparation() {
+    std::optional<Error> compare_preparation() {
         std::vector<study::Preparation> prepared;
         for (std::size_t i = 0; i < meshes_.size(); ++i) {
             step(meshes_[i].name + ": hull, hierarchy and pieces");
@@ -165,53 +194,93 @@ private:
                                                            .pieces_alone = !options_.quick,
                                                            .parallel_for = threads_.parallel_for(),
                                                            .stop = is_interrupted}));
-            if (is_interrupted()) return;
+            if (is_interrupted()) return std::nullopt;
         }
         comparison_.tables.push_back(study::preparation_table(meshes_, prepared));
         comparison_.tables.push_back(study::preparation_details(meshes_, prepared));
+        std::vector<study::PeerRun> runs;
+        if (auto error = ask_builds(runs)) return error;
+        comparison_.tables.push_back(study::peer_build_table(meshes_, runs, not_asked_));
         add(study::preparation_checks(meshes_, prepared));
+        return std::nullopt;
+    }
+
+    [[nodiscard]] study::PoseSet poses_of(const Pair& pair) const {
+        const study::PoseSetOptions options = {.seed = options_.seed,
+                                               .per_stratum = options_.per_stratum,
+                                               .parallel_for = threads_.parallel_for(),
+                                               .stop = is_interrupted};
+        const Model& a = forms_[pair.a].swept.model;
+        const Model& b = forms_[pair.b].swept.model;
+        if (options_.poses.empty()) return study::make_pose_set(a, b, options);
+        return study::ask_poses(a, b, pair.given, pair.pose_file.string(), options);
     }
 
     [[nodiscard]] study::PairStudy study_of(const Pair& pair) const {
-        const study::PairOptions options = {
-            .poses = {.seed = options_.seed,
-                      .per_stratum = options_.poses,
-                      .parallel_for = threads_.parallel_for(),
-                      .stop = is_interrupted},
-            .timing = {.rounds = options_.rounds,
-                       .budget_s = options_.quick ? kQuickBudget : kBudget,
-                       .stop = is_interrupted}};
         study::PairStudy study;
+        study.poses = poses_of(pair);
         if (options_.tables.pairs) {
-            study = study::study_pair(forms_[pair.a], forms_[pair.b], options);
-        } else {
-            study.poses = study::make_pose_set(forms_[pair.a].swept.model,
-                                               forms_[pair.b].swept.model, options.poses);
+            study = study::study_pair(
+                forms_[pair.a], forms_[pair.b], std::move(study.poses),
+                {.rounds = options_.rounds, .budget_s = budget(), .stop = is_interrupted});
         }
         study.a = pair.a;
         study.b = pair.b;
         return study;
     }
 
+    [[nodiscard]] double budget() const {
+        return options_.quick ? kQuickBudget : kBudget;
+    }
+
+    /// Asks the program of peers, and keeps who answered how and who did not.
+    Result<study::PeerRun> ask(const PeerQuestions& questions) {
+        const Result<std::string> printed = run_peers(options_.peers, questions);
+        if (!printed) return printed.error();
+        Result<study::PeerRun> run = report::read_peers(printed.value());
+        if (!run) return unusable(run.error().message);
+        for (const study::AbsentPeer& absent : run.value().absent) {
+            not_asked_[absent.key] = absent.reason;
+            keep_line(absent.name + " was not asked: " + absent.reason + ".");
+        }
+        return run;
+    }
+
     /// Sets the peers beside our strategies, if there is a program that asks them.
     std::optional<Error> ask_peers(const Pair& pair, study::PairStudy& study) {
         if (options_.peers.empty() || !options_.tables.pairs) return std::nullopt;
-        const Result<std::string> printed =
-            run_peers(options_.peers, {.a = std::as_const(forms_[pair.a].plain.image).span(),
-                                       .b = std::as_const(forms_[pair.b].plain.image).span(),
-                                       .poses = study::peer_questions(study.poses),
-                                       .tolerance = study::kWithinShare * study.poses.diagonal,
-                                       .rounds = options_.rounds,
-                                       .budget_s = options_.quick ? kQuickBudget : kBudget});
-        if (!printed) return printed.error();
-        const Result<study::PeerRun> run = report::read_peers(printed.value());
-        if (!run) return unusable(run.error().message);
+        const std::string questions = study::peer_questions(study.poses);
+        const double tolerance = study::kWithinShare * study.poses.diagonal;
+        const Result<study::PeerRun> run =
+            ask({.what = "pair",
+                 .files = {std::as_const(forms_[pair.a].plain.image).span(),
+                           std::as_const(forms_[pair.b].plain.image).span(),
+                           std::as_bytes(std::span(questions))},
+                 .words = {study::formatted("%.17g", tolerance), std::to_string(options_.rounds),
+                           study::formatted("%.17g", budget())}});
+        if (!run) return run.error();
         for (const study::PeerAnswers& peer : run.value().peers) {
             const std::string wrong = study::add_peer(peer, study);
             if (!wrong.empty()) return unusable(wrong);
             keep_line(peer.name + ": " + peer.note + "; timed in a program of its own.");
         }
-        for (const std::string& absent : run.value().absent) keep_line(absent);
+        return std::nullopt;
+    }
+
+    /// What peers build over each model; nothing without a program that asks them.
+    std::optional<Error> ask_builds(std::vector<study::PeerRun>& runs) {
+        if (options_.peers.empty()) return std::nullopt;
+        for (std::size_t i = 0; i < meshes_.size(); ++i) {
+            Result<study::PeerRun> run = ask(
+                {.what = "build",
+                 .files = {std::as_const(forms_[i].plain.image).span()},
+                 .words = {std::to_string(options_.rounds), study::formatted("%.17g", budget())}});
+            if (!run) return run.error();
+            for (const study::PeerBuild& build : run.value().builds) {
+                keep_line(build.name + " builds: " + build.note + ".");
+            }
+            runs.push_back(std::move(run).value());
+        }
         return std::nullopt;
     }
 
@@ -227,7 +296,7 @@ private:
 
     std::optional<Error> compare_pairs() {
         std::vector<study::PairStudy> studies;
-        for (const Pair& pair : pairs()) {
+        for (const Pair& pair : pairs_) {
             step(meshes_[pair.a].name + " x " + meshes_[pair.b].name);
             studies.push_back(study_of(pair));
             if (is_interrupted()) return std::nullopt;
@@ -239,6 +308,7 @@ private:
         }
         if (options_.tables.pairs) {
             comparison_.tables.push_back(study::pair_table(meshes_, studies));
+            comparison_.tables.push_back(study::peer_pair_table(meshes_, studies, not_asked_));
             for (const study::PairStudy& study : studies) {
                 comparison_.tables.push_back(study::pair_details(meshes_, study));
             }
@@ -274,7 +344,7 @@ private:
         return found;
     }
 
-    [[nodiscard]] std::vector<Pair> pairs() const {
+    [[nodiscard]] std::vector<Pair> choose_pairs() const {
         const bool are_published = std::ranges::all_of(meshes_, [](const study::StudyMesh& mesh) {
             return mesh.likeness.version_of.has_value();
         });
@@ -308,7 +378,7 @@ private:
         if (tables.spatial) steps += models;
         if (tables.preparation || tables.pairs || tables.talk) steps += models;
         if (tables.preparation) steps += models;
-        if (tables.pairs || tables.talk) steps += pairs().size();
+        if (tables.pairs || tables.talk) steps += pairs_.size();
         return steps + (tables.talk ? 1 : 0);
     }
 
@@ -318,14 +388,16 @@ private:
     std::optional<Progress> progress_;
     std::size_t done_ = 0;
     std::vector<study::StudyMesh> meshes_;
+    std::vector<Pair> pairs_;
     std::deque<study::ModelForms> forms_;
+    study::PeerReasons not_asked_;
     study::Comparison comparison_;
 };
 
 }  // namespace
 
 ComparisonOptions settled(ComparisonOptions options) {
-    if (options.poses == 0) options.poses = options.quick ? kQuickPoses : kPoses;
+    if (options.per_stratum == 0) options.per_stratum = options.quick ? kQuickPoses : kPoses;
     if (options.rounds == 0) options.rounds = options.quick ? kQuickRounds : kRounds;
     return options;
 }

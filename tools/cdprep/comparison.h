@@ -36,7 +36,8 @@ struct ComparisonOptions {
     PairChoice pairs = PairChoice::fitting;
     bool quick = false;
     std::uint64_t seed = 1;
-    std::size_t poses = 0;        ///< of each stratum; 0: as many as suit
+    std::size_t per_stratum = 0;  ///< poses; 0: as many as suit
+    std::filesystem::path poses;  ///< a folder that holds them, as pair_poses.h says, or empty
     std::size_t rounds = 0;       ///< 0: as many as suit
     std::filesystem::path peers;  ///< a program, or empty
     std::size_t threads = 0;
@@ -44,7 +45,8 @@ struct ComparisonOptions {
 };
 
 /// Reads the models and measures all that the tables say. Fails with the first model that
-/// cannot be compared, with `interrupted` when the person stops it.
+/// cannot be compared, or the first pair whose poses cannot be read, before anything is measured;
+/// with `interrupted` when the person stops it.
 [[nodiscard]] Result<study::Comparison> compare_models(
     const std::vector<std::filesystem::path>& files, const ComparisonOptions& options,
     const Threads& threads, ProgressStyle style);

@@ -27,9 +27,10 @@ bool parse_number(std::string_view word, double& value) {
     return error == std::errc{} && end == last && std::isfinite(value);
 }
 
-bool is_skipped(const std::string& line) {
-    const std::size_t begin = line.find_first_not_of(kBlanks);
-    return begin == std::string::npos || line[begin] == '#';
+std::string_view without_blanks(std::string_view text) {
+    const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
+    text.remove_prefix(begin);
+    return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
 }  // namespace
@@ -55,12 +56,18 @@ Result<Done> parse_row(std::string_view text, const std::string& place, std::spa
 
 Result<Done> for_each_line(
     const std::filesystem::path& path,
-    const std::function<Result<Done>(const std::string& line, const std::string& place)>& take) {
+    const std::function<Result<Done>(const std::string& line, const std::string& place)>& take,
+    const std::function<void(std::string_view note)>& note) {
     std::ifstream file(path);
     if (!file) return Error{ErrorCode::unreadable, path.string() + ": cannot be opened."};
     std::string line;
     for (std::size_t number = 1; std::getline(file, line); ++number) {
-        if (is_skipped(line)) continue;
+        const std::string_view text = without_blanks(line);
+        if (text.empty()) continue;
+        if (text.front() == '#') {
+            if (note) note(without_blanks(text.substr(1)));
+            continue;
+        }
         Result<Done> taken = take(line, path.string() + ": line " + std::to_string(number));
         if (!taken) return taken;
     }

@@ -21,10 +21,12 @@ namespace cdprep::cli {
                                      std::span<double> row);
 
 /// Calls `take` with each line of a text file and its place, "FILE: line 3".
-/// Empty lines and lines that start with # are skipped. Stops at the first
-/// failure of `take`; `unreadable` when the file cannot be read.
+/// Empty lines are skipped, and lines that start with #, of which `note` gets
+/// what stands behind that, without blanks around. Stops at the first failure
+/// of `take`; `unreadable` when the file cannot be read.
 [[nodiscard]] Result<Done> for_each_line(
     const std::filesystem::path& path,
-    const std::function<Result<Done>(const std::string& line, const std::string& place)>& take);
+    const std::function<Result<Done>(const std::string& line, const std::string& place)>& take,
+    const std::function<void(std::string_view note)>& note = {});
 
 }  // namespace cdprep::cli

@@ -11,13 +11,13 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <deque>
 #include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "interrupt.h"
-#include "study/cells.h"
 
 extern "C" char** environ;  // NOLINT(readability-redundant-declaration)
 
@@ -82,34 +82,33 @@ int wait_for(pid_t process) {
 
 Result<std::string> run_peers(const std::filesystem::path& program,
                               const PeerQuestions& questions) {
-    const std::array<MemoryFile, 4> files;  // A, B, the poses, the answer
-    if (!files[0].write(questions.a) || !files[1].write(questions.b) ||
-        !files[2].write(std::as_bytes(std::span(questions.poses)))) {
-        return failure(program,
-                       "cannot be handed the models: " + std::generic_category().message(errno));
+    // By way of high numbers, so that none is overwritten before it is copied.
+    constexpr int kAside = 200;
+    constexpr int kFirst = 3;
+    const MemoryFile answer;
+    std::deque<MemoryFile> files;
+    std::vector<std::string> words = {program.string(), questions.what};
+    for (const std::span<const std::byte> bytes : questions.files) {
+        if (!files.emplace_back().write(bytes)) {
+            return failure(
+                program, "cannot be handed the models: " + std::generic_category().message(errno));
+        }
+        words.push_back("/proc/self/fd/" + std::to_string(kFirst + files.size() - 1));
     }
-    std::vector<std::string> words = {program.string(),
-                                      "/proc/self/fd/3",
-                                      "/proc/self/fd/4",
-                                      "/proc/self/fd/5",
-                                      study::formatted("%.17g", questions.tolerance),
-                                      std::to_string(questions.rounds),
-                                      study::formatted("%.17g", questions.budget_s)};
+    words.insert(words.end(), questions.words.begin(), questions.words.end());
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
 
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
-    ::posix_spawn_file_actions_adddup2(&actions, files[3].descriptor(), STDOUT_FILENO);
-    // By way of high numbers, so that none is overwritten before it is copied.
-    constexpr int kAside = 200;
-    constexpr int kFirst = 3;
-    for (int i = 0; i < 3; ++i) {
+    ::posix_spawn_file_actions_adddup2(&actions, answer.descriptor(), STDOUT_FILENO);
+    const int count = static_cast<int>(files.size());
+    for (int i = 0; i < count; ++i) {
         ::posix_spawn_file_actions_adddup2(
             &actions, files[static_cast<std::size_t>(i)].descriptor(), kAside + i);
     }
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < count; ++i) {
         ::posix_spawn_file_actions_adddup2(&actions, kAside + i, kFirst + i);
     }
     pid_t process = 0;
@@ -128,7 +127,7 @@ Result<std::string> run_peers(const std::filesystem::path& program,
                                          : "ended with " + std::to_string(WEXITSTATUS(status))) +
                                     ".");
     }
-    return files[3].read();
+    return answer.read();
 }
 
 }  // namespace cdprep::cli

@@ -5,19 +5,18 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cdprep/result.h"
 
 namespace cdprep::cli {
 
-/// What a program of peers is asked about two models.
+/// What a program of peers is asked: its words are the first one, then files that hold the
+/// bytes, then the others. tests/bench/peers.cpp says what they mean.
 struct PeerQuestions {
-    std::span<const std::byte> a;  ///< as baked
-    std::span<const std::byte> b;
-    std::string poses;     ///< a line each
-    double tolerance = 0;  ///< model units
-    std::size_t rounds = 1;
-    double budget_s = 1;  ///< for one question to one peer
+    std::string what;                               ///< "pair" or "build"
+    std::vector<std::span<const std::byte>> files;  ///< models as baked, questions
+    std::vector<std::string> words;
 };
 
 /// Runs the program and returns what it prints. It reads everything from memory: nothing is

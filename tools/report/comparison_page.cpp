@@ -48,7 +48,8 @@ std::string cell_html(const Cell& cell, Unit unit) {
     if (!cell.is_filled()) kind += kind.empty() ? "none" : " none";
     std::string html = "<td" + (kind.empty() ? "" : " class=\"" + kind + "\"");
     if (!hint.empty()) html += " title=\"" + text_of(hint) + "\"";
-    html += ">" + (cell.is_filled() ? text_of(cell_text(cell, unit)) : "&ndash;");
+    html += '>';
+    html += cell.is_filled() ? text_of(cell_text(cell, unit)) : "&ndash;";
     if (cell.published) {
         html += "<span class=\"theirs\">" + text_of(published_text(cell, unit)) + "</span>";
     }

@@ -46,6 +46,8 @@ char mark_sign(study::Mark mark) {
             return '~';
         case study::Mark::erratum:
             return '!';
+        case study::Mark::not_comparable:
+            return '#';
         default:
             return ' ';
     }
@@ -230,7 +232,7 @@ std::string checks_text(const Comparison& comparison) {
     for (const study::Check& check : comparison.checks) {
         if (check.verdict == study::Verdict::fails) ++failed;
         if (check.verdict == study::Verdict::holds) ++held;
-        text += std::string("  ") + padded_right(verdict_name(check.verdict), 9) +
+        text += std::string("  ") + padded_right(verdict_name(check.verdict), 11) +
                 printable(check.claim) + ": " + printable(check.evidence) + '\n';
     }
     return text + "  " + std::to_string(held) + " hold, " + std::to_string(failed) +
@@ -284,8 +286,9 @@ Json table_json(const Table& table) {
 
 Json settings_json(const study::ComparisonSettings& settings) {
     return {{"version", settings.version}, {"quick", settings.quick},
-            {"seed", settings.seed},       {"poses_per_stratum", settings.poses},
-            {"rounds", settings.rounds},   {"threads", settings.threads}};
+            {"seed", settings.seed},       {"poses_per_stratum", settings.per_stratum},
+            {"poses", settings.poses},     {"rounds", settings.rounds},
+            {"threads", settings.threads}};
 }
 
 Json machine_json(const study::Machine& machine) {
@@ -317,7 +320,15 @@ Json poses_json(const study::ComparedPair& pair) {
              {"a_from_b", {r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], t.x, t.y, t.z}},
              {"hit", pose.hit}});
     }
-    return {{"a", pair.a}, {"b", pair.b}, {"seed", pair.poses.seed}, {"poses", std::move(poses)}};
+    Json json = {{"a", pair.a}, {"b", pair.b}};
+    if (pair.poses.source.empty()) {
+        json["seed"] = pair.poses.seed;
+    } else {
+        json["source"] = pair.poses.source;
+    }
+    json["hash"] = study::hash_text(study::hash_of(pair.poses));
+    json["poses"] = std::move(poses);
+    return json;
 }
 
 std::string csv_text(std::string_view text) {
@@ -388,6 +399,8 @@ const char* mark_name(study::Mark mark) noexcept {
             return "stand-in";
         case study::Mark::erratum:
             return "erratum";
+        case study::Mark::not_comparable:
+            return "not comparable";
         default:
             return "";
     }
@@ -417,10 +430,11 @@ std::vector<std::string> provenance_lines(const Comparison& comparison) {
             ", kernels " + machine.kernels,
         machine.processor + ", " + std::to_string(machine.processors) + " processors, " +
             std::to_string(machine.memory >> 30U) + " GiB; " + machine.system,
-        "Seed " + std::to_string(settings.seed) + ", " + std::to_string(settings.poses) +
-            " poses a stratum; " + medians_of(settings.rounds) +
-            "; one thread unless it says all, which are " + std::to_string(settings.threads) +
-            (settings.quick ? "; --quick" : "")};
+        (settings.poses.empty() ? "Seed " + std::to_string(settings.seed) + ", " +
+                                      std::to_string(settings.per_stratum) + " poses a stratum"
+                                : "Poses of " + settings.poses) +
+            "; " + medians_of(settings.rounds) + "; one thread unless it says all, which are " +
+            std::to_string(settings.threads) + (settings.quick ? "; --quick" : "")};
     for (const study::ComparedModel& model : comparison.models) {
         lines.push_back(
             model.name + " (" + model.file + "): " + std::to_string(model.read_vertices) +
@@ -428,6 +442,17 @@ std::vector<std::string> provenance_lines(const Comparison& comparison) {
             study::hash_text(model.read_hash) + "; built from " +
             std::to_string(model.built_vertices) + " and " + std::to_string(model.built_triangles) +
             ", hash " + study::hash_text(model.built_hash) + "; " + model.likeness);
+    }
+    for (const study::ComparedPair& pair : comparison.pairs) {
+        const study::PoseSet& poses = pair.poses;
+        lines.push_back(pair.a + " x " + pair.b + ": " + std::to_string(poses.poses.size()) +
+                        " poses " +
+                        (poses.source.empty() ? "by seed " + std::to_string(poses.seed)
+                                              : "of " + poses.source) +
+                        ", hash " + study::hash_text(study::hash_of(poses)));
+    }
+    if (!comparison.pairs.empty()) {
+        lines.emplace_back("The poses stand in the JSON; --save-poses writes them as files.");
     }
     lines.insert(lines.end(), comparison.peers.begin(), comparison.peers.end());
     return lines;
@@ -463,6 +488,7 @@ std::string comparison_json(const ComparisonReport& report) {
     for (const study::Check& check : comparison.checks) {
         json["checks"].push_back({{"claim", check.claim},
                                   {"verdict", verdict_name(check.verdict)},
+                                  {"promise", check.is_promise},
                                   {"evidence", check.evidence}});
     }
     json["errata"] = comparison.errata;
@@ -490,6 +516,10 @@ std::string comparison_csv(const Comparison& comparison) {
                         csv_cell(row.cells[c]) + '\n';
             }
         }
+    }
+    for (const study::Check& check : comparison.checks) {
+        text += std::string("# ") + verdict_name(check.verdict) + ": " + printable(check.claim) +
+                ": " + printable(check.evidence) + '\n';
     }
     return text;
 }

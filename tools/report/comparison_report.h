@@ -19,18 +19,19 @@ struct ComparisonReport {
 /// Aligned tables for people, at most 118 columns wide: tables that are wider go on below.
 [[nodiscard]] std::string comparison_text(const study::Comparison& comparison);
 
-/// {"settings", "machine", "models", "tables", "checks", "errata", "peers", "pairs"}: every
-/// cell has a "value" or a "text", or else a "reason". Numbers are in seconds, MiB, shares.
+/// As comparison.schema.json says: every cell has a "value" or a "text", or else a "reason".
+/// Numbers are in seconds, MiB, shares.
 [[nodiscard]] std::string comparison_json(const ComparisonReport& report);
 
 /// A line a cell: table,row,column,unit,value,text,reason,published,mark,remark, then the
-/// details that cells of timings have. Lines that begin with # say how it was measured.
+/// details that cells of timings have. Lines that begin with # say how it was measured, and at
+/// the end what holds.
 [[nodiscard]] std::string comparison_csv(const study::Comparison& comparison);
 
 /// A cell's value with its unit, as people read it; its reason in brackets where it has none.
 [[nodiscard]] std::string cell_text(const study::Cell& cell, study::Unit unit);
-/// What was published in its place, with * for other counts, ~ for a stand-in and ! for an
-/// erratum; empty when nothing was.
+/// What was published in its place, with * for other counts, ~ for a stand-in, ! for an erratum
+/// and # for a figure that cannot be compared; empty when nothing was.
 [[nodiscard]] std::string published_text(const study::Cell& cell, study::Unit unit);
 
 /// Everything about how it was measured, a sentence each.

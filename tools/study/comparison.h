@@ -37,7 +37,8 @@ struct ComparisonSettings {
     std::string version;  ///< of the program
     bool quick = false;
     std::uint64_t seed = 1;
-    std::size_t poses = 0;  ///< of each stratum
+    std::size_t per_stratum = 0;  ///< poses
+    std::string poses;            ///< the folder that they were read from; empty: they are drawn
     std::size_t rounds = 0;
     std::size_t threads = 0;
 };

@@ -66,16 +66,18 @@ void compare_answers(Asking& asking, const TimingOptions& timing, PairStudy& stu
     }
 }
 
-/// What a collide does in the mean.
-QueryCounts counts_of(Asking& asking, std::size_t who, std::span<const std::size_t> cases) {
+/// What a question does in the mean.
+QueryCounts counts_of(Asking& asking, std::size_t who, Asked asked,
+                      std::span<const std::size_t> cases) {
     QueryCounts sum;
     asking.pairs[who].count_into(&sum);
-    for (const std::size_t pose : cases) asking.ask(who, Asked::collide, pose);
+    for (const std::size_t pose : cases) asking.ask(who, asked, pose);
     asking.pairs[who].count_into(nullptr);
     if (cases.empty()) return sum;
     sum.box_pairs /= cases.size();
     sum.cell_pairs /= cases.size();
     sum.leaf_pairs /= cases.size();
+    sum.triangle_pairs /= cases.size();
     return sum;
 }
 
@@ -136,9 +138,10 @@ std::vector<std::size_t> cases_of(Asked asked, const PoseSet& poses) {
     return cases;
 }
 
-PairStudy study_pair(const ModelForms& a, const ModelForms& b, const PairOptions& options) {
+PairStudy study_pair(const ModelForms& a, const ModelForms& b, PoseSet poses,
+                     const TimingOptions& timing) {
     PairStudy study;
-    study.poses = make_pose_set(a.swept.model, b.swept.model, options.poses);
+    study.poses = std::move(poses);
     Asking asking{{}, study.poses};
     for (const Strategy& strategy : strategies()) {
         const StrategyPair& pair = asking.pairs.emplace_back(strategy, a, b);
@@ -150,40 +153,42 @@ PairStudy study_pair(const ModelForms& a, const ModelForms& b, const PairOptions
             contender.reasons[asked] = pair.find_reason(static_cast<Asked>(asked));
         }
     }
-    compare_answers(asking, options.timing, study);
+    compare_answers(asking, timing, study);
     for (std::size_t i = 0; i < asking.pairs.size(); ++i) {
-        for (std::size_t s = 0; s < kStrata; ++s) {
-            study.contenders[i].counts[s] =
-                counts_of(asking, i, study.poses.of(static_cast<Stratum>(s)));
+        for (std::size_t asked = 0; asked < kCounted; ++asked) {
+            if (!study.contenders[i].reasons[asked].empty()) continue;
+            for (std::size_t s = 0; s < kStrata; ++s) {
+                study.contenders[i].counts[asked][s] = counts_of(
+                    asking, i, static_cast<Asked>(asked), study.poses.of(static_cast<Stratum>(s)));
+            }
         }
     }
     for (std::size_t number_of_asked = 0; number_of_asked < kAsked; ++number_of_asked) {
-        if (is_stopped(options.timing)) break;
+        if (is_stopped(timing)) break;
         const auto asked = static_cast<Asked>(number_of_asked);
         const std::vector<std::size_t> cases = cases_of(asked, study.poses);
-        std::vector<Timings> taken = time_asked(asked, cases, asking, options.timing, study, {});
+        std::vector<Timings> taken = time_asked(asked, cases, asking, timing, study, {});
         for (std::size_t i = 0; i < taken.size(); ++i) {
             study.contenders[i].timings[number_of_asked] = std::move(taken[i]);
         }
     }
     const std::vector<std::size_t> deep = study.poses.of(Stratum::deep);
-    if (!deep.empty() && !is_stopped(options.timing)) {
-        TimingOptions timing = options.timing;
-        timing.rounds = kRoundsAgainstItself;
+    if (!deep.empty() && !is_stopped(timing)) {
+        TimingOptions more = timing;
+        more.rounds = kRoundsAgainstItself;
         study.itself = ratio_to_itself(deep.size(), question_of([&](std::size_t number) {
                                            return asking.ask(asking.pairs.size() - 1,
                                                              Asked::collide, deep[number]);
                                        }),
-                                       timing);
+                                       more);
     }
     const auto make_cold = [&](std::size_t who) {
         const Strategy& strategy = strategies()[who];
         flush(memory_of((a.*strategy.form).image.span(), (b.*strategy.form).image.span()));
     };
     for (const Asked asked : {Asked::collide, Asked::overlap}) {
-        if (is_stopped(options.timing)) break;
-        std::vector<Timings> taken =
-            time_asked(asked, deep, asking, options.timing, study, make_cold);
+        if (is_stopped(timing)) break;
+        std::vector<Timings> taken = time_asked(asked, deep, asking, timing, study, make_cold);
         for (std::size_t i = 0; i < taken.size(); ++i) {
             study.contenders[i].cold[static_cast<std::size_t>(asked)] = std::move(taken[i]);
         }

@@ -28,12 +28,16 @@ inline constexpr double kWithinShare = 0.01;
 /// Of `contacts`, likewise.
 inline constexpr double kContactShare = 1e-3;
 
+/// Those of Asked that are counted: collide and overlap.
+inline constexpr std::size_t kCounted = 2;
+
 /// One way to answer, and what came of it.
 struct Contender {
     std::string name;     ///< "octree"
     std::string setting;  ///< "paper", "tuned", or empty
     bool is_approximate = false;
     bool is_peer = false;  ///< timed in a program of its own
+    std::string peer{};    ///< its library's key, "fcl"; of ours empty
     /// By Asked, over cases_of(); without cases where it was not asked.
     std::array<Timings, kAsked> timings{};
     /// The same over the deep poses, with caches that hold nothing of the models; of collide and
@@ -44,8 +48,9 @@ struct Contender {
     std::size_t answers = 0;   ///< compared
     std::size_t found = 0;     ///< overlapping pairs, of all poses
     std::size_t pairs = 0;     ///< of those, there are
-    /// Of a collide in the mean, by stratum; zero where that is not counted.
-    std::array<QueryCounts, kStrata> counts{};
+    /// What a collide and an overlap do in the mean, by Asked and stratum; zero where it was not
+    /// asked or is not counted.
+    std::array<std::array<QueryCounts, kStrata>, kCounted> counts{};
 };
 
 /// The exact answers to which all are held.
@@ -65,14 +70,9 @@ struct PairStudy {
     std::vector<Contender> contenders;
 };
 
-struct PairOptions {
-    PoseSetOptions poses{};
-    TimingOptions timing{};  ///< budget_s is for each question
-};
-
-/// Draws poses and asks every strategy.
-[[nodiscard]] PairStudy study_pair(const ModelForms& a, const ModelForms& b,
-                                   const PairOptions& options);
+/// Asks every strategy at the poses. The budget of `timing` is for each question.
+[[nodiscard]] PairStudy study_pair(const ModelForms& a, const ModelForms& b, PoseSet poses,
+                                   const TimingOptions& timing);
 
 /// What stands for a strategy in tables: "octree, paper".
 [[nodiscard]] std::string title_of(const Contender& contender);

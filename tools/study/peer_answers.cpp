@@ -41,6 +41,7 @@ std::string peer_questions(const PoseSet& poses) {
 std::string add_peer(const PeerAnswers& answers, PairStudy& study) {
     Contender contender;
     contender.name = answers.name;
+    contender.peer = answers.key;
     contender.is_peer = true;
     contender.reasons = answers.reasons;
     contender.reasons[static_cast<std::size_t>(Asked::contacts)] = "peers are not asked that";
@@ -55,7 +56,7 @@ std::string add_peer(const PeerAnswers& answers, PairStudy& study) {
                    " poses.";
         }
         for (std::size_t i = 0; i < cases.size(); ++i) {
-            contender.timings[a].seconds.push_back({answered.seconds[i]});
+            contender.timings[a].seconds.push_back(answered.seconds[i]);
             contender.timings[a].times.push_back(1);
             const std::size_t answer = answered.answers[i];
             const std::size_t exact = study.exact.pairs[cases[i]];

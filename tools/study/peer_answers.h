@@ -12,22 +12,40 @@ namespace cdprep::study {
 
 /// What another library took and said; by case, as cases_of() has them.
 struct PeerAnswered {
-    std::vector<double> seconds;
-    std::vector<std::size_t> answers;  ///< 0 or 1; of overlap, the number of pairs
+    std::vector<std::vector<double>> seconds;  ///< by case and round
+    std::vector<std::size_t> answers;          ///< 0 or 1; of overlap, the number of pairs
 };
 
 struct PeerAnswers {
-    std::string name;
-    std::string note;    ///< of how it was asked
-    double build_s = 0;  ///< of both models
+    std::string key;   ///< "fcl"
+    std::string name;  ///< with its version
+    std::string note;  ///< of how it was asked
     std::array<PeerAnswered, kAsked> asked{};
     std::array<std::string, kAsked> reasons{};  ///< why it was not asked
 };
 
-/// All who answered about a pair, and who did not.
+/// A structure that another library built over a model.
+struct PeerBuild {
+    std::string key;              ///< "fcl_swept"
+    std::string name;             ///< with its version
+    std::string note;             ///< of what it is
+    std::vector<double> seconds;  ///< by round
+    std::size_t vertices = 0;     ///< of a hull; 0 of trees
+    std::size_t facets = 0;
+};
+
+/// A library that was not asked.
+struct AbsentPeer {
+    std::string key;
+    std::string name;
+    std::string reason;
+};
+
+/// All who answered about a pair, or built their structures over a model, and who did not.
 struct PeerRun {
     std::vector<PeerAnswers> peers;
-    std::vector<std::string> absent;  ///< a sentence each
+    std::vector<PeerBuild> builds;
+    std::vector<AbsentPeer> absent;
 };
 
 /// What the program of peers is asked about a pair: a line a pose, as tests/bench/peers.cpp says.

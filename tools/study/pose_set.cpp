@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
+#include "cdprep/format/checksum.h"
 #include "study/rigid_truth.h"
 #include "study/seeded_random.h"
 #include "vectors.h"
@@ -199,6 +201,15 @@ std::optional<StudyPose> draw(const Pair& pair, Stratum stratum, std::size_t num
     return std::nullopt;
 }
 
+/// The stratum of a given pose.
+Stratum sorted(const StudyPose& pose, std::optional<Stratum> said, double diagonal) {
+    if (!pose.hit) {
+        return stratum_of(false, 0, pose.gap_upper / diagonal).value_or(Stratum::far);
+    }
+    const bool can_touch = said && *said != Stratum::near && *said != Stratum::far;
+    return can_touch ? *said : Stratum::deep;
+}
+
 }  // namespace
 
 std::vector<std::size_t> PoseSet::of(Stratum stratum) const {
@@ -244,6 +255,45 @@ PoseSet make_pose_set(const Model& a, const Model& b, const PoseSetOptions& opti
         }
     }
     return set;
+}
+
+PoseSet ask_poses(const Model& a, const Model& b, std::span<const GivenPose> given,
+                  std::string source, const PoseSetOptions& options) {
+    PoseSet set;
+    set.source = std::move(source);
+    const Pair pair = pair_of(a, b);
+    set.diagonal = pair.diagonal;
+    const bool is_empty = a.triangle_count() == 0 || b.triangle_count() == 0;
+    if (is_empty || !(pair.diagonal > 0)) return set;
+    std::vector<std::optional<StudyPose>> asked(given.size());
+    options.parallel_for(given.size(), [&](std::size_t i) {
+        if (options.stop && options.stop()) return;
+        Workspace workspace;
+        asked[i] = ask(pair, given[i].a_from_b, 0, workspace);
+        asked[i]->stratum = sorted(*asked[i], given[i].stratum, pair.diagonal);
+    });
+    for (const auto& pose : asked) {
+        if (pose) set.poses.push_back(*pose);
+    }
+    std::ranges::stable_sort(set.poses, {}, &StudyPose::stratum);
+    return set;
+}
+
+std::uint64_t hash_of(const PoseSet& set) {
+    std::vector<double> numbers;
+    for (const StudyPose& pose : set.poses) {
+        const auto& rotation = pose.a_from_b.rotation();
+        const Double3& t = pose.a_from_b.translation();
+        numbers.insert(numbers.end(), rotation.begin(), rotation.end());
+        numbers.insert(numbers.end(), {t.x, t.y, t.z});
+    }
+    return format::checksum(std::as_bytes(std::span(numbers)));
+}
+
+std::optional<Stratum> find_stratum(std::string_view name) noexcept {
+    const auto at = std::ranges::find(kStratumNames, name);
+    if (at == kStratumNames.end()) return std::nullopt;
+    return static_cast<Stratum>(at - kStratumNames.begin());
 }
 
 }  // namespace cdprep::study

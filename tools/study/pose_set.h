@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "cdprep/containment.h"
@@ -40,7 +43,7 @@ struct StudyPose {
     Answer solid = Answer::no;  ///< the solids have one; unknown where a model is open
     double gap_lower = 0;       ///< the surfaces' distance is in [gap_lower, gap_upper], model
     double gap_upper = 0;       ///< units, both 0 when they touch
-    double depth = 0;           ///< model units; 0 when they do not touch
+    double depth = 0;           ///< model units; 0 when they do not touch, and of given poses
     /// `hit` is proved of the rotation by the quaternion as it stands, without rounding, too
     /// (level E3): the rounding of the pose cannot change the answer.
     bool is_rigid = false;
@@ -55,6 +58,7 @@ struct PoseSetOptions {
 
 struct PoseSet {
     std::uint64_t seed = 0;
+    std::string source{};          ///< where the poses were read from; empty: they are drawn
     double diagonal = 0;           ///< of the smaller one of the models' boxes, model units
     std::vector<StudyPose> poses;  ///< by stratum
     std::array<std::size_t, kStrata> missing{};  ///< asked for and not found: see below
@@ -75,6 +79,26 @@ struct PoseSet {
 /// extent. About 30 distances and 60 collisions a pose.
 [[nodiscard]] PoseSet make_pose_set(const Model& a, const Model& b,
                                     const PoseSetOptions& options = {});
+
+/// A pose that is not drawn, and the stratum that it is said to be of, if of any.
+struct GivenPose {
+    Pose a_from_b;
+    std::optional<Stratum> stratum;
+};
+
+/// Asks what is true at given poses, and sorts them by stratum; in a stratum they keep their
+/// order. How deep a pose is cannot be found from it: surfaces that touch are taken to be of the
+/// stratum that they are said to be of, `deep` when none is said or when surfaces of it never
+/// touch. Surfaces apart go by their distance; beyond the farthest they are `far`. The same for
+/// any parallel_for; the seed and per_stratum are not used.
+[[nodiscard]] PoseSet ask_poses(const Model& a, const Model& b, std::span<const GivenPose> given,
+                                std::string source, const PoseSetOptions& options = {});
+
+/// Checksum of the poses as they stand, twelve doubles each: equal sets have equal ones.
+[[nodiscard]] std::uint64_t hash_of(const PoseSet& set);
+
+/// The stratum of that name; nothing when there is none.
+[[nodiscard]] std::optional<Stratum> find_stratum(std::string_view name) noexcept;
 
 /// The stratum of a pose with that depth or gap, as shares of the diagonal; nothing beyond
 /// the deepest and the farthest.

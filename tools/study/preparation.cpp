@@ -176,9 +176,14 @@ Table preparation_table(const std::vector<StudyMesh>& meshes,
                 pieces_s.published = refused;
                 pieces_mib.published = refused;
             }
+        } else {
+            for (Cell* const cell :
+                 {&hull_s, &hull_mib, &bvh_s, &pqp_mib, &pieces_s, &pieces_mib}) {
+                cell->published = beside(mesh.likeness, 0);
+            }
         }
         table.rows.push_back({mesh.name, {hull_s, hull_mib, bvh_s, pqp_mib, pieces_s, pieces_mib}});
-        if (!mesh.likeness.model) {
+        if (!mesh.likeness.version_of) {
             table.notes.push_back(mesh.name + ": no published figures stand beside it: " +
                                   mesh.likeness.sentence + ".");
         }

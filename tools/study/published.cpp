@@ -189,7 +189,8 @@ std::uint64_t geometry_hash(std::span<const std::byte> positions,
 }
 
 std::optional<Published> beside(const Likeness& likeness, double value, const char* erratum) {
-    if (!likeness.model) return std::nullopt;
+    if (!likeness.version_of) return std::nullopt;
+    if (!likeness.model) return Published{{}, "-", Mark::not_comparable, likeness.sentence};
     if (*erratum != '\0') return Published{value, "", Mark::erratum, erratum};
     const bool is_marked = likeness.mark != Mark::none;
     return Published{value, "", likeness.mark, is_marked ? likeness.sentence : ""};

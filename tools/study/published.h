@@ -71,7 +71,8 @@ struct Likeness {
 [[nodiscard]] std::uint64_t geometry_hash(std::span<const std::byte> positions,
                                           std::span<const std::byte> triangles);
 
-/// The figure as it stands in a cell beside one of `likeness`; nothing when that has no model.
+/// The figure as it stands in a cell beside one of `likeness`: a dash with the reason where that
+/// is a version of a model whose counts are too far apart; nothing of a mesh of no model.
 [[nodiscard]] std::optional<Published> beside(const Likeness& likeness, double value,
                                               const char* erratum = "");
 

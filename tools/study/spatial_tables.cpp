@@ -28,7 +28,11 @@ const SpatialBuild* find_build(const SpatialMesh& mesh, const std::string& setti
 /// The published figures go into the cells for seconds and size.
 void set_beside(const Likeness& likeness, SpatialKind kind, Cell& seconds, Cell& size) {
     const PublishedBuild* published = find_published_build(likeness, kind);
-    if (published == nullptr) return;
+    if (published == nullptr) {
+        const bool is_published = kind == SpatialKind::tetra_tree || kind == SpatialKind::octree;
+        if (is_published) seconds.published = size.published = beside(likeness, 0);
+        return;
+    }
     seconds.published = beside(likeness, published->seconds);
     size.published = beside(likeness, published->mebibytes, published->erratum);
 }
@@ -143,8 +147,8 @@ Table spatial_table(const std::vector<SpatialMesh>& meshes) {
         const StudyMesh& of = *mesh.mesh;
         const auto counted = [&](std::size_t count, std::uint32_t PublishedModel::*member) {
             Cell cell = count_cell(count);
-            if (of.likeness.model) {
-                cell.published = beside(of.likeness, kPublished[*of.likeness.model].*member);
+            if (const auto& model = of.likeness.version_of) {
+                cell.published = beside(of.likeness, kPublished[*model].*member);
             }
             return cell;
         };
@@ -161,7 +165,7 @@ Table spatial_table(const std::vector<SpatialMesh>& meshes) {
             row.cells.push_back(std::move(size));
         }
         table.rows.push_back(std::move(row));
-        if (!of.likeness.model) {
+        if (!of.likeness.version_of) {
             table.notes.push_back(
                 of.name + ": no published figures stand beside it: " + of.likeness.sentence + ".");
         }

@@ -11,9 +11,10 @@ namespace cdprep::study {
 /// How a published figure relates to the one beside which it stands.
 enum class Mark : std::uint8_t {
     none,
-    other_counts,  ///< of a mesh with about as many triangles, not the same number
-    stand_in,      ///< ours is of a mesh made to the published counts
-    erratum,       ///< the published figure cannot be right
+    other_counts,    ///< of a mesh with about as many triangles, not the same number
+    stand_in,        ///< ours is of a mesh made to the published counts
+    erratum,         ///< the published figure cannot be right
+    not_comparable,  ///< ours is of a mesh of the same name with counts of its own: no figure
 };
 
 /// What was published in a cell's place.

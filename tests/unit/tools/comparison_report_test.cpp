@@ -18,7 +18,7 @@ using study::Verdict;
 /// Two rows with every kind of cell, and a name that no format may take at its word.
 study::Comparison small_comparison() {
     study::Comparison comparison;
-    comparison.settings = {"1.2", true, 7, 3, 1, 4};
+    comparison.settings = {"1.2", true, 7, 3, "", 1, 4};
     comparison.models.push_back({"a<b>\"\n,c", "x.obj", 3, 1, 255, 3, 1, 16, "it is \"one\""});
     study::Table table = {
         "2",     "Sizes",

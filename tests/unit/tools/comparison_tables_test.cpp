@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "study/pair_tables.h"
-#include "study/peer_answers.h"
+#include "study/peer_tables.h"
 #include "study/preparation.h"
 #include "study/pruning.h"
 #include "study/spatial_tables.h"
@@ -49,11 +49,10 @@ const Compared& compared() {
         for (const StudyMesh& mesh : all.meshes) {
             all.forms.push_back(make_model_forms(mesh, serial_for).value());
         }
-        PairOptions options;
-        options.poses.per_stratum = 3;
-        options.timing.rounds = 1;
-        options.timing.least_sample_s = 0;
-        all.studies.push_back(study_pair(all.forms[0], all.forms[1], options));
+        all.studies.push_back(study_pair(
+            all.forms[0], all.forms[1],
+            make_pose_set(all.forms[0].swept.model, all.forms[1].swept.model, {.per_stratum = 3}),
+            {.rounds = 1, .least_sample_s = 0}));
         all.studies[0].a = 0;
         all.studies[0].b = 1;
         return all;
@@ -130,8 +129,11 @@ TEST(PairTables, AreCompleteAndEveryExactStrategyAgrees) {
     EXPECT_GT(std::ranges::count(study.exact.hits, true), 3);
     EXPECT_GT(std::ranges::count(study.exact.hits, false), 3);
     // Boxes are tested, and the hierarchy has no cells.
-    EXPECT_GT(study.contenders.back().counts[0].box_pairs, 0U);
-    EXPECT_EQ(study.contenders.back().counts[0].cell_pairs, 0U);
+    const QueryCounts& collide = study.contenders.back().counts[0][0];
+    const QueryCounts& overlap = study.contenders.back().counts[1][0];
+    EXPECT_GT(collide.box_pairs, 0U);
+    EXPECT_EQ(collide.cell_pairs, 0U);
+    EXPECT_GT(overlap.triangle_pairs, collide.triangle_pairs);  // it does not end at the first
 }
 
 TEST(PairChecks, OneWrongAnswerBreaksThePromise) {
@@ -185,11 +187,12 @@ TEST(Pruning, EachStepKeepsWhatOverlaps) {
 /// What a peer would say that is always right.
 PeerAnswers right_answers(const PairStudy& study) {
     PeerAnswers peer;
+    peer.key = "fcl";
     peer.name = "Oracle";
     for (const Asked asked : {Asked::collide, Asked::overlap, Asked::distance, Asked::within}) {
         for (const std::size_t pose : cases_of(asked, study.poses)) {
             PeerAnswered& answered = peer.asked[static_cast<std::size_t>(asked)];
-            answered.seconds.push_back(1e-3);
+            answered.seconds.push_back({1e-3, 3e-3, 1e-3});
             answered.answers.push_back(asked == Asked::overlap ? study.exact.pairs[pose]
                                                                : study.exact.hits[pose]);
         }
@@ -210,6 +213,32 @@ TEST(AddPeer, HoldsItsAnswersAgainstTheExactOnes) {
     expect_complete(table);
     EXPECT_EQ(table.rows.back().label, "Oracle");
     EXPECT_EQ(*cell_of(table, table.rows.size() - 1, "collide_deep").value, 1e-3);
+}
+
+// Without peers every cell says why; with one its cells are filled, and the others' say why.
+TEST(PeerTables, AreCompleteWithPeersAndWithout) {
+    const Compared& all = compared();
+    const PeerReasons nobody = all_absent("nobody was asked");
+    const Table alone = peer_pair_table(all.meshes, all.studies, nobody);
+    expect_complete(alone);
+    EXPECT_TRUE(cell_of(alone, 0, "bvh_overlap").is_filled());
+    EXPECT_EQ(cell_of(alone, 0, "fcl_collide").reason, "nobody was asked");
+    std::vector<PairStudy> studies = all.studies;
+    EXPECT_EQ(add_peer(right_answers(studies[0]), studies[0]), "");
+    const Table table = peer_pair_table(all.meshes, studies, {{"pqp", "no package"}});
+    expect_complete(table);
+    EXPECT_EQ(*cell_of(table, 0, "fcl_overlap").value, 1e-3);
+    EXPECT_EQ(cell_of(table, 0, "pqp_overlap").reason, "no package");
+    EXPECT_FALSE(cell_of(table, 0, "ode_collide").is_filled());
+
+    expect_complete(peer_build_table(all.meshes, {}, nobody));
+    PeerRun run;
+    run.builds.push_back({"qhull", "qhull", "", {2, 1, 4}, 8, 12});
+    const Table built = peer_build_table(all.meshes, {run, run}, nobody);
+    expect_complete(built);
+    EXPECT_EQ(*cell_of(built, 1, "qhull_s").value, 2);
+    EXPECT_EQ(*cell_of(built, 1, "qhull_vertices").value, 8);
+    EXPECT_FALSE(cell_of(built, 1, "fcl_s").is_filled());
 }
 
 TEST(AddPeer, RefusesTooFewAnswers) {

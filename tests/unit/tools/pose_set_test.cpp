@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <thread>
+#include <vector>
 
 #include "cdprep/collide.h"
 #include "cdprep/distance.h"
@@ -103,6 +106,73 @@ TEST(PoseSet, IsTheSameOnThreadsAndBeginsAsASmallerOne) {
     }
     const PoseSet other = make_pose_set(ball.model, ball.model, {.seed = 2, .per_stratum = 2});
     EXPECT_NE(other.poses[0].a_from_b.translation(), smaller.poses[0].a_from_b.translation());
+}
+
+/// A set's poses as they are given again.
+std::vector<GivenPose> given(const PoseSet& set) {
+    std::vector<GivenPose> poses;
+    for (const StudyPose& pose : set.poses) poses.push_back({pose.a_from_b, pose.stratum});
+    return poses;
+}
+
+TEST(AskPoses, GivesADrawnSetAgain) {
+    const MemoryModel a = model_of(test::torus(1, 0.4, 40, 20));
+    const MemoryModel b = model_of(test::icosphere(3));
+    const PoseSet drawn = make_pose_set(a.model, b.model, {.seed = 3, .per_stratum = 4});
+    std::vector<GivenPose> poses = given(drawn);
+    std::ranges::reverse(poses);  // they are sorted, and keep their order in a stratum
+    PoseSet again = ask_poses(a.model, b.model, poses, "x.pose");
+    EXPECT_EQ(again.source, "x.pose");
+    ASSERT_EQ(again.poses.size(), drawn.poses.size());
+    EXPECT_NE(hash_of(again), hash_of(drawn));
+    again = ask_poses(a.model, b.model, given(drawn), "x.pose");
+    EXPECT_EQ(hash_of(again), hash_of(drawn));
+    for (std::size_t i = 0; i < drawn.poses.size(); ++i) {
+        EXPECT_EQ(again.poses[i].stratum, drawn.poses[i].stratum);
+        EXPECT_EQ(again.poses[i].hit, drawn.poses[i].hit);
+        EXPECT_EQ(again.poses[i].solid, drawn.poses[i].solid);
+        EXPECT_EQ(again.poses[i].gap_upper, drawn.poses[i].gap_upper);
+        EXPECT_EQ(again.poses[i].is_rigid, drawn.poses[i].is_rigid);
+    }
+}
+
+// Boxes of diagonal sqrt(3) side by side: touching ones go by what is said of them, others by
+// their distance.
+TEST(AskPoses, SortsByTheAnswerAndByWhatIsSaid) {
+    const MemoryModel box = model_of(test::unit_cube());
+    const auto at = [](double x) {
+        const std::array<double, 12> rows = {1, 0, 0, 0, 1, 0, 0, 0, 1, x, 0.25, 0.25};
+        return Pose::from_rows(rows).value();
+    };
+    const std::vector<GivenPose> poses = {
+        {at(0.5), {}},
+        {at(0.75), Stratum::shallow},
+        {at(1), Stratum::touching},
+        {at(0.25), Stratum::far},
+        {at(1.0625), Stratum::deep},
+        {at(1.5), {}},
+        {at(9), {}},
+    };
+    const PoseSet set = ask_poses(box.model, box.model, poses, "by hand");
+    const auto xs = [&](Stratum stratum) {
+        std::vector<double> found;
+        for (const std::size_t i : set.of(stratum)) {
+            found.push_back(set.poses[i].a_from_b.translation().x);
+        }
+        return found;
+    };
+    EXPECT_EQ(xs(Stratum::deep), (std::vector<double>{0.5, 0.25}));
+    EXPECT_EQ(xs(Stratum::shallow), (std::vector<double>{0.75}));
+    EXPECT_EQ(xs(Stratum::touching), (std::vector<double>{1}));
+    EXPECT_EQ(xs(Stratum::near), (std::vector<double>{1.0625}));
+    EXPECT_EQ(xs(Stratum::far), (std::vector<double>{1.5, 9}));
+}
+
+TEST(FindStratum, KnowsTheirNames) {
+    for (std::size_t i = 0; i < kStrata; ++i) {
+        EXPECT_EQ(find_stratum(kStratumNames[i]), static_cast<Stratum>(i));
+    }
+    EXPECT_EQ(find_stratum("Seed 1."), std::nullopt);
 }
 
 // Two sheets in planes of their own meet in a segment however deep they are.
