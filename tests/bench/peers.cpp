@@ -772,7 +772,8 @@ int build_all(const std::vector<std::string>& arguments) {
                [&] { return timed([&] { return std::make_unique<Ode::Alone>(model); }); });
 #endif
 #ifdef CDPREP_HAVE_BULLET
-    builds.add("bullet", "Bullet (GImpact)", "copies of the triangles included",
+    builds.add("bullet", "Bullet " + std::to_string(BT_BULLET_VERSION) + " (GImpact)",
+               "copies of the triangles included",
                [&] { return timed([&] { return std::make_unique<Bullet::Body>(model); }); });
 #endif
 #ifdef CDPREP_HAVE_CGAL

@@ -217,12 +217,33 @@ std::string id_of(const Table& table) {
     return id;
 }
 
+/// Columns of words begin at the left, as their cells do.
+bool holds_words(const Table& table, std::size_t column) {
+    return table.columns[column].unit == Unit::none &&
+           std::ranges::none_of(table.rows, [&](const study::Row& row) {
+               return row.cells[column].value.has_value();
+           });
+}
+
+/// How it was measured: what all outputs begin with, the particulars folded away.
+std::string provenance_html(const study::Comparison& comparison) {
+    constexpr std::ptrdiff_t kShown = 3;
+    const std::vector<std::string> lines = provenance_lines(comparison);
+    const auto shown = lines.begin() + std::min(kShown, std::ssize(lines));
+    return list_html("lines", {lines.begin(), shown}) +
+           "<details><summary>Models, poses and peers</summary>\n" +
+           list_html("lines", {shown, lines.end()}) + "</details>\n";
+}
+
 std::string table_html(const Table& table) {
     std::string html = "<section id=\"" + id_of(table) + "\">\n<h2><span class=\"number\">Table " +
                        text_of(table.key) + "</span> " + text_of(table.title) + "</h2>\n" +
                        chart_of(table) + "<div class=\"wide\"><table>\n<thead><tr><th>" +
                        text_of(table.label_title) + "</th>";
-    for (const Column& column : table.columns) html += "<th>" + text_of(column.title) + "</th>";
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        html += holds_words(table, c) ? "<th class=\"word\">" : "<th>";
+        html += text_of(table.columns[c].title) + "</th>";
+    }
     html += "</tr></thead>\n<tbody>\n";
     for (const study::Row& row : table.rows) {
         html += "<tr><th scope=\"row\">" + text_of(row.label) + "</th>";
@@ -272,8 +293,7 @@ std::string comparison_page(const study::Comparison& comparison) {
         "<title>" +
         text_of(names) + " - cdprep compare</title>\n<style>\n" + std::string(page::kTables) +
         "</style>\n</head>\n<body>\n<h1><span class=\"brand\">cdprep compare</span> " +
-        text_of(names) + "</h1>\n" + list_html("lines", provenance_lines(comparison)) +
-        contents_html(comparison);
+        text_of(names) + "</h1>\n" + provenance_html(comparison) + contents_html(comparison);
     for (const Table& table : comparison.tables) html += table_html(table);
     if (!comparison.checks.empty()) html += checks_html(comparison.checks);
     return html + "<section id=\"errata\">\n<h2>Errata of the papers</h2>\n" +

@@ -152,9 +152,10 @@ std::string kind_of_counts(const QueryCounts& counts) {
            std::to_string(counts.triangle_pairs) + " of triangles";
 }
 
-/// What both did where the published order does not hold, and what that tells.
-std::string why_slower(const Contender& quick, const Contender& late, Asked asked,
-                       Stratum stratum) {
+/// What both did where the published order does not hold, and what that tells. `ratio` is the
+/// slower one's time by the quicker's.
+std::string why_slower(const Contender& quick, const Contender& late, Asked asked, Stratum stratum,
+                       double ratio) {
     const auto a = static_cast<std::size_t>(asked);
     const auto s = static_cast<std::size_t>(stratum);
     const QueryCounts& of_quick = quick.counts[a][s];
@@ -162,16 +163,24 @@ std::string why_slower(const Contender& quick, const Contender& late, Asked aske
     std::string text = std::string(". Tested in the mean: by ") + title_of(quick) + " " +
                        kind_of_counts(of_quick) + ", by " + title_of(late) + " " +
                        kind_of_counts(of_late);
-    if (quick.name == "tetra-tree" && late.name == "octree") {
-        if (of_quick.box_pairs > 2 * of_late.box_pairs) {
-            text +=
-                ": long truncated cones bound loosely, so more of them have to be met before the "
-                "first hit";
-        }
-    } else {
+    if (quick.name != "tetra-tree" || late.name != "octree") {
+        return text +
+               ": here both end in the same exact test of triangles, where the paper's cells had "
+               "Feito's";
+    }
+    if (of_quick.box_pairs == 0 || of_late.box_pairs == 0) return text;
+    const double more =
+        static_cast<double>(of_quick.box_pairs) / static_cast<double>(of_late.box_pairs);
+    if (more > 2) {
         text +=
-            ": here both end in the same exact test of triangles, where the paper's cells had "
-            "Feito's";
+            ": long truncated cones bound loosely, so more of them have to be met before the first "
+            "hit";
+    }
+    constexpr double kDearer = 1.2;
+    const double dearer = 1 / (ratio * more);
+    if (dearer > kDearer) {
+        text += formatted(": a pair of cones takes %.1f times as long as one of boxes, ", dearer) +
+                "with all that follows from it";
     }
     return text;
 }
@@ -206,7 +215,7 @@ Check order_of(const std::vector<StudyMesh>& meshes, const PairStudy& study, Ask
         check.evidence += formatted(" (published: %.2f)", *theirs(slow) / *theirs(fast));
     }
     if (check.verdict == Verdict::fails) {
-        check.evidence += why_slower(*quick, *late, asked, stratum);
+        check.evidence += why_slower(*quick, *late, asked, stratum, ratio);
     }
     return check;
 }

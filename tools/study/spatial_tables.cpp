@@ -135,6 +135,7 @@ Table spatial_table(const std::vector<SpatialMesh>& meshes) {
                     {"triangles", "triangles", Unit::count},
                     {"hash", "hash as read", Unit::none},
                     {"built_vertices", "built from: vertices", Unit::count},
+                    {"built_triangles", "triangles", Unit::count},
                     {"tetra_tree_s", "tetra-tree", Unit::seconds},
                     {"tetra_tree_mib", "tetra-tree, MiB", Unit::mebibytes},
                     {"octree_s", "octree", Unit::seconds},
@@ -152,10 +153,11 @@ Table spatial_table(const std::vector<SpatialMesh>& meshes) {
             }
             return cell;
         };
-        Row row = {of.name,
-                   {counted(of.read_vertices, &PublishedModel::vertices),
-                    counted(of.read_triangles, &PublishedModel::triangles),
-                    word(hash_text(of.read_hash)), count_cell(of.mesh.positions.size())}};
+        Row row = {
+            of.name,
+            {counted(of.read_vertices, &PublishedModel::vertices),
+             counted(of.read_triangles, &PublishedModel::triangles), word(hash_text(of.read_hash)),
+             count_cell(of.mesh.positions.size()), count_cell(of.mesh.triangles.size())}};
         for (const SpatialKind kind : {SpatialKind::tetra_tree, SpatialKind::octree}) {
             const SpatialBuild& build = *find_build(mesh, "paper", kind);
             Cell seconds = seconds_cell(build.one);
