@@ -271,6 +271,7 @@ private:
     std::optional<Error> ask_builds(std::vector<study::PeerRun>& runs) {
         if (options_.peers.empty()) return std::nullopt;
         for (std::size_t i = 0; i < meshes_.size(); ++i) {
+            step(meshes_[i].name + ": what peers build");
             Result<study::PeerRun> run = ask(
                 {.what = "build",
                  .files = {std::as_const(forms_[i].plain.image).span()},
@@ -377,7 +378,7 @@ private:
         std::size_t steps = tables.features ? 1 : 0;
         if (tables.spatial) steps += models;
         if (tables.preparation || tables.pairs || tables.talk) steps += models;
-        if (tables.preparation) steps += models;
+        if (tables.preparation) steps += options_.peers.empty() ? models : 2 * models;
         if (tables.pairs || tables.talk) steps += pairs_.size();
         return steps + (tables.talk ? 1 : 0);
     }

@@ -88,6 +88,7 @@ Result<std::string> run_peers(const std::filesystem::path& program,
     const MemoryFile answer;
     std::deque<MemoryFile> files;
     std::vector<std::string> words = {program.string(), questions.what};
+    words.reserve(words.size() + questions.files.size() + questions.words.size());
     for (const std::span<const std::byte> bytes : questions.files) {
         if (!files.emplace_back().write(bytes)) {
             return failure(

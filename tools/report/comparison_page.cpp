@@ -113,7 +113,7 @@ public:
         return svg + "</g>\n";
     }
 
-    static constexpr double kLeft = 300;
+    static constexpr double kLeft = 320;
     static constexpr double kWidth = 590;
 
 private:
@@ -171,13 +171,13 @@ std::string chart_of(const Table& table) {
     }
     if (axis.is_empty()) return "";
     const double bottom = 26 + kStep * static_cast<double>(rows.size());
-    std::string svg = "<svg viewBox=\"0 0 930 " + fixed(bottom + 30, 0) +
-                      "\" width=\"930\" role=\"img\" aria-label=\"Times of each strategy\">\n" +
+    std::string svg = "<svg viewBox=\"0 0 950 " + fixed(bottom + 30, 0) +
+                      "\" width=\"950\" role=\"img\" aria-label=\"Times of each strategy\">\n" +
                       axis.lines(bottom);
     for (std::size_t r = 0; r < rows.size(); ++r) {
         const double y = 38 + kStep * static_cast<double>(r);
         const std::string& label = table.rows[r].label;
-        svg += "<text text-anchor=\"end\" x=\"288\" y=\"" + fixed(y + 4, 1) + "\">" +
+        svg += "<text text-anchor=\"end\" x=\"308\" y=\"" + fixed(y + 4, 1) + "\">" +
                text_of(label) + "</text>";
         const auto hint = [&](const char* what, double seconds) {
             return label + ", " + what + ": " + study::seconds_text(seconds);

@@ -150,9 +150,10 @@ Table peer_pair_table(const std::vector<StudyMesh>& meshes, const std::vector<Pa
             }
         };
         add_cells([](const Contender& one) { return one.name == "exact BVH"; }, "", true);
-        for (const auto& [library, has_overlap] : kAnswering) {
-            add_cells([&](const Contender& one) { return one.is_peer && one.peer == library; },
-                      library, has_overlap);
+        for (const Answering& answering : kAnswering) {
+            add_cells(
+                [&](const Contender& one) { return one.is_peer && one.peer == answering.library; },
+                answering.library, answering.has_overlap);
         }
         table.rows.push_back(std::move(row));
     }

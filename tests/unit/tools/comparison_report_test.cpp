@@ -29,7 +29,9 @@ study::Comparison small_comparison() {
     study::Cell size = study::number(0.5);
     size.published = study::Published{.value = 0.125, .mark = Mark::erratum, .remark = "cannot be"};
     table.rows.push_back({"a<b>\"\n,c", {time, size}});
-    table.rows.push_back({"none", {study::without("left out"), study::word("refused")}});
+    study::Cell word = study::word("refused");
+    word.published = study::Published{.text = "-", .mark = Mark::not_comparable, .remark = "fewer"};
+    table.rows.push_back({"none", {study::without("left out"), word}});
     comparison.tables.push_back(table);
     comparison.checks.push_back({"One holds", "by hand", Verdict::holds});
     comparison.checks.push_back({"One fails", "1 of 2", Verdict::fails});
@@ -52,7 +54,7 @@ TEST(ComparisonText, SetsThePapersFiguresBesideOursAndSaysWhyCellsAreEmpty) {
     for (const char* part :
          {"Table 2. Sizes", "1.50 us", "250 ms~", "0.5000", "0.1250!", "stand-in: not it",
           "erratum: cannot be", "[1] left out", "refused", "A note.", "holds", "fails", "A slip.",
-          "1 hold, 1 do not here", "Seed 7", "a<b>\"\\n,c"}) {
+          "1 hold, 1 do not here", "Seed 7", "-#", "not comparable: fewer", "a<b>\"\\n,c"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part;
     }
 }

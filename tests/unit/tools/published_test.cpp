@@ -67,9 +67,14 @@ TEST(Likeness, OtherCountsHaveNoFiguresBesideThem) {
     EXPECT_FALSE(reduced.model);
     EXPECT_EQ(reduced.version_of, 3U);
     EXPECT_NE(reduced.sentence.find("Armadillo"), std::string::npos);
-    EXPECT_FALSE(beside(reduced, 1.0));
+    const auto dash = beside(reduced, 1.0);
+    ASSERT_TRUE(dash);
+    EXPECT_FALSE(dash->value);
+    EXPECT_EQ(dash->mark, Mark::not_comparable);
+    EXPECT_EQ(dash->remark, reduced.sentence);
     EXPECT_FALSE(find_likeness(3582, 7171, 1).model);
     EXPECT_FALSE(find_likeness(3582, 7171, 1).version_of);
+    EXPECT_FALSE(beside(find_likeness(3582, 7171, 1), 1.0));
 }
 
 // An erratum is one whatever the mesh is.
