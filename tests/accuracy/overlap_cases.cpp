@@ -146,9 +146,9 @@ private:
             const std::string strategy =
                 structure == Structure::pieces ? "pieces/scattered" : name + boxes;
             StructureOptions options = {.structure = structure, .descent = descent};
-            expect(strategy, any_overlap_through(options, a_->model(), b_->model(),
-                                                 variant_->placement,
-                                                 workspace_) == !truth.closed.empty());
+            expect(strategy,
+                   any_overlap_through(options, a_->model(), b_->model(), variant_->placement,
+                                       workspace_) == !truth.closed.empty());
             expect_through(strategy, options, truth.closed);
             expect_through(strategy, options, truth.proper, {.contact = Contact::proper});
             if (turn % 3 != 0) continue;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <thread>
 
+#include "accuracy/epeck.h"
 #include "accuracy/exact_change.h"
 #include "accuracy/hard_cases.h"
 #include "convex/convex_hull.h"
@@ -21,13 +22,15 @@ std::size_t faces_of(const ConvexHull& hull) {
     return hull.groups.size() - 1;
 }
 
-/// A coarse sort of the corners: what no change of the input may change.
-Points corners_of(const ConvexHull& hull) {
-    Points corners = hull.points;
-    std::sort(corners.begin(), corners.end(), [](const Double3& p, const Double3& q) {
+Points sorted(Points points) {
+    std::sort(points.begin(), points.end(), [](const Double3& p, const Double3& q) {
         return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
     });
-    return corners;
+    return points;
+}
+/// What no change of the input may change.
+Points corners_of(const ConvexHull& hull) {
+    return sorted(hull.points);
 }
 
 class Asker {
@@ -50,6 +53,15 @@ public:
         board_.of(hard_.id, strategy).expect(flaw.empty(), [&] {
             return hard_.id + ": " + name + ": " + flaw;
         });
+    }
+    /// C01 of the catalogue has CGAL for its oracle.
+    void ask_epeck(const Points& points, const std::string& name) {
+        if (!hard_.id.starts_with("C01")) return;
+        const ConvexHull hull = convex::convex_hull(points);
+        const EpeckHull other = epeck_hull(points);
+        const bool is_same =
+            hull.dimension == other.dimension && corners_of(hull) == sorted(other.corners);
+        board_.of(hard_.id, "EPECK").expect(is_same, [&] { return hard_.id + ": " + name; });
     }
     /// Nothing but numbers may depend on the order, on threads or on copies.
     void ask_again(const Points& points, const std::string& name, ParallelFor run) {
@@ -81,7 +93,9 @@ void score_point_sets(const HardCaseOptions& options, Scoreboard& board) {
         asker.ask_again(hard.points, "on threads", run_threads);
         for (const ExactChange& change : exact_changes(!full || hard.points.size() > 1500)) {
             const auto points = change(hard.points);
-            if (points) asker.ask(*points, change.name, "hull/exact", serial_for);
+            if (!points) continue;
+            asker.ask(*points, change.name, "hull/exact", serial_for);
+            asker.ask_epeck(*points, change.name);
         }
     }
 }

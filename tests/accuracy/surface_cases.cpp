@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "accuracy/epeck.h"
 #include "accuracy/exact_change.h"
 #include "accuracy/hard_cases.h"
 #include "accuracy/mesh_variants.h"
@@ -225,13 +226,19 @@ void ask_zoo(const HardCaseOptions& options, Scoreboard& board) {
                 wide.weld_distance = wide.seam_width = std::ldexp(kZooWidth, exponent);
                 std::map<int, std::uint64_t> expected = animal.found, found;
                 if (animal.components > 1) expected[404] = animal.components;
-                const auto soup = soup_of(scaled_by(animal, exponent).mesh);
-                for (const mesh::Finding& finding : mesh::find_defects(soup, wide).findings) {
+                const auto told = [&] {
+                    return "D08 " + animal.name + " times 2^" + std::to_string(exponent);
+                };
+                const TestMesh mesh = scaled_by(animal, exponent).mesh;
+                const mesh::DefectReport report = mesh::find_defects(soup_of(mesh), wide);
+                for (const mesh::Finding& finding : report.findings) {
                     found[static_cast<int>(finding.rule)] = finding.count;
                 }
-                board.of("D08", "findings").expect(found == expected, [&] {
-                    return "D08 " + animal.name + " times 2^" + std::to_string(exponent);
-                });
+                board.of("D08", "findings").expect(found == expected, told);
+                if (exponent != 0) continue;
+                const std::size_t meet = epeck_meeting_pairs(mesh);
+                board.of("D08", "EPECK")
+                    .expect(report.counts.self_intersecting_pairs == meet, told);
             }
         }
         mesh::RepairOptions solid;

@@ -47,8 +47,8 @@ std::optional<TriangleSoup> marked(const TriangleSoup& soup) {
         if (bad == corners.end()) continue;
         if (!result) result = soup;
         result->triangles[t] = {{0, 0, 0}};
-        result->bad_numbers.push_back({BadNumber::Kind::index_out_of_range, 0, t, *bad,
-                                       static_cast<std::int64_t>(limit)});
+        result->bad_numbers.push_back(
+            {BadNumber::Kind::index_out_of_range, 0, t, *bad, static_cast<std::int64_t>(limit)});
         ++result->bad_number_count;
     }
     return result;

@@ -17,6 +17,9 @@ std::vector<Peer> all_peers() {
 #ifdef CDPREP_HAVE_ODE
     add_ode(peers);
 #endif
+#ifdef CDPREP_HAVE_CGAL
+    add_cgal(peers);
+#endif
     return peers;
 }
 

@@ -35,6 +35,7 @@ void add_fcl(std::vector<Peer>& peers);
 void add_ccd(std::vector<Peer>& peers);
 void add_bullet(std::vector<Peer>& peers);
 void add_ode(std::vector<Peer>& peers);
+void add_cgal(std::vector<Peer>& peers);
 
 [[nodiscard]] std::vector<Peer> all_peers();
 

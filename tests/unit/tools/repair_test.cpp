@@ -113,8 +113,7 @@ TriangleSoup as_imported(TriangleSoup soup) {
     for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
         for (const std::uint32_t vertex : soup.triangles[t].vertex) {
             if (vertex < limit) continue;
-            soup.bad_numbers.push_back(
-                {BadNumber::Kind::index_out_of_range, 0, t, vertex, limit});
+            soup.bad_numbers.push_back({BadNumber::Kind::index_out_of_range, 0, t, vertex, limit});
             soup.triangles[t] = {{0, 0, 0}};
             break;
         }
