@@ -10,7 +10,11 @@ namespace cdprep::test {
 struct HardFamily {
     std::string_view id;
     std::string_view what;
+    /// What the catalogue has of it that is not asked even in the long form, and why.
+    std::string_view less{};
 };
+
+inline constexpr std::string_view kNoSimulation = "asks a simulation, and there is none";
 
 /// All of them, and after them failures that were found since (F).
 inline constexpr std::array kHardFamilies = std::to_array<HardFamily>({
@@ -61,13 +65,15 @@ inline constexpr std::array kHardFamilies = std::to_array<HardFamily>({
     {"G13", "support ties"},
     {"G14", "nearly coplanar support"},
     {"B01", "a mesh against itself"},
-    {"B02", "nested shells"},
+    {"B02", "nested shells", "icospheres of 81,920 triangles, the nearest to 100,000"},
     {"B03", "parallel sheets"},
     {"B04", "interlocked tori"},
-    {"B05", "identical triangles"},
+    {"B05", "identical triangles",
+     "10,000 copies on 10,000, not 100,000: counting 10^10 pairs takes minutes and shows no more"},
     {"B06", "fan"},
     {"B07", "one against many"},
-    {"B08", "diagonal slivers"},
+    {"B08", "diagonal slivers",
+     "5,000 on 5,000, not 10,000: the definition in exact numbers takes too long"},
     {"B09", "geometric progression"},
     {"B10", "quantised boxes"},
     {"B11", "trivial meshes"},
@@ -105,28 +111,28 @@ inline constexpr std::array kHardFamilies = std::to_array<HardFamily>({
     {"X07", "tolerance equality"},
     {"X08", "error sweep"},
     {"X09", "contained objects"},
-    {"S01", "stack"},
-    {"S02", "mass ratio"},
-    {"S03", "thin shell"},
-    {"S04", "bullet"},
-    {"S05", "spinning needle"},
-    {"S06", "resting drift"},
-    {"S07", "friction threshold"},
-    {"S08", "bounce"},
-    {"S09", "cradle"},
-    {"S10", "internal edges"},
-    {"S11", "corner"},
-    {"S12", "deformation"},
-    {"S13", "tearing"},
-    {"S14", "haptic rate"},
-    {"S15", "determinism"},
+    {"S01", "stack", kNoSimulation},
+    {"S02", "mass ratio", kNoSimulation},
+    {"S03", "thin shell", kNoSimulation},
+    {"S04", "bullet", kNoSimulation},
+    {"S05", "spinning needle", kNoSimulation},
+    {"S06", "resting drift", kNoSimulation},
+    {"S07", "friction threshold", kNoSimulation},
+    {"S08", "bounce", kNoSimulation},
+    {"S09", "cradle", kNoSimulation},
+    {"S10", "internal edges", kNoSimulation},
+    {"S11", "corner", kNoSimulation},
+    {"S12", "deformation", kNoSimulation},
+    {"S13", "tearing", kNoSimulation},
+    {"S14", "haptic rate", kNoSimulation},
+    {"S15", "determinism", kNoSimulation},
     {"F01", "where libraries lose pairs"},
     {"F02", "leaves of pieces that wait"},
 });
 
 /// The library simulates nothing: these cannot be asked.
-constexpr bool needs_simulation(std::string_view family) {
-    return family.starts_with('S');
+constexpr bool needs_simulation(const HardFamily& family) {
+    return family.less == kNoSimulation;
 }
 /// Hulls of points and pieces of surfaces are made offline.
 constexpr bool needs_tools(std::string_view family) {

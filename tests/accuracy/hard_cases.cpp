@@ -11,6 +11,7 @@
 // takes longer than the limit (10) counts as one that hangs.
 //
 // Exits with 1 when an answer was wrong, or a family was not reached; with 2 when asked wrongly.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -134,22 +135,25 @@ bool score(const std::string& program, const Arguments& arguments, Scoreboard& b
     return true;
 }
 
-/// Whether all families were asked that can be. Says which were not.
+bool is_asked(const Scoreboard& board, std::string_view family) {
+    return std::any_of(board.cells().begin(), board.cells().end(), [&](const auto& cell) {
+        return cell.first.family == family && cell.second.asked > 0;
+    });
+}
+
+/// Whether all families were asked that can be. Says which were not, and what is left out.
 bool is_complete(const Scoreboard& board) {
     bool complete = true;
     for (const HardFamily& family : kHardFamilies) {
-        std::size_t asked = 0;
-        for (const auto& [cell, tally] : board.cells()) {
-            if (cell.family == family.id) asked += tally.asked;
-        }
+        const std::string id(family.id), less(family.less);
+        if (!less.empty()) std::printf("%s: %s\n", id.c_str(), less.c_str());
 #ifndef CDPREP_HAVE_TOOLS
         if (needs_tools(family.id)) continue;
 #endif
-        if (asked > 0 || needs_simulation(family.id)) continue;
-        std::printf("%s was not reached\n", std::string(family.id).c_str());
+        if (needs_simulation(family) || is_asked(board, family.id)) continue;
+        std::printf("%s was not reached\n", id.c_str());
         complete = false;
     }
-    std::printf("S01 to S15 were not reached: they ask a simulation, and there is none\n");
     return complete;
 }
 
