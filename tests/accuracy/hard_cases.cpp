@@ -81,6 +81,7 @@ void score_with_kernels(const HardCaseOptions& options, Scoreboard& board) {
     score_inclusion(options, board);
     score_hulls(options, board);
     score_distances(options, board);
+    score_frames(options, board);
 }
 
 /// What knows no instruction sets.

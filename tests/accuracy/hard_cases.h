@@ -31,6 +31,8 @@ void score_inclusion(const HardCaseOptions& options, Scoreboard& board);
 void score_hulls(const HardCaseOptions& options, Scoreboard& board);
 /// X: how far two meshes are apart.
 void score_distances(const HardCaseOptions& options, Scoreboard& board);
+/// S12 and S13, without a simulation: overlaps of what deforms and tears.
+void score_frames(const HardCaseOptions& options, Scoreboard& board);
 /// B10's boxes, B14's poses, B16's files and T21's coordinates: what is refused, and what not.
 void score_refusals(const HardCaseOptions& options, Scoreboard& board);
 #ifdef CDPREP_HAVE_TOOLS

@@ -22,6 +22,7 @@ constexpr std::array kParts = {Part{'T', "Triangles against triangles"},
                                Part{'C', "Hulls of points"},
                                Part{'D', "Pieces, findings, repairs"},
                                Part{'X', "Distance and tolerance"},
+                               Part{'S', "Deformed and torn, frame by frame"},
                                Part{'F', "Failures found since"}};
 
 std::string column_of(const Cell& cell) {
