@@ -181,11 +181,21 @@ MovedDistance farthest(const std::vector<Corners>& triangles, const Surface& sur
     return distance;
 }
 
-bool usable(const TriangleSoup& soup, const Triangle& triangle) {
-    return std::all_of(triangle.vertex.begin(), triangle.vertex.end(), [&](std::uint32_t vertex) {
-        const Double3& p = soup.positions[vertex];
-        return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-    });
+/// Which source triangles have a place. Those with a corner out of range are marked by an
+/// import, and stand at vertex 0 as if it were theirs.
+std::vector<bool> find_placed(const TriangleSoup& soup) {
+    std::vector<bool> placed(soup.triangles.size());
+    for (std::size_t t = 0; t < placed.size(); ++t) {
+        const auto& corners = soup.triangles[t].vertex;
+        placed[t] = std::all_of(corners.begin(), corners.end(), [&](std::uint32_t vertex) {
+            const Double3& p = soup.positions[vertex];
+            return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+        });
+    }
+    for (const BadNumber& bad : soup.bad_numbers) {
+        if (bad.kind == BadNumber::Kind::index_out_of_range) placed[bad.triangle] = false;
+    }
+    return placed;
 }
 
 template <class Mesh>
@@ -340,7 +350,9 @@ std::optional<double> distance_to_pieces(const Corners& whole, const std::vector
 }
 
 /// For each source triangle of which all pieces are there, its distance to them.
-std::vector<std::optional<double>> find_pieces(const TriangleSoup& soup, const RepairMesh& mesh) {
+std::vector<std::optional<double>> find_pieces(const TriangleSoup& soup,
+                                               const std::vector<bool>& placed,
+                                               const RepairMesh& mesh) {
     std::vector<std::optional<double>> bounds(soup.triangles.size());
     struct PieceOf {
         std::uint32_t source, triangle;
@@ -349,7 +361,7 @@ std::vector<std::optional<double>> find_pieces(const TriangleSoup& soup, const R
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
         const Origin& origin = mesh.triangle_origin[t];
         if (origin.source == kNone || !origin.step) continue;
-        if (usable(soup, soup.triangles[origin.source])) all.push_back({origin.source, t});
+        if (placed[origin.source]) all.push_back({origin.source, t});
     }
     std::sort(all.begin(), all.end(), [](const PieceOf& a, const PieceOf& b) {
         return a.source != b.source ? a.source < b.source : a.triangle < b.triangle;
@@ -384,11 +396,11 @@ void know_output(const TriangleSoup& soup, const RepairMesh& mesh,
     }
 }
 
-std::vector<Corners> usable_triangles(const TriangleSoup& soup) {
+std::vector<Corners> placed_triangles(const TriangleSoup& soup, const std::vector<bool>& placed) {
     std::vector<Corners> all;
     all.reserve(soup.triangles.size());
-    for (const Triangle& t : soup.triangles) {
-        if (usable(soup, t)) all.push_back(corners_of(soup, t));
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        if (placed[t]) all.push_back(corners_of(soup, soup.triangles[t]));
     }
     return all;
 }
@@ -414,13 +426,14 @@ double diagonal_of(const std::vector<Corners>& triangles) {
 /// How far output triangles that are not their source are from it: no inner point is
 /// farther than a corner, since the distance to one triangle is convex. Those without a
 /// source go to `made`. Sources that are there whole are marked in `found`.
-double bound_by_sources(const TriangleSoup& soup, const RepairMesh& mesh, std::vector<bool>& found,
+double bound_by_sources(const TriangleSoup& soup, const std::vector<bool>& placed,
+                        const RepairMesh& mesh, std::vector<bool>& found,
                         std::vector<Corners>& made) {
     double upper = 0;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const std::uint32_t source = mesh.triangle_origin[t].source;
         const Corners triangle = corners_of(mesh, mesh.triangles[t]);
-        if (source == kNone || !usable(soup, soup.triangles[source])) {
+        if (source == kNone || !placed[source]) {
             made.push_back(shape_of(triangle));
             continue;
         }
@@ -439,11 +452,12 @@ double bound_by_sources(const TriangleSoup& soup, const RepairMesh& mesh, std::v
 
 /// How far source triangles of which all pieces are there are from them. The others that
 /// are not `found` go to `missing`.
-double bound_by_pieces(const TriangleSoup& soup, const std::vector<bool>& found,
+double bound_by_pieces(const TriangleSoup& soup, const std::vector<bool>& placed,
+                       const std::vector<bool>& found,
                        const std::vector<std::optional<double>>& pieces, MissingShapes& missing) {
     double upper = 0;
     for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-        if (found[t] || !usable(soup, soup.triangles[t])) continue;
+        if (found[t] || !placed[t]) continue;
         if (pieces[t]) {
             upper = std::max(upper, *pieces[t]);
         } else {
@@ -463,18 +477,19 @@ void widen(MovedDistance& distance, const MovedDistance& other) {
 
 MovedDistances find_moved_distances(const TriangleSoup& soup, const RepairMesh& mesh) {
     MovedDistances moved;
+    const std::vector<bool> placed = find_placed(soup);
     std::vector<bool> found(soup.triangles.size(), false);
     std::vector<Corners> made, lost;
-    moved.output_to_input.upper = bound_by_sources(soup, mesh, found, made);
-    const std::vector<std::optional<double>> pieces = find_pieces(soup, mesh);
+    moved.output_to_input.upper = bound_by_sources(soup, placed, mesh, found, made);
+    const std::vector<std::optional<double>> pieces = find_pieces(soup, placed, mesh);
     MissingShapes missing;
-    moved.input_to_output.upper = bound_by_pieces(soup, found, pieces, missing);
+    moved.input_to_output.upper = bound_by_pieces(soup, placed, found, pieces, missing);
     if (!missing.empty()) {
         know_output(soup, mesh, pieces, missing);
         widen(moved.input_to_output, {0, missing.find_known(lost)});
     }
     if (lost.empty() && made.empty()) return moved;
-    std::vector<Corners> input = usable_triangles(soup);
+    std::vector<Corners> input = placed_triangles(soup, placed);
     const double diagonal = diagonal_of(input);
     if (!lost.empty()) {
         widen(moved.input_to_output, farthest(lost, Surface(all_triangles(mesh)), diagonal));

@@ -148,6 +148,22 @@ TEST(Repair, CornersOutOfRangeAreDroppedWhetherMarkedOrNot) {
     }
 }
 
+// It is said to stand at vertex 0, which nothing else uses: that is no place of the surface.
+TEST(Repair, ACornerOutOfRangeHasNoPlace) {
+    TriangleSoup bare;
+    bare.positions = {{100, 0, 0}};
+    for (const Double3& p : unit_cube().positions) bare.positions.push_back(p);
+    for (const auto& t : unit_cube().triangles) {
+        bare.triangles.push_back({{t.vertex[0] + 1, t.vertex[1] + 1, t.vertex[2] + 1}});
+    }
+    bare.triangles.push_back({{1, 2, 9}});
+    for (const TriangleSoup& soup : {bare, as_imported(bare)}) {
+        const Repaired mended = repaired(soup, "safe");
+        EXPECT_EQ(mended.report.counts.dropped, 1U);
+        EXPECT_EQ(mended.report.input_to_output.upper, 0.0);
+    }
+}
+
 // Nobody asked to drop it: it keeps its place, with nowhere to be.
 TEST(Repair, ACornerOutOfRangeStaysWhereNothingDropsIt) {
     TriangleSoup bare = soup_of(unit_cube());
