@@ -21,13 +21,20 @@ inline constexpr std::array kAllBounds = {
 inline constexpr std::array kBoundsNames = {"aligned",     "oriented",         "swept points",
                                             "swept lines", "swept rectangles", "both"};
 
-/// A mesh baked with everything that a question goes through. What is baked in several ways
+/// What a question may go through.
+enum class Holding : std::uint8_t {
+    every_structure,
+    pieces,  ///< and the hierarchy of boxes: all that tells distances
+};
+
+/// A mesh baked with what a question goes through. What is baked in several ways
 /// alternates with `turn`: bounds, how far structures divide, how coordinates are stored, how
 /// well the hierarchy is built.
 class AskedModel {
 public:
-    AskedModel(const TestMesh& mesh, std::size_t turn)
-        : open_(open_tiny(baked(mesh, turn))), bounds_(kBoundsNames[turn % kAllBounds.size()]) {}
+    AskedModel(const TestMesh& mesh, std::size_t turn, Holding holding = Holding::every_structure)
+        : open_(open_tiny(baked(mesh, turn, holding))),
+          bounds_(kBoundsNames[turn % kAllBounds.size()]) {}
 
     [[nodiscard]] const Model& model() const {
         return open_.model;
@@ -43,16 +50,17 @@ private:
     static bool is_in_floats(const TestMesh& mesh) {
         return in_floats(mesh).positions == mesh.positions;
     }
-    static AlignedBytes baked(const TestMesh& mesh, std::size_t turn) {
+    static AlignedBytes baked(const TestMesh& mesh, std::size_t turn, Holding holding) {
         const bool is_fine = turn % 2 == 1;
         const TinyOptions options = {
             .double_precision = turn % 3 != 0 || !is_in_floats(mesh),
             .bounds = kAllBounds[turn % kAllBounds.size()],
             .quality = turn % 4 == 3 ? build::Quality::fast : build::Quality::best};
+        const AlignedBytes file = bake_tiny(mesh.positions, mesh.triangles, options);
+        if (holding == Holding::pieces) return with_piece_tree(file);
         const Division division = {
             .level = is_fine ? 4U : 2U, .threshold = is_fine ? 4U : 1U, .boxes = is_fine};
-        return with_piece_tree(
-            with_every_structure(bake_tiny(mesh.positions, mesh.triangles, options), division));
+        return with_piece_tree(with_every_structure(file, division));
     }
 
     OpenModel open_;

@@ -44,7 +44,8 @@ public:
         const std::size_t turn = turn_++;
         variant_ = &variant;
         largest_ = largest_of(variant);
-        const AskedModel asked_a(variant.a, turn), asked_b(variant.b, turn);
+        const AskedModel asked_a(variant.a, turn, Holding::pieces);
+        const AskedModel asked_b(variant.b, turn, Holding::pieces);
         const Model &a = asked_a.model(), &b = asked_b.model();
         const Placement& placement = variant.placement;
         const std::string bvh = std::string("bvh/") + asked_a.bounds();

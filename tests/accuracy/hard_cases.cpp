@@ -142,17 +142,33 @@ bool is_asked(const Scoreboard& board, std::string_view family) {
     });
 }
 
-/// Whether all families were asked that can be. Says which were not, and what is left out.
+/// What of the catalogue is not asked, by the reason.
+void print_left_out() {
+    std::vector<std::array<std::string, 2>> left;  // reason, families
+    for (const HardFamily& family : kHardFamilies) {
+        if (family.less.empty()) continue;
+        const auto same = std::find_if(left.begin(), left.end(),
+                                       [&](const auto& l) { return l[0] == family.less; });
+        if (same == left.end()) {
+            left.push_back({std::string(family.less), std::string(family.id)});
+        } else {
+            (*same)[1] += ", " + std::string(family.id);
+        }
+    }
+    for (const auto& [reason, families] : left) {
+        std::printf("%s: %s\n", families.c_str(), reason.c_str());
+    }
+}
+
+/// Whether all families were asked that can be. Says which were not.
 bool is_complete(const Scoreboard& board) {
     bool complete = true;
     for (const HardFamily& family : kHardFamilies) {
-        const std::string id(family.id), less(family.less);
-        if (!less.empty()) std::printf("%s: %s\n", id.c_str(), less.c_str());
 #ifndef CDPREP_HAVE_TOOLS
         if (needs_tools(family.id)) continue;
 #endif
         if (needs_simulation(family) || is_asked(board, family.id)) continue;
-        std::printf("%s was not reached\n", id.c_str());
+        std::printf("%s was not reached\n", std::string(family.id).c_str());
         complete = false;
     }
     return complete;
@@ -174,7 +190,10 @@ int run(const std::string& program, const Arguments& arguments) {
     }
     bool right = score(program, arguments, board);
     std::fputs(as_text(board).c_str(), stdout);
-    if (arguments.cases.family.empty()) right = is_complete(board) && right;
+    if (arguments.cases.family.empty()) {
+        print_left_out();
+        right = is_complete(board) && right;
+    }
     PeerBoard peers;
     if (!arguments.peers.empty()) {
         peers = ask_peers(arguments.peers, arguments.limit_s);
