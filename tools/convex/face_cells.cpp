@@ -23,7 +23,6 @@ namespace {
 using Interval = CGAL::Interval_nt<true>;
 using mesh::Box;
 using mesh::HalfEdge;
-using mesh::kNone;
 
 constexpr double kFlat = 1e-6;       ///< of the diagonal: vertices this near a plane are on it
 constexpr double kStep = 8;          ///< times that: what is beside a plane
