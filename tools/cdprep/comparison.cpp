@@ -301,7 +301,7 @@ private:
             step(meshes_[pair.a].name + " x " + meshes_[pair.b].name);
             studies.push_back(study_of(pair));
             if (is_interrupted()) return std::nullopt;
-            if (const auto error = ask_peers(pair, studies.back())) return error;
+            if (auto error = ask_peers(pair, studies.back())) return error;
         }
         for (const study::PairStudy& study : studies) {
             comparison_.pairs.push_back(

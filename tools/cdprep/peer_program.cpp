@@ -98,6 +98,7 @@ Result<std::string> run_peers(const std::filesystem::path& program,
     }
     words.insert(words.end(), questions.words.begin(), questions.words.end());
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
 
