@@ -520,9 +520,10 @@ std::string chart_style() {
                                                      "#a0609a", "#b8860b", "#000000"};
     for (std::size_t i = 0; i < kColours.size(); ++i) {
         const std::string look = ".f" + std::to_string(i);
-        style.append(".point").append(look).append("{fill:").append(kColours[i]).append("}");
-        style.append(look).append("{stroke:").append(kColours[i]).append("}.block").append(look);
-        style.append("{fill:").append(kColours[i]).append(";stroke:none}");
+        const std::string colour = kColours[i];
+        style.append(".point").append(look).append("{fill:").append(colour).append("}");
+        style.append(look).append("{stroke:").append(colour).append("}.block").append(look);
+        style.append("{fill:").append(colour).append(";stroke:none}");
     }
     return style;
 }

@@ -18,6 +18,18 @@ Pose shifted(double x, double y = 0, double z = 0) {
     return Pose::from_quaternion(1, 0, 0, 0, {x, y, z}).value();
 }
 
+mesh::Mesh octahedron() {
+    return test::mesh_of({{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                          {{{0, 2, 4},
+                            {2, 1, 4},
+                            {1, 3, 4},
+                            {3, 0, 4},
+                            {2, 0, 5},
+                            {1, 2, 5},
+                            {3, 1, 5},
+                            {0, 3, 5}}}});
+}
+
 // By hand: the sphere around the unit cube has its corners on it.
 TEST(BoundingShapes, OfAUnitCubeAreKnown) {
     const mesh::Mesh cube = test::mesh_of(test::unit_cube());
@@ -47,17 +59,7 @@ TEST(BoundingShapes, OrientedBoxesTellTurnedCubesApart) {
 // octahedron |x| + |y| + |z| <= 1 has six, as no other plane cuts any off.
 TEST(BoundingShapes, PolytopesOfSimpleSolidsHaveTheirCorners) {
     EXPECT_EQ(bounding_dop(test::mesh_of(test::unit_cube())).corners.size(), 8U);
-    const mesh::Mesh octahedron =
-        test::mesh_of({{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-                       {{{0, 2, 4},
-                         {2, 1, 4},
-                         {1, 3, 4},
-                         {3, 0, 4},
-                         {2, 0, 5},
-                         {1, 2, 5},
-                         {3, 1, 5},
-                         {0, 3, 5}}}});
-    const BoundingDop dop = bounding_dop(octahedron);
+    const BoundingDop dop = bounding_dop(octahedron());
     ASSERT_EQ(dop.corners.size(), 6U);
     for (const Double3& p : dop.corners) {
         EXPECT_NEAR(std::fabs(p.x) + std::fabs(p.y) + std::fabs(p.z), 1, 1e-12);
@@ -68,18 +70,8 @@ TEST(BoundingShapes, PolytopesOfSimpleSolidsHaveTheirCorners) {
 // By hand: octahedra corner to corner touch at a distance of 2; face to face, along the
 // diagonal, at 2 / sqrt(3), where boxes around them meet up to 2.
 TEST(BoundingShapes, PolytopesTellApartWhatBoxesDoNot) {
-    const mesh::Mesh octahedron =
-        test::mesh_of({{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
-                       {{{0, 2, 4},
-                         {2, 1, 4},
-                         {1, 3, 4},
-                         {3, 0, 4},
-                         {2, 0, 5},
-                         {1, 2, 5},
-                         {3, 1, 5},
-                         {0, 3, 5}}}});
-    const BoundingDop dop = bounding_dop(octahedron);
-    const BoundingBox box = aligned_box(octahedron);
+    const BoundingDop dop = bounding_dop(octahedron());
+    const BoundingBox box = aligned_box(octahedron());
     EXPECT_TRUE(may_touch(dop, dop, shifted(2)));
     EXPECT_FALSE(may_touch(dop, dop, shifted(2.001)));
     EXPECT_TRUE(may_touch(dop, dop, shifted(0.66, 0.66, 0.66)));
