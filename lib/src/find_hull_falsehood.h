@@ -16,9 +16,10 @@ namespace cdprep {
 /// nor any vertex in front of one of the whole's; every vertex in one part or more, exactly,
 /// where there are parts. Not looked at: vertices of a component or an instance beside its hull,
 /// those beside a segment or a polygon in its plane, and whether a triangle with corners in
-/// several parts leaves them all in between, which the bake proved as it made them. Returns
-/// nothing when all is well, also without hulls. O(vertices * facets), about a nanosecond each,
-/// and up to vertices * parts steps; allocates. `model` is this file, opened with all its sections.
+/// several parts leaves them all in between, for which exact numbers of any length are needed
+/// (tools/convex/find_cover_falsehood.h). Returns nothing when all is well, also without hulls.
+/// O(vertices * facets), about a nanosecond each, and up to vertices * parts steps; allocates.
+/// `model` is this file, opened with all its sections.
 [[nodiscard]] std::optional<format::Damage> find_hull_falsehood(std::span<const std::byte> file,
                                                                 const Model& model);
 

@@ -10,6 +10,7 @@
 #include "cdprep/model.h"
 #include "command.h"
 #include "convex/contact_arrays.h"
+#include "convex/find_cover_falsehood.h"
 #include "damage_sentence.h"
 #include "find_hull_falsehood.h"
 #include "find_piece_falsehood.h"
@@ -46,6 +47,7 @@ Exit run(const Arguments& arguments) {
         auto damage = format::find_deep_damage(bytes);
         if (!damage) damage = find_list_damage(bytes, opened.value());
         if (!damage) damage = find_hull_falsehood(bytes, opened.value());
+        if (!damage) damage = convex::find_cover_falsehood(bytes, opened.value());
         if (!damage) damage = convex::find_convexity_falsehood(bytes, opened.value());
         if (!damage) damage = find_piece_falsehood(bytes, opened.value());
         if (damage) {

@@ -2,13 +2,17 @@
 // Convex parts in files: they hold the whole mesh, so that no touch is missed through them.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <iostream>
 #include <random>
+#include <vector>
 
 #include "cdprep/collide.h"
 #include "cdprep/convex_distance.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model_hulls.h"
+#include "convex/find_cover_falsehood.h"
 #include "convex/hull_sections.h"
 #include "find_hull_falsehood.h"
 #include "support/meshes.h"
@@ -75,6 +79,7 @@ TEST(HullParts, AreSoundAndHoldEveryVertex) {
         const auto opened = test::open_tiny(test::AlignedBytes(file.span()));
         const Model& model = opened.model;
         EXPECT_FALSE(find_hull_falsehood(file.span(), model));
+        EXPECT_FALSE(find_cover_falsehood(file.span(), model));
         EXPECT_GE(part_count(model), 4U);
         EXPECT_LE(part_count(model), 12U);
         EXPECT_EQ(find_hull(model, format::HullScope::part, 2), 3U);
@@ -100,6 +105,110 @@ TEST(HullParts, ThatLeaveAVertexOutAreFound) {
     EXPECT_FALSE(format::find_damage(file.span()));
     const auto opened = test::open_tiny(test::AlignedBytes(file.span()));
     EXPECT_TRUE(find_hull_falsehood(file.span(), opened.model));
+}
+
+/// What a file says of a mesh with these boxes as its parts, turned by an angle.
+struct Told {
+    bool of_vertices;
+    bool of_triangles;
+};
+using Box = std::array<Double3, 2>;
+Told told_of(test::TestMesh mesh, const std::vector<Box>& boxes, double angle = 0) {
+    const auto turn = [&](const Double3& p) -> Double3 {
+        const double c = std::cos(angle), s = std::sin(angle);
+        return {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
+    };
+    for (Double3& p : mesh.positions) p = turn(p);
+    HullSections sections = *make_hull_sections(test::mesh_of(mesh), {}, 0, serial_for);
+    std::vector<ApproximatePiece> pieces(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        std::vector<Double3> corners;
+        for (unsigned k = 0; k < 8; ++k) {
+            corners.push_back(
+                turn({boxes[i][k & 1U].x, boxes[i][k >> 1U & 1U].y, boxes[i][k >> 2U].z}));
+        }
+        pieces[i].hull = convex_hull(corners);
+        pieces[i].hull.numbers.clear();
+    }
+    add_parts(sections, pieces);
+    const auto opened = test::open_tiny(baked(mesh, sections));
+    const auto file = opened.bytes.span();
+    EXPECT_FALSE(format::find_damage(file));
+    return {find_hull_falsehood(file, opened.model).has_value(),
+            find_cover_falsehood(file, opened.model).has_value()};
+}
+
+/// From 0 to 4 along x, 1 wide and high.
+test::TestMesh bar() {
+    test::TestMesh mesh = test::unit_cube();
+    for (Double3& p : mesh.positions) p.x *= 4;
+    return mesh;
+}
+
+// Its corners are in the outer two of three parts. Their borders touch: all is covered, and
+// not with the least crack between them, however the parts come one after the other.
+TEST(HullParts, ThatLeaveThePartsOfATriangleBetweenThemOutAreFound) {
+    const Box left = {{{0, 0, 0}, {1, 1, 1}}}, middle = {{{1, 0, 0}, {3, 1, 1}}},
+              right = {{{3, 0, 0}, {4, 1, 1}}};
+    for (const auto& boxes : {std::vector{left, middle, right}, std::vector{right, left, middle},
+                              std::vector{middle, middle, right, left}}) {
+        const Told told = told_of(bar(), boxes);
+        EXPECT_FALSE(told.of_vertices);
+        EXPECT_FALSE(told.of_triangles);
+    }
+    const Told without = told_of(bar(), {left, right});
+    EXPECT_FALSE(without.of_vertices);
+    EXPECT_TRUE(without.of_triangles);
+    for (const Double3& low :
+         {Double3{std::nextafter(1, 2), 0, 0}, Double3{1, 0x1p-60, 0}, Double3{1, 0, 0x1p-60}}) {
+        const Told shrunk = told_of(bar(), {left, {{low, {3, 1, 1}}}, right});
+        EXPECT_FALSE(shrunk.of_vertices);
+        EXPECT_TRUE(shrunk.of_triangles);
+    }
+    const Told high = told_of(bar(), {left, {{{1, 0, 0}, {3, 1 - 0x1p-53, 1}}}, right});
+    EXPECT_TRUE(high.of_triangles);
+}
+
+// Borders across the triangles that are no round numbers: overlapping by a little, or with a
+// gap as small.
+TEST(HullParts, ThatOverlapByLittleCoverTurnedOnesToo) {
+    for (const double angle : {0.3, 0.8, 2.0}) {
+        for (const double gap : {-1e-12, 1e-12}) {
+            const Told told = told_of(bar(),
+                                      {{{{-0.1, -0.1, -0.1}, {1.7 - gap, 1.1, 1.1}}},
+                                       {{{1.7, -0.1, -0.1}, {3.1 - gap, 1.1, 1.1}}},
+                                       {{{3.1, -0.1, -0.1}, {4.1, 1.1, 1.1}}}},
+                                      angle);
+            EXPECT_FALSE(told.of_vertices);
+            EXPECT_EQ(told.of_triangles, gap > 0) << angle;
+        }
+    }
+}
+
+// A square sheet under two polygons that share a border, and with one of them narrower.
+TEST(HullParts, OfASheetAreItsPolygons) {
+    const test::TestMesh sheet = {{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}},
+                                  {{{0, 1, 2}}, {{0, 2, 3}}}};
+    const Box left = {{{0, 0, 0}, {1, 1, 0}}}, right = {{{1, 0, 0}, {2, 1, 0}}};
+    EXPECT_FALSE(told_of(sheet, {left, right}).of_triangles);
+    EXPECT_TRUE(told_of(sheet, {left, {{{std::nextafter(1, 2), 0, 0}, {2, 1, 0}}}}).of_triangles);
+    EXPECT_TRUE(told_of(sheet, {left, {{{1, 0, 1}, {2, 1, 1}}}}).of_triangles);
+}
+
+// What the search finds is proved by other means: cuts along axes, along faces, and of sheets.
+TEST(HullParts, ThatAreFoundCoverEveryTriangle) {
+    test::TestMesh mesh = ring();
+    for (const double angle : {0.0, 0.7}) {
+        for (Double3& p : mesh.positions) {
+            p = {std::cos(angle) * p.x - std::sin(angle) * p.y,
+                 std::sin(angle) * p.x + std::cos(angle) * p.y, p.z + 0.1 * p.x};
+        }
+        for (const std::size_t parts : {3U, 16U}) {
+            HullSections sections = with_parts(mesh, parts);
+            const auto opened = test::open_tiny(baked(mesh, sections));
+            EXPECT_FALSE(find_cover_falsehood(opened.bytes.span(), opened.model)) << parts;
+        }
+    }
 }
 
 // The oracle is the hierarchy of triangles, which is exact. A yes of the parts may be wrong:
