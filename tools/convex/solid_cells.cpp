@@ -88,6 +88,7 @@ public:
         std::vector<Open> level;
         level.push_back(std::move(all));
         while (!level.empty()) level = cut_level(std::move(level));
+        drop_trimmed();
         add_corners();
         return std::move(cells_);
     }
@@ -124,7 +125,8 @@ private:
     }
 
     std::vector<Open> cut_level(std::vector<Open> level) {
-        const bool is_full = cells_.cells.size() + 2 * level.size() > options_.most_cells;
+        const bool is_full = cells_.cells.size() + 2 * level.size() > options_.most_cells ||
+                             cells_.fragments.size() > options_.most_fragments;
         std::vector<std::uint8_t> is_done(level.size());
         const auto look = [&](std::size_t i) { is_done[i] = is_small_enough(level[i]) ? 1 : 0; };
         options_.parallel_for(level.size(), look);
@@ -442,6 +444,19 @@ private:
             }
             cells_.cells.push_back(std::move(cell));
         }
+    }
+
+    /// What was trimmed away is in no cell: the others take its place.
+    void drop_trimmed() {
+        std::vector<Fragment> held;
+        held.reserve(cells_.fragments.size());
+        for (SolidCell& cell : cells_.cells) {
+            for (std::uint32_t& number : cell.fragments) {
+                held.push_back(cells_.fragments[number]);
+                number = static_cast<std::uint32_t>(held.size() - 1);
+            }
+        }
+        cells_.fragments = std::move(held);
     }
 
     /// A corner on the surface is one of the body's only where that goes on within the box;

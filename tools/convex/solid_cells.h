@@ -35,8 +35,8 @@ struct SolidCell {
 
 /// A solid cut into cells. Together the cells hold all of it.
 struct SolidCells {
-    std::vector<Place> places;  ///< the mesh's vertices first
-    std::vector<Fragment> fragments;
+    std::vector<Place> places;        ///< the mesh's vertices first
+    std::vector<Fragment> fragments;  ///< of wanted bodies each in one cell
     std::vector<SolidCell> cells;
     std::vector<std::uint32_t> fragment_count;  ///< of each triangle, copies too
 };
@@ -45,6 +45,8 @@ struct SolidCellOptions {
     double size = 0;   ///< longest side of a box with surface in it, model units
     double error = 0;  ///< boxes whose hulls stick out farther are cut on, to an eighth of it
     std::size_t most_cells = 8'000;  ///< boxes stay larger where there would be more
+    /// As soon as there are more, boxes stay as they are.
+    std::size_t most_fragments = 20'000'000;
     ParallelFor parallel_for = serial_for;
 };
 
