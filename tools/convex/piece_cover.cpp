@@ -229,7 +229,7 @@ private:
                             const PointGroups& far, ParallelFor run) const {
         Grown grown = grow(seed, wanted, far);
         std::vector<Estimate> found;
-        PointGroups kept_out;
+        PointGroups kept_out(&far);
         std::size_t work = grown.work;
         for (std::size_t i = 0; grown.cells.size() > 1; ++i) {
             const Estimate error = measure(grown.cells, run);
@@ -239,7 +239,6 @@ private:
                 work += give_up_last(grown.cells, run);
                 break;
             }
-            if (i == 0) kept_out = far;
             kept_out.add({&error.at, 1});
             found.push_back(error);
             grown = grow(seed, wanted, kept_out);
@@ -343,6 +342,7 @@ private:
                 progress.found.insert(progress.found.end(), one.found.begin(), one.found.end());
                 pool.push_back(std::move(one));
             }
+            for (const Grown& one : pool) progress.work += one.cells.size() / kLooksOfWork;
             const std::size_t best = find_best(pool, wanted);
             for (const std::uint32_t cell : pool[best].cells) {
                 if (!wanted[cell]) continue;
@@ -453,7 +453,7 @@ private:
         for (const std::size_t i : given_up) {
             for (const std::uint32_t cell : pieces[i]) wanted[cell] = uses[cell] == 0;
         }
-        PointGroups far = far_;
+        PointGroups far(&far_);
         Progress fresh =
             cover_wanted(std::move(wanted), given_up.size() - 1, salt, far, serial_for);
         if (fresh.chosen.size() >= given_up.size()) {

@@ -160,6 +160,9 @@ void PointGroups::add(std::span<const Double3> points) {
     Group group{
         {}, static_cast<std::uint32_t>(points_.size()), static_cast<std::uint32_t>(points.size())};
     for (const Double3& p : points) group.box.add(p);
+    if (groups_.size() % kBundle == 0) bundles_.emplace_back();
+    bundles_.back().add(group.box.lower);
+    bundles_.back().add(group.box.upper);
     groups_.push_back(group);
     points_.insert(points_.end(), points.begin(), points.end());
 }
@@ -185,7 +188,7 @@ void SeparatedPoints::Planes::resize(std::size_t count) {
 }
 
 SeparatedPoints::SeparatedPoints(const PointGroups& kept_out)
-    : kept_out_(kept_out), is_near_(kept_out.groups().size(), 0) {}
+    : kept_out_(kept_out), is_near_(kept_out.size(), 0) {}
 
 /// A direction in which the point lies beyond the hull of what there is and of more.
 std::optional<SeparatedPoints::Touching> SeparatedPoints::find_plane(
@@ -248,12 +251,12 @@ bool SeparatedPoints::keep_out(Planes& planes, std::size_t i, std::span<const Do
 
 /// All points of a group, each beyond a plane of its own.
 bool SeparatedPoints::keep_out_points(const Near& near, const Added& added) {
-    const PointGroups::Group& group = kept_out_.groups()[near.group];
+    const std::span<const Double3> points = kept_out_.points_of(near.group);
     constexpr std::size_t kAtOnce = 64;
     const Double3& c = added.centre;
-    work_ += group.count;
-    for (std::size_t begin = 0; begin < group.count; begin += kAtOnce) {
-        const std::size_t count = std::min(kAtOnce, group.count - begin);
+    work_ += points.size();
+    for (std::size_t begin = 0; begin < points.size(); begin += kAtOnce) {
+        const std::size_t count = std::min(kAtOnce, points.size() - begin);
         const std::size_t first = near.single + begin;
         std::array<double, kAtOnce> beyond;
         for (std::size_t k = 0; k < count; ++k) {
@@ -263,7 +266,7 @@ bool SeparatedPoints::keep_out_points(const Near& near, const Added& added) {
         }
         for (std::size_t k = 0; k < count; ++k) {
             if (beyond[k] < 0) continue;
-            const Double3& p = kept_out_.points()[group.first + begin + k];
+            const Double3& p = points[begin + k];
             if (!keep_out(single_, first + k, {&p, 1}, p, added)) return false;
         }
     }
@@ -272,25 +275,24 @@ bool SeparatedPoints::keep_out_points(const Near& near, const Added& added) {
 
 bool SeparatedPoints::keep_out_group(std::size_t i, const Added& added) {
     if (near_[i].single == kClosed) {
-        const PointGroups::Group& group = kept_out_.groups()[near_[i].group];
-        const auto all = std::span(kept_out_.points()).subspan(group.first, group.count);
-        if (keep_out(planes_, i, all, middle(group.box), added)) return true;
-        if (group.count == 1) return false;
+        const std::span<const Double3> all = kept_out_.points_of(near_[i].group);
+        const Double3 centre = middle(kept_out_.box_of(near_[i].group));
+        if (keep_out(planes_, i, all, centre, added)) return true;
+        if (all.size() == 1) return false;
         opened_.push_back(i);
         near_[i].single = static_cast<std::uint32_t>(single_.size());
-        single_.resize(single_.size() + group.count);
+        single_.resize(single_.size() + all.size());
     }
     return keep_out_points(near_[i], added);
 }
 
 /// Groups that the hull's box newly reaches; none of them has a plane.
 void SeparatedPoints::look_around(const mesh::Box& box) {
-    const auto& groups = kept_out_.groups();
-    for (std::uint32_t i = 0; i < groups.size(); ++i) {
-        if (is_near_[i] != 0 || !groups[i].box.meets(box)) continue;
+    work_ += kept_out_.in_box(box, [this](std::size_t i) {
+        if (is_near_[i] != 0) return;
         is_near_[i] = 1;
-        near_.push_back({i, kClosed});
-    }
+        near_.push_back({static_cast<std::uint32_t>(i), kClosed});
+    });
     planes_.resize(near_.size());
 }
 

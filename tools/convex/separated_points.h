@@ -42,16 +42,50 @@ public:
         std::uint32_t first;  ///< of its points
         std::uint32_t count;
     };
+
+    PointGroups() = default;
+    /// Those of another one, which outlives this and does not change meanwhile, and more.
+    explicit PointGroups(const PointGroups* base) : base_(base), base_size_(base->size()) {}
+
     void add(std::span<const Double3> points);
-    [[nodiscard]] const std::vector<Group>& groups() const {
-        return groups_;
+
+    /// Of groups, those of the base first.
+    [[nodiscard]] std::size_t size() const {
+        return base_size_ + groups_.size();
     }
-    [[nodiscard]] const std::vector<Double3>& points() const {
-        return points_;
+    [[nodiscard]] const mesh::Box& box_of(std::size_t group) const {
+        return group < base_size_ ? base_->box_of(group) : groups_[group - base_size_].box;
+    }
+    [[nodiscard]] std::span<const Double3> points_of(std::size_t group) const {
+        if (group < base_size_) return base_->points_of(group);
+        const Group& own = groups_[group - base_size_];
+        return std::span(points_).subspan(own.first, own.count);
+    }
+
+    /// Calls visit(group) for each whose box meets this one, ascending. Returns how many boxes
+    /// it looked at.
+    template <class Visit>
+    std::size_t in_box(const mesh::Box& box, const Visit& visit) const {
+        std::size_t looks = base_ == nullptr ? 0 : base_->in_box(box, visit);
+        looks += bundles_.size();
+        for (std::size_t k = 0; k < bundles_.size(); ++k) {
+            if (!bundles_[k].meets(box)) continue;
+            const std::size_t end = std::min((k + 1) * kBundle, groups_.size());
+            looks += end - k * kBundle;
+            for (std::size_t i = k * kBundle; i < end; ++i) {
+                if (groups_[i].box.meets(box)) visit(base_size_ + i);
+            }
+        }
+        return looks;
     }
 
 private:
+    static constexpr std::size_t kBundle = 32;
+
+    const PointGroups* base_ = nullptr;
+    std::size_t base_size_ = 0;
     std::vector<Group> groups_;
+    std::vector<mesh::Box> bundles_;  ///< around so many groups each, one after the other
     std::vector<Double3> points_;
 };
 

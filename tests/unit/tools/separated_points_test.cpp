@@ -7,6 +7,7 @@
 #include <array>
 #include <random>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "convex/convex_hull.h"
@@ -86,15 +87,20 @@ TEST(SeparatedPoints, AnswerAsTheExactHullDoes) {
             return Double3{static_cast<double>(at(random)), static_cast<double>(at(random)),
                            static_cast<double>(at(random))};
         };
-        PointGroups groups;
+        // The first few in a base, the others besides.
+        PointGroups base;
+        PointGroups groups(&base);
+        Points out;
         for (int group = 0; group < 12; ++group) {
+            if (group == 4) groups = PointGroups(&base);
             const Double3 middle = any(20);
             Points points;
             for (int i = 0; i < 1 + group; ++i) {
                 const Double3 off = any(2);
                 points.push_back({middle.x + off.x, middle.y + off.y, middle.z + off.z});
             }
-            groups.add(points);
+            (group < 4 ? base : groups).add(points);
+            out.insert(out.end(), points.begin(), points.end());
         }
         SeparatedPoints hull(groups);
         Points taken;
@@ -110,7 +116,6 @@ TEST(SeparatedPoints, AnswerAsTheExactHullDoes) {
             all.insert(all.end(), more.begin(), more.end());
             const ConvexHull exact = convex_hull(all);
             if (exact.dimension < 3) continue;
-            const auto& out = groups.points();
             const bool is_free = std::none_of(
                 out.begin(), out.end(), [&](const Double3& p) { return is_within(exact, p); });
             ASSERT_EQ(add(hull, more), is_free) << "round " << round << ", step " << step;
@@ -120,6 +125,29 @@ TEST(SeparatedPoints, AnswerAsTheExactHullDoes) {
     }
     EXPECT_GT(answers[0], 500u);
     EXPECT_GT(answers[1], 100u);
+}
+
+// Groups along a line, more than are bundled together, some in a base: each box meets those
+// that it should, in their order, and far from all of them few are looked at.
+TEST(PointGroups, TellWhichMeetABox) {
+    PointGroups base;
+    for (int i = 0; i < 500; ++i) base.add(Points{{i + 0.0, 0, 0}, {i + 0.5, 0, 0}});
+    PointGroups all(&base);
+    for (int i = 500; i < 1000; ++i) all.add(Points{{i + 0.0, 0, 0}, {i + 0.5, 0, 0}});
+    ASSERT_EQ(all.size(), 1000u);
+    for (const auto& [from, to] : {std::pair(10, 20), std::pair(480, 520), std::pair(990, 2000)}) {
+        std::vector<std::size_t> met;
+        const std::size_t looks =
+            all.in_box({{from + 0.25, -1, -1}, {to + 0.25, 1, 1}}, [&](std::size_t i) {
+                EXPECT_EQ(all.points_of(i).front().x, static_cast<double>(i));
+                met.push_back(i);
+            });
+        std::vector<std::size_t> expected;
+        for (int i = from; i <= std::min(to, 999); ++i)
+            expected.push_back(static_cast<std::size_t>(i));
+        EXPECT_EQ(met, expected);
+        EXPECT_LT(looks, 200u);
+    }
 }
 
 // Many points are pruned; none of those that span the hull is lost.
