@@ -54,9 +54,15 @@ constexpr std::size_t kWorkOfNode = 60;           ///< of a field, measured
 constexpr std::size_t kWorkOfFragment = 60;       ///< that cells are cut into
 constexpr std::size_t kWorkOfCell = 2'000;        ///< one that is cut out
 constexpr std::size_t kWorkOfErrorCell = 150;     ///< that find_hull_error() looks at
+constexpr std::size_t kEstimatesAtOnce = 32;      ///< hulls, side by side
+constexpr std::size_t kTestsOfWork = 4;           ///< of find_hull_error(), against planes
+constexpr std::size_t kWorkOfSample = 10;         ///< of a field
 constexpr std::size_t kFewestNodes = 100'000;     ///< of a field, whatever work is left
 constexpr std::size_t kFewestCells = 500;         ///< that are cut, whatever work is left
-constexpr std::size_t kFewestErrorCells = 2'000;  ///< for each hull, whatever work is left
+constexpr std::size_t kFewestFragments = 4;       ///< of each triangle, on average
+constexpr std::size_t kFewestErrorCells = 2'000;  ///< for each hull, whatever work is left,
+constexpr std::size_t kFewestOfMany = 100;        ///< but with many hulls no more than this,
+constexpr std::size_t kFewestInAll = 400'000;     ///< or a part of these
 constexpr double kWorkPower = 0.5;    ///< of work that is too much: by how much errors grow
 constexpr double kLeastGrowth = 1.5;  ///< of an error that takes too much work
 constexpr double kMostGrowth = 8;
@@ -119,6 +125,7 @@ public:
         }
         result.is_as_asked = result.pieces.size() <= most &&
                              (!options_.max_error || result.outer_error <= *options_.max_error);
+        result.work = work_done_;
         // Bounds that are not close for want of work matter only then.
         result.ran_out_of_work =
             ran_out_of_work_ || (result.ran_out_of_work && !result.is_as_asked);
@@ -179,11 +186,12 @@ private:
             piece.error = find_hull_error(piece.hull, solid_, how);
         };
         options_.parallel_for(label_count_, measure);
-        for (const ApproximatePiece& piece : whole_) {
-            work_done_ += kWorkOfErrorCell * piece.error.cells;
-        }
+        for (const ApproximatePiece& piece : whole_) work_done_ += work_of(piece.error);
     }
 
+    [[nodiscard]] static std::size_t work_of(const HullError& error) {
+        return kWorkOfErrorCell * error.cells + error.tests / kTestsOfWork;
+    }
     [[nodiscard]] std::size_t work_left() const {
         return options_.work > work_done_ ? options_.work - work_done_ : 0;
     }
@@ -194,7 +202,9 @@ private:
     }
     /// For each of some hulls, together half of the work that is left.
     [[nodiscard]] std::size_t most_error_cells(std::size_t hulls) const {
-        return std::clamp(work_left() / 2 / kWorkOfErrorCell / hulls, kFewestErrorCells,
+        const std::size_t fewest =
+            std::clamp(kFewestInAll / hulls, kFewestOfMany, kFewestErrorCells);
+        return std::clamp(work_left() / 2 / kWorkOfErrorCell / hulls, fewest,
                           HullErrorOptions{}.most_cells);
     }
 
@@ -227,6 +237,8 @@ private:
         how.size = kCellSize * error;
         how.error = kCellError * error;
         how.most_cells = std::clamp(most_search() / 4 / kWorkOfCell, kFewestCells, how.most_cells);
+        const std::size_t fewest = kFewestFragments * mesh_.triangles.size();
+        how.most_fragments = std::max(most_search() / 4 / kWorkOfFragment, fewest);
         how.parallel_for = options_.parallel_for;
         SolidCells cells = cut_into_cells(mesh_, solid_, field, how);
         std::vector<CoverCell> cover(cells.cells.size());
@@ -458,6 +470,38 @@ private:
         return few ? std::move(few->hull) : hull;
     }
 
+    /// About how far some pieces stick out at most: known, or as the field tells it. What is
+    /// less than that of others before is not looked at closely.
+    double estimate_greatest(const Found& found, std::span<const ApproximatePiece> pieces,
+                             std::span<const std::uint8_t> is_measured) {
+        double greatest = 0;
+        std::vector<std::size_t> open;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            if (is_measured[i] == 0) {
+                open.push_back(i);
+            } else {
+                greatest = std::max(greatest, pieces[i].error.upper);
+            }
+        }
+        if (!found.stage || !found.stage->field) return greatest;
+        std::vector<Estimate> estimates(open.size());
+        for (std::size_t begin = 0; begin < open.size(); begin += kEstimatesAtOnce) {
+            const std::size_t count = std::min(kEstimatesAtOnce, open.size() - begin);
+            const double least = greatest;
+            const Detail detail = work_left() > 0 ? Detail::fine : Detail::coarse;
+            const auto estimate = [&](std::size_t k) {
+                estimates[begin + k] =
+                    found.stage->field->estimate(pieces[open[begin + k]].hull, least, detail);
+            };
+            options_.parallel_for(count, estimate);
+            for (std::size_t k = begin; k < begin + count; ++k) {
+                greatest = std::max(greatest, estimates[k].distance);
+                work_done_ += kWorkOfSample * estimates[k].samples;
+            }
+        }
+        return greatest;
+    }
+
     /// Hulls, how many corners they hold, and how far they stick out.
     ApproximatePieces finish(const Found& found) {
         ApproximatePieces result;
@@ -474,7 +518,6 @@ private:
         }
         result.pieces.resize(points.size());
         std::vector<EnclosureProof> proofs(points.size());
-        std::vector<double> estimates(points.size(), 0);
         std::vector<std::uint8_t> is_measured(points.size(), 0);
         const auto finish_piece = [&](std::size_t i) {
             ApproximatePiece& piece = result.pieces[i];
@@ -491,16 +534,12 @@ private:
             proofs[i] = prove_points(piece.hull, points[i].points);
             proofs[i].fragments = points[i].fragments;
             is_measured[i] = i < first && piece.hull.points.size() == exact ? 1 : 0;
-            estimates[i] = is_measured[i] != 0 ? piece.error.upper
-                           : found.stage && found.stage->field
-                               ? found.stage->field->estimate(piece.hull, 0, Detail::fine).distance
-                               : 0;
         };
         options_.parallel_for(points.size(), finish_piece);
         // Bounds closer than the largest error would not make the bound of all any closer.
         HullErrorOptions how;
         how.relative = kRelative;
-        how.enough = (1 + kRelative) * *std::max_element(estimates.begin(), estimates.end());
+        how.enough = (1 + kRelative) * estimate_greatest(found, result.pieces, is_measured);
         // Few hulls take more than most do: those get what work is left.
         how.most_cells = 0;
         for (int round = 0; round < 2; ++round) {
@@ -517,7 +556,7 @@ private:
             options_.parallel_for(open.size(), measure);
             for (const std::size_t i : open) {
                 const std::size_t cells = result.pieces[i].error.cells;
-                work_done_ += kWorkOfErrorCell * cells;
+                work_done_ += work_of(result.pieces[i].error);
                 is_measured[i] = cells < how.most_cells / 2 ? 1 : 0;
             }
         }

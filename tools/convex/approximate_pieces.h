@@ -66,6 +66,7 @@ struct ApproximatePieces {
     EnclosureProof proof;
     bool is_as_asked = true;  ///< max_error, or parts
     bool ran_out_of_work = false;
+    std::size_t work = 0;  ///< what was looked at, as ApproximateOptions::work counts it
 };
 
 /// Encloses a mesh in convex pieces that stick out of it little.

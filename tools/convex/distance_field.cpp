@@ -22,6 +22,8 @@ constexpr std::size_t kGroup = 4;  ///< nodes along each axis that are kept out 
 constexpr double kShell = 1.5;     ///< spacings: how thick a layer of nodes is
 constexpr std::size_t kBlock = 8;  ///< nodes along each axis
 constexpr std::size_t kFacetsAtOnce = 32;
+constexpr std::size_t kProbes = 64;    ///< nodes that tell how much one takes here
+constexpr double kFewestNodes = 4096;  ///< however much one takes
 
 double apart(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
@@ -70,11 +72,14 @@ double interpolated(const GridPlace& place, const Node& node) {
 DistanceField::DistanceField(const Solid& solid, double spacing, double beyond,
                              ParallelFor parallel_for, std::size_t most_nodes)
     : solid_(&solid), spacing_(spacing) {
+    weight_ = find_weight();
+    const auto of_work = static_cast<double>(most_nodes);
+    const double most =
+        std::max(of_work / static_cast<double>(weight_), std::min(of_work, kFewestNodes));
     const mesh::Box& box = solid.tree().box();
     const Double3 size = mesh::minus(box.upper, box.lower);
     const auto nodes_along = [&](double length) { return std::floor(length / spacing_) + 2; };
-    while (nodes_along(size.x) * nodes_along(size.y) * nodes_along(size.z) >
-           static_cast<double>(most_nodes)) {
+    while (nodes_along(size.x) * nodes_along(size.y) * nodes_along(size.z) > most) {
         spacing_ *= 1.25;
     }
     count_ = {static_cast<std::size_t>(nodes_along(size.x)),
@@ -116,6 +121,27 @@ Double3 DistanceField::node(std::size_t x, std::size_t y, std::size_t z) const {
             origin_.z + static_cast<double>(z) * spacing_};
 }
 
+/// What a node takes after the one beside it, on average over a few places, spread evenly.
+std::size_t DistanceField::find_weight() const {
+    const mesh::Box& box = solid_->tree().box();
+    const Double3 size = mesh::minus(box.upper, box.lower);
+    // Multiples of the powers of the root of x^4 = x + 1 fill a cube evenly.
+    constexpr Double3 kStep = {0.8191725134, 0.6710436067, 0.5497004779};
+    const auto along = [](double lower, double length, double step, std::size_t i) {
+        const double at = step * static_cast<double>(i + 1);
+        return lower + (at - std::floor(at)) * length;
+    };
+    std::size_t weight = 0;
+    for (std::size_t i = 0; i < kProbes; ++i) {
+        Double3 p = {along(box.lower.x, size.x, kStep.x, i), along(box.lower.y, size.y, kStep.y, i),
+                     along(box.lower.z, size.z, kStep.z, i)};
+        const std::uint32_t near = solid_->tree().nearest(p).triangle;
+        p.x += spacing_;
+        weight += solid_->tree().nearest(p, near).weight();
+    }
+    return weight / kProbes;
+}
+
 /// Far from the surface the middle stands for all nodes of a block. Elsewhere a node is on
 /// the side of the one before it unless the surface may pass between them.
 std::size_t DistanceField::fill(const Block& block, double beyond) {
@@ -129,6 +155,7 @@ std::size_t DistanceField::fill(const Block& block, double beyond) {
     const bool one_sided = near.distance > radius;
     const bool inside = solid_->includes(centre);
     const bool is_far = one_sided && (inside || near.distance > radius + beyond);
+    std::size_t measured = 0;
     double before = one_sided ? 2 * spacing_ : 0;
     bool is_inside = inside;
     for (std::size_t z = z0; z < z1; ++z) {
@@ -143,6 +170,7 @@ std::size_t DistanceField::fill(const Block& block, double beyond) {
                 }
                 const Double3 p = node(x, y, z);
                 near = solid_->tree().nearest(p, near.triangle);
+                measured += near.weight();
                 nearest_[index(x, y, z)] = near.triangle;
                 const bool is_new_row = x == x0;
                 if (!one_sided && (is_new_row || std::max(before, near.distance) <= spacing_)) {
@@ -153,7 +181,7 @@ std::size_t DistanceField::fill(const Block& block, double beyond) {
             }
         }
     }
-    return is_far ? 1 : (x1 - x0) * (y1 - y0) * (z1 - z0);
+    return is_far ? 1 : measured;
 }
 
 double DistanceField::at(const Double3& p) const {
@@ -231,7 +259,11 @@ void DistanceField::sample(std::array<Double3, 3> corners, Detail detail, Estima
     const bool is_fine = detail == Detail::fine && fine_;
     const double too_low = is_fine ? kTooLow * spacing_ : 0;
     if (here + too_low + way <= most.distance) return;
-    if (is_fine) {
+    // Not where it can be neither too much nor little enough for all of the triangle.
+    const bool matters = here + too_low > most.distance ||
+                         here + too_low / static_cast<double>(kFiner) + way <= most.distance;
+    if (is_fine && matters) {
+        most.samples += weight_ - 1;
         here = fine_at(centre);
         if (here + too_low / static_cast<double>(kFiner) + way <= most.distance) return;
     }

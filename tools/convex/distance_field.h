@@ -18,7 +18,7 @@ namespace cdprep::convex {
 struct Estimate {
     double distance = 0;  ///< from the solid, model units; negative inside
     Double3 at = {0, 0, 0};
-    std::size_t samples = 0;  ///< looked at
+    std::size_t samples = 0;  ///< looked at; fine ones among many triangles count as several
 };
 
 /// Between two walls a field is too low, by up to half a spacing. A finer one, whose nodes
@@ -33,14 +33,16 @@ public:
 
     /// Keeps a reference to `solid`. `spacing` and `beyond` are model units: up to `beyond`
     /// outside, distances are measured, what is farther is only known to be. The grid is coarser
-    /// where there would be more than `most_nodes`. The same for any parallel_for.
+    /// where there would be more than `most_nodes`, and where each takes as much as several
+    /// mostly do. The same for any parallel_for.
     DistanceField(const Solid& solid, double spacing, double beyond, ParallelFor parallel_for,
                   std::size_t most_nodes = kMostNodes);
 
     [[nodiscard]] double spacing() const {
         return spacing_;
     }
-    /// How many nodes were measured one by one, not as a block.
+    /// How many nodes were measured one by one, not as a block. One that is about as near to
+    /// very many triangles counts as several: for all that it took to look at them.
     [[nodiscard]] std::size_t measured() const {
         return measured_;
     }
@@ -65,7 +67,8 @@ private:
     [[nodiscard]] std::size_t index(std::size_t x, std::size_t y, std::size_t z) const {
         return (z * count_[1] + y) * count_[0] + x;
     }
-    /// Returns how many nodes it measured.
+    [[nodiscard]] std::size_t find_weight() const;
+    /// Returns how many nodes it measured, as measured() counts.
     std::size_t fill(const Block& block, double beyond);
     void sample(std::array<Double3, 3> corners, Detail detail, Estimate& most) const;
     [[nodiscard]] double fine_at(const Double3& p) const;
@@ -74,6 +77,7 @@ private:
     const Solid* solid_;
     Double3 origin_{};
     double spacing_;
+    std::size_t weight_ = 1;  ///< of a node: as many as mostly take that long
     std::size_t measured_ = 0;
     std::array<std::size_t, 3> count_{};  ///< nodes along each axis
     std::vector<float> distance_;

@@ -15,6 +15,7 @@ namespace cdprep::convex {
 namespace {
 
 constexpr std::size_t kMostDepthTests = 20'000'000;  ///< of triangles against planes
+constexpr std::size_t kTestsOfCell = 500;            ///< that take as long as a cell
 constexpr double kSkin = 0.02;   ///< of the error: what bounds of the inside may add
 constexpr double kFlush = 1e-6;  ///< of the diagonal: as near as this is on the surface
 
@@ -102,6 +103,13 @@ private:
         return cells;
     }
 
+    /// Counts as more cells what takes much longer than mostly.
+    TriangleTree::Nearest nearest(const Double3& p, std::uint32_t hint) {
+        const TriangleTree::Nearest near = solid_.tree().nearest(p, hint);
+        error_.cells += near.weight() - 1;
+        return near;
+    }
+
     /// Bounds a cell and keeps it unless it is well within what is known.
     void push(Cell cell) {
         ++error_.cells;
@@ -110,7 +118,7 @@ private:
         double radius = 0;
         for (const Double3& corner : c) radius = std::max(radius, apart(at, corner));
         radius += solid_.slack();
-        const TriangleTree::Nearest near = solid_.tree().nearest(at, cell.near);
+        const TriangleTree::Nearest near = nearest(at, cell.near);
         cell.near = near.triangle;
         const bool one_sided = near.distance > radius + solid_.slack();
         if (one_sided && !cell.outside) {
@@ -138,7 +146,7 @@ private:
     /// distance to one triangle is convex, and so is the mean of those to two, which the
     /// nearer one does not exceed: in the middle between two walls it bounds well.
     [[nodiscard]] double bound_by_corners(std::span<const Double3> corners,
-                                          std::uint32_t triangle) const {
+                                          std::uint32_t triangle) {
         const Corners& t = solid_.tree().corners(triangle);
         std::array<double, 8> to_first{};
         std::size_t worst = 0;
@@ -146,7 +154,7 @@ private:
             to_first[i] = point_triangle_distance(corners[i], t).upper;
             if (to_first[i] > to_first[worst]) worst = i;
         }
-        const std::uint32_t other = solid_.tree().nearest(corners[worst], triangle).triangle;
+        const std::uint32_t other = nearest(corners[worst], triangle).triangle;
         if (other == triangle) return to_first[worst];
         const Corners& u = solid_.tree().corners(other);
         double of_both = 0;
@@ -262,7 +270,7 @@ private:
     /// point is, and what does not is near the hull's own surface. That much holds of a solid
     /// that is all but convex, however many cubes it would take to fill. Infinite otherwise.
     [[nodiscard]] double bound_above_surface(const ConvexHull& hull, std::span<const Plane> planes,
-                                             const mesh::Box& box) const {
+                                             const mesh::Box& box) {
         constexpr double kNothing = std::numeric_limits<double>::infinity();
         if (!solid_.encloses()) return kNothing;
         constexpr double kNone = -std::numeric_limits<double>::infinity();
@@ -271,14 +279,16 @@ private:
         const double deepest = depth_of({&at, 1}, planes, kNone, shallowest);
         double depth = 0;
         std::size_t tests = 0;
+        const std::size_t most = std::min(kMostDepthTests, kTestsOfCell * options_.most_cells);
         solid_.tree().in_box(box, [&](std::uint32_t triangle) {
-            if (depth >= deepest || tests > kMostDepthTests) return;
+            if (depth >= deepest || tests > most) return;
             tests += planes.size();
             depth = std::max(depth,
                              depth_of(solid_.tree().corners(triangle), planes, depth, shallowest));
         });
+        error_.tests += tests;
         depth += 2 * solid_.slack();
-        if (depth >= deepest || tests > kMostDepthTests || !solid_.includes(at)) return kNothing;
+        if (depth >= deepest || tests > most || !solid_.includes(at)) return kNothing;
         return error_.upper + depth;
     }
 
@@ -322,7 +332,7 @@ private:
         }
         cube.planes = std::move(kept);
         const double radius = std::sqrt(3.0) * cube.half + solid_.slack();
-        const TriangleTree::Nearest near = solid_.tree().nearest(c, cube.near);
+        const TriangleTree::Nearest near = nearest(c, cube.near);
         cube.near = near.triangle;
         if (near.distance > radius + solid_.slack() && !cube.outside) {
             if (solid_.includes(c)) return 0;

@@ -14,7 +14,8 @@ struct HullError {
     double lower = 0;  ///< `worst` is that far from the solid, up to rounding
     double upper = 0;  ///< proved: no point of the hull is farther from it
     Double3 worst = {0, 0, 0};
-    std::size_t cells = 0;  ///< looked at
+    std::size_t cells = 0;  ///< looked at; those about as near to very many triangles several times
+    std::size_t tests = 0;  ///< of triangles against the hull's planes, besides
 };
 
 struct HullErrorOptions {

@@ -295,7 +295,9 @@ TriangleTree::Nearest TriangleTree::nearest(const Double3& p, std::uint32_t hint
     double least = std::numeric_limits<double>::infinity();
     float limit = std::numeric_limits<float>::max();  // boxes that are farther are not looked at
     std::uint32_t found = 0;
+    std::uint32_t looks = 0;
     const auto look_at = [&](std::size_t place) {
+        ++looks;
         const double square = square_to_triangle(p, corners_[place]);
         if (!(square < least)) return;
         least = square;
@@ -316,6 +318,7 @@ TriangleTree::Nearest TriangleTree::nearest(const Double3& p, std::uint32_t hint
     while (depth > 0) {
         const Waiting next = stack[--depth];
         if (next.square > limit) continue;
+        ++looks;
         const Lanes& lanes = node(next.place);
         Floats squares{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -345,7 +348,7 @@ TriangleTree::Nearest TriangleTree::nearest(const Double3& p, std::uint32_t hint
             look_at(leaf_begin(next.place.index) + order[--count]);
         }
     }
-    return {found, std::sqrt(least)};
+    return {found, std::sqrt(least), looks};
 }
 
 }  // namespace cdprep::convex

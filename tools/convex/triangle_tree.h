@@ -35,6 +35,16 @@ public:
     struct Nearest {
         std::uint32_t triangle;  ///< number in the span
         double distance;         ///< rounded; the true one to some 1e-12 of the model
+        std::uint32_t looks;     ///< at nodes and triangles: many where many are as near
+
+        /// As how many questions of the usual kind it counts, by what it took: 1, mostly.
+        [[nodiscard]] std::size_t weight() const {
+            return looks <= kUsualLooks ? 1 : looks / kLooksOfQuestion;
+        }
+
+    private:
+        static constexpr std::uint32_t kUsualLooks = 256;
+        static constexpr std::uint32_t kLooksOfQuestion = 64;
     };
 
     /// The triangle nearest to p, as far as double can tell. There is at least one.

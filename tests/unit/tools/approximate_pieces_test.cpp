@@ -8,9 +8,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <random>
 #include <utility>
 #include <vector>
 
+#include "convex/distance_field.h"
 #include "mesh/weld.h"
 #include "support/concave_solids.h"
 #include "support/run_threads.h"
@@ -357,6 +359,54 @@ TEST(ApproximatePieces, TakeNoMoreThanTheWorkAllowedForAnyError) {
         EXPECT_EQ(found.proof.outside, 0u);
         EXPECT_LE(found.outer_lower, found.outer_error);
     }
+}
+
+/// Triangles that cross each other all over a unit cube, connected at corners that they share.
+Mesh thicket(std::uint32_t triangles) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> at(0, 1);
+    Mesh mesh;
+    const std::uint32_t vertices = 8 + triangles / 4;
+    for (std::uint32_t i = 0; i < vertices; ++i) {
+        mesh.positions.push_back({at(random), at(random), at(random)});
+    }
+    std::uniform_int_distribution<std::uint32_t> any(0, vertices - 1);
+    while (mesh.triangles.size() < triangles) {
+        const std::uint32_t a = any(random), b = any(random), c = any(random);
+        if (a != b && b != c && c != a) mesh.triangles.push_back({{a, b, c}});
+    }
+    return mesh;
+}
+
+// Each question about a point takes looks at hundreds of triangles then. What is looked at is
+// paid for: a field for the same work has that many fewer nodes.
+TEST(ApproximatePieces, OfAThicketPayForEveryLook) {
+    constexpr std::size_t kNodes = 40'000;
+    const auto spacing = [](const Mesh& mesh, std::size_t& measured) {
+        const Solid solid(mesh, Reference::solid, serial_for);
+        const DistanceField field(solid, 0.01, 0.02, serial_for, kNodes);
+        measured = field.measured();
+        return field.spacing();
+    };
+    std::size_t few = 0, many = 0;
+    const double fine = spacing(thicket(8), few);
+    const double coarse = spacing(thicket(4'000), many);
+    EXPECT_GT(coarse, 1.4 * fine);  // nodes to the third power
+    EXPECT_LE(few, kNodes);
+    EXPECT_LE(many, 2 * kNodes);
+    EXPECT_GT(many, kNodes / 4);
+}
+
+// A small error of a thicket would take cells, fields and hulls without end.
+TEST(ApproximatePieces, OfAThicketEndWithLooserOnesAndSaySo) {
+    ApproximateOptions options;
+    options.max_error = 1e-4;
+    options.work = 20'000'000;
+    const ApproximatePieces found = find_approximate_pieces(thicket(2'000), options);
+    EXPECT_TRUE(found.ran_out_of_work);
+    EXPECT_FALSE(found.is_as_asked);
+    EXPECT_EQ(found.proof.outside, 0u);
+    EXPECT_LE(found.work, 4 * options.work);
 }
 
 TEST(ApproximatePieces, AreTheSameForAnyThreads) {

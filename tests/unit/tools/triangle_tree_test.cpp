@@ -81,6 +81,21 @@ TEST(TriangleTree, NamesTheNearestTriangle) {
     }
 }
 
+// From the middle of a ball all of its triangles are about as near: none can be left out, and
+// looks say so. From beside one they are few.
+TEST(TriangleTree, CountsWhatItLooksAt) {
+    const TestMesh ball = test::icosphere(4);
+    const TriangleTree tree = tree_of(ball);
+    ASSERT_EQ(tree.size(), 5120U);
+    const TriangleTree::Nearest from_middle = tree.nearest({0, 0, 0});
+    EXPECT_GE(from_middle.looks, tree.size() / 8);  // each leaf, at least
+    EXPECT_GE(from_middle.weight(), 10U);
+    const TriangleTree::Nearest from_beside = tree.nearest({1.001, 0, 0});
+    EXPECT_GT(from_beside.looks, 3U);
+    EXPECT_LT(from_beside.looks, 200U);
+    EXPECT_EQ(from_beside.weight(), 1U);
+}
+
 // To the last bit: what is stored of a field may not depend on who asked before.
 TEST(TriangleTree, FindsTheSameDistanceFromAnyHint) {
     for (const TestMesh& mesh : meshes()) {
