@@ -7,6 +7,7 @@
 #include <cmath>
 #include <ctime>
 #include <deque>
+#include <iterator>
 #include <utility>
 
 #include "cdprep/collide.h"
@@ -406,22 +407,30 @@ private:
         return hit;
     }
 
-    /// Float finds every pair, and more: what it is certain of is right.
     void count_float_pairs(bool doubt_counts, Rung& rung) {
-        rung.pair_counts.resize(climb_.set.poses.size());
+        std::vector<TrianglePair> wanted;
+        std::vector<TrianglePair> found;
+        std::vector<TrianglePair> both;
         for (std::size_t i = 0; i < climb_.set.poses.size(); ++i) {
-            const std::size_t wanted =
-                overlapping_triangles(climb_.a.model, climb_.b.model, placement(i), workspace_, {});
-            std::size_t certain = 0;
-            std::size_t doubtful = 0;
-            const auto count = [&](const FloatContact& contact) {
-                ++(contact.certain ? certain : doubtful);
+            wanted.clear();
+            found.clear();
+            both.clear();
+            const auto want = [&](const TrianglePair& pair) {
+                wanted.push_back(pair);
+                return true;
+            };
+            visit_overlapping_triangles(climb_.a.model, climb_.b.model, placement(i), workspace_,
+                                        want);
+            const auto find = [&](const FloatContact& contact) {
+                if (contact.certain || doubt_counts) found.push_back({contact.a, contact.b});
                 return true;
             };
             visit_float_contacts(climb_.a.model, climb_.b.model, placement(i), workspace_,
-                                 FloatSearch::all, count);
-            rung.pair_counts[i] = {wanted, certain + (doubt_counts ? doubtful : 0),
-                                   doubt_counts ? wanted : certain};
+                                 FloatSearch::all, find);
+            std::ranges::sort(wanted);
+            std::ranges::sort(found);
+            std::ranges::set_intersection(wanted, found, std::back_inserter(both));
+            rung.pair_counts.push_back({wanted.size(), found.size(), both.size()});
         }
         rung.pairs = pair_errors(rung.pair_counts);
     }
@@ -481,9 +490,8 @@ Ladder climb_geometry(const Climb& climb, Broken& broken) {
     ladder.name = "geometry";
     ladder.question = "do the surfaces touch, by shapes around them";
     ladder.error =
-        "false hits, as a share of the poses that are apart (of rungs that promise otherwise: "
-        "wrong "
-        "answers, of all poses)";
+        "false hits, as a share of the poses that are apart; of rungs that may miss or are exact "
+        "wrong answers, of all poses";
     ladder.cases = "pose";
     ladder.left_out.emplace_back(
         "Bytes that the hull's rung reads: which corners its search passes is not counted.");
@@ -510,6 +518,7 @@ Ladder climb_geometry(const Climb& climb, Broken& broken) {
     for (Contender& contender : contenders.all()) {
         keep_time(climb.set, timings[number++], contender.rung);
         judge_answers(ladder.name, climb.set, contender.rung, broken);
+        judge_pairs(ladder.name, contender.rung, broken);
         ladder.rungs.push_back(std::move(contender.rung));
     }
     return ladder;

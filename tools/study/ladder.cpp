@@ -136,6 +136,22 @@ void judge_answers(const std::string& ladder, const PoseSet& set, Rung& rung, Br
     }
 }
 
+void judge_pairs(const std::string& ladder, const Rung& rung, Broken& broken) {
+    if (!rung.pairs) return;
+    const PairCounts& all = rung.pairs->all;
+    const bool is_exact = rung.promise == Promise::exact;
+    const auto tell = [&](std::size_t pairs, const char* what) {
+        broken.push_back(ladder + ", " + rung.name + ": " + std::to_string(pairs) +
+                         " pairs of triangles " + what + ", against its promise.");
+    };
+    if ((is_exact || rung.promise == Promise::no_misses) && all.both < all.wanted) {
+        tell(all.wanted - all.both, "are missing");
+    }
+    if ((is_exact || rung.promise == Promise::no_false_hits) && all.both < all.found) {
+        tell(all.found - all.both, "are too many");
+    }
+}
+
 void keep_error(const ShareBand& error, Rung& rung) {
     rung.error = error.share;
     rung.error_low = error.low;

@@ -124,6 +124,10 @@ struct Climb {
 /// the promise.
 void judge_answers(const std::string& ladder, const PoseSet& set, Rung& rung, Broken& broken);
 
+/// Adds it when the rung's set of pairs breaks its promise: lacks a wanted pair where it promises
+/// no misses, has one too many where it promises no false hits, either where it is exact.
+void judge_pairs(const std::string& ladder, const Rung& rung, Broken& broken);
+
 /// Fills in the error with its band.
 void keep_error(const ShareBand& error, Rung& rung);
 

@@ -146,11 +146,7 @@ public:
         const PairErrors errors = pair_errors(counts);
         way.rung.pairs = errors;
         judge_answers("storage", climb_.set, way.rung, broken);
-        if (way.rung.promise == Promise::exact &&
-            (errors.all.both != errors.all.wanted || errors.all.both != errors.all.found)) {
-            broken.push_back("storage, " + way.rung.name +
-                             ": other pairs of triangles, though no vertex moved.");
-        }
+        judge_pairs("storage", way.rung, broken);
         // Few flags change; how many pairs do tells more.
         keep_error(errors.wrong, way.rung);
     }

@@ -101,6 +101,27 @@ TEST(JudgeAnswers, AYesAboutSolidsMayBeRightWhereSurfacesAreApart) {
     EXPECT_EQ(broken.size(), 1U);
 }
 
+std::size_t broken_by(Promise promise, const PairCounts& counts) {
+    Rung rung;
+    rung.promise = promise;
+    rung.pairs = PairErrors{counts, {}, {}, {}};
+    Broken broken;
+    judge_pairs("ladder", rung, broken);
+    return broken.size();
+}
+
+// By hand: two of nine pairs are missing, one of eight is too many.
+TEST(JudgePairs, EveryPromiseIsHeldToWhatItSays) {
+    constexpr PairCounts kBothWays = {9, 8, 7};
+    EXPECT_EQ(broken_by(Promise::exact, kBothWays), 2U);
+    EXPECT_EQ(broken_by(Promise::no_misses, kBothWays), 1U);
+    EXPECT_EQ(broken_by(Promise::no_false_hits, kBothWays), 1U);
+    EXPECT_EQ(broken_by(Promise::none, kBothWays), 0U);
+    EXPECT_EQ(broken_by(Promise::no_misses, {7, 8, 7}), 0U);
+    EXPECT_EQ(broken_by(Promise::no_false_hits, {9, 7, 7}), 0U);
+    EXPECT_EQ(broken_by(Promise::exact, {7, 7, 7}), 0U);
+}
+
 Rung at(double time, std::optional<double> error) {
     Rung rung;
     rung.time.median_s = time;
