@@ -475,9 +475,9 @@ private:
     }
     static void bound(const RTCBoundsFunctionArguments* asked) {
         const auto& body = *static_cast<const EmbreeBody*>(asked->geometryUserPtr);
-        const auto& [a, b, c] = body.corners_[asked->primID];
-        const auto low = [&](std::size_t k) { return std::min({a[k], b[k], c[k]}); };
-        const auto high = [&](std::size_t k) { return std::max({a[k], b[k], c[k]}); };
+        const Contact::Corners& t = body.corners_[asked->primID];
+        const auto low = [&](std::size_t k) { return std::min({t[0][k], t[1][k], t[2][k]}); };
+        const auto high = [&](std::size_t k) { return std::max({t[0][k], t[1][k], t[2][k]}); };
         RTCBounds& box = *asked->bounds_o;
         box = {low(0), low(1), low(2), 0, high(0), high(1), high(2), 0};
     }
@@ -634,7 +634,7 @@ std::vector<Absent> absent_peers() {
     return absent;
 }
 
-void print_absent(std::vector<Absent> absent) {
+void print_absent(const std::vector<Absent>& absent) {
     std::printf("\"absent\": [");
     for (std::size_t i = 0; i < absent.size(); ++i) {
         std::printf("%s{\"key\": \"%s\", \"name\": \"%s\", \"reason\": \"%s\"}",

@@ -88,13 +88,14 @@ Result<std::string> run_peers(const std::filesystem::path& program,
     const MemoryFile answer;
     std::deque<MemoryFile> files;
     std::vector<std::string> words = {program.string(), questions.what};
-    words.reserve(words.size() + questions.files.size() + questions.words.size());
     for (const std::span<const std::byte> bytes : questions.files) {
         if (!files.emplace_back().write(bytes)) {
             return failure(
                 program, "cannot be handed the models: " + std::generic_category().message(errno));
         }
-        words.push_back("/proc/self/fd/" + std::to_string(kFirst + files.size() - 1));
+    }
+    for (std::size_t i = 0; i < files.size(); ++i) {
+        words.insert(words.end(), "/proc/self/fd/" + std::to_string(kFirst + i));
     }
     words.insert(words.end(), questions.words.begin(), questions.words.end());
     std::vector<char*> arguments;
