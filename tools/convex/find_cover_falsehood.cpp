@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -35,6 +36,8 @@ Row exact(const Double3& p) {
     return {Number(p.x), Number(p.y), Number(p.z)};
 }
 
+// The analyser does not see that Lazy_exact_nt counts its references.
+// NOLINTBEGIN(clang-analyzer-cplusplus.NewDeleteLeaks)
 Row minus(const Row& a, const Row& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
@@ -46,6 +49,7 @@ Row cross(const Row& a, const Row& b) {
 Number dot(const Row& a, const Row& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
+// NOLINTEND(clang-analyzer-cplusplus.NewDeleteLeaks)
 
 /// What is above 0 on a line is beyond it.
 int side(const Row& line, const Row& point) {
@@ -107,7 +111,7 @@ public:
             for (std::uint32_t p = 0; p < part.points.count; ++p) {
                 part.box.add(part.points.point(p));
             }
-            parts_.push_back(std::move(part));
+            parts_.push_back(part);
         }
     }
 
