@@ -115,7 +115,7 @@ private:
     /// turns there is no room at first, and it may only count.
     template <class Question>
     [[nodiscard]] Pairs listed(const Pairs& expected, Question&& question) const {
-        constexpr std::size_t kCountedFirst = 4;
+        constexpr std::size_t kCountedFirst = 5;  // prime to the descents
         Pairs pairs(turn_ % kCountedFirst == 0 ? 0 : expected.size());
         const std::size_t count = question(pairs);
         const bool all_fit = count <= pairs.size();
