@@ -320,7 +320,7 @@ void NearestSearch<Trees>::run(double limit, Limit known, Near&& near) noexcept 
         if (top.bound > reach_.limit) return;  // and so is all else
         const PendingPair pair = PendingPair::unpacked(top.pair);
         if ((pair.a.height == 0 && pair.b.height == 0) ||
-            !frontier.has_room_for(format::kBvhWidth * format::kBvhWidth)) {
+            !frontier.has_room_for(std::size_t{format::kBvhWidth} * format::kBvhWidth)) {
             if (!look_below(top.pair, near)) return;
             continue;
         }
