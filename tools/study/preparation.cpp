@@ -67,11 +67,11 @@ HierarchyFigures measure_hierarchy(const mesh::Mesh& mesh, const ModelForms& for
     alone.push_back(builds(mesh, serial_for, build::BvhBounds::oriented_and_swept));
     const std::vector<Timings> one = time_questions(1, alone, timing);
     timing.by = TimedBy::wall;
-    const std::array<Question, 1> shared = {builds(mesh, options.parallel_for, as_baked)};
+    const Question shared = builds(mesh, options.parallel_for, as_baked);
     HierarchyFigures figures;
     figures.one = timing_of(one[0]);
     figures.swept = timing_of(one[1]);
-    figures.all = timing_of(time_questions(1, shared, timing)[0]);
+    figures.all = timing_of(time_questions(1, {&shared, 1}, timing)[0]);
     figures.bytes = bytes_of(forms.plain, kHierarchy);
     figures.swept_bytes = bytes_of(forms.swept, kHierarchy);
     return figures;
