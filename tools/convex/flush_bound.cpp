@@ -12,7 +12,8 @@
 namespace cdprep::convex {
 namespace {
 
-constexpr std::size_t kMostTests = 4'000'000;  ///< of points against planes
+// Of points against planes: once for those of the hull, once for those of the surface.
+constexpr std::size_t kMostTests = 4'000'000;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Plane {
@@ -119,6 +120,7 @@ private:
 
 std::optional<double> bound_flush(const ConvexHull& hull, const Solid& solid, double deepest) {
     if (hull.dimension != 3 || !solid.encloses()) return std::nullopt;
+    if (hull.facets.size() > kMostTests / hull.points.size()) return std::nullopt;
     return FlushHull(hull, solid).bound(deepest);
 }
 

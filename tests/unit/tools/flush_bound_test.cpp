@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -87,6 +90,24 @@ TEST(FlushBound, IsNothingWithoutASolidOrVolume) {
     EXPECT_FALSE(bound_flush(part, Solid(open, Reference::solid, serial_for), 1e-9));
     const Solid solid(hollow_cube(), Reference::solid, serial_for);
     EXPECT_FALSE(bound_flush(convex_hull({{{0, 0, 0.5}, {1, 0, 0.5}, {0, 1, 0.5}}}), solid, 1e-9));
+}
+
+// As far from the surface as can be, but of 5,996 facets over 3,000 corners.
+TEST(FlushBound, IsNothingForHullsTooLargeToLookAt) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    std::vector<Double3> points(3000);
+    for (Double3& p : points) {
+        const Double3 away = {normal(random), normal(random), normal(random)};
+        const double share = 0.5 / std::hypot(away.x, away.y, away.z);
+        p = {2 + share * away.x, 2 + share * away.y, 2 + share * away.z};
+    }
+    Mesh cube;
+    add_box(cube, {0, 0, 0}, {4, 4, 4}, false);
+    const Solid solid(cube, Reference::solid, serial_for);
+    const std::span<const Double3> all(points);
+    EXPECT_TRUE(bound_flush(convex_hull(all.first(1000)), solid, 1e-9));
+    EXPECT_FALSE(bound_flush(convex_hull(all), solid, 1e-9));
 }
 
 }  // namespace
