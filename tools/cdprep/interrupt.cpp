@@ -1,24 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "interrupt.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace cdprep::cli {
 namespace {
 
-volatile std::sig_atomic_t has_signal = 0;
+// Set by a signal, read by every thread: without a lock a signal may touch it.
+std::atomic<bool> has_signal = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// Nobody reads what we write: as if the person had stopped us, but however often.
 void on_closed_pipe(int) {
-    has_signal = 1;
+    has_signal = true;
 }
 
 void on_signal(int signal) {
-    if (has_signal != 0) {
+    if (has_signal) {
         std::signal(signal, SIG_DFL);
         std::raise(signal);
     }
-    has_signal = 1;
+    has_signal = true;
 }
 
 }  // namespace
@@ -32,7 +35,7 @@ void watch_for_interrupts() {
 }
 
 bool is_interrupted() {
-    return has_signal != 0;
+    return has_signal;
 }
 
 Error interrupted(const std::filesystem::path& input) {
