@@ -146,7 +146,10 @@ void add_compare(CLI::App& app, Exit& exit) {
                      "the first when every model is one of the paper's")
         ->check(CLI::IsMember({"fitting", "paper", "all"}))
         ->capture_default_str();
-    command->add_flag("--quick", options.quick, "A look: few poses, one round");
+    command->add_flag("--quick", options.quick,
+                      "A look: few poses, one round, pairs that have each model once (--pairs "
+                      "paper or all: those), the talk's algorithm to the letter in its own table "
+                      "alone");
     CLI::Option* const drawn =
         command
             ->add_option("--per-stratum", options.per_stratum,

@@ -59,6 +59,7 @@ public:
         if (const auto error = read(files)) return *error;
         const TableChoice& tables = options_.tables;
         if (tables.pairs || tables.talk) pairs_ = choose_pairs();
+        if (options_.quick && options_.pairs == PairChoice::fitting) leave_out_pairs();
         if (const auto error = read_poses()) return *error;
         describe();
         done_ = 0;
@@ -134,6 +135,7 @@ private:
                                 .seed = options_.seed,
                                 .per_stratum = options_.per_stratum,
                                 .poses = options_.poses.string(),
+                                .pairs_left_out = pairs_left_out_,
                                 .rounds = options_.rounds,
                                 .threads = threads};
         for (const study::StudyMesh& mesh : meshes_) {
@@ -220,9 +222,11 @@ private:
         study::PairStudy study;
         study.poses = poses_of(pair);
         if (options_.tables.pairs) {
-            study = study::study_pair(
-                forms_[pair.a], forms_[pair.b], std::move(study.poses),
-                {.rounds = options_.rounds, .budget_s = budget(), .stop = is_interrupted});
+            study = study::study_pair(forms_[pair.a], forms_[pair.b], std::move(study.poses),
+                                      {.timing = {.rounds = options_.rounds,
+                                                  .budget_s = budget(),
+                                                  .stop = is_interrupted},
+                                       .literal = !options_.quick});
         }
         study.a = pair.a;
         study.b = pair.b;
@@ -323,7 +327,10 @@ private:
         add(study::pruning_checks(table));
         comparison_.tables.push_back(std::move(table));
         study::CellSearchOptions search = {.rounds = options_.rounds, .stop = is_interrupted};
-        if (options_.quick) search.depths = {8};
+        if (options_.quick) {
+            search.depths = {8};
+            search.points /= 8;
+        }
         study::Table cells = study::cell_search_table(meshes_, search);
         add(study::cell_search_checks(cells));
         comparison_.tables.push_back(std::move(cells));
@@ -362,6 +369,24 @@ private:
         return all;
     }
 
+    /// Keeps so many pairs that each model is in one: first those of two models that no other
+    /// pair has, then those of one.
+    void leave_out_pairs() {
+        std::vector<bool> is_asked(meshes_.size());
+        std::vector<bool> is_kept(pairs_.size());
+        for (const int wanted : {2, 1}) {
+            for (std::size_t i = 0; i < pairs_.size(); ++i) {
+                const auto& [a, b, file, given] = pairs_[i];
+                const int models = a == b ? 1 : 2;
+                const int more = (is_asked[a] ? 0 : 1) + (models == 1 || is_asked[b] ? 0 : 1);
+                if (more < std::min(wanted, models)) continue;
+                is_kept[i] = is_asked[a] = is_asked[b] = true;
+            }
+        }
+        std::size_t number = 0;
+        pairs_left_out_ = std::erase_if(pairs_, [&](const Pair&) { return !is_kept[number++]; });
+    }
+
     void add(std::vector<study::Check> checks) {
         comparison_.checks.insert(comparison_.checks.end(), std::make_move_iterator(checks.begin()),
                                   std::make_move_iterator(checks.end()));
@@ -390,6 +415,7 @@ private:
     std::size_t done_ = 0;
     std::vector<study::StudyMesh> meshes_;
     std::vector<Pair> pairs_;
+    std::size_t pairs_left_out_ = 0;
     std::deque<study::ModelForms> forms_;
     study::PeerReasons not_asked_;
     study::Comparison comparison_;

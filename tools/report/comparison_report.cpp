@@ -287,8 +287,8 @@ Json table_json(const Table& table) {
 Json settings_json(const study::ComparisonSettings& settings) {
     return {{"version", settings.version}, {"quick", settings.quick},
             {"seed", settings.seed},       {"poses_per_stratum", settings.per_stratum},
-            {"poses", settings.poses},     {"rounds", settings.rounds},
-            {"threads", settings.threads}};
+            {"poses", settings.poses},     {"pairs_left_out", settings.pairs_left_out},
+            {"rounds", settings.rounds},   {"threads", settings.threads}};
 }
 
 Json machine_json(const study::Machine& machine) {
@@ -450,6 +450,11 @@ std::vector<std::string> provenance_lines(const Comparison& comparison) {
                         (poses.source.empty() ? "by seed " + std::to_string(poses.seed)
                                               : "of " + poses.source) +
                         ", hash " + study::hash_text(study::hash_of(poses)));
+    }
+    if (settings.pairs_left_out > 0) {
+        lines.push_back("--quick asks " + std::to_string(comparison.pairs.size()) + " of " +
+                        std::to_string(comparison.pairs.size() + settings.pairs_left_out) +
+                        " pairs, so that each model is in one; --pairs paper or all asks more.");
     }
     if (!comparison.pairs.empty()) {
         lines.emplace_back("The poses stand in the JSON; --save-poses writes them as files.");

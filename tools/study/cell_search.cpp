@@ -90,9 +90,9 @@ Table cell_search_table(std::span<const StudyMesh> meshes, const CellSearchOptio
             const std::vector<search::Contender> contenders = search::search_contenders(forms);
             search::Random random(7);
             for (const search::QuerySet& set :
-                 {search::uniform_set(forms.octree.grid, search::kQueries, random),
-                  search::surface_set(mesh.mesh, search::kQueries, random),
-                  search::walk_set(mesh.mesh, search::kQueries, random)}) {
+                 {search::uniform_set(forms.octree.grid, options.points, random),
+                  search::surface_set(mesh.mesh, options.points, random),
+                  search::walk_set(mesh.mesh, options.points, random)}) {
                 for (const search::State state : {search::warm, search::cold}) {
                     table.rows.push_back(timed_row(mesh.name + ", " + std::to_string(depth) + ", " +
                                                        set.name + ", " + search::kStates[state],

@@ -13,6 +13,7 @@
 namespace cdprep::study {
 struct CellSearchOptions {
     std::vector<std::uint32_t> depths = {6, 8, 10};
+    std::size_t points = std::size_t{1} << 17;  ///< of a set: 2^17 at most, 2^11 at least
     std::size_t rounds = 3;
     std::function<bool()> stop{};
 };

@@ -37,8 +37,9 @@ struct ComparisonSettings {
     std::string version;  ///< of the program
     bool quick = false;
     std::uint64_t seed = 1;
-    std::size_t per_stratum = 0;  ///< poses
-    std::string poses;            ///< the folder that they were read from; empty: they are drawn
+    std::size_t per_stratum = 0;     ///< poses
+    std::string poses;               ///< the folder that they were read from; empty: they are drawn
+    std::size_t pairs_left_out = 0;  ///< by --quick
     std::size_t rounds = 0;
     std::size_t threads = 0;
 };

@@ -54,6 +54,7 @@ void compare_answers(Asking& asking, const TimingOptions& timing, PairStudy& stu
         study.exact.pairs[pose] = exact.size();
         for (std::size_t i = 0; i < asking.pairs.size(); ++i) {
             Contender& contender = study.contenders[i];
+            if (!contender.reasons[static_cast<std::size_t>(Asked::collide)].empty()) continue;
             ++contender.answers;
             if (asking.pairs[i].collides(placement) == hit) ++contender.agreeing;
             if (!contender.reasons[static_cast<std::size_t>(Asked::overlap)].empty()) continue;
@@ -139,7 +140,8 @@ std::vector<std::size_t> cases_of(Asked asked, const PoseSet& poses) {
 }
 
 PairStudy study_pair(const ModelForms& a, const ModelForms& b, PoseSet poses,
-                     const TimingOptions& timing) {
+                     const PairStudyOptions& options) {
+    const TimingOptions& timing = options.timing;
     PairStudy study;
     study.poses = std::move(poses);
     Asking asking{{}, study.poses};
@@ -152,6 +154,8 @@ PairStudy study_pair(const ModelForms& a, const ModelForms& b, PoseSet poses,
         for (std::size_t asked = 0; asked < kAsked; ++asked) {
             contender.reasons[asked] = pair.find_reason(static_cast<Asked>(asked));
         }
+        const bool is_literal = strategy.through.structure == Structure::hashed_octree_literal;
+        if (is_literal && !options.literal) contender.reasons.fill("left out by --quick");
     }
     compare_answers(asking, timing, study);
     for (std::size_t i = 0; i < asking.pairs.size(); ++i) {

@@ -70,9 +70,16 @@ struct PairStudy {
     std::vector<Contender> contenders;
 };
 
-/// Asks every strategy at the poses. The budget of `timing` is for each question.
+struct PairStudyOptions {
+    TimingOptions timing;  ///< its budget is for each question
+    /// The talk's algorithm to the letter is asked too: on large models it takes a hundred times as
+    /// long as the others together.
+    bool literal = true;
+};
+
+/// Asks every strategy at the poses.
 [[nodiscard]] PairStudy study_pair(const ModelForms& a, const ModelForms& b, PoseSet poses,
-                                   const TimingOptions& timing);
+                                   const PairStudyOptions& options);
 
 /// What stands for a strategy in tables: "octree, paper".
 [[nodiscard]] std::string title_of(const Contender& contender);

@@ -142,6 +142,8 @@ Cell found_cell(const Contender& contender) {
 
 Cell counted_cell(const Contender& contender, std::uint64_t QueryCounts::*member, Stratum stratum) {
     if (contender.is_peer) return without("a peer does not count");
+    const std::string& reason = contender.reasons[static_cast<std::size_t>(Asked::collide)];
+    if (!reason.empty()) return without(reason);
     return count_cell(contender.counts[0][static_cast<std::size_t>(stratum)].*member);
 }
 

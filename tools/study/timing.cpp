@@ -34,10 +34,13 @@ double seconds_for(const Question& question, std::size_t number, std::size_t tim
     return now_by(by) - begun;
 }
 
-/// How often to ask so that it takes long enough; asks at least twice, so that the first
-/// answer, which finds nothing in the caches, decides little.
+/// A first answer, which finds nothing in the caches, may take this many times as long as others.
+constexpr double kOfFirst = 8;
+
+/// How often to ask so that it takes long enough. Where the first answer took so long that any
+/// will, nothing else is asked.
 std::size_t times_for(const Question& question, std::size_t number, const TimingOptions& options) {
-    static_cast<void>(question(number, 1));
+    if (seconds_for(question, number, 1, options.by) >= kOfFirst * options.least_sample_s) return 1;
     std::size_t times = 1;
     while (times < kMostTimes) {
         const double taken = seconds_for(question, number, times, options.by);

@@ -38,7 +38,7 @@ enum class TimedBy : std::uint8_t {
 struct TimingOptions {
     std::size_t rounds = 5;  ///< how often each case is measured; 1 at least
     /// A measurement asks as often as takes this long, so that the clock does not count:
-    /// what is shorter is asked again at once, and then finds its data in the caches.
+    /// what is shorter is asked again at once, and then finds its data in the caches. 0: once.
     double least_sample_s = 50e-6;
     /// No round after the first begins later than this; those begun are ended.
     double budget_s = std::numeric_limits<double>::infinity();

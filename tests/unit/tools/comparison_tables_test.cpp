@@ -52,7 +52,7 @@ const Compared& compared() {
         all.studies.push_back(study_pair(
             all.forms[0], all.forms[1],
             make_pose_set(all.forms[0].swept.model, all.forms[1].swept.model, {.per_stratum = 3}),
-            {.rounds = 1, .least_sample_s = 0}));
+            {.timing = {.rounds = 1, .least_sample_s = 0}}));
         all.studies[0].a = 0;
         all.studies[0].b = 1;
         return all;

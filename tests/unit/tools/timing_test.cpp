@@ -83,6 +83,16 @@ TEST(TimeQuestions, AsksShortQuestionsOften) {
     EXPECT_GT(timings[0].times[0], 100U);
 }
 
+// By hand: once to find out, then once a round.
+TEST(TimeQuestions, AsksLongQuestionsOnceARound) {
+    std::size_t asked = 0;
+    const Question question = question_of([&](std::size_t) { return ++asked; });
+    const auto timings =
+        time_questions(3, std::span(&question, 1), {.rounds = 2, .least_sample_s = 0});
+    EXPECT_EQ(asked, 9U);
+    EXPECT_EQ(timings[0].times, (std::vector<std::size_t>{1, 1, 1}));
+}
+
 TEST(TimeQuestions, EndsWhenItIsToStop) {
     std::size_t asked = 0;
     const Question question = question_of([&](std::size_t) { return ++asked; });
