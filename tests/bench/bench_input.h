@@ -63,6 +63,24 @@ inline std::vector<std::string> pairs_or_all(std::vector<std::string> named,
     return named;
 }
 
+/// What a bench of pairs is asked: BAKES POSES [ROUNDS [PAIR...]].
+struct PairArguments {
+    std::filesystem::path bakes;
+    std::filesystem::path poses;
+    std::vector<std::string> pairs;
+    int rounds = 5;
+};
+
+inline PairArguments pair_arguments(int count, char** arguments, const std::string& options = "") {
+    if (count < 3) {
+        stop(std::string("usage: ") + arguments[0] + options + " BAKES POSES [ROUNDS [PAIR...]]");
+    }
+    PairArguments asked = {arguments[1], arguments[2], {}};
+    if (count > 3) asked.rounds = std::max(1, std::atoi(arguments[3]));
+    asked.pairs = pairs_or_all({arguments + std::min(count, 4), arguments + count}, asked.poses);
+    return asked;
+}
+
 /// The processor time of this thread: questions are short, others' turns among them are not.
 inline double thread_us() {
     timespec now{};

@@ -342,13 +342,6 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
 }  // namespace cdprep
 
 int main(int count, char** arguments) {
-    if (count < 3) {
-        std::fprintf(stderr, "usage: %s BAKES POSES [ROUNDS [PAIR...]]\n", arguments[0]);
-        return 2;
-    }
-    const std::filesystem::path poses = arguments[2];
-    const auto pairs =
-        cdprep::pairs_or_all({arguments + std::min(count, 4), arguments + count}, poses);
-    const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 5;
-    cdprep::run(arguments[1], poses, pairs, rounds);
+    const auto [bakes, poses, pairs, rounds] = cdprep::pair_arguments(count, arguments);
+    cdprep::run(bakes, poses, pairs, rounds);
 }

@@ -23,7 +23,9 @@ inline std::vector<OctreeMesh> octree_meshes(const std::filesystem::path& bakes,
                                              const std::vector<std::string>& names) {
     std::vector<OctreeMesh> meshes;
     const auto add = [&](const std::string& name, const auto& read) {
-        meshes.push_back({name, {.positions = read.positions, .triangles = read.triangles}});
+        meshes.push_back(
+            {name,
+             {.positions = read.positions, .triangles = read.triangles, .source_vertex = {}}});
     };
     if (bakes.empty()) add("sphere", test::icosphere(7));
     for (const std::string& name : names) {

@@ -281,13 +281,7 @@ int main(int count, char** arguments) {
         ++arguments;
         --count;
     }
-    if (count < 3) {
-        std::fprintf(stderr, "usage: %s [--warm] BAKES POSES [ROUNDS [PAIR...]]\n", arguments[0]);
-        return 2;
-    }
-    const std::filesystem::path poses = arguments[2];
-    const auto pairs =
-        cdprep::pairs_or_all({arguments + std::min(count, 4), arguments + count}, poses);
-    const int rounds = count > 3 ? std::max(1, std::atoi(arguments[3])) : 5;
-    cdprep::run(arguments[1], poses, pairs, rounds, warm_alone);
+    const auto [bakes, poses, pairs, rounds] =
+        cdprep::pair_arguments(count, arguments, " [--warm]");
+    cdprep::run(bakes, poses, pairs, rounds, warm_alone);
 }
