@@ -72,8 +72,8 @@ struct PairStudy {
 
 struct PairStudyOptions {
     TimingOptions timing;  ///< its budget is for each question
-    /// The talk's algorithm to the letter is asked too: on large models it takes a hundred times as
-    /// long as the others together.
+    /// The talk's algorithm to the letter is asked too: of 871,414 triangles it takes ten times as
+    /// long as all others together, or more.
     bool literal = true;
 };
 

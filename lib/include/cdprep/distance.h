@@ -39,9 +39,10 @@ struct Distance {
 ///
 /// Surfaces that touch are 0 apart, exactly, with a common point as witness; so
 /// are none else, but with As::solid models of which one is proved inside the other:
-/// their witnesses are still the surfaces' nearest points. Of several nearest pairs of triangles
-/// the one with the lowest numbers answers, as far as double can tell them apart. With As::surface
-/// a small model inside a large one is as far away as its walls are.
+/// their witnesses are still the surfaces' nearest points. Of pairs of triangles with equal `upper`
+/// the one with the lowest numbers answers; of pairs that are equally near in exact numbers, whose
+/// `upper` may differ in the last bits, any may, and always the same. With As::surface a small
+/// model inside a large one is as far away as its walls are.
 ///
 /// The interval holds the distance between the vertices as `placement` moves them
 /// (level E1). Without permitted errors it is at most 1e-12 of the distance plus

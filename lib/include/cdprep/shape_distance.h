@@ -21,8 +21,8 @@ struct ShapeDistance {
 /// What shall be measured. The interval holds the distance to the vertices as moved
 /// (level E1). It is at most 1e-12 of the distance plus 1e-15 of the largest coordinate
 /// wide; a capsule's is that of its segment, and 4 ulp more for taking the radius off.
-/// Of several nearest triangles the one with the lowest number answers, as far as
-/// double can tell them apart.
+/// Of triangles with equal `upper` the one with the lowest number answers; of those that are
+/// equally near in exact numbers any may, and always the same.
 struct ShapeDistanceOptions {
     Pose world_from_model = {};  ///< where the model stands, as in TouchOptions
     /// Beyond, nothing is of interest; inclusive.
