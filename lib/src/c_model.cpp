@@ -41,7 +41,7 @@ int cdprep_open_memory(const void* bytes, size_t size, const char* name, cdprep_
     *model = nullptr;
     return cdprep::guarded(error, [&] {
         const std::span<const std::byte> file(static_cast<const std::byte*>(bytes), size);
-        return cdprep::opened(Model::open(file, cdprep::SectionSet::all(), name), model, error);
+        return cdprep::opened(Model::open(file, {.name = name}), model, error);
     });
 }
 

@@ -8,6 +8,7 @@
 
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
+#include "core/refusal_sentence.h"
 #include "damage_sentence.h"
 #include "mapped_file.h"
 
@@ -15,9 +16,11 @@ namespace cdprep {
 
 struct Model::State {
     MappedFile mapping;  ///< empty when the caller keeps the bytes
+    std::string name;    ///< of the file, for messages
     std::span<const std::byte> file;
     const format::FileHeader* header = nullptr;
     SectionSet sections;
+    SectionSet in_file;  ///< also those that were not asked for
     format::BvhShape shape;
     std::span<const Float3> positions_f32;
     std::span<const Double3> positions_f64;
@@ -83,13 +86,19 @@ struct Model::State {
 
     void find_sections(SectionSet wanted);
 
+    /// A model without triangles has no leaves, and none that lose anything.
+    [[nodiscard]] bool has_exact_leaves() const noexcept {
+        return (header->flags & format::model_exact_leaves) != 0 && !leaves.empty();
+    }
+
 private:
     /// Points `span` at the section when it is wanted and there.
     template <class T>
     void view(SectionId id, SectionSet wanted, std::span<const T>& span) {
-        if (!wanted.contains(id)) return;
         const std::optional<format::SectionEntry> entry = format::find_section(file, id);
         if (!entry) return;
+        in_file.insert(id);
+        if (!wanted.contains(id)) return;
         sections.insert(id);
         // The checker has proved offset, alignment and element size.
         span = {reinterpret_cast<const T*>(file.data() + entry->offset),
@@ -177,34 +186,67 @@ const T* only(std::span<const T> section) {
 
 }  // namespace
 
-Model::Model(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
-Model::Model(Model&&) noexcept = default;
-Model& Model::operator=(Model&&) noexcept = default;
+Model::Model(std::unique_ptr<State> state) noexcept
+    : state_(std::move(state)), served_(served_by(state_->sections, state_->has_exact_leaves())) {}
+Model::Model(Model&& other) noexcept
+    : state_(std::move(other.state_)), served_(std::exchange(other.served_, Ask::nothing)) {}
+Model& Model::operator=(Model&& other) noexcept {
+    std::swap(state_, other.state_);
+    std::swap(served_, other.served_);
+    return *this;
+}
 Model::~Model() = default;
 
-Result<Model> Model::open(const std::filesystem::path& path, SectionSet wanted) {
+Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
     Result<MappedFile> mapped = MappedFile::map(path);
     if (!mapped) return mapped.error();
-    Result<Model> model = open(mapped.value().bytes(), wanted, path.string());
+    OpenOptions named = options;
+    const std::string name = path.string();
+    named.name = name;
+    Result<Model> model = from_bytes(mapped.value().bytes(), named);
     if (model) model.value().state_->mapping = std::move(mapped).value();
     return model;
 }
 
-Result<Model> Model::open(std::span<const std::byte> bytes, SectionSet wanted,
-                          std::string_view name) {
+Result<Model> Model::open(const std::filesystem::path& path, Ask asks) {
+    return open(path, OpenOptions{.asks = asks});
+}
+
+Result<Model> Model::open(const std::filesystem::path& path, SectionSet wanted) {
+    return open(path, OpenOptions{.sections = wanted});
+}
+
+Result<Model> Model::open(std::span<const std::byte> bytes, const OpenOptions& options) {
+    return from_bytes(bytes, options);
+}
+
+Result<Model> Model::open(std::span<const std::byte> bytes, SectionSet wanted) {
+    return from_bytes(bytes, OpenOptions{.sections = wanted});
+}
+
+Result<Model> Model::from_bytes(std::span<const std::byte> bytes, const OpenOptions& options) {
+    const std::string name(options.name);
     const auto misaligned =
         reinterpret_cast<std::uintptr_t>(bytes.data()) % format::kSectionAlignment;
     if (misaligned != 0) {
         return Error{ErrorCode::bad_argument,
-                     std::string(name) + ": the bytes start " + std::to_string(misaligned) +
+                     name + ": the bytes start " + std::to_string(misaligned) +
                          " past a multiple of " + std::to_string(format::kSectionAlignment) +
                          "; they must start at one."};
     }
+    const SectionSet unless_said = options.asks == Ask::nothing ? SectionSet::all() : SectionSet{};
+    SectionSet wanted = options.sections.value_or(unless_said);
+    wanted.insert(sections_for(options.asks));
     if (const auto damage = format::find_damage(bytes, wanted)) return damaged(name, *damage);
     auto state = std::make_unique<State>();
     state->file = bytes;
+    state->name = name;
     state->find_sections(wanted);
-    return Model(std::move(state));
+    Model model(std::move(state));
+    if (const std::optional<Refusal> refused = model.refusal(options.asks)) {
+        return Error{ErrorCode::bad_argument, refused->message};
+    }
+    return model;
 }
 
 Result<Model> Model::open_trusted(const std::filesystem::path& path) {
@@ -213,11 +255,32 @@ Result<Model> Model::open_trusted(const std::filesystem::path& path) {
     auto state = std::make_unique<State>();
     state->mapping = std::move(mapped).value();
     state->file = state->mapping.bytes();
+    state->name = path.string();
     if (const auto damage = format::find_header_damage(state->file)) {
         return damaged(path.string(), *damage);
     }
     state->find_sections(SectionSet::all());
     return Model(std::move(state));
+}
+
+std::optional<Refusal> Model::refusal(Ask asks) const {
+    if (serves(asks)) return std::nullopt;
+    using Reason = Refusal::Reason;
+    if (state_ == nullptr) {
+        return Refusal{Reason::not_opened, "The model was moved away: it can be asked nothing."};
+    }
+    const bool exact_leaves = (state_->header->flags & format::model_exact_leaves) != 0;
+    const Ask refused = without(asks, served_);
+    const Ask missing = without(refused, served_by(state_->in_file, exact_leaves));
+    if (missing == Ask::nothing) {
+        return Refusal{
+            Reason::not_opened,
+            refusal_sentence(state_->name, refused, {state_->sections, exact_leaves, is_closed()},
+                             Reason::not_opened)};
+    }
+    return Refusal{Reason::not_baked, refusal_sentence(state_->name, missing,
+                                                       {state_->in_file, exact_leaves, is_closed()},
+                                                       Reason::not_baked)};
 }
 
 std::uint32_t Model::triangle_count() const noexcept {
@@ -257,7 +320,7 @@ std::span<const format::BvhLeaf> Model::leaves() const noexcept {
     return state_->leaves;
 }
 bool Model::has_exact_leaves() const noexcept {
-    return !state_->leaves.empty() && (state_->header->flags & format::model_exact_leaves) != 0;
+    return state_->has_exact_leaves();
 }
 std::span<const format::OrientedNode> Model::oriented_nodes() const noexcept {
     return state_->oriented_nodes;

@@ -40,8 +40,8 @@ Exit run(const Arguments& arguments) {
     const Result<MappedFile> mapped = MappedFile::map(arguments.file);
     if (!mapped) return fail("info", mapped.error());
     const std::span<const std::byte> bytes = mapped.value().bytes();
-    const Result<Model> opened =
-        Model::open(bytes, format::SectionSet::all(), arguments.file.string());
+    const std::string file = arguments.file.string();
+    const Result<Model> opened = Model::open(bytes, {.name = file});
     if (!opened) return fail("info", opened.error());
     if (arguments.deep) {
         auto damage = format::find_deep_damage(bytes);
@@ -51,13 +51,11 @@ Exit run(const Arguments& arguments) {
         if (!damage) damage = convex::find_convexity_falsehood(bytes, opened.value());
         if (!damage) damage = find_piece_falsehood(bytes, opened.value());
         if (damage) {
-            return fail("info",
-                        {ErrorCode::unreadable, damage_sentence(arguments.file.string(), *damage)});
+            return fail("info", {ErrorCode::unreadable, damage_sentence(file, *damage)});
         }
     }
     const Model& model = opened.value();
     const std::vector<format::SectionEntry> table = table_of(bytes, model.header());
-    const std::string file = arguments.file.string();
     std::cout << (arguments.format == "json" ? report::info_json(file, model, table)
                                              : report::info_text(file, model, table));
     return Exit::success;

@@ -5,9 +5,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "cdprep/ask.h"
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/hulls.h"
 #include "cdprep/format/octree.h"
@@ -23,6 +26,28 @@ using format::Double3;
 using format::Float3;
 using format::SectionId;
 using format::SectionSet;
+
+/// How a model is opened. Only the sections that are opened are checked and read.
+struct OpenOptions {
+    /// What will be asked. Opening fails when the file was baked without something that this
+    /// needs. Nothing: whatever the file has can be asked.
+    Ask asks = Ask::nothing;
+    /// The sections to open where the file has them, beside those of `asks`. Unset: those of
+    /// `asks` alone, or every section when `asks` is nothing.
+    std::optional<SectionSet> sections = std::nullopt;
+    /// Stands for the file in messages about bytes in memory.
+    std::string_view name = "memory";
+};
+
+/// Why a model does not serve a question.
+struct Refusal {
+    enum class Reason : std::uint8_t {
+        not_baked,   ///< the file lacks sections: bake it again
+        not_opened,  ///< the file has them, but they were not asked for at opening
+    };
+    Reason reason;
+    std::string message;  ///< a sentence: file, question, missing sections, what to do
+};
 
 /// A baked model, open for queries.
 ///
@@ -40,24 +65,30 @@ using format::SectionSet;
 ///     std::cout << model.triangle_count() << " triangles\n";
 class Model {
 public:
-    /// Maps `path` and checks completely those sections of `wanted` that are
-    /// present; the others are not touched and give empty spans. Fails with
-    /// `unreadable` when the file cannot be read, is not a finished bake, was
-    /// written by an incompatible version, was rewritten by another tool, or is
-    /// damaged. O(bytes of the sections), at memory speed.
+    /// Maps `path` and checks completely the sections that `options` names; the others are not
+    /// touched and give empty spans. Fails with `unreadable` when the file cannot be read, is not
+    /// a finished bake, was written by an incompatible version, was rewritten by another tool, or
+    /// is damaged; with `bad_argument` when it lacks sections that options.asks needs. O(bytes of
+    /// the sections), at memory speed.
     [[nodiscard]] static Result<Model> open(const std::filesystem::path& path,
-                                            SectionSet wanted = SectionSet::all());
+                                            const OpenOptions& options = {});
 
-    /// The same for bytes that the caller keeps: an archive, a network buffer.
-    /// They must start at a multiple of format::kSectionAlignment and stay as
-    /// they are while the Model lives. `name` stands in messages.
+    /// The same with options.asks: opens the sections that `asks` needs or uses, and no others.
+    ///
+    ///     auto arm = cdprep::Model::open("arm.cdp.h5", cdprep::Ask::collide);
+    [[nodiscard]] static Result<Model> open(const std::filesystem::path& path, Ask asks);
+
+    /// The same with those of `wanted` that are present; whatever they serve can be asked.
+    [[nodiscard]] static Result<Model> open(const std::filesystem::path& path, SectionSet wanted);
+
+    /// The same for bytes that the caller keeps: an archive, a network buffer. They must start at
+    /// a multiple of format::kSectionAlignment and stay as they are while the Model lives.
     [[nodiscard]] static Result<Model> open(std::span<const std::byte> bytes,
-                                            SectionSet wanted = SectionSet::all(),
-                                            std::string_view name = "memory");
+                                            const OpenOptions& options = {});
+    [[nodiscard]] static Result<Model> open(std::span<const std::byte> bytes, SectionSet wanted);
 
-    /// Maps `path` and checks its first 4,144 bytes alone, whatever its size.
-    /// For files whose hash the caller has verified by other means: a damaged
-    /// one may crash a query.
+    /// Maps `path` and checks its first 4,144 bytes alone, whatever its size. For files whose hash
+    /// the caller has verified by other means: a damaged one may crash a query.
     [[nodiscard]] static Result<Model> open_trusted(const std::filesystem::path& path);
 
     Model(Model&&) noexcept;
@@ -71,6 +102,18 @@ public:
 
     /// Sections that were asked for and are present.
     [[nodiscard]] SectionSet sections() const noexcept;
+
+    /// What can be asked of this model, computed once at opening. A question that is not served
+    /// stops the program with a sentence (precondition.h).
+    [[nodiscard]] Ask asks() const noexcept {
+        return served_;
+    }
+    /// True when all of `asks` can be asked.
+    [[nodiscard]] bool serves(Ask asks) const noexcept {
+        return contains(served_, asks);
+    }
+    /// Returns why not all of `asks` can be asked, or nothing when serves() is true. Allocates.
+    [[nodiscard]] std::optional<Refusal> refusal(Ask asks) const;
 
     /// Raw spans, tree order where FORMAT.md says so; empty when the section is
     /// absent or was not asked for. Exactly one of the two positions is present.
@@ -168,7 +211,10 @@ public:
 private:
     struct State;
     explicit Model(std::unique_ptr<State> state) noexcept;
+    [[nodiscard]] static Result<Model> from_bytes(std::span<const std::byte> bytes,
+                                                  const OpenOptions& options);
     std::unique_ptr<State> state_;
+    Ask served_ = Ask::nothing;
 };
 
 }  // namespace cdprep

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "cdprep/format/section_set.h"
+#include "cdprep/ask.h"
 
 namespace cdprep {
 
@@ -51,11 +51,15 @@ struct StructureOptions {
     CellSearch search = CellSearch::mixed;
 };
 
-/// The sections that a question through a structure reads of each file, beside those
-/// that it needs anyway.
+/// Returns the bit of Ask that a question through a structure needs besides its own; nothing for
+/// Structure::bvh.
+[[nodiscard]] Ask ask_of(Structure structure) noexcept;
+
+/// Returns the sections that a question through a structure needs of each file, beside those that
+/// it needs anyway: the row of ask_of() in the table of needs.
 [[nodiscard]] format::SectionSet sections_of(Structure structure) noexcept;
 
-/// Sections that some files have and that such a question is faster with.
+/// Returns the sections that some files have and that such a question is faster with.
 [[nodiscard]] format::SectionSet more_sections_of(Structure structure) noexcept;
 
 }  // namespace cdprep

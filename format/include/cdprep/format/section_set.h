@@ -32,6 +32,9 @@ public:
     constexpr void insert(SectionSet other) noexcept {
         bits_ |= other.bits_;
     }
+    constexpr void erase(SectionSet other) noexcept {
+        bits_ &= ~other.bits_;
+    }
     [[nodiscard]] constexpr bool contains(SectionId id) const noexcept {
         return (bits_ & bit(id)) != 0;
     }

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cdprep/model.h"
+
+namespace cdprep {
+
+/// Calls the handler of broken preconditions, then aborts.
+[[noreturn]] void stop_with(const char* sentence) noexcept;
+
+/// Stops with the sentence of Model::refusal(). Requires that there is one.
+[[noreturn]] void refuse(const Model& model, Ask asks) noexcept;
+
+/// Every C++ question begins with this: a model that does not serve it stops the program, in
+/// every build. One AND.
+inline void require(const Model& model, Ask asks) noexcept {
+    if (!model.serves(asks)) [[unlikely]]
+        refuse(model, asks);
+}
+
+inline void require(const Model& a, const Model& b, Ask asks) noexcept {
+    require(a, asks);
+    require(b, asks);
+}
+
+}  // namespace cdprep
