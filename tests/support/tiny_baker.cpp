@@ -2,15 +2,14 @@
 #include "support/tiny_baker.h"
 
 #include <algorithm>
-#include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <map>
 #include <numeric>
 #include <utility>
 
-#include "cdprep/format/checksum.h"
-#include "cdprep/format/make_user_block.h"
-#include "cdprep/format/sections.h"
+#include "cdprep/build_image.h"
 #include "triangle_contact.h"
 
 namespace cdprep::test {
@@ -105,30 +104,25 @@ std::vector<format::Component> components(const Ordered& mesh,
     return result;
 }
 
+/// Ends the test program when something cannot be built.
+template <class T>
+T or_abort(Result<T> result) {
+    if (!result) {
+        std::fprintf(stderr, "%s\n", result.error().message.c_str());
+        std::abort();
+    }
+    return std::move(result).value();
+}
+
 }  // namespace
 
 AlignedBytes assemble(const format::FileHeader& facts, const std::vector<TinySection>& sections,
                       std::uint64_t section_alignment) {
-    const auto aligned = [section_alignment](std::uint64_t size) {
-        return (size + section_alignment - 1) / section_alignment * section_alignment;
-    };
-    std::uint64_t size = aligned(format::kUserBlockSize + format::kSectionAlignment);
-    std::vector<format::SectionEntry> entries;
-    for (const TinySection& made : sections) {
-        const std::uint32_t element = format::element_size(made.id);
-        entries.push_back({made.id, element, made.bytes.empty() ? 0 : size,
-                           made.bytes.size() / element, format::checksum(made.bytes)});
-        size = aligned(size + made.bytes.size());
-    }
-    AlignedBytes file(size);
-    for (std::size_t i = 0; i < sections.size(); ++i) {
-        if (sections[i].bytes.empty()) continue;
-        std::memcpy(file.span().data() + entries[i].offset, sections[i].bytes.data(),
-                    sections[i].bytes.size());
-    }
-    const std::array<std::byte, 40> superblock{};
-    const format::UserBlock block = format::make_user_block(facts, entries, superblock, size);
-    std::memcpy(file.span().data(), block.data(), block.size());
+    std::vector<build::Section> views;
+    for (const TinySection& made : sections) views.push_back({made.id, made.bytes});
+    const build::ImageOptions options{.section_alignment = section_alignment};
+    AlignedBytes file(or_abort(build::image_size(views, options)));
+    or_abort(build::build_image(facts, views, file.span(), options));
     return file;
 }
 

@@ -3,8 +3,9 @@
 
 #include <bit>
 #include <numeric>
-#include <span>
 #include <utility>
+
+#include "convex/section_list.h"
 
 namespace cdprep::cli {
 namespace {
@@ -27,52 +28,6 @@ std::vector<format::Float3> as_floats(const mesh::Mesh& mesh) {
             {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
     }
     return floats;
-}
-
-template <class Range>
-std::span<const std::byte> bytes_of(const Range& elements) {
-    return std::as_bytes(std::span(elements.data(), elements.size()));
-}
-
-template <class Element>
-std::span<const std::byte> bytes_of_one(const Element& element) {
-    return std::as_bytes(std::span(&element, 1));
-}
-
-/// A tree is stored with all its sections or with none, so also with those that a mesh
-/// without triangles leaves empty.
-template <class Add>
-void add_structures(const Structures& structures, const Add& add) {
-    const build::Octree& octree = structures.octree;
-    add(SectionId::octree_grid, bytes_of_one(octree.grid), true);
-    add(SectionId::octree_nodes, bytes_of(octree.nodes), true);
-    add(SectionId::octree_references, bytes_of(octree.references), true);
-    add(SectionId::octree_leaf_codes, bytes_of(octree.leaf_codes), true);
-    add(SectionId::octree_leaf_nodes, bytes_of(octree.leaf_nodes), true);
-    add(SectionId::octree_top, bytes_of(octree.top), true);
-    add(SectionId::octree_modulus_table, bytes_of(octree.modulus_table), true);
-    add(SectionId::octree_mixed_table, bytes_of(octree.mixed_table), true);
-    const build::AdaptiveOctree& adaptive = structures.adaptive_octree;
-    add(SectionId::adaptive_octree, bytes_of_one(adaptive.tree), true);
-    add(SectionId::adaptive_octree_nodes, bytes_of(adaptive.nodes), true);
-    add(SectionId::adaptive_octree_references, bytes_of(adaptive.references), true);
-    add(SectionId::octree_boxes, bytes_of(octree.boxes), true);
-    add(SectionId::adaptive_octree_boxes, bytes_of(adaptive.boxes), true);
-    const build::TetraTree& tetra = structures.tetra_tree;
-    add(SectionId::tetra_tree, bytes_of_one(tetra.tree), true);
-    add(SectionId::tetra_nodes, bytes_of(tetra.nodes), true);
-    add(SectionId::tetra_references, bytes_of(tetra.references), true);
-    add(SectionId::tetra_top, bytes_of(tetra.top), true);
-    add(SectionId::tetra_boxes, bytes_of(tetra.boxes), true);
-    add(SectionId::tetra_oriented, bytes_of(tetra.oriented), true);
-    const convex::HullSections& hulls = structures.hulls;
-    add(SectionId::hulls, bytes_of(hulls.hulls), true);
-    add(SectionId::hull_blocks, bytes_of(hulls.blocks), true);
-    add(SectionId::hull_vertices, bytes_of(hulls.vertices), true);
-    add(SectionId::hull_facets, bytes_of(hulls.facets), true);
-    add(SectionId::hull_groups, bytes_of(hulls.groups), true);
-    add(SectionId::hull_neighbours, bytes_of(hulls.neighbours), true);
-    add(SectionId::hull_starts, bytes_of(hulls.starts), true);
 }
 
 }  // namespace
@@ -118,51 +73,39 @@ void BakedArrays::keep(convex::ContactArrays contacts) {
     contacts_ = std::move(contacts);
 }
 
-std::vector<write::Section> BakedArrays::sections(format::SectionSet wanted) const {
-    std::vector<write::Section> sections;
-    const auto add = [&](SectionId id, std::span<const std::byte> bytes, bool also_empty) {
-        if (wanted.contains(id) && (also_empty || !bytes.empty())) sections.push_back({id, bytes});
-    };
+build::SectionList BakedArrays::sections(format::SectionSet wanted) const {
+    build::SectionList list(wanted);
     if (mesh_.single_precision) {
-        add(SectionId::positions_f32, bytes_of(floats_), true);
+        list.add(SectionId::positions_f32, floats_);
     } else {
-        add(SectionId::positions_f64, bytes_of(mesh_.positions), true);
+        list.add(SectionId::positions_f64, mesh_.positions);
     }
-    add(SectionId::triangles, bytes_of(mesh_.triangles), true);
-    add(SectionId::source_triangle, bytes_of(bvh_.order), true);
-    add(SectionId::source_vertex, bytes_of(mesh_.source_vertex), true);
-    add(SectionId::source_face, bytes_of(face_), false);
-    add(SectionId::bvh_nodes, bytes_of(bvh_.nodes), true);
-    add(SectionId::degenerate_bits, bytes_of(degenerate_), false);
-    add(SectionId::components, bytes_of(components_), true);
-    add(SectionId::bounds, bytes_of(bounds_), false);
-    add(SectionId::mass_properties, bytes_of(mass_), false);
-    add(SectionId::instances, bytes_of(instances_), false);
-    add(SectionId::instance_names, bytes_of(instance_names_), false);
-    add(SectionId::group_runs, bytes_of(groups_.runs), false);
-    add(SectionId::group_names, bytes_of(group_names_), false);
-    add(SectionId::material_runs, bytes_of(materials_.runs), false);
-    add(SectionId::material_names, bytes_of(material_names_), false);
-    add(SectionId::provenance, bytes_of(notes_.provenance), false);
-    add(SectionId::bvh_leaves, bytes_of(bvh_.leaves), true);
-    add(SectionId::oriented_nodes, bytes_of(bvh_.oriented_nodes), false);
-    add(SectionId::swept_nodes, bytes_of(bvh_.swept_nodes), false);
-    add(SectionId::verdicts, bytes_of(notes_.verdicts), false);
-    add(SectionId::findings, bytes_of(notes_.findings), false);
-    add(SectionId::repaired_from, bytes_of(notes_.repaired_from), false);
-    add_structures(structures_, add);
-    add(SectionId::pieces, bytes_of(pieces_.pieces), true);
-    add(SectionId::piece_triangles, bytes_of(pieces_.triangles), true);
-    add(SectionId::piece_vertices, bytes_of(pieces_.vertices), true);
-    add(SectionId::piece_facets, bytes_of(pieces_.facets), true);
-    add(SectionId::piece_nodes, bytes_of(piece_tree_.nodes), true);
-    add(SectionId::piece_swept, bytes_of(piece_tree_.swept), true);
-    add(SectionId::piece_leaves, bytes_of(piece_tree_.leaves), true);
-    add(SectionId::piece_node_hulls, bytes_of(piece_tree_.hulls), true);
-    add(SectionId::piece_adjacency, bytes_of(contacts_.adjacency), true);
-    add(SectionId::edge_convexity, bytes_of(contacts_.convexity), true);
-    add(SectionId::triangle_piece, bytes_of(contacts_.piece_of), true);
-    return sections;
+    list.add(SectionId::triangles, mesh_.triangles);
+    list.add(SectionId::source_vertex, mesh_.source_vertex);
+    list.add_unless_empty(SectionId::source_face, face_);
+    add_sections(list, bvh_);
+    list.add_unless_empty(SectionId::degenerate_bits, degenerate_);
+    list.add(SectionId::components, components_);
+    list.add_unless_empty(SectionId::bounds, bounds_);
+    list.add_unless_empty(SectionId::mass_properties, mass_);
+    list.add_unless_empty(SectionId::instances, instances_);
+    list.add_unless_empty(SectionId::instance_names, instance_names_);
+    list.add_unless_empty(SectionId::group_runs, groups_.runs);
+    list.add_unless_empty(SectionId::group_names, group_names_);
+    list.add_unless_empty(SectionId::material_runs, materials_.runs);
+    list.add_unless_empty(SectionId::material_names, material_names_);
+    list.add_unless_empty(SectionId::provenance, notes_.provenance);
+    list.add_unless_empty(SectionId::verdicts, notes_.verdicts);
+    list.add_unless_empty(SectionId::findings, notes_.findings);
+    list.add_unless_empty(SectionId::repaired_from, notes_.repaired_from);
+    add_sections(list, structures_.octree);
+    add_sections(list, structures_.adaptive_octree);
+    add_sections(list, structures_.tetra_tree);
+    add_sections(list, structures_.hulls);
+    add_sections(list, pieces_);
+    add_sections(list, piece_tree_);
+    add_sections(list, contacts_);
+    return list;
 }
 
 }  // namespace cdprep::cli

@@ -9,12 +9,12 @@
 #include "cdprep/build_bvh.h"
 #include "cdprep/format/section_set.h"
 #include "cdprep/format/verdict.h"
+#include "cdprep/section_list.h"
 #include "convex/contact_arrays.h"
 #include "convex/piece_arrays.h"
 #include "convex/piece_tree.h"
 #include "mesh/mesh.h"
 #include "structures.h"
-#include "write/write_file.h"
 
 namespace cdprep::cli {
 
@@ -49,7 +49,7 @@ public:
 
     /// Views of those sections in `wanted` that have something to say. Valid
     /// while this object lives and stays where it is.
-    [[nodiscard]] std::vector<write::Section> sections(format::SectionSet wanted) const;
+    [[nodiscard]] build::SectionList sections(format::SectionSet wanted) const;
 
     [[nodiscard]] const mesh::Mesh& mesh() const noexcept {
         return mesh_;

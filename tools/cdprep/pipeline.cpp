@@ -371,8 +371,9 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     const format::FileHeader facts = facts_of(soup, arrays.mesh(), found, normalization, options);
     format::SectionSet wanted = options.effects.sections;
     wanted.insert(options.structures.sections);
-    const Result<Done> written = stages.run(
-        "write", [&] { return write::write_file(output, facts, arrays.sections(wanted)); });
+    const Result<Done> written = stages.run("write", [&] {
+        return write::write_file(output, facts, arrays.sections(wanted).sections());
+    });
     if (!written) return written.error();
 
     report.triangles = facts.triangle_count;

@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/memory_model.h"
 
-#include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstring>
 #include <utility>
 
-#include "cdprep/format/checksum.h"
-#include "cdprep/format/make_user_block.h"
+#include "cdprep/build_image.h"
 #include "cdprep/format/sections.h"
 #include "convex/contact_arrays.h"
 #include "convex/find_bounds.h"
 #include "convex/hull_sections.h"
 #include "convex/piece_arrays.h"
 #include "convex/piece_tree.h"
+#include "convex/section_list.h"
 #include "convex/surface_pieces.h"
 #include "mesh/degenerate.h"
 #include "mesh/topology.h"
@@ -26,53 +23,6 @@ namespace {
 using format::SectionId;
 
 constexpr std::align_val_t kAlignment{format::kPageAlignment};
-
-/// Sections that stand in an image one after the other, in the order of their ids.
-class Sections {
-public:
-    template <class Element>
-    void add(SectionId id, const std::vector<Element>& elements) {
-        kept_.push_back({id, std::vector<std::byte>(elements.size() * sizeof(Element))});
-        std::vector<std::byte>& bytes = kept_.back().bytes;
-        if (!bytes.empty()) std::memcpy(bytes.data(), elements.data(), bytes.size());
-    }
-
-    [[nodiscard]] ImageBytes image(const format::FileHeader& facts) {
-        std::ranges::sort(kept_, {}, &Kept::id);
-        std::uint64_t size = aligned(format::kUserBlockSize + format::kSectionAlignment);
-        std::vector<format::SectionEntry> entries;
-        for (const auto& [id, bytes] : kept_) {
-            const std::uint32_t element = format::element_size(id);
-            entries.push_back({id, element, bytes.empty() ? 0 : size, bytes.size() / element,
-                               format::checksum(bytes)});
-            size = aligned(size + bytes.size());
-        }
-        ImageBytes image(size);
-        for (std::size_t i = 0; i < kept_.size(); ++i) {
-            if (kept_[i].bytes.empty()) continue;
-            std::memcpy(image.span().data() + entries[i].offset, kept_[i].bytes.data(),
-                        kept_[i].bytes.size());
-        }
-        const std::array<std::byte, 40> superblock{};
-        const format::UserBlock block = format::make_user_block(facts, entries, superblock, size);
-        std::memcpy(image.span().data(), block.data(), block.size());
-        return image;
-    }
-
-private:
-    struct Kept {
-        SectionId id;
-        std::vector<std::byte> bytes;
-    };
-
-    /// As in a file, where larger sections begin at pages.
-    static std::uint64_t aligned(std::uint64_t size) {
-        constexpr std::uint64_t kStep = format::kPageAlignment;
-        return (size + kStep - 1) / kStep * kStep;
-    }
-
-    std::vector<Kept> kept_;
-};
 
 template <class Work>
 auto timed(double& seconds, Work work) {
@@ -93,84 +43,76 @@ std::vector<format::Float3> as_floats(const mesh::Mesh& mesh) {
     return floats;
 }
 
-void add_tree(Sections& sections, const mesh::Mesh& mesh, const build::Bvh& bvh) {
-    if (mesh.single_precision) {
-        sections.add(SectionId::positions_f32, as_floats(mesh));
-    } else {
-        sections.add(SectionId::positions_f64, mesh.positions);
+/// What is built beside the hierarchy of boxes.
+struct BuiltParts {
+    build::Octree octree;
+    build::AdaptiveOctree adaptive_octree;
+    build::TetraTree tetra_tree;
+    convex::HullSections hulls;
+    convex::PieceArrays pieces;
+    convex::PieceTree piece_tree;
+    convex::ContactArrays contacts;
+};
+
+constexpr SectionSet kTree = {
+    SectionId::positions_f32,   SectionId::positions_f64,   SectionId::triangles,
+    SectionId::source_triangle, SectionId::source_vertex,   SectionId::bvh_nodes,
+    SectionId::bvh_leaves,      SectionId::degenerate_bits, SectionId::oriented_nodes,
+    SectionId::swept_nodes,     SectionId::components,      SectionId::bounds};
+constexpr SectionSet kOctree = {SectionId::octree_grid, SectionId::octree_nodes,
+                                SectionId::octree_references};
+constexpr SectionSet kHashes = {SectionId::octree_leaf_codes, SectionId::octree_leaf_nodes,
+                                SectionId::octree_top, SectionId::octree_modulus_table,
+                                SectionId::octree_mixed_table};
+constexpr SectionSet kAdaptiveOctree = {SectionId::adaptive_octree,
+                                        SectionId::adaptive_octree_nodes,
+                                        SectionId::adaptive_octree_references};
+constexpr SectionSet kTetraTree = {SectionId::tetra_tree, SectionId::tetra_nodes,
+                                   SectionId::tetra_references, SectionId::tetra_top};
+constexpr SectionSet kTetraBoxes = {SectionId::tetra_boxes, SectionId::tetra_oriented};
+constexpr SectionSet kHulls = {SectionId::hulls,         SectionId::hull_blocks,
+                               SectionId::hull_vertices, SectionId::hull_facets,
+                               SectionId::hull_groups,   SectionId::hull_neighbours,
+                               SectionId::hull_starts};
+constexpr SectionSet kPieces = {
+    SectionId::pieces,         SectionId::piece_triangles,  SectionId::piece_vertices,
+    SectionId::piece_facets,   SectionId::piece_nodes,      SectionId::piece_swept,
+    SectionId::piece_leaves,   SectionId::piece_node_hulls, SectionId::piece_adjacency,
+    SectionId::edge_convexity, SectionId::triangle_piece};
+
+SectionSet wanted_sections(const MemoryParts& parts) {
+    SectionSet wanted = kTree;
+    if (parts.octree) {
+        wanted.insert(kOctree);
+        if (parts.octree->hashed) wanted.insert(kHashes);
+        if (parts.octree->boxes_in) wanted.insert(SectionId::octree_boxes);
     }
-    sections.add(SectionId::triangles, mesh.triangles);
-    sections.add(SectionId::source_triangle, bvh.order);
-    sections.add(SectionId::source_vertex, mesh.source_vertex);
-    sections.add(SectionId::bvh_nodes, bvh.nodes);
-    sections.add(SectionId::bvh_leaves, bvh.leaves);
-    if (!bvh.oriented_nodes.empty()) sections.add(SectionId::oriented_nodes, bvh.oriented_nodes);
-    if (!bvh.swept_nodes.empty()) sections.add(SectionId::swept_nodes, bvh.swept_nodes);
+    if (parts.adaptive_octree) {
+        wanted.insert(kAdaptiveOctree);
+        if (parts.adaptive_octree->boxes_in) wanted.insert(SectionId::adaptive_octree_boxes);
+    }
+    if (parts.tetra_tree) {
+        wanted.insert(kTetraTree);
+        if (parts.tetra_tree->bounding == format::TetraBounding::boxes) wanted.insert(kTetraBoxes);
+    }
+    if (parts.hulls) wanted.insert(kHulls);
+    // A search that was stopped has found no pieces.
+    if (parts.pieces && !mesh::is_stopped(parts.stop)) wanted.insert(kPieces);
+    return wanted;
 }
 
-void add_octree(Sections& sections, const build::Octree& octree) {
-    sections.add(SectionId::octree_grid, std::vector{octree.grid});
-    sections.add(SectionId::octree_nodes, octree.nodes);
-    sections.add(SectionId::octree_references, octree.references);
-    if (!octree.boxes.empty()) sections.add(SectionId::octree_boxes, octree.boxes);
-    if (octree.modulus_table.empty()) return;
-    sections.add(SectionId::octree_leaf_codes, octree.leaf_codes);
-    sections.add(SectionId::octree_leaf_nodes, octree.leaf_nodes);
-    sections.add(SectionId::octree_top, octree.top);
-    sections.add(SectionId::octree_modulus_table, octree.modulus_table);
-    sections.add(SectionId::octree_mixed_table, octree.mixed_table);
-}
-
-void add_adaptive_octree(Sections& sections, const build::AdaptiveOctree& octree) {
-    sections.add(SectionId::adaptive_octree, std::vector{octree.tree});
-    sections.add(SectionId::adaptive_octree_nodes, octree.nodes);
-    sections.add(SectionId::adaptive_octree_references, octree.references);
-    if (!octree.boxes.empty()) sections.add(SectionId::adaptive_octree_boxes, octree.boxes);
-}
-
-void add_tetra_tree(Sections& sections, const build::TetraTree& tetra) {
-    sections.add(SectionId::tetra_tree, std::vector{tetra.tree});
-    sections.add(SectionId::tetra_nodes, tetra.nodes);
-    sections.add(SectionId::tetra_references, tetra.references);
-    sections.add(SectionId::tetra_top, tetra.top);
-    // There even when the triangles that hold the centre are all, and no cone has any.
-    if (tetra.tree.bounding != format::TetraBounding::boxes) return;
-    sections.add(SectionId::tetra_boxes, tetra.boxes);
-    sections.add(SectionId::tetra_oriented, tetra.oriented);
-}
-
-void add_hulls(Sections& sections, const convex::HullSections& hulls) {
-    sections.add(SectionId::hulls, hulls.hulls);
-    sections.add(SectionId::hull_blocks, hulls.blocks);
-    sections.add(SectionId::hull_vertices, hulls.vertices);
-    sections.add(SectionId::hull_facets, hulls.facets);
-    sections.add(SectionId::hull_groups, hulls.groups);
-    sections.add(SectionId::hull_neighbours, hulls.neighbours);
-    sections.add(SectionId::hull_starts, hulls.starts);
-}
-
-void add_pieces(Sections& sections, const mesh::Mesh& mesh, const build::Frame& frame,
-                const mesh::StopCheck& stop, ParallelFor run, BuildSeconds& seconds) {
-    const auto pieces = timed(seconds.pieces, [&] {
+void build_pieces(BuiltParts& built, const mesh::Mesh& mesh, const build::Frame& frame,
+                  const mesh::StopCheck& stop, ParallelFor run, BuildSeconds& seconds) {
+    built.pieces = timed(seconds.pieces, [&] {
         return convex::make_piece_arrays(
             mesh, convex::find_surface_pieces(mesh, {.parallel_for = run, .stop = stop}), run);
     });
-    if (stop && stop()) return;
-    sections.add(SectionId::pieces, pieces.pieces);
-    sections.add(SectionId::piece_triangles, pieces.triangles);
-    sections.add(SectionId::piece_vertices, pieces.vertices);
-    sections.add(SectionId::piece_facets, pieces.facets);
-    const auto tree = timed(seconds.piece_tree,
-                            [&] { return convex::make_piece_tree(mesh, pieces, frame, run); });
-    sections.add(SectionId::piece_nodes, tree.nodes);
-    sections.add(SectionId::piece_swept, tree.swept);
-    sections.add(SectionId::piece_leaves, tree.leaves);
-    sections.add(SectionId::piece_node_hulls, tree.hulls);
-    const auto contacts =
-        timed(seconds.contacts, [&] { return convex::make_contact_arrays(mesh, pieces, run); });
-    sections.add(SectionId::piece_adjacency, contacts.adjacency);
-    sections.add(SectionId::edge_convexity, contacts.convexity);
-    sections.add(SectionId::triangle_piece, contacts.piece_of);
+    if (mesh::is_stopped(stop)) return;
+    built.piece_tree = timed(seconds.piece_tree, [&] {
+        return convex::make_piece_tree(mesh, built.pieces, frame, run);
+    });
+    built.contacts = timed(seconds.contacts,
+                           [&] { return convex::make_contact_arrays(mesh, built.pieces, run); });
 }
 
 format::FileHeader facts_of(const mesh::Mesh& mesh, const build::Bvh& bvh, bool is_closed) {
@@ -185,49 +127,67 @@ format::FileHeader facts_of(const mesh::Mesh& mesh, const build::Bvh& bvh, bool 
     return facts;
 }
 
-/// Builds the parts and adds them; false where a hull would leave the range of double.
-bool add_parts(Sections& sections, const mesh::Mesh& mesh, const build::Frame& frame,
-               const MemoryParts& parts, ParallelFor run, BuildSeconds& seconds) {
+/// Nothing where a hull would leave the range of double.
+std::optional<BuiltParts> build_parts(const mesh::Mesh& mesh, const build::Frame& frame,
+                                      const MemoryParts& parts, ParallelFor run,
+                                      BuildSeconds& seconds) {
+    BuiltParts built;
     if (parts.octree) {
         build::OctreeOptions options = *parts.octree;
         options.parallel_for = run;
         if (options.boxes_in) options.boxes_in = frame;
-        add_octree(sections, timed(seconds.octree, [&] {
-                       return build::build_octree(mesh.positions, mesh.triangles, options);
-                   }));
+        built.octree = timed(seconds.octree, [&] {
+            return build::build_octree(mesh.positions, mesh.triangles, options);
+        });
     }
     if (parts.adaptive_octree) {
         build::AdaptiveOctreeOptions options = *parts.adaptive_octree;
         options.parallel_for = run;
         if (options.boxes_in) options.boxes_in = frame;
-        add_adaptive_octree(sections, timed(seconds.adaptive_octree, [&] {
-                                return build::build_adaptive_octree(mesh.positions, mesh.triangles,
-                                                                    options);
-                            }));
+        built.adaptive_octree = timed(seconds.adaptive_octree, [&] {
+            return build::build_adaptive_octree(mesh.positions, mesh.triangles, options);
+        });
     }
     if (parts.tetra_tree) {
         build::TetraTreeOptions options = *parts.tetra_tree;
         options.parallel_for = run;
         options.frame_exponent = frame.exponent;
         options.frame_origin = frame.origin;
-        add_tetra_tree(sections, timed(seconds.tetra_tree, [&] {
-                           return build::build_tetra_tree(mesh.positions, mesh.triangles, options);
-                       }));
+        built.tetra_tree = timed(seconds.tetra_tree, [&] {
+            return build::build_tetra_tree(mesh.positions, mesh.triangles, options);
+        });
     }
-    if (parts.pieces) add_pieces(sections, mesh, frame, parts.stop, run, seconds);
-    if (!parts.hulls) return true;
-    const auto hulls =
-        timed(seconds.hulls, [&] { return convex::make_hull_sections(mesh, {}, 0, run); });
-    if (hulls) add_hulls(sections, *hulls);
-    return hulls.has_value();
+    if (parts.pieces) build_pieces(built, mesh, frame, parts.stop, run, seconds);
+    if (!parts.hulls) return built;
+    auto hulls = timed(seconds.hulls, [&] { return convex::make_hull_sections(mesh, {}, 0, run); });
+    if (!hulls) return std::nullopt;
+    built.hulls = std::move(*hulls);
+    return built;
+}
+
+void add_parts(build::SectionList& list, const BuiltParts& built) {
+    add_sections(list, built.octree);
+    add_sections(list, built.adaptive_octree);
+    add_sections(list, built.tetra_tree);
+    add_sections(list, built.hulls);
+    add_sections(list, built.pieces);
+    add_sections(list, built.piece_tree);
+    add_sections(list, built.contacts);
+}
+
+Result<ImageBytes> image_of(const format::FileHeader& facts, const build::SectionList& list) {
+    const Result<std::size_t> size = build::image_size(list.sections());
+    if (!size) return size.error();
+    ImageBytes image(size.value());
+    const auto built = build::build_image(facts, list.sections(), image.span());
+    if (!built) return built.error();
+    return image;
 }
 
 }  // namespace
 
 ImageBytes::ImageBytes(std::size_t size)
-    : data_(static_cast<std::byte*>(::operator new[](size, kAlignment))), size_(size) {
-    std::memset(data_.get(), 0, size);
-}
+    : data_(static_cast<std::byte*>(::operator new[](size, kAlignment))), size_(size) {}
 
 void ImageBytes::Free::operator()(std::byte* bytes) const noexcept {
     ::operator delete[](bytes, kAlignment);
@@ -245,17 +205,30 @@ Result<MemoryModel> make_memory_model(const mesh::Mesh& mesh, const MemoryParts&
     for (format::Component& component : topology.components) {
         component.vertex = ordered.new_vertex[component.vertex];
     }
-    Sections sections;
-    add_tree(sections, ordered.mesh, bvh);
     const auto degenerate = mesh::find_degenerate(ordered.mesh, parallel_for);
-    if (!degenerate.empty()) sections.add(SectionId::degenerate_bits, degenerate);
-    sections.add(SectionId::components, topology.components);
-    sections.add(SectionId::bounds, std::vector{convex::find_bounds(mesh)});
-    if (!add_parts(sections, ordered.mesh, bvh.frame, parts, parallel_for, seconds)) {
+    const format::Bounds bounds = convex::find_bounds(mesh);
+    const auto built = build_parts(ordered.mesh, bvh.frame, parts, parallel_for, seconds);
+    if (!built) {
         return Error{ErrorCode::over_budget,
                      "A hull of the model would have coordinates beyond the range of double."};
     }
-    ImageBytes image = sections.image(facts_of(ordered.mesh, bvh, topology.closed));
+    const std::vector<format::Float3> floats = as_floats(ordered.mesh);
+    build::SectionList list(wanted_sections(parts));
+    if (mesh.single_precision) {
+        list.add(SectionId::positions_f32, floats);
+    } else {
+        list.add(SectionId::positions_f64, ordered.mesh.positions);
+    }
+    list.add(SectionId::triangles, ordered.mesh.triangles);
+    list.add(SectionId::source_vertex, ordered.mesh.source_vertex);
+    add_sections(list, bvh);
+    list.add_unless_empty(SectionId::degenerate_bits, degenerate);
+    list.add(SectionId::components, topology.components);
+    list.add_one(SectionId::bounds, bounds);
+    add_parts(list, *built);
+    Result<ImageBytes> filled = image_of(facts_of(ordered.mesh, bvh, topology.closed), list);
+    if (!filled) return filled.error();
+    ImageBytes image = std::move(filled).value();
     Result<Model> opened = Model::open(std::as_const(image).span());
     if (!opened) return opened.error();
     return MemoryModel{std::move(image), std::move(opened).value(), std::move(ordered.mesh),

@@ -20,7 +20,7 @@
 
 namespace cdprep::study {
 
-/// Zeroed bytes at a place where a Model may stand.
+/// Bytes at the start of a page, for the image of a model.
 class ImageBytes {
 public:
     explicit ImageBytes(std::size_t size);

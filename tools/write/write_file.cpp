@@ -22,44 +22,32 @@ namespace {
 using format::SectionEntry;
 using format::SectionId;
 
-std::uint64_t element_count(const Section& section) {
-    return section.bytes.size() / format::element_size(section.id);
-}
-
-std::vector<Section> by_id(std::span<const Section> sections) {
-    std::vector<Section> sorted(sections.begin(), sections.end());
-    std::sort(sorted.begin(), sorted.end(),
-              [](const Section& a, const Section& b) { return a.id < b.id; });
-    return sorted;
-}
+using build::SectionTable;
 
 /// Datasets for all sections but the empty ones, which HDF5 would not place.
-std::vector<Plan> plans_for(std::span<const Section> sections) {
+std::vector<Plan> plans_for(const SectionTable& table) {
     std::vector<Plan> plans;
-    for (const Section& section : sections) {
-        if (!section.bytes.empty()) plans.push_back({section.id, element_count(section)});
+    for (const SectionEntry& entry : table.used_entries()) {
+        if (entry.count != 0) plans.push_back({entry.id, entry.count});
     }
     return plans;
 }
 
-std::vector<SectionEntry> entries_for(std::span<const Section> sections,
-                                      std::span<const Place> places) {
-    std::vector<SectionEntry> entries;
-    for (const Section& section : sections) {
-        const auto place = std::find_if(places.begin(), places.end(),
-                                        [&](const Place& p) { return p.id == section.id; });
-        entries.push_back({section.id, format::element_size(section.id),
-                           place == places.end() ? 0 : place->offset, element_count(section),
-                           format::checksum(section.bytes)});
+/// Where HDF5 put the datasets: in the order of plans_for().
+void add_offsets(SectionTable& table, std::span<const Place> places) {
+    std::size_t next = 0;
+    for (std::uint32_t i = 0; i < table.count; ++i) {
+        if (table.entries[i].count != 0) table.entries[i].offset = places[next++].offset;
     }
-    return entries;
 }
 
-Result<Done> write_sections(OutputFile& file, std::span<const Section> sections,
-                            std::span<const SectionEntry> entries) {
-    for (std::size_t i = 0; i < sections.size(); ++i) {
-        Result<Done> written = file.write_at(entries[i].offset, sections[i].bytes);
-        if (!sections[i].bytes.empty() && !written) return written;
+Result<Done> write_sections(OutputFile& file, const SectionTable& table) {
+    for (std::uint32_t i = 0; i < table.count; ++i) {
+        const std::span<const std::byte> bytes = table.sections[i].bytes;
+        if (bytes.empty()) continue;
+        if (Result<Done> written = file.write_at(table.entries[i].offset, bytes); !written) {
+            return written;
+        }
     }
     return Done{};
 }
@@ -137,16 +125,21 @@ Result<std::vector<std::byte>> bytes_of(const std::filesystem::path& path) {
 
 Result<Done> write_and_check(const std::filesystem::path& path, const format::FileHeader& facts,
                              std::span<const Section> sections, ErrorCode blame) {
+    Result<SectionTable> made = build::make_section_table(sections);
+    if (!made) return made.error();
+    SectionTable& table = made.value();
     Result<OutputFile> created = OutputFile::create(path);
     if (!created) return created.error();
     OutputFile& file = created.value();
-    const std::vector<Section> sorted = by_id(sections);
-    const std::optional<Layout> layout = make_layout(plans_for(sorted));
+    const std::optional<Layout> layout = make_layout(plans_for(table));
     if (!layout) return no_layout(path);
-    const std::vector<SectionEntry> entries = entries_for(sorted, layout->places);
-    if (Result<Done> written = write_sections(file, sorted, entries); !written) return written;
+    add_offsets(table, layout->places);
+    build::add_checksums(table);
+    if (Result<Done> written = write_sections(file, table); !written) return written;
     if (Result<Done> written = write_rest(file, *layout); !written) return written;
-    if (Result<Done> sealed = write_user_block(file, facts, entries); !sealed) return sealed;
+    if (Result<Done> sealed = write_user_block(file, facts, table.used_entries()); !sealed) {
+        return sealed;
+    }
     return commit_checked(file, path, blame);
 }
 

@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <span>
-#include <vector>
 
+#include "cdprep/build_image.h"
 #include "cdprep/format/file_header.h"
 #include "cdprep/result.h"
 
 namespace cdprep::write {
 
-/// One section's elements, as they are to lie in the file.
-struct Section {
-    format::SectionId id;
-    std::span<const std::byte> bytes;  ///< a whole number of elements
-};
+using build::Section;
 
 /// Writes a baked file: HDF5 behind a user block with header and section table.
 ///
@@ -24,7 +19,8 @@ struct Section {
 /// its name only when it is whole and synced: a temporary beside it is renamed.
 /// A temporary that a killed bake left is removed when its lock is free. Fails
 /// with `unwritable`; the old file is then as it was. Byte-identical for equal
-/// arguments and one HDF5 release.
+/// arguments and one HDF5 release. Sections that build::make_section_table() refuses fail
+/// with `bad_argument`.
 [[nodiscard]] Result<Done> write_file(const std::filesystem::path& path,
                                       const format::FileHeader& facts,
                                       std::span<const Section> sections);

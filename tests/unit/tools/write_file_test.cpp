@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <thread>
 
 #include "cdprep/format/find_damage.h"
@@ -58,6 +59,52 @@ TEST(WriteFile, AWrittenFileHoldsTheSameSections) {
                 << format::section_name(section.id);
         }
     }
+}
+
+// Outside HDF5's own structures: whatever header and table say but where sections lie. The
+// sections' bytes are compared above.
+TEST(WriteFile, AFileIsTheImageOfItsSectionsWrappedInHdf5) {
+    const ScratchFolder folder;
+    const test::AlignedBytes image = test::with_octree(image_of(test::grid_sheet(80, 80)), {});
+    format::FileHeader facts = format::read_header(image.span());
+    facts.metres_per_unit = 0.001;
+    facts.up_axis = format::UpAxis::y;
+    std::vector<Section> sections = sections_of(image);
+    sections.push_back({SectionId::findings, {}});
+    ASSERT_TRUE(write_file(folder.file("m.cdp.h5"), facts, sections));
+    test::AlignedBytes memory(build::image_size(sections).value());
+    const auto built = build::build_image(facts, sections, memory.span());
+    ASSERT_TRUE(built);
+    const std::string file = content_of(folder.file("m.cdp.h5"));
+    const auto block_of = [](std::span<const std::byte> bytes) {
+        // What depends on where sections lie and on HDF5.
+        format::FileHeader header = format::read_header(bytes);
+        header.file_size = header.header_checksum = 0;
+        header.superblock = {};
+        std::vector<std::byte> block(format::kUserBlockSize);
+        std::copy_n(bytes.begin(), block.size(), block.begin());
+        std::memcpy(block.data(), &header, sizeof header);
+        for (std::uint32_t i = 0; i < header.section_count; ++i) {
+            std::memset(block.data() + format::kSectionTableOffset +
+                            i * sizeof(format::SectionEntry) +
+                            offsetof(format::SectionEntry, offset),
+                        0, sizeof(std::uint64_t));
+        }
+        return block;
+    };
+    EXPECT_EQ(block_of(bytes_of(file)), block_of(built.value()));
+}
+
+TEST(WriteFile, ASectionGivenTwiceIsRefusedAndNothingWritten) {
+    const ScratchFolder folder;
+    const test::AlignedBytes image = image_of(test::unit_cube());
+    std::vector<Section> sections = sections_of(image);
+    sections.push_back(sections.front());
+    const Result<Done> done =
+        write_file(folder.file("m.cdp.h5"), format::read_header(image.span()), sections);
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().code, ErrorCode::bad_argument);
+    EXPECT_FALSE(std::filesystem::exists(folder.file("m.cdp.h5")));
 }
 
 // The content hash knows nothing of HDF5 or of where sections lie.
