@@ -1,5 +1,5 @@
-# What every target of ours is compiled with. Answers must not depend on
-# whether the compiler fuses a * b + c, hence -ffp-contract=off everywhere.
+# The options of every target of ours. They follow CMAKE_CXX_FLAGS, and must undo what changes
+# answers there: a fused a * b + c, sums in another order, NaN and infinity taken for impossible.
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
@@ -9,7 +9,9 @@ endif()
 function(cdprep_compile_options target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     target_compile_options(${target} PRIVATE
-        -Wall -Wextra -Wpedantic -Wshadow -Werror=return-type -ffp-contract=off
+        -Wall -Wextra -Wpedantic -Wshadow -Werror=return-type
+        -fno-fast-math -fno-unsafe-math-optimizations -fno-associative-math -fno-reciprocal-math
+        -fno-finite-math-only -fsigned-zeros -ffp-contract=off
         # GCC 12.2 drops two of the three roundings of `p = {float(p.x), float(p.y),
         # float(p.z)}` in a loop over points of doubles.
         $<$<CXX_COMPILER_ID:GNU>:-fno-tree-slp-vectorize>)
