@@ -8,6 +8,7 @@
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/checksum.h"
 #include "cdprep/format/content_hash.h"
+#include "cdprep/format/float_environment.h"
 #include "cdprep/format/make_user_block.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/format/verdict.h"
@@ -552,6 +553,7 @@ Bytes section_bytes(Bytes file, const SectionEntry& entry) noexcept {
 }  // namespace
 
 std::optional<Damage> find_header_damage(std::span<const std::byte> file) noexcept {
+    const FloatEnvironment environment;
     constexpr std::uint64_t kLeast = kSuperblockOffset + sizeof(FileHeader::superblock);
     if (file.size() < kLeast) {
         return in_header(DamageKind::too_short, 0, file.size(), kLeast);
@@ -564,6 +566,7 @@ std::optional<Damage> find_header_damage(std::span<const std::byte> file) noexce
 }
 
 std::optional<Damage> find_damage(std::span<const std::byte> file, SectionSet wanted) noexcept {
+    const FloatEnvironment environment;
     if (const Found damage = find_header_damage(file)) return damage;
     if (const Found damage = find_missing(file)) return damage;
     const FileHeader header = read_header(file);

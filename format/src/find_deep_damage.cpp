@@ -8,6 +8,7 @@
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/content_hash.h"
 #include "cdprep/format/find_damage.h"
+#include "cdprep/format/float_environment.h"
 #include "cdprep/format/pieces.h"
 #include "cdprep/format/sections.h"
 
@@ -400,6 +401,7 @@ Found find_wrong_hash(Bytes file) {
 }  // namespace
 
 std::optional<Damage> find_deep_damage(std::span<const std::byte> file) {
+    const FloatEnvironment environment;
     if (const Found damage = find_damage(file)) return damage;
     if (const Found damage = find_wrong_hash(file)) return damage;
     if (const Found damage = find_repeated(file, SectionId::source_triangle)) return damage;

@@ -6,10 +6,12 @@
 #include <bit>
 
 #include "cdprep/build_octree.h"
+#include "cdprep/format/float_environment.h"
 #include "cell_boxes.h"
 #include "choose_split.h"
 #include "chunks.h"
 #include "frame_map.h"
+#include "guarded_for.h"
 #include "split_box.h"
 #include "triangle_box.h"
 
@@ -363,9 +365,13 @@ private:
 AdaptiveOctree build_adaptive_octree(std::span<const Double3> positions,
                                      std::span<const Triangle> triangles,
                                      const AdaptiveOctreeOptions& options) {
-    AdaptiveOctree octree = Builder(positions, triangles, options).build();
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, options.parallel_for);
+    AdaptiveOctreeOptions inside = options;
+    inside.parallel_for = guarded;
+    AdaptiveOctree octree = Builder(positions, triangles, inside).build();
     if (options.boxes_in) {
-        bound_cells(octree, positions, triangles, *options.boxes_in, options.parallel_for);
+        bound_cells(octree, positions, triangles, *options.boxes_in, guarded);
     }
     return octree;
 }

@@ -3,8 +3,10 @@
 
 #include <cstdlib>
 
+#include "cdprep/format/float_environment.h"
 #include "cdprep/refit_bvh.h"
 #include "frame_map.h"
+#include "guarded_for.h"
 #include "lanes.h"
 #include "make_leaves.h"
 #include "make_nodes.h"
@@ -60,13 +62,16 @@ void fill_nodes(Bvh& bvh, std::span<const Double3> positions, std::span<const Tr
 
 void rebuild_bvh(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
                  const BvhOptions& options) {
+    format::FloatEnvironment environment;
     if (triangles.empty()) {
         bvh = Bvh{};
         return;
     }
-    set_frame(bvh, positions, triangles, options.parallel_for);
-    order_triangles(bvh, positions, triangles, options);
-    fill_nodes(bvh, positions, triangles, options);
+    const GuardedFor guarded(environment, options.parallel_for);
+    const BvhOptions inside = {guarded, options.bounds, options.quality};
+    set_frame(bvh, positions, triangles, guarded);
+    order_triangles(bvh, positions, triangles, inside);
+    fill_nodes(bvh, positions, triangles, inside);
 }
 
 Bvh build_bvh(std::span<const Double3> positions, std::span<const Triangle> triangles,
@@ -78,13 +83,16 @@ Bvh build_bvh(std::span<const Double3> positions, std::span<const Triangle> tria
 
 double refit_bvh(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
                  const BvhOptions& options) {
+    format::FloatEnvironment environment;
     if (triangles.empty()) return 0;
-    set_frame(bvh, positions, triangles, options.parallel_for);
-    fill_nodes(bvh, positions, triangles, options);
+    const GuardedFor guarded(environment, options.parallel_for);
+    set_frame(bvh, positions, triangles, guarded);
+    fill_nodes(bvh, positions, triangles, {guarded, options.bounds, options.quality});
     return surface_cost(bvh);
 }
 
 double surface_cost(const Bvh& bvh) noexcept {
+    const format::FloatEnvironment environment;
     if (bvh.nodes.empty()) return 0;
     // Of boxes that are not used the sides are -2: they count for nothing.
     const auto half_areas = [](const BvhNode& node) {

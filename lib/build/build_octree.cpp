@@ -3,7 +3,9 @@
 
 #include <algorithm>
 
+#include "cdprep/format/float_environment.h"
 #include "cell_boxes.h"
+#include "guarded_for.h"
 #include "octree_grid.h"
 #include "octree_levels.h"
 #include "octree_tables.h"
@@ -12,14 +14,16 @@ namespace cdprep::build {
 
 Octree build_octree(std::span<const format::Double3> positions,
                     std::span<const format::Triangle> triangles, const OctreeOptions& options) {
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, options.parallel_for);
     Octree octree;
-    octree.grid = octree_grid_around(positions, options.parallel_for);
+    octree.grid = octree_grid_around(positions, guarded);
     octree.grid.level = std::min(options.level, format::kOctreeBits);
     octree.grid.threshold = std::max(options.threshold, 1U);
-    if (!triangles.empty()) divide_octree(octree, positions, triangles, options.parallel_for);
+    if (!triangles.empty()) divide_octree(octree, positions, triangles, guarded);
     if (options.hashed) make_octree_tables(octree);
     if (options.boxes_in) {
-        bound_cells(octree, positions, triangles, *options.boxes_in, options.parallel_for);
+        bound_cells(octree, positions, triangles, *options.boxes_in, guarded);
     }
     return octree;
 }

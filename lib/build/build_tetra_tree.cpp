@@ -6,10 +6,12 @@
 #include <memory>
 
 #include "cdprep/build_octree.h"
+#include "cdprep/format/float_environment.h"
 #include "cdprep/format/octree.h"
 #include "chunks.h"
 #include "cone_children.h"
 #include "frame_map.h"
+#include "guarded_for.h"
 #include "radial_range.h"
 #include "split_at_once.h"
 #include "tetra_boxes.h"
@@ -563,7 +565,11 @@ private:
 
 TetraTree build_tetra_tree(std::span<const Double3> positions, std::span<const Triangle> triangles,
                            const TetraTreeOptions& options) {
-    return TreeBuilder(positions, triangles, options).build();
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, options.parallel_for);
+    TetraTreeOptions inside = options;
+    inside.parallel_for = guarded;
+    return TreeBuilder(positions, triangles, inside).build();
 }
 
 }  // namespace cdprep::build

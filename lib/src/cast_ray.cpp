@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
 #include "ray_triangle.h"
 #include "smallest.h"
@@ -152,8 +153,14 @@ bool for_each_hit(const Model& model, const RayQuery& query, Workspace& workspac
 
 }  // namespace
 
+bool operator<(const RayHit& a, const RayHit& b) noexcept {
+    const format::FloatEnvironment environment;
+    return a.t != b.t ? a.t < b.t : a.triangle < b.triangle;
+}
+
 std::optional<RayHit> cast_ray(const Model& model, const Ray& ray, Workspace& workspace,
                                const RayOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     const RayQuery query(model, ray, options);
     if (query.limit() < 0) return std::nullopt;
     double best_t = query.limit();
@@ -178,12 +185,14 @@ std::optional<RayHit> cast_ray(const Model& model, const Ray& ray, Workspace& wo
 
 bool ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
               const RayOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     const RayQuery query(model, ray, options);
     return !for_each_hit(model, query, workspace, [](double, std::uint32_t) { return false; });
 }
 
 std::size_t all_ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                          std::span<RayHit> hits, const RayOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     const RayQuery query(model, ray, options);
     Smallest<RayHit> smallest(hits);
     for_each_hit(model, query, workspace, [&](double t, std::uint32_t i) {
@@ -197,9 +206,11 @@ std::size_t all_ray_hits(const Model& model, const Ray& ray, Workspace& workspac
 
 bool visit_ray_hits(const Model& model, const Ray& ray, Workspace& workspace, RayVisitor visit,
                     const RayOptions& options) noexcept {
+    format::FloatEnvironment environment;
     const RayQuery query(model, ray, options);
     return for_each_hit(model, query, workspace, [&](double t, std::uint32_t i) {
-        return visit(query.hit(t, source_number(model, i)));
+        const RayHit hit = query.hit(t, source_number(model, i));
+        return environment.outside([&] { return visit(hit); });
     });
 }
 

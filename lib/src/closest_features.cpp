@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cdprep/format/float_environment.h"
 #include "hull_edges.h"
 #include "hull_nearest.h"
 #include "point_triangle_distance.h"
@@ -599,6 +600,7 @@ private:
 std::optional<ClosestFeatures> closest_features(const FeatureHull& a, const FeatureHull& b,
                                                 const Placement& placement, FeatureCache* cache,
                                                 QueryCounts* counts) noexcept {
+    const format::FloatEnvironment environment;
     if (a.points.count == 0 || b.points.count == 0) return std::nullopt;
     return FeatureSearch(a, b, placement, cache, counts).run();
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
 #include "point_triangle_distance.h"
 #include "shape_gap.h"
@@ -12,6 +13,7 @@ namespace cdprep {
 
 std::optional<ClosestPoint> closest_point(const Model& model, const Double3& query,
                                           Workspace& workspace, double max_distance) noexcept {
+    const format::FloatEnvironment environment;
     const MovedModel still(model, nullptr);
     ShapeGap gap(still, {query, query, query});
     std::optional<ClosestPoint> best;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/collide.h"
 
+#include "cdprep/format/float_environment.h"
 #include "find_contact.h"
 
 namespace cdprep {
 
 Collision collide(const Model& a, const Model& b, const Placement& placement, Workspace& workspace,
                   const CollideOptions& options, PairCache* cache) noexcept {
+    const format::FloatEnvironment environment;
     Collision collision;
     const OverlapOptions pairs = {options.contact, options.degenerate};
     collision.hit = any_contact(a, b, placement, workspace, pairs, cache);

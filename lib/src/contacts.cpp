@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "cdprep/format/float_environment.h"
 #include "contact_of_pieces.h"
 #include "contact_pairs.h"
 #include "near_triangles.h"
@@ -149,6 +150,7 @@ bool for_each_piece_contact(const Model& a, const Model& b, const Placement& pla
 std::size_t contacts(const Model& a, const Model& b, const Placement& placement, double tolerance,
                      Workspace& workspace, std::span<PieceContact> contacts,
                      const ContactOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     std::size_t count = 0;
     for_each_piece_contact(a, b, placement, tolerance, workspace, options,
                            [&](const PieceContact& contact) {
@@ -162,8 +164,11 @@ std::size_t contacts(const Model& a, const Model& b, const Placement& placement,
 bool visit_contacts(const Model& a, const Model& b, const Placement& placement, double tolerance,
                     Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options) noexcept {
+    format::FloatEnvironment environment;
     return for_each_piece_contact(a, b, placement, tolerance, workspace, options,
-                                  [&](const PieceContact& contact) { return visit(contact); });
+                                  [&](const PieceContact& contact) {
+                                      return environment.outside([&] { return visit(contact); });
+                                  });
 }
 
 }  // namespace cdprep

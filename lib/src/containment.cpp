@@ -6,7 +6,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "cdprep/format/float_environment.h"
 #include "moved_model.h"
+#include "moved_point.h"
 #include "walk_model.h"
 #include "winding.h"
 
@@ -51,7 +53,7 @@ public:
             centre[axis] = scaled(0.5 * (lower + upper), -header_.frame_exponent) + origin[axis];
             half[axis] = scaled(0.5 * (upper - lower), -header_.frame_exponent);
         }
-        const Double3 c = moved(pose_, {centre[0], centre[1], centre[2]});
+        const Double3 c = moved_point(pose_, {centre[0], centre[1], centre[2]});
         const std::array<double, 9>& r = pose_.rotation();
         const auto reach = [&](std::size_t row) {
             return std::fabs(r[row]) * half[0] + std::fabs(r[row + 1]) * half[1] +
@@ -155,6 +157,7 @@ Containment find_inside(const MovedModel& inner, const MovedModel& outer,
 
 Containment find_containment(const Model& a, const Model& b, const Placement& placement,
                              Workspace& workspace) noexcept {
+    const format::FloatEnvironment environment;
     const MovedModel in_a = moved_a(a, placement);
     const MovedModel in_b = moved_b(b, placement);
     Workspace::Storage& scratch = workspace.storage();
@@ -166,6 +169,7 @@ Containment find_containment(const Model& a, const Model& b, const Placement& pl
 }
 
 Inclusion includes(const Model& model, const Double3& p, Workspace& workspace) noexcept {
+    const format::FloatEnvironment environment;
     return inclusion({model, nullptr}, p, workspace.storage());
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cdprep/format/float_environment.h"
 #include "exact_nearest.h"
 #include "gjk.h"
 #include "hull_nearest.h"
@@ -47,6 +48,7 @@ std::optional<HullNearest> hull_nearest(const MovedHull& a, const MovedHull& b,
 
 bool convex_collide(const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
                     ConvexCache* cache, QueryCounts* counts) noexcept {
+    const format::FloatEnvironment environment;
     if (a.count == 0 || b.count == 0) return false;
     const TwoHulls hulls(a, b, placement);
     const GjkResult found = gjk(hulls.a, hulls.b, {.farther = 0}, cache, counts);
@@ -58,6 +60,7 @@ std::optional<ConvexDistance> convex_distance(const ConvexPoints& a, const Conve
                                               const Placement& placement,
                                               const ConvexDistanceOptions& options,
                                               ConvexCache* cache, QueryCounts* counts) noexcept {
+    const format::FloatEnvironment environment;
     if (a.count == 0 || b.count == 0 || !(options.max_distance >= 0)) return std::nullopt;
     const TwoHulls hulls(a, b, placement);
     const std::optional<HullNearest> found = hull_nearest(hulls.a, hulls.b, options, cache, counts);
@@ -70,6 +73,7 @@ std::optional<ConvexDistance> convex_distance(const ConvexPoints& a, const Conve
 
 bool convex_is_within(const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
                       double tolerance, ConvexCache* cache, QueryCounts* counts) noexcept {
+    const format::FloatEnvironment environment;
     if (tolerance == 0) return convex_collide(a, b, placement, cache, counts);
     if (!(tolerance > 0) || a.count == 0 || b.count == 0) return false;
     if (!(tolerance <= std::numeric_limits<double>::max())) return true;

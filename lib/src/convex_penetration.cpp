@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/convex_penetration.h"
 
+#include "cdprep/format/float_environment.h"
 #include "exact_nearest.h"
 #include "expanding_polytope.h"
 #include "gjk.h"
@@ -28,6 +29,7 @@ std::optional<Penetration> convex_penetration(const ConvexPoints& a, const Conve
                                               const Placement& placement,
                                               const PenetrationOptions& options, ConvexCache* cache,
                                               QueryCounts* counts) noexcept {
+    const format::FloatEnvironment environment;
     if (a.count == 0 || b.count == 0) return std::nullopt;
     const TwoHulls hulls(a, b, placement);
     const GjkResult found = gjk(hulls.a, hulls.b, {.farther = 0}, cache, counts);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/crossing_segments.h"
 
+#include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
 #include "edge_on_plane.h"
 
@@ -9,6 +10,7 @@ namespace cdprep {
 bool visit_crossing_segments(const Model& a, const Model& b, const Placement& placement,
                              Workspace& workspace, Visitor<Crossing> visit,
                              const OverlapOptions& options) noexcept {
+    format::FloatEnvironment environment;
     const MovedModel in_a = moved_a(a, placement);
     const MovedModel in_b = moved_b(b, placement);
     return for_each_contact<Search::all>(
@@ -24,7 +26,7 @@ bool visit_crossing_segments(const Model& a, const Model& b, const Placement& pl
                 crossing.from = point(ends->first);
                 crossing.to = ends->is_point ? crossing.from : point(ends->second);
             }
-            return visit(crossing);
+            return environment.outside([&] { return visit(crossing); });
         });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/distance.h"
 
+#include "cdprep/format/float_environment.h"
 #include "nearest_search.h"
 
 namespace cdprep {
@@ -8,11 +9,13 @@ namespace cdprep {
 std::optional<Distance> distance(const Model& a, const Model& b, const Placement& placement,
                                  Workspace& workspace, const DistanceOptions& options,
                                  PairCache* cache) noexcept {
+    const format::FloatEnvironment environment;
     return distance_by<TriangleTrees>(a, b, placement, workspace, options, cache);
 }
 
 bool is_within(const Model& a, const Model& b, const Placement& placement, double tolerance,
                Workspace& workspace, PairCache* cache) noexcept {
+    const format::FloatEnvironment environment;
     if (!(tolerance >= 0)) return false;
     if (tolerance == 0) return any_contact(a, b, placement, workspace, {}, cache);
     return is_within_by<TriangleTrees>(a, b, placement, tolerance, workspace, cache);

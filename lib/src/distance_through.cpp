@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/distance_through.h"
 
+#include "cdprep/format/float_environment.h"
 #include "nearest_search.h"
 #include "piece_contact.h"
 
@@ -25,6 +26,7 @@ std::optional<Distance> distance_through(const StructureOptions& through, const 
                                          const Model& b, const Placement& placement,
                                          Workspace& workspace, const DistanceOptions& options,
                                          PieceCache* cache) noexcept {
+    const format::FloatEnvironment environment;
     if (through.structure != Structure::pieces) {
         return distance(a, b, placement, workspace, options, pair_of(cache));
     }
@@ -36,6 +38,7 @@ std::optional<Distance> distance_through(const StructureOptions& through, const 
 bool is_within_through(const StructureOptions& through, const Model& a, const Model& b,
                        const Placement& placement, double tolerance, Workspace& workspace,
                        PieceCache* cache) noexcept {
+    const format::FloatEnvironment environment;
     if (through.structure != Structure::pieces) {
         return is_within(a, b, placement, tolerance, workspace, pair_of(cache));
     }

@@ -8,6 +8,7 @@
 
 #include "cdprep/convex_distance.h"
 #include "cdprep/model_hulls.h"
+#include "hull_points.h"
 #include "list_places.h"
 #include "predicates.h"
 
@@ -113,10 +114,10 @@ private:
     };
 
     static Bounds bounds_of(const ConvexPoints& points) {
-        Bounds bounds = {points.point(0), points.point(0)};
+        Bounds bounds = {hull_point(points, 0), hull_point(points, 0)};
         auto& [low, high] = bounds;
         for (std::uint32_t i = 1; i < points.count; ++i) {
-            const Double3 p = points.point(i);
+            const Double3 p = hull_point(points, i);
             low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
             high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
         }
@@ -148,7 +149,7 @@ private:
             const auto at = std::lower_bound(by_source_.begin(), by_source_.end(),
                                              std::array<std::uint32_t, 2>{source, 0});
             const bool named = at != by_source_.end() && (*at)[0] == source &&
-                               equal(vertices_[(*at)[1]], points.point(p));
+                               equal(vertices_[(*at)[1]], hull_point(points, p));
             if (!named) return wrong_fact(file_, SectionId::hull_vertices, place, source, 0);
         }
         return std::nullopt;
@@ -165,8 +166,9 @@ private:
                 const auto far = std::find_if(
                     other.point.begin(), other.point.end(),
                     [&](std::uint32_t p) { return p != point[i] && p != point[(i + 1) % 3]; });
-                const int sign = orient3d(points.point(point[0]), points.point(point[1]),
-                                          points.point(point[2]), points.point(*far));
+                const int sign =
+                    orient3d(hull_point(points, point[0]), hull_point(points, point[1]),
+                             hull_point(points, point[2]), hull_point(points, *far));
                 const bool flat = facet.group == other.group || hull.dimension == 2;
                 if (flat ? sign == 0 : sign > 0) continue;
                 return wrong_fact(file_, SectionId::hull_facets, hull.first_facet + f,
@@ -204,7 +206,7 @@ private:
                                                  const ConvexPoints& points) const {
         if (hull.scope == format::HullScope::whole) return vertices_;
         std::vector<Double3> own;
-        for (std::uint32_t p = 0; p < hull.point_count; ++p) own.push_back(points.point(p));
+        for (std::uint32_t p = 0; p < hull.point_count; ++p) own.push_back(hull_point(points, p));
         return own;
     }
 
@@ -216,8 +218,8 @@ private:
             const std::uint32_t first =
                 model_.hull_groups()[std::size_t{hull.first_group} + g].first_facet;
             const auto& point = facets(hull)[first].point;
-            const Double3 a = points.point(point[0]), b = points.point(point[1]),
-                          c = points.point(point[2]);
+            const Double3 a = hull_point(points, point[0]), b = hull_point(points, point[1]),
+                          c = hull_point(points, point[2]);
             const FarBehind far_behind(a, b, c);
             for (const Double3& p : inside) {
                 if (!far_behind(p) && orient3d(a, b, c, p) < 0) {
@@ -226,9 +228,10 @@ private:
             }
         }
         if (hull.dimension > 0 || inside.empty()) return std::nullopt;
-        const bool all = hull.dimension == 0 &&
-                         std::all_of(inside.begin(), inside.end(),
-                                     [&](const Double3& p) { return equal(p, points.point(0)); });
+        const bool all =
+            hull.dimension == 0 && std::all_of(inside.begin(), inside.end(), [&](const Double3& p) {
+                return equal(p, hull_point(points, 0));
+            });
         return all ? Found{} : wrong_fact(file_, SectionId::hulls, number, 0, 0);
     }
 

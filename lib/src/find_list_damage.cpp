@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "cdprep/format/float_environment.h"
 #include "cell_bounds.h"
 #include "find_cone_damage.h"
 #include "list_places.h"
@@ -251,6 +252,7 @@ Found find_lost_node(std::span<const std::byte> file, const Model& model, Sectio
 
 std::optional<format::Damage> find_list_damage(std::span<const std::byte> file,
                                                const Model& model) {
+    const format::FloatEnvironment environment;
     if (const Found damage = find_cone_damage(file, model)) return damage;
     if (model.adaptive_octree() != nullptr) {
         if (const Found damage = ListCheck<AdaptiveOctreeCells>(file, model).find_damage()) {

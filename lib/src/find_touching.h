@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "cdprep/format/float_environment.h"
 #include "cdprep/touching.h"
 #include "contact_pairs.h"
 #include "smallest.h"
@@ -48,6 +49,7 @@ bool for_each_touching(const Model& model, const Asked& asked, Workspace& worksp
 template <class Shape, class Asked>
 bool any_touching(const Model& model, const Asked& asked, Workspace& workspace,
                   const TouchOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     return !for_each_touching<Shape>(model, asked, workspace, options,
                                      [](std::uint32_t) { return false; });
 }
@@ -55,6 +57,7 @@ bool any_touching(const Model& model, const Asked& asked, Workspace& workspace,
 template <class Shape, class Asked>
 std::size_t all_touching(const Model& model, const Asked& asked, Workspace& workspace,
                          std::span<std::uint32_t> triangles, const TouchOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     Smallest<std::uint32_t> smallest(triangles);
     for_each_touching<Shape>(model, asked, workspace, options, [&](std::uint32_t i) {
         smallest.add(source_number(model, i));
@@ -67,8 +70,10 @@ std::size_t all_touching(const Model& model, const Asked& asked, Workspace& work
 template <class Shape, class Asked>
 bool visit_touching(const Model& model, const Asked& asked, Workspace& workspace,
                     TriangleVisitor visit, const TouchOptions& options) noexcept {
+    format::FloatEnvironment environment;
     return for_each_touching<Shape>(model, asked, workspace, options, [&](std::uint32_t i) {
-        return visit(source_number(model, i));
+        const std::uint32_t source = source_number(model, i);
+        return environment.outside([&] { return visit(source); });
     });
 }
 

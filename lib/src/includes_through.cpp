@@ -10,6 +10,7 @@
 
 #include "adaptive_octree_tree.h"
 #include "box_placement.h"
+#include "cdprep/format/float_environment.h"
 #include "moved_model.h"
 #include "octree_codes.h"
 #include "octree_tree.h"
@@ -278,6 +279,7 @@ Inclusion through_keys(const Model& model, const Double3& q, QueryCounts* counts
 
 Inclusion includes_through(Structure structure, const Model& model, const Double3& p,
                            Workspace& workspace) noexcept {
+    const format::FloatEnvironment environment;
     if (!model.is_closed()) return includes(model, p, workspace);
     QueryCounts* counts = workspace.storage().counts;
     switch (structure) {

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <span>
 
+#include "cdprep/format/float_environment.h"
 #include "moved_model.h"
+#include "moved_point.h"
 #include "tetra_tree_cells.h"
 #include "walk_cells.h"
 
@@ -97,7 +99,7 @@ public:
     /// returns whether it did.
     template <class Visit>
     bool any_point(Visit&& visit) const noexcept {
-        if (visit(moved(pose_, tree_.centre))) return true;
+        if (visit(moved_point(pose_, tree_.centre))) return true;
         return facets_.any([&](const TetraNode& node) {
             // Short of the facet by more than a point may be off.
             const double inner = facets_.inner(node) * (1 - 0x1p-8);
@@ -140,7 +142,7 @@ private:
             const Double3 p = {tree_.centre.x + sum.x * (share / 3),
                                tree_.centre.y + sum.y * (share / 3),
                                tree_.centre.z + sum.z * (share / 3)};
-            if (visit(moved(pose_, p))) return true;
+            if (visit(moved_point(pose_, p))) return true;
         }
         return false;
     }
@@ -201,6 +203,7 @@ bool may_meet(const Model& a, const Model& b, const Placement& placement, std::u
 }  // namespace
 
 double level_error(const Model& model, std::uint32_t level) noexcept {
+    const format::FloatEnvironment environment;
     if (!has_tree(model)) return 0;
     const Facets facets(model, level);
     double widest = 0;
@@ -214,6 +217,7 @@ double level_error(const Model& model, std::uint32_t level) noexcept {
 
 CoarseCollision collide_at_level(const Model& a, const Model& b, const Placement& placement,
                                  std::uint32_t level, Workspace& workspace) noexcept {
+    const format::FloatEnvironment environment;
     if (a.triangle_count() == 0 || b.triangle_count() == 0) return {Answer::no, 0, 0};
     if (!has_tree(a) || !has_tree(b)) return {};
     CoarseCollision result{Answer::unknown, level_error(a, level), level_error(b, level)};

@@ -74,9 +74,9 @@ Double3 MovedHull::turned_back(const Double3& d) const noexcept {
 
 std::uint32_t MovedHull::scan_corners(const Double3& local) const noexcept {
     std::uint32_t best = 0;
-    double most = dot(local, points_->point(0));
+    double most = dot(local, hull_point(*points_, 0));
     for (std::uint32_t i = 1; i < count(); ++i) {
-        const double height = dot(local, points_->point(i));
+        const double height = dot(local, hull_point(*points_, i));
         if (height > most) most = height, best = i;
     }
     return best;
@@ -91,11 +91,11 @@ std::uint32_t MovedHull::scan(const Double3& local) const noexcept {
 }
 
 std::uint32_t MovedHull::climb(const Double3& local, std::uint32_t from) const noexcept {
-    double height = dot(local, points_->point(from));
+    double height = dot(local, hull_point(*points_, from));
     for (std::uint32_t last = count(); last != from;) {
         last = from;
         for (const std::uint32_t number : neighbours(last)) {
-            const double other = dot(local, points_->point(number));
+            const double other = dot(local, hull_point(*points_, number));
             if (!(other > height)) continue;
             height = other;
             from = number;
@@ -114,8 +114,9 @@ std::uint32_t MovedHull::farthest_anew(const Double3& direction,
     const Double3 local = turned_back(direction);
     if (!can_climb()) return scan(local);
     if (points_->starts.empty()) return climb(local, near);
-    const std::uint32_t start = points_->starts[direction_cell(local)];
-    const bool is_better = dot(local, points_->point(start)) > dot(local, points_->point(near));
+    const std::uint32_t start = points_->starts[cell_of_direction(local)];
+    const bool is_better =
+        dot(local, hull_point(*points_, start)) > dot(local, hull_point(*points_, near));
     return climb(local, is_better ? start : near);
 }
 
@@ -169,7 +170,7 @@ kernels::FarthestPoint MovedHull::proven(const Double3& direction, const Double3
                                          std::uint32_t farthest) const noexcept {
     if (!can_climb()) return proven_by_all(direction, origin);
     const Double3 local = turned_back(direction);
-    const Double3 top = points_->point(farthest);
+    const Double3 top = hull_point(*points_, farthest);
     const double least = -2 * slack(direction);
     Alike alike(farthest);
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -183,7 +184,8 @@ kernels::FarthestPoint MovedHull::proven(const Double3& direction, const Double3
             best.value = value;
         }
         for (const std::uint32_t number : neighbours(alike[i])) {
-            if (dot(local, points_->point(number) - top) < least || alike.has(number)) continue;
+            if (dot(local, hull_point(*points_, number) - top) < least || alike.has(number))
+                continue;
             if (!alike.add(number)) return proven_by_all(direction, origin);
         }
     }

@@ -6,7 +6,9 @@
 
 #include "cdprep/convex_points.h"
 #include "cdprep/placement.h"
+#include "hull_points.h"
 #include "kernels.h"
+#include "moved_point.h"
 #include "vectors.h"
 
 namespace cdprep {
@@ -21,8 +23,8 @@ public:
         return points_->count;
     }
     [[nodiscard]] Double3 point(std::uint32_t number) const noexcept {
-        const Double3 p = points_->point(number);
-        return pose_ == nullptr ? p : moved(*pose_, p);
+        const Double3 p = hull_point(*points_, number);
+        return pose_ == nullptr ? p : moved_point(*pose_, p);
     }
 
     /// Returns the point that is farthest along a direction, as far as double can tell. A

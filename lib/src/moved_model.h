@@ -7,6 +7,7 @@
 
 #include "cdprep/model.h"
 #include "cdprep/placement.h"
+#include "moved_point.h"
 #include "triangle_contact.h"
 
 namespace cdprep {
@@ -73,7 +74,7 @@ struct MovedModel {
 
 private:
     [[nodiscard]] Double3 placed(const Double3& p) const noexcept {
-        return pose == nullptr ? p : moved(*pose, p);
+        return pose == nullptr ? p : moved_point(*pose, p);
     }
     [[nodiscard]] Double3 at(const format::BvhLeaf& leaf, std::size_t corner,
                              std::size_t lane) const noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/overlap_through.h"
 
+#include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
 #include "contacts_through.h"
 #include "hashed_overlap.h"
@@ -40,6 +41,7 @@ std::size_t overlapping_triangles_through(const StructureOptions& through, const
                                           const Model& b, const Placement& placement,
                                           Workspace& workspace, std::span<TrianglePair> pairs,
                                           const OverlapOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     if (through.structure == Structure::bvh) {
         return overlapping_triangles(a, b, placement, workspace, pairs, options);
     }
@@ -53,6 +55,7 @@ std::size_t overlapping_triangles_through(const StructureOptions& through, const
 bool any_overlap_through(const StructureOptions& through, const Model& a, const Model& b,
                          const Placement& placement, Workspace& workspace,
                          const OverlapOptions& options, PieceCache* cache) noexcept {
+    const format::FloatEnvironment environment;
     if (through.structure == Structure::bvh) {
         PairCache* pair = cache == nullptr ? nullptr : &cache->pair;
         return any_contact(a, b, placement, workspace, options, pair);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "cached_contacts.h"
+#include "cdprep/format/float_environment.h"
 #include "smallest_pairs.h"
 
 namespace cdprep {
@@ -11,6 +12,7 @@ namespace cdprep {
 std::size_t overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
                                   Workspace& workspace, std::span<TrianglePair> pairs,
                                   const OverlapOptions& options, PairCache* cache) noexcept {
+    const format::FloatEnvironment environment;
     return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
         for_each_contact(a, b, placement, workspace, options, cache, found);
     });
@@ -19,16 +21,19 @@ std::size_t overlapping_triangles(const Model& a, const Model& b, const Placemen
 bool visit_overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
                                  Workspace& workspace, PairVisitor visit,
                                  const OverlapOptions& options, PairCache* cache) noexcept {
-    return for_each_contact(a, b, placement, workspace, options, cache,
-                            [&](std::uint32_t at_a, std::uint32_t at_b) {
-                                return visit({source_number(a, at_a), source_number(b, at_b)});
-                            });
+    format::FloatEnvironment environment;
+    return for_each_contact(
+        a, b, placement, workspace, options, cache, [&](std::uint32_t at_a, std::uint32_t at_b) {
+            const TrianglePair pair = {source_number(a, at_a), source_number(b, at_b)};
+            return environment.outside([&] { return visit(pair); });
+        });
 }
 
 std::size_t mark_overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
                                        Workspace& workspace, std::span<std::uint64_t> bits_a,
                                        std::span<std::uint64_t> bits_b,
                                        const OverlapOptions& options, PairCache* cache) noexcept {
+    const format::FloatEnvironment environment;
     std::fill(bits_a.begin(), bits_a.end(), 0);
     std::fill(bits_b.begin(), bits_b.end(), 0);
     const auto mark = [](std::span<std::uint64_t> bits, std::uint32_t triangle) {

@@ -6,6 +6,9 @@
 #include <cstdio>
 #include <string>
 
+#include "cdprep/format/float_environment.h"
+#include "moved_point.h"
+
 namespace cdprep {
 namespace {
 
@@ -39,6 +42,7 @@ Error bad_pose(std::string message) {
 }  // namespace
 
 Result<Pose> Pose::from_rows(const std::array<double, 12>& rows) {
+    const format::FloatEnvironment environment;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!std::isfinite(rows[i])) {
             return bad_pose("Number " + std::to_string(i + 1) + " of the pose is " +
@@ -66,6 +70,7 @@ Result<Pose> Pose::from_rows(const std::array<double, 12>& rows) {
 
 Result<Pose> Pose::from_quaternion(double w, double x, double y, double z,
                                    const Double3& translation) {
+    const format::FloatEnvironment environment;
     const double largest = std::max({std::fabs(w), std::fabs(x), std::fabs(y), std::fabs(z)});
     if (!std::isfinite(w) || !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) {
         return bad_pose("The quaternion of the pose holds " + shown(w) + ", " + shown(x) + ", " +
@@ -88,6 +93,7 @@ Result<Pose> Pose::from_quaternion(double w, double x, double y, double z,
 }
 
 Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept {
+    const format::FloatEnvironment environment;
     const std::array<double, 9>& a = world_from_a.rotation_;
     const std::array<double, 9>& b = world_from_b.rotation_;
     const Double3 d = {world_from_b.translation_.x - world_from_a.translation_.x,
@@ -104,6 +110,11 @@ Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept 
                              (a[1] * d.x + a[4] * d.y) + a[7] * d.z,
                              (a[2] * d.x + a[5] * d.y) + a[8] * d.z};
     return relative;
+}
+
+Double3 moved(const Pose& pose, const Double3& p) noexcept {
+    const format::FloatEnvironment environment;
+    return moved_point(pose, p);
 }
 
 }  // namespace cdprep

@@ -6,7 +6,9 @@
 #include <cassert>
 #include <cstdint>
 
+#include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
+#include "guarded_for.h"
 #include "share_out.h"
 #include "sort_pairs.h"
 
@@ -177,7 +179,9 @@ std::size_t split_overlapping_triangles(const Model& a, const Model& b, const Pl
                                         std::span<Workspace> workspaces, ParallelFor parallel_for,
                                         std::span<TrianglePair> pairs,
                                         const OverlapOptions& options) noexcept {
+    format::FloatEnvironment environment;
     assert(!workspaces.empty());
+    const GuardedFor guarded(environment, parallel_for);
     const PlacedBoxes placed = place_boxes(a, b, placement);
     Places places(workspaces[0].storage());
     places.find(Tree(a), Tree(b), placed, kPlacesForAWorker * workspaces.size());
@@ -185,7 +189,7 @@ std::size_t split_overlapping_triangles(const Model& a, const Model& b, const Pl
     SharedRoom room(pairs);
     Shares shares(places.size(), 1);
     const Question question = {a, b, placement, options, placed};
-    run_workers(std::min(workspaces.size(), places.size()), parallel_for, [&](std::size_t worker) {
+    run_workers(std::min(workspaces.size(), places.size()), guarded, [&](std::size_t worker) {
         walk_shares(question, places, shares, workspaces[worker].storage(), room);
     });
     const std::size_t count = room.count();
@@ -193,7 +197,7 @@ std::size_t split_overlapping_triangles(const Model& a, const Model& b, const Pl
         if (pairs.empty()) return count;
         return overlapping_triangles(a, b, placement, workspaces[0], pairs, options);
     }
-    sort_shared(pairs.first(count), workspaces, parallel_for);
+    sort_shared(pairs.first(count), workspaces, guarded);
     return count;
 }
 

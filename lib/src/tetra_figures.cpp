@@ -5,6 +5,7 @@
 #include <bit>
 #include <vector>
 
+#include "cdprep/format/float_environment.h"
 #include "cdprep/format/octree.h"
 #include "moved_model.h"
 #include "tetra_cones.h"
@@ -101,6 +102,7 @@ void count_layers(const Parts& parts, const CornersOf& corners_of, TetraFigures&
 }  // namespace
 
 TetraFigures tetra_figures(const Model& model) {
+    const format::FloatEnvironment environment;
     const Parts parts = {model.tetra_tree(),       model.triangle_count(), model.tetra_nodes(),
                          model.tetra_references(), model.tetra_top(),      model.tetra_boxes(),
                          model.tetra_oriented()};
@@ -116,6 +118,7 @@ TetraFigures tetra_figures(const Model& model) {
 
 TetraFigures tetra_figures(const build::TetraTree& tree, std::span<const format::Double3> positions,
                            std::span<const format::Triangle> triangles) {
+    const format::FloatEnvironment environment;
     const Parts parts = {&tree.tree, triangles.size(), tree.nodes,   tree.references,
                          tree.top,   tree.boxes,       tree.oriented};
     TetraFigures figures = figures_of(parts);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "find_touching.h"
+#include "moved_point.h"
 #include "shape_frame.h"
 #include "triangle_box.h"
 
@@ -29,7 +30,7 @@ Box3 clipped(const Box3& box, const MovedModel& model) noexcept {
     const format::FileHeader& header = model.model->header();
     const Double3& o = header.frame_origin;
     const Pose pose = model.pose == nullptr ? Pose() : *model.pose;
-    const Double3 middle = moved(pose, o);
+    const Double3 middle = moved_point(pose, o);
     // A ball of sqrt 3 times the frame's size holds the model; rounding is far less
     // than what this is larger by.
     const double around =

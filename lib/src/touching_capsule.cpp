@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cdprep/format/float_environment.h"
 #include "exact_within.h"
 #include "find_touching.h"
 #include "nearest_to_shape.h"
@@ -117,6 +118,7 @@ bool visit_touching_triangles(const Model& model, const Capsule& capsule, Worksp
 std::optional<ShapeDistance> distance_to(const Model& model, const Capsule& capsule,
                                          Workspace& workspace,
                                          const ShapeDistanceOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     if (!(capsule.radius >= 0) || !(options.max_distance >= 0)) return std::nullopt;
     const MovedModel moved = placed(model, options.world_from_model);
     const Corners segment = {capsule.from, capsule.to, capsule.to};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cdprep/format/float_environment.h"
 #include "find_touching.h"
 #include "nearest_to_shape.h"
 #include "shape_frame.h"
@@ -99,6 +100,7 @@ bool visit_touching_triangles(const Model& model, const LooseTriangle& triangle,
 std::optional<ShapeDistance> distance_to(const Model& model, const LooseTriangle& triangle,
                                          Workspace& workspace,
                                          const ShapeDistanceOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     if (!(options.max_distance >= 0)) return std::nullopt;
     const MovedModel moved = placed(model, options.world_from_model);
     std::optional<ShapeDistance> found;

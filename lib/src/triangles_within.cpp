@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cdprep/distance_through.h"
+#include "cdprep/format/float_environment.h"
 #include "exact_within.h"
 #include "near_triangles.h"
 #include "smallest_pairs.h"
@@ -161,6 +162,7 @@ std::size_t triangles_within_through(const StructureOptions& through, const Mode
                                      const Model& b, const Placement& placement, double tolerance,
                                      Workspace& workspace, std::span<TrianglePair> pairs,
                                      const WithinOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
         for_each_within(
             through.structure, a, b, placement, tolerance, workspace, options,
@@ -171,16 +173,20 @@ std::size_t triangles_within_through(const StructureOptions& through, const Mode
 std::size_t triangles_within(const Model& a, const Model& b, const Placement& placement,
                              double tolerance, Workspace& workspace, std::span<TrianglePair> pairs,
                              const WithinOptions& options) noexcept {
+    const format::FloatEnvironment environment;
     return triangles_within_through({}, a, b, placement, tolerance, workspace, pairs, options);
 }
 
 bool visit_triangles_within(const Model& a, const Model& b, const Placement& placement,
                             double tolerance, Workspace& workspace, PairVisitor visit,
                             const WithinOptions& options) noexcept {
-    return for_each_within(Structure::bvh, a, b, placement, tolerance, workspace, options,
-                           [&](std::uint32_t at_a, std::uint32_t at_b, Touch) {
-                               return visit({source_number(a, at_a), source_number(b, at_b)});
-                           });
+    format::FloatEnvironment environment;
+    return for_each_within(
+        Structure::bvh, a, b, placement, tolerance, workspace, options,
+        [&](std::uint32_t at_a, std::uint32_t at_b, Touch) {
+            const TrianglePair pair = {source_number(a, at_a), source_number(b, at_b)};
+            return environment.outside([&] { return visit(pair); });
+        });
 }
 
 }  // namespace cdprep

@@ -27,9 +27,7 @@ struct RayHit {
     std::uint32_t triangle;  ///< the imported file's number
 
     /// By t, then by triangle.
-    friend bool operator<(const RayHit& a, const RayHit& b) noexcept {
-        return a.t != b.t ? a.t < b.t : a.triangle < b.triangle;
-    }
+    friend bool operator<(const RayHit& a, const RayHit& b) noexcept;
 };
 
 struct RayOptions {

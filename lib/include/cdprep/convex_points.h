@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -40,18 +37,8 @@ struct ConvexPoints {
     std::span<const format::Float3> floats{};
     std::span<const Double3> doubles{};
 
-    [[nodiscard]] Double3 point(std::uint32_t number) const noexcept {
-        if (!corners.empty()) return corner(corners[number]);
-        const auto& at = blocks[number / format::kHullLanes].at;
-        const std::size_t lane = number % format::kHullLanes;
-        return {at[0][lane], at[1][lane], at[2][lane]};
-    }
-
-private:
-    [[nodiscard]] Double3 corner(std::uint32_t number) const noexcept {
-        if (floats.empty()) return doubles[number];
-        return {floats[number].x, floats[number].y, floats[number].z};
-    }
+    /// Returns the point of a number below `count`.
+    [[nodiscard]] Double3 point(std::uint32_t number) const noexcept;
 };
 
 /// Points from which on neighbours pay.
@@ -66,19 +53,6 @@ inline constexpr std::uint32_t kDirectionStarts = 6 * kDirectionCells * kDirecti
 /// faces +x, -x, +y, -y, +z, -z, in each rows of the axis after next and columns of the
 /// next axis, rising. Of several largest coordinates the first counts. The direction is
 /// finite; 0, 0, 0 is in some cell.
-[[nodiscard]] inline std::uint32_t direction_cell(const Double3& direction) noexcept {
-    const std::array<double, 3> d = {direction.x, direction.y, direction.z};
-    std::uint32_t axis = std::fabs(d[1]) > std::fabs(d[0]) ? 1 : 0;
-    if (std::fabs(d[2]) > std::fabs(d[axis])) axis = 2;
-    const double most = std::fabs(d[axis]);
-    const auto cell = [&](double x) {
-        constexpr double kHalf = kDirectionCells / 2.0;
-        const double at = most > 0 ? x / most * kHalf + kHalf : kHalf;
-        return std::min(static_cast<std::uint32_t>(at), kDirectionCells - 1);
-    };
-    const std::uint32_t face = 2 * axis + (d[axis] < 0 ? 1 : 0);
-    return (face * kDirectionCells + cell(d[(axis + 2) % 3])) * kDirectionCells +
-           cell(d[(axis + 1) % 3]);
-}
+[[nodiscard]] std::uint32_t direction_cell(const Double3& direction) noexcept;
 
 }  // namespace cdprep

@@ -61,12 +61,6 @@ private:
 /// Moves one point: ((R00 x + R01 y) + R02 z) + T0 and so on, in double without
 /// contraction. This is *the* formula: an exact query answers for the points
 /// that it returns (level E1 of exactness).
-[[nodiscard]] inline Double3 moved(const Pose& pose, const Double3& p) noexcept {
-    const std::array<double, 9>& r = pose.rotation();
-    const Double3& t = pose.translation();
-    return {((r[0] * p.x + r[1] * p.y) + r[2] * p.z) + t.x,
-            ((r[3] * p.x + r[4] * p.y) + r[5] * p.z) + t.y,
-            ((r[6] * p.x + r[7] * p.y) + r[8] * p.z) + t.z};
-}
+[[nodiscard]] Double3 moved(const Pose& pose, const Double3& p) noexcept;
 
 }  // namespace cdprep

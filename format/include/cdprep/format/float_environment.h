@@ -73,6 +73,10 @@ public:
     /// that it sets stays set for the caller.
     template <class Call>
     decltype(auto) outside(Call&& call) {
+#if defined(__GNUC__)
+        // What the call reads is computed before, in the default environment.
+        asm volatile("" : : "r"(&call) : "memory");
+#endif
         const Outside left(*this);
         return call();
     }
