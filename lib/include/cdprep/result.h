@@ -9,14 +9,15 @@
 
 namespace cdprep {
 
-/// What kind of failure, for programs. Numbers are never reused.
+/// What kind of failure, for programs: the program's exit codes and those of the C API. Numbers are
+/// never reused.
 enum class ErrorCode : std::uint32_t {
-    bad_argument = 1,  ///< asked wrongly: an option, a pose, an effect that is not baked
-    unreadable = 2,    ///< input that cannot be read: missing, malformed, damaged
-    unwritable = 3,    ///< output that cannot be written
-    over_budget = 4,   ///< an honest input that needs more time or memory than allowed
-    internal = 5,      ///< our own mistake
-    interrupted = 6,   ///< the person stopped it
+    bad_argument = 2,   ///< a mistake of the caller: an option, a pose, an effect that is not baked
+    unreadable = 3,     ///< input that cannot be read: missing, malformed, damaged
+    unwritable = 4,     ///< output that cannot be written
+    over_budget = 5,    ///< an honest input that needs more time or memory than allowed
+    internal = 6,       ///< our own mistake
+    interrupted = 130,  ///< the person stopped it
 };
 
 /// Why something could not be done. `message` is a whole sentence, made to be
