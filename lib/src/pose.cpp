@@ -117,4 +117,129 @@ Double3 moved(const Pose& pose, const Double3& p) noexcept {
     return moved_point(pose, p);
 }
 
+namespace {
+
+/// A product or a transpose that is farther from a rotation than this is brought back.
+constexpr double kDrift = 1e-13;
+
+/// R^T R - I, the entry of row i and column j.
+double gram_error(const std::array<double, 9>& r, std::size_t i, std::size_t j) {
+    return (r[i] * r[j] + r[3 + i] * r[3 + j]) + r[6 + i] * r[6 + j] - (i == j ? 1.0 : 0.0);
+}
+
+/// The inverse of the transpose: cofactors over the determinant.
+std::array<double, 9> inverse_transpose(const std::array<double, 9>& m) {
+    const double d = determinant(m);
+    std::array<double, 9> inverse{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t row = 3 * ((i + 1) % 3), next_row = 3 * ((i + 2) % 3);
+        for (std::size_t j = 0; j < 3; ++j) {
+            const std::size_t column = (j + 1) % 3, next = (j + 2) % 3;
+            inverse[3 * i + j] =
+                (m[row + column] * m[next_row + next] - m[row + next] * m[next_row + column]) / d;
+        }
+    }
+    return inverse;
+}
+
+/// The rotation of the polar decomposition of M, by Newton's iteration X <- (X + X^-T) / 2 (Higham,
+/// 1986). Its singular values become 1 quadratically; from within kGreatestPoseTolerance of a
+/// rotation they are at least 1/2 at first, and six steps reach the rounding of double.
+std::array<double, 9> nearest_rotation(std::array<double, 9> m) {
+    constexpr int kMostSteps = 10;
+    for (int step = 0; step < kMostSteps; ++step) {
+        const std::array<double, 9> inverse = inverse_transpose(m);
+        double change = 0;
+        for (std::size_t i = 0; i < 9; ++i) {
+            const double next = 0.5 * (m[i] + inverse[i]);
+            change = std::max(change, std::fabs(next - m[i]));
+            m[i] = next;
+        }
+        if (change <= 0x1p-52) break;
+    }
+    return m;
+}
+
+Result<Pose> rigid_pose(std::array<double, 9> r, const Double3& t) {
+    if (worst_rotation_error(r) > kDrift) r = nearest_rotation(r);
+    return Pose::from_rows({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], t.x, t.y, t.z});
+}
+
+/// Why a 3 x 3 matrix is no rotation, or an empty string. Products that overflow are refused too.
+std::string defect_of(const std::array<double, 9>& m, double tolerance) {
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double error = gram_error(m, i, i);
+        if (std::fabs(error) <= tolerance) continue;
+        return "The matrix scales: the squared length of column " + std::to_string(i + 1) + " is " +
+               shown(error + 1) + ", but may differ from 1 by " + shown(tolerance) + " at most.";
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        const double error = gram_error(m, std::min(i, j), std::max(i, j));
+        if (std::fabs(error) <= tolerance) continue;
+        return "The matrix shears: the product of columns " + std::to_string(std::min(i, j) + 1) +
+               " and " + std::to_string(std::max(i, j) + 1) + " is " + shown(error) +
+               ", but may differ from 0 by " + shown(tolerance) + " at most.";
+    }
+    if (determinant(m) > 0) return {};
+    return "The matrix mirrors: its determinant is negative, and no rotation is near it.";
+}
+
+}  // namespace
+
+Result<Pose> composed_pose(const Pose& a_from_b, const Pose& b_from_c) {
+    const format::FloatEnvironment environment;
+    const std::array<double, 9>& a = a_from_b.rotation();
+    const std::array<double, 9>& b = b_from_c.rotation();
+    std::array<double, 9> product{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            product[3 * i + j] =
+                (a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j]) + a[3 * i + 2] * b[6 + j];
+        }
+    }
+    return rigid_pose(product, moved(a_from_b, b_from_c.translation()));
+}
+
+Result<Pose> inverse_pose(const Pose& a_from_b) {
+    const format::FloatEnvironment environment;
+    const std::array<double, 9>& r = a_from_b.rotation();
+    const Double3& t = a_from_b.translation();
+    return rigid_pose(
+        {r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]},
+        {0 - ((r[0] * t.x + r[3] * t.y) + r[6] * t.z), 0 - ((r[1] * t.x + r[4] * t.y) + r[7] * t.z),
+         0 - ((r[2] * t.x + r[5] * t.y) + r[8] * t.z)});
+}
+
+Result<Pose> nearest_pose(const std::array<double, 16>& matrix, double tolerance,
+                          MatrixLayout layout) {
+    const format::FloatEnvironment environment;
+    if (!(tolerance >= 0 && tolerance <= kGreatestPoseTolerance)) {
+        return bad_pose("The tolerance of a pose is " + shown(tolerance) + "; it must be 0 to " +
+                        shown(kGreatestPoseTolerance) + ".");
+    }
+    for (std::size_t i = 0; i < matrix.size(); ++i) {
+        if (std::fabs(matrix[i]) <= format::kMaxCoordinate) continue;
+        return bad_pose("Number " + std::to_string(i + 1) + " of the matrix is " +
+                        shown(matrix[i]) + "; at most " + shown(format::kMaxCoordinate) +
+                        " is allowed.");
+    }
+    const auto at = [&](std::size_t row, std::size_t column) {
+        return matrix[layout == MatrixLayout::rows ? 4 * row + column : 4 * column + row];
+    };
+    for (std::size_t column = 0; column < 4; ++column) {
+        if (std::fabs(at(3, column) - (column == 3 ? 1.0 : 0.0)) <= tolerance) continue;
+        return bad_pose("The matrix projects: its last row must be 0 0 0 1, but number " +
+                        std::to_string(column + 1) + " of it is " + shown(at(3, column)) + ".");
+    }
+    const std::array<double, 9> m = {at(0, 0), at(0, 1), at(0, 2), at(1, 0), at(1, 1),
+                                     at(1, 2), at(2, 0), at(2, 1), at(2, 2)};
+    if (std::string defect = defect_of(m, tolerance); !defect.empty()) {
+        return bad_pose(std::move(defect));
+    }
+    const std::array<double, 9> r = nearest_rotation(m);
+    return Pose::from_rows(
+        {r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], at(0, 3), at(1, 3), at(2, 3)});
+}
+
 }  // namespace cdprep
