@@ -67,17 +67,18 @@ private:
     const char* bounds_;
 };
 
-/// The same file, open through the C face; and a C workspace.
+/// The same file, open through the C API; and a C workspace.
 struct CloseC {
     void operator()(cdprep_model* model) const {
-        cdprep_close(model);
+        cdprep_model_close(model);
     }
 };
 using CModel = std::unique_ptr<cdprep_model, CloseC>;
 
 inline CModel open_in_c(std::span<const std::byte> bytes) {
     cdprep_model* model = nullptr;
-    if (cdprep_open_memory(bytes.data(), bytes.size(), "memory", &model, nullptr) != CDPREP_OK) {
+    if (cdprep_model_open_memory(bytes.data(), bytes.size(), nullptr, &model, nullptr) !=
+        CDPREP_OK) {
         std::abort();
     }
     return CModel(model);
@@ -85,18 +86,21 @@ inline CModel open_in_c(std::span<const std::byte> bytes) {
 
 class CWorkspace {
 public:
-    CWorkspace() : memory_(cdprep_workspace_size() + cdprep_workspace_alignment()) {
-        void* at = memory_.data();
-        std::size_t room = memory_.size();
-        std::align(cdprep_workspace_alignment(), cdprep_workspace_size(), at, room);
-        workspace_ = cdprep_make_workspace(at, room);
+    CWorkspace() {
+        if (cdprep_workspace_make(nullptr, nullptr, 0, &workspace_, nullptr) != CDPREP_OK) {
+            std::abort();
+        }
+    }
+    CWorkspace(const CWorkspace&) = delete;
+    CWorkspace& operator=(const CWorkspace&) = delete;
+    ~CWorkspace() {
+        cdprep_workspace_end(workspace_);
     }
     [[nodiscard]] cdprep_workspace* get() const {
         return workspace_;
     }
 
 private:
-    std::vector<std::byte> memory_;
     cdprep_workspace* workspace_ = nullptr;
 };
 
@@ -109,11 +113,23 @@ inline cdprep_pose in_c(const Pose& pose) {
     return result;
 }
 
-inline cdprep_placement in_c(const Placement& placement) {
-    const std::uint32_t kind = !placement.a_is_moved()   ? CDPREP_B_MOVES
-                               : !placement.b_is_moved() ? CDPREP_A_MOVES
-                                                         : CDPREP_WORLD;
-    return {sizeof(cdprep_placement), kind, in_c(placement.pose_a()), in_c(placement.pose_b())};
+/// Writes who moves, and both poses, which are the identity of who does not.
+template <class Pair>
+void place(const Placement& placement, Pair& pair) {
+    pair.moving = !placement.a_is_moved()   ? CDPREP_MOVE_B
+                  : !placement.b_is_moved() ? CDPREP_MOVE_A
+                                            : CDPREP_MOVE_BOTH;
+    pair.pose_a = in_c(placement.pose_a());
+    pair.pose_b = in_c(placement.pose_b());
+}
+
+inline cdprep_pair in_c(const CModel& a, const CModel& b, const Placement& placement) {
+    cdprep_pair pair;
+    cdprep_pair_init(&pair, sizeof pair);
+    pair.a = a.get();
+    pair.b = b.get();
+    place(placement, pair);
+    return pair;
 }
 
 }  // namespace cdprep::test

@@ -136,13 +136,12 @@ private:
 
     void ask_c_face(const AskedModel& asked_a, const AskedModel& asked_b) {
         const CModel a = open_in_c(asked_a.bytes()), b = open_in_c(asked_b.bytes());
-        const cdprep_placement placement = in_c(variant_->placement);
-        int found = 0;
-        cdprep_distance between{};
-        const int code = cdprep_distance_between(a.get(), b.get(), &placement, c_workspace_.get(),
-                                                 nullptr, nullptr, &found, &between, nullptr);
-        of("C face").expect(
-            code == CDPREP_OK && found != 0 && is_held(between.lower, between.upper), told());
+        const cdprep_pair pair = in_c(a, b, variant_->placement);
+        cdprep_nearest between{};
+        const int code = cdprep_distance(&pair, nullptr, c_workspace_.get(), &between, nullptr);
+        of("C face").expect(code == CDPREP_OK && between.found == CDPREP_YES &&
+                                is_held(between.lower, between.upper),
+                            told());
     }
 
     Scoreboard& board_;

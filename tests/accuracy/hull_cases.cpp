@@ -253,25 +253,21 @@ private:
         if (a.triangles().empty() || b.triangles().empty()) return;
         const AlignedBytes file_a = with_hulls(baked(a)), file_b = with_hulls(baked(b));
         const CModel model_a = open_in_c(file_a.span()), model_b = open_in_c(file_b.span());
-        cdprep_hull hull_a{}, hull_b{};
-        int found_a = 0, found_b = 0, hit = 0, found = 0;
-        (void)cdprep_find_hull(model_a.get(), CDPREP_HULL_WHOLE, 0, &found_a, &hull_a, nullptr);
-        (void)cdprep_find_hull(model_b.get(), CDPREP_HULL_WHOLE, 0, &found_b, &hull_b, nullptr);
-        const cdprep_placement placement = in_c(variant_->placement);
+        cdprep_hull_pair pair;
+        cdprep_hull_pair_init(&pair, sizeof pair);
+        (void)cdprep_hull_find(model_a.get(), CDPREP_HULL_WHOLE, 0, &pair.a, nullptr);
+        (void)cdprep_hull_find(model_b.get(), CDPREP_HULL_WHOLE, 0, &pair.b, nullptr);
+        place(variant_->placement, pair);
         Tally& tally = of("C face");
-        tally.expect(found_a != 0 && found_b != 0 &&
-                         cdprep_hulls_collide(&hull_a, &hull_b, &placement, nullptr, &hit,
-                                              nullptr) == CDPREP_OK &&
-                         (hit != 0) == meet(),
-                     told());
-        cdprep_distance between{};
-        (void)cdprep_hull_distance(&hull_a, &hull_b, &placement, nullptr, nullptr, &found, &between,
-                                   nullptr);
+        std::uint32_t hit = CDPREP_UNKNOWN;
+        const int code = cdprep_hulls_collide(&pair, &hit, nullptr);
+        tally.expect(code == CDPREP_OK && hit == (meet() ? CDPREP_YES : CDPREP_NO), told());
+        cdprep_nearest between{};
+        (void)cdprep_hulls_distance(&pair, nullptr, &between, nullptr);
         expect_distance(tally, between.lower, between.upper);
         cdprep_penetration depth{};
-        (void)cdprep_hull_penetration(&hull_a, &hull_b, &placement, nullptr, nullptr, &found,
-                                      &depth, nullptr);
-        expect_depth(tally, found != 0, depth.lower, depth.upper);
+        (void)cdprep_hulls_penetration(&pair, nullptr, &depth, nullptr);
+        expect_depth(tally, depth.found == CDPREP_YES, depth.lower, depth.upper);
     }
     static AlignedBytes baked(const SmallHull& hull) {
         const TestMesh mesh = mesh_of(hull);

@@ -69,9 +69,12 @@ private:
         const CModel model = open_in_c(asked.bytes());
         for (const HardPoint& point : points) {
             const std::array<double, 3> at = {point.at.x, point.at.y, point.at.z};
-            cdprep_inclusion found{};
-            const int code =
-                cdprep_includes(model.get(), at.data(), c_workspace_.get(), &found, nullptr);
+            cdprep_point_query query;
+            cdprep_point_query_init(&query, sizeof query);
+            query.model = model.get();
+            query.points = at.data();
+            cdprep_point_state found{};
+            const int code = cdprep_points_inside(&query, c_workspace_.get(), &found, nullptr);
             const Inclusion answered = {static_cast<Answer>(found.inside), found.on_surface != 0,
                                         found.winding};
             board_.of(id_, "C face").expect(code == CDPREP_OK && is_right(answered, point), [&] {

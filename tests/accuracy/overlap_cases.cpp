@@ -187,20 +187,17 @@ private:
 
     void ask_c_face(const Truth& truth) {
         const CModel a = open_in_c(a_->bytes()), b = open_in_c(b_->bytes());
-        const cdprep_placement placement = in_c(variant_->placement);
-        std::vector<cdprep_triangle_pair> found(truth.closed.size());
-        std::size_t count = 0;
-        const int code =
-            cdprep_overlapping_triangles(a.get(), b.get(), &placement, c_workspace_.get(), nullptr,
-                                         nullptr, found.data(), found.size(), &count, nullptr);
+        const cdprep_pair pair = in_c(a, b, variant_->placement);
+        std::vector<cdprep_overlap> found(truth.closed.size());
+        cdprep_overlap_list list = {found.data(), found.size(), 0};
+        const int code = cdprep_overlaps(&pair, c_workspace_.get(), &list, nullptr);
         Pairs pairs;
-        for (const auto& pair : found) pairs.push_back({pair.a, pair.b});
-        expect("C face", code == CDPREP_OK && count == pairs.size() && pairs == truth.closed,
-               [&] { return std::to_string(count) + " pairs"; });
+        for (const auto& overlap : found) pairs.push_back({overlap.a, overlap.b});
+        expect("C face", code == CDPREP_OK && list.count == pairs.size() && pairs == truth.closed,
+               [&] { return std::to_string(list.count) + " pairs"; });
         cdprep_collision collision{};
-        (void)cdprep_collide(a.get(), b.get(), &placement, c_workspace_.get(), nullptr, nullptr,
-                             &collision, nullptr);
-        expect("C face", (collision.hit != 0) == !truth.closed.empty());
+        (void)cdprep_collide(&pair, c_workspace_.get(), &collision, nullptr);
+        expect("C face", collision.hit == (truth.closed.empty() ? CDPREP_NO : CDPREP_YES));
     }
 
     Scoreboard& board_;

@@ -76,12 +76,13 @@ void ask_poses(Scoreboard& board) {
         const AskedModel cube(unit_cube(), 1);
         const CModel model = open_in_c(cube.bytes());
         const CWorkspace workspace;
-        cdprep_placement placement = in_c(Placement::b_moves(Pose()));
-        std::copy(rows.begin(), rows.end(), std::begin(placement.b.rows));
+        cdprep_pair pair = in_c(model, model, Placement::b_moves(Pose()));
+        std::copy(rows.begin(), rows.end(), std::begin(pair.pose_b.rows));
         cdprep_collision collision{};
         board.of("B14", "refused/C face")
-            .expect(cdprep_collide(model.get(), model.get(), &placement, workspace.get(), nullptr,
-                                   nullptr, &collision, nullptr) == CDPREP_BAD_ARGUMENT,
+            .expect(cdprep_collide(&pair, workspace.get(), &collision, nullptr) ==
+                            CDPREP_BAD_ARGUMENT &&
+                        collision.hit == CDPREP_UNKNOWN,
                     told);
     };
     expect_refused("a reflection", {-1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
@@ -180,8 +181,8 @@ private:
                     [&] { return "B16 " + what; });
         cdprep_model* model = nullptr;
         board_.of("B16", "C face")
-            .expect(cdprep_open_memory(file.span().data(), file.size(), "memory", &model,
-                                       nullptr) != CDPREP_OK,
+            .expect(cdprep_model_open_memory(file.span().data(), file.size(), nullptr, &model,
+                                             nullptr) != CDPREP_OK,
                     [&] { return "B16 " + what; });
     }
 

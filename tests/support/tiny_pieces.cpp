@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "build/piece_boxes.h"
 #include "support/more_sections.h"
@@ -64,27 +65,33 @@ format::PieceNodeHull box_around(const std::vector<Double3>& points) {
 
 }  // namespace
 
-AlignedBytes with_piece_tree(const AlignedBytes& file) {
-    const Model model = Model::open(file.span()).value();
+std::vector<TinySection> piece_tree_sections(const Model& model,
+                                             std::span<const format::Piece> pieces,
+                                             std::span<const std::uint32_t> triangles) {
     const BuilderInput input = builder_input(model);
-    const Pieces made = scattered(input.triangles);
     const format::FileHeader& header = model.header();
     const build::PieceBoxes boxes =
-        build::make_piece_boxes({input.positions, input.triangles, made.pieces, made.triangles},
+        build::make_piece_boxes({input.positions, input.triangles, pieces, triangles},
                                 {header.frame_origin, header.frame_exponent}, serial_for);
     const std::vector<format::PieceNodeHull> hulls(
         format::piece_hull_count(
             format::piece_tree_shape(static_cast<std::uint32_t>(boxes.leaves.size()))),
         box_around(input.positions));
-    return with_sections(file,
-                         {as_section<format::Piece>(SectionId::pieces, made.pieces),
-                          as_section<std::uint32_t>(SectionId::piece_triangles, made.triangles),
-                          as_section<std::uint32_t>(SectionId::piece_vertices, made.vertices),
-                          as_section<format::PieceFacet>(SectionId::piece_facets, {}),
-                          as_section<format::BvhNode>(SectionId::piece_nodes, boxes.nodes),
-                          as_section<format::SweptNode>(SectionId::piece_swept, boxes.swept),
-                          as_section<format::PieceLeaf>(SectionId::piece_leaves, boxes.leaves),
-                          as_section<format::PieceNodeHull>(SectionId::piece_node_hulls, hulls)});
+    return {as_section<format::BvhNode>(SectionId::piece_nodes, boxes.nodes),
+            as_section<format::SweptNode>(SectionId::piece_swept, boxes.swept),
+            as_section<format::PieceLeaf>(SectionId::piece_leaves, boxes.leaves),
+            as_section<format::PieceNodeHull>(SectionId::piece_node_hulls, hulls)};
+}
+
+AlignedBytes with_piece_tree(const AlignedBytes& file) {
+    const Model model = Model::open(file.span()).value();
+    const Pieces made = scattered(builder_input(model).triangles);
+    std::vector<TinySection> sections = piece_tree_sections(model, made.pieces, made.triangles);
+    sections.push_back(as_section<format::Piece>(SectionId::pieces, made.pieces));
+    sections.push_back(as_section<std::uint32_t>(SectionId::piece_triangles, made.triangles));
+    sections.push_back(as_section<std::uint32_t>(SectionId::piece_vertices, made.vertices));
+    sections.push_back(as_section<format::PieceFacet>(SectionId::piece_facets, {}));
+    return with_sections(file, std::move(sections));
 }
 
 }  // namespace cdprep::test

@@ -4,11 +4,13 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "predicates.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/small_hull.h"
+#include "support/tiny_pieces.h"
 
 #include "cdprep/format/pieces.h"
 
@@ -162,10 +164,12 @@ AlignedBytes with_contacts(const AlignedBytes& file) {
             piece_of[model.piece_triangles()[t]] = i;
         }
     }
-    return with_sections(file,
-                         {as_section<format::PieceAdjacency>(SectionId::piece_adjacency, adjacency),
-                          as_section<std::uint8_t>(SectionId::edge_convexity, convexity),
-                          as_section<std::uint32_t>(SectionId::triangle_piece, piece_of)});
+    std::vector<TinySection> sections =
+        piece_tree_sections(model, model.pieces(), model.piece_triangles());
+    sections.push_back(as_section<format::PieceAdjacency>(SectionId::piece_adjacency, adjacency));
+    sections.push_back(as_section<std::uint8_t>(SectionId::edge_convexity, convexity));
+    sections.push_back(as_section<std::uint32_t>(SectionId::triangle_piece, piece_of));
+    return with_sections(file, std::move(sections));
 }
 
 }  // namespace cdprep::test

@@ -2,6 +2,8 @@
 #ifndef CDPREP_TESTS_C_ASKING_H
 #define CDPREP_TESTS_C_ASKING_H
 
+#include <stdint.h>
+
 #include "cdprep/cdprep.h"
 
 #define TEXT(x) #x
@@ -13,14 +15,33 @@
         if (!(condition)) return __FILE__ ":" LINE(__LINE__) ": not " #condition; \
     } while (0)
 
-/* B is moved along x, and nothing turns. */
-static cdprep_placement moved_by(double x) {
-    cdprep_placement placement = {sizeof placement,
-                                  CDPREP_B_MOVES,
-                                  {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}},
-                                  {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}}};
-    placement.b.rows[9] = x;
-    return placement;
+/* Of answers that were visited: how many, how many more are wanted, and the sum of their
+ * triangles. */
+typedef struct visits {
+    size_t count;
+    size_t left;
+    size_t triangles;
+} visits;
+
+static inline visits visit_most(size_t most) {
+    const visits all = {0, most, 0};
+    return all;
+}
+
+static inline int take(visits* so_far, size_t triangles) {
+    ++so_far->count;
+    so_far->triangles += triangles;
+    return so_far->left-- > 1;
+}
+
+/* Two models, of which B is moved along x. */
+static inline cdprep_pair moved_by(const cdprep_model* a, const cdprep_model* b, double x) {
+    cdprep_pair pair;
+    cdprep_pair_init(&pair, sizeof pair);
+    pair.a = a;
+    pair.b = b;
+    pair.pose_b.rows[9] = x;
+    return pair;
 }
 
 #endif

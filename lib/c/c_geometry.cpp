@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string_view>
+
+#include "c/c_mesh.h"
+#include "c/c_model.h"
+#include "cdprep/format/float_environment.h"
+#include "cdprep/format/sections.h"
+#include "cdprep/level_of_detail.h"
+
+namespace cdprep::c {
+namespace {
+
+static_assert(sizeof(cdprep_verdict) == sizeof(format::Verdict) &&
+              offsetof(cdprep_verdict, genus) == offsetof(format::Verdict, genus) &&
+              offsetof(cdprep_verdict, volume) == offsetof(format::Verdict, volume));
+static_assert(CDPREP_FACT_CLOSED == int{format::verdict_closed} &&
+              CDPREP_FACT_TWO_MANIFOLD == int{format::verdict_two_manifold} &&
+              CDPREP_FACT_ORIENTED == int{format::verdict_oriented} &&
+              CDPREP_FACT_ORIENTABLE == int{format::verdict_orientable} &&
+              CDPREP_FACT_BALANCED == int{format::verdict_balanced} &&
+              CDPREP_FACT_INVERTED == int{format::verdict_inverted} &&
+              CDPREP_FACT_CROSSINGS_EXAMINED == int{format::verdict_crossings_examined} &&
+              CDPREP_FACT_SELF_CROSSING == int{format::verdict_self_crossing});
+static_assert(CDPREP_PROMISE_SURFACE == int{format::promise_surface} &&
+              CDPREP_PROMISE_INSIDE_EXACT == int{format::promise_inside_exact} &&
+              CDPREP_PROMISE_SIMPLE_SOLID == int{format::promise_simple_solid} &&
+              CDPREP_PROMISE_CONTAINED_PIECES == int{format::promise_contained_pieces});
+
+/// Sets of vertices that triangles connect, in the memory that later holds their numbers.
+class ConnectedVertices {
+public:
+    explicit ConnectedVertices(std::span<std::uint32_t> parent) noexcept : parent_(parent) {
+        for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
+    }
+    [[nodiscard]] std::uint32_t find(std::uint32_t vertex) noexcept {
+        while (parent_[vertex] != vertex) {
+            parent_[vertex] = parent_[parent_[vertex]];
+            vertex = parent_[vertex];
+        }
+        return vertex;
+    }
+    void join(std::uint32_t a, std::uint32_t b) noexcept {
+        const std::uint32_t of_a = find(a), of_b = find(b);
+        parent_[std::max(of_a, of_b)] = std::min(of_a, of_b);
+    }
+
+private:
+    std::span<std::uint32_t> parent_;
+};
+
+bool has_several_components(const Model& model) noexcept {
+    return model.components().size() > 1;
+}
+
+/// Components are numbered by the order of the section, which names one vertex of each.
+void number_components(cdprep_model& model) noexcept {
+    const std::span<std::uint32_t> of = model.component_of_vertex;
+    ConnectedVertices connected(of);
+    for (const format::Triangle& triangle : model.model.triangles()) {
+        if (std::ranges::any_of(triangle.vertex, [&](auto v) { return v >= of.size(); })) continue;
+        connected.join(triangle.vertex[0], triangle.vertex[1]);
+        connected.join(triangle.vertex[0], triangle.vertex[2]);
+    }
+    // A root is the lowest vertex of its set, so by rising numbers each parent is a root by now.
+    for (std::uint32_t i = 0; i < of.size(); ++i) of[i] = of[of[i]];
+    // Roots take their component's number, marked so that it is no vertex; then all others.
+    constexpr std::uint32_t kNumber = 0x80000000U;
+    const std::span<const format::Component> components = model.model.components();
+    for (std::uint32_t i = 0; i < components.size(); ++i) {
+        const std::uint32_t vertex = components[i].vertex;
+        if (vertex >= of.size() || (of[vertex] & kNumber) != 0) continue;
+        of[of[vertex]] = i | kNumber;
+    }
+    for (std::uint32_t& number : of) {
+        if ((number & kNumber) == 0) number = of[number];
+    }
+    for (std::uint32_t& number : of) {
+        number = (number & kNumber) != 0 ? number & ~kNumber : CDPREP_NONE;
+    }
+}
+
+void number_triangles(cdprep_model& model) noexcept {
+    std::ranges::fill(model.tree_triangle, 0U);
+    const std::span<const std::uint32_t> source = model.model.source_triangle();
+    for (std::uint32_t i = 0; i < source.size(); ++i) {
+        if (source[i] < model.tree_triangle.size()) model.tree_triangle[source[i]] = i;
+    }
+}
+
+/// The run that holds a source triangle, or null.
+template <class Run>
+const Run* run_of(std::span<const Run> runs, std::uint32_t triangle) noexcept {
+    const auto after = std::ranges::upper_bound(runs, triangle, {}, &Run::first_triangle);
+    return after == runs.begin() ? nullptr : &*std::prev(after);
+}
+
+std::uint32_t name_of_run(std::span<const format::NamedRun> runs, std::uint32_t triangle) noexcept {
+    const format::NamedRun* const run = run_of(runs, triangle);
+    return run == nullptr ? CDPREP_NONE : run->name;
+}
+
+std::uint32_t component_of(const cdprep_model& model, std::uint32_t vertex) noexcept {
+    if (!model.component_of_vertex.empty()) return model.component_of_vertex[vertex];
+    return model.model.components().size() == 1 ? 0 : CDPREP_NONE;
+}
+
+bool is_degenerate(const Model& model, std::uint32_t tree_triangle) noexcept {
+    const std::span<const std::uint64_t> bits = model.degenerate_bits();
+    return !bits.empty() && (bits[tree_triangle / 64] >> (tree_triangle % 64) & 1) != 0;
+}
+
+cdprep_corners corners_of(const cdprep_model& model, std::uint32_t triangle) noexcept {
+    const Model& m = model.model;
+    const std::uint32_t at = model.tree_triangle[triangle];
+    cdprep_corners corners{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t vertex = m.triangles()[at].vertex[i];
+        store(position_of(m, vertex), corners.point[i]);
+        corners.vertex[i] = source_vertex_of(m, vertex);
+        corners.component = component_of(model, vertex);
+    }
+    const std::span<const std::uint32_t> faces = m.source_face();
+    const format::Instance* const instance = run_of(m.instances(), triangle);
+    const std::uint32_t first = instance == nullptr ? 0 : instance->first_triangle;
+    corners.face = faces.empty() ? triangle - first : faces[triangle];
+    corners.instance = instance == nullptr
+                           ? CDPREP_NONE
+                           : static_cast<std::uint32_t>(instance - m.instances().data());
+    corners.group = name_of_run(m.group_runs(), triangle);
+    corners.material = name_of_run(m.material_runs(), triangle);
+    corners.degenerate = is_degenerate(m, at) ? CDPREP_YES : CDPREP_NO;
+    return corners;
+}
+
+int check_triangles(Call& call, const std::uint32_t* triangles, std::size_t count,
+                    std::uint32_t triangle_count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) {
+        if (triangles[i] < triangle_count) continue;
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"triangles", i},
+                           "is %u, but the model has %u triangles.", triangles[i], triangle_count);
+    }
+    return CDPREP_OK;
+}
+
+std::uint32_t count_names(const Model& model, SectionId names) noexcept {
+    const std::span<const std::byte> bytes = section_bytes(model, names);
+    return static_cast<std::uint32_t>(std::ranges::count(bytes, std::byte{0}));
+}
+
+/// A box around all triangles: as baked, or of the positions, or of the hierarchy's boxes.
+void store_box(const Model& model, cdprep_model_info& info) noexcept {
+    if (model.bounds() != nullptr) {
+        store(model.bounds()->lower, info.lower);
+        store(model.bounds()->upper, info.upper);
+        return;
+    }
+    const std::uint32_t vertices = count_positions(model);
+    for (std::uint32_t i = 0; i < vertices; ++i) {
+        std::array<double, 3> p{};
+        store(position_of(model, i), p.data());
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            info.lower[axis] = i == 0 ? p[axis] : std::min(info.lower[axis], p[axis]);
+            info.upper[axis] = i == 0 ? p[axis] : std::max(info.upper[axis], p[axis]);
+        }
+    }
+}
+
+/// A text and whether there is one of its kind and number.
+struct Found {
+    bool exists;
+    std::string_view text;
+};
+
+Found find_name(const Model& model, SectionId names, std::uint32_t number) noexcept {
+    return {number < count_names(model, names), model.name(names, number)};
+}
+
+Found find_text(const Model& model, std::uint32_t kind, std::uint32_t number) noexcept {
+    switch (kind) {
+        case CDPREP_PROVENANCE:
+            return {number == 0, model.provenance()};
+        case CDPREP_FINDINGS:
+            return {number == 0, model.findings()};
+        case CDPREP_INSTANCE_NAME:
+            if (number >= model.instances().size()) return {false, {}};
+            return find_name(model, SectionId::instance_names, model.instances()[number].name);
+        case CDPREP_GROUP_NAME:
+            return find_name(model, SectionId::group_names, number);
+        case CDPREP_MATERIAL_NAME:
+            return find_name(model, SectionId::material_names, number);
+        default:
+            return {false, {}};
+    }
+}
+
+/// A section that the file has, although it was not opened.
+bool is_in_file(const Model& model, SectionId id) noexcept {
+    const format::FileHeader& header = model.header();
+    return format::find_section({reinterpret_cast<const std::byte*>(&header),
+                                 static_cast<std::size_t>(header.file_size)},
+                                id)
+        .has_value();
+}
+
+}  // namespace
+
+std::size_t index_size(const Model& model) noexcept {
+    if (!model.serves(Ask::corners)) return 0;
+    std::size_t numbers = model.triangle_count();
+    if (has_several_components(model)) numbers += model.vertex_count();
+    return numbers * sizeof(std::uint32_t);
+}
+
+void make_index(cdprep_model& model) noexcept {
+    if (model.index.start == nullptr) return;
+    auto* const numbers = static_cast<std::uint32_t*>(model.index.start);
+    const std::uint32_t triangles = model.model.triangle_count();
+    model.tree_triangle = {numbers, triangles};
+    number_triangles(model);
+    if (!has_several_components(model.model)) return;
+    model.component_of_vertex = {numbers + triangles, model.model.vertex_count()};
+    number_components(model);
+}
+
+}  // namespace cdprep::c
+
+using cdprep::Ask;
+using cdprep::Model;
+using cdprep::SectionId;
+using cdprep::c::Call;
+using cdprep::c::guarded;
+
+int cdprep_model_describe(const cdprep_model* model, cdprep_model_info* info, cdprep_error* error) {
+    Call call(error);
+    if (info != nullptr) *info = {};
+    if (const int code = call.need(model, {"model"})) return code;
+    if (const int code = call.need(info, {"info"})) return code;
+    const cdprep::format::FloatEnvironment environment;
+    const Model& m = model->model;
+    info->triangles = m.triangle_count();
+    info->vertices = m.vertex_count();
+    info->components = static_cast<uint32_t>(m.components().size());
+    info->instances = static_cast<uint32_t>(m.instances().size());
+    info->groups = cdprep::c::count_names(m, SectionId::group_names);
+    info->materials = cdprep::c::count_names(m, SectionId::material_names);
+    info->pieces = static_cast<uint32_t>(m.pieces().size());
+    info->hulls = static_cast<uint32_t>(m.hulls().size());
+    info->verdicts = static_cast<uint32_t>(m.verdicts().size());
+    info->serves = static_cast<uint32_t>(m.asks());
+    info->closed = m.is_closed() ? CDPREP_YES : CDPREP_NO;
+    info->stores_f64 = cdprep::c::is_in_file(m, SectionId::positions_f64) ? CDPREP_YES : CDPREP_NO;
+    cdprep::c::store_box(m, *info);
+    info->metres_per_unit = m.header().metres_per_unit;
+    info->hash[0] = m.header().content_hash;
+    return CDPREP_OK;
+}
+
+int cdprep_model_corners(const cdprep_model* model, const uint32_t* triangles, size_t count,
+                         cdprep_corners* corners, cdprep_error* error) {
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(model, {"model"})) return code;
+        if (const int code = check_serves(call, {"model"}, *model, Ask::corners)) return code;
+        if (count == 0) return CDPREP_OK;
+        if (const int code = call.need(triangles, {"triangles"})) return code;
+        if (const int code = call.need(corners, {"corners"})) return code;
+        if (const int code =
+                cdprep::c::check_triangles(call, triangles, count, model->model.triangle_count())) {
+            return code;
+        }
+        const cdprep::format::FloatEnvironment environment;
+        for (size_t i = 0; i < count; ++i) {
+            corners[i] = cdprep::c::corners_of(*model, triangles[i]);
+        }
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_model_mesh(const cdprep_model* model, cdprep_mesh* mesh, cdprep_error* error) {
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = cdprep::c::begin_mesh(call, mesh)) return code;
+        if (const int code = call.need(model, {"model"})) return code;
+        if (const int code = check_serves(call, {"model"}, *model, Ask::corners)) return code;
+        const cdprep::format::FloatEnvironment environment;
+        const Model& m = model->model;
+        cdprep::c::MeshWriter writer(*mesh);
+        for (uint32_t i = 0; i < m.vertex_count() && writer.has_room_for_vertex(); ++i) {
+            writer.add_vertex(cdprep::c::position_of(m, i), cdprep::c::source_vertex_of(m, i));
+        }
+        for (uint32_t i = 0; i < m.triangle_count() && writer.has_room_for_triangle(); ++i) {
+            writer.add_triangle(m.triangles()[model->tree_triangle[i]].vertex);
+        }
+        mesh->vertex_count = m.vertex_count();
+        mesh->triangle_count = m.triangle_count();
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_model_section(const cdprep_model* model, uint32_t section, cdprep_array* array,
+                         cdprep_error* error) {
+    return guarded(error, [&](Call& call) -> int {
+        if (array != nullptr) *array = {};
+        if (const int code = call.need(model, {"model"})) return code;
+        if (const int code = call.need(array, {"array"})) return code;
+        const SectionId id{section};
+        const uint32_t stride = cdprep::format::element_size(id);
+        if (stride == 0) {
+            return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"section"}, "%u does not exist.", section);
+        }
+        if (!model->model.sections().contains(id)) {
+            const bool is_there = cdprep::c::is_in_file(model->model, id);
+            return call.refuse(
+                is_there ? CDPREP_WHY_NOT_OPENED : CDPREP_WHY_NOT_BAKED, {"section"}, "%s %s.",
+                cdprep::format::section_name(id),
+                is_there ? "is in the file, but was not opened" : "is not in the file");
+        }
+        const auto bytes = cdprep::c::section_bytes(model->model, id);
+        *array = {bytes.empty() ? nullptr : bytes.data(), bytes.size() / stride, stride};
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_model_text(const cdprep_model* model, uint32_t kind, uint32_t number, const char** text,
+                      size_t* length, cdprep_error* error) {
+    Call call(error);
+    if (text != nullptr) *text = nullptr;
+    if (length != nullptr) *length = 0;
+    if (const int code = call.need(model, {"model"})) return code;
+    if (const int code = call.need(text, {"text"})) return code;
+    if (const int code = call.need(length, {"length"})) return code;
+    const cdprep::c::Found found = cdprep::c::find_text(model->model, kind, number);
+    if (!found.exists) {
+        return call.refuse(
+            CDPREP_WHY_OUT_OF_RANGE, {kind > CDPREP_MATERIAL_NAME ? "kind" : "number"},
+            "is out of range: the model has no text of kind %u and number %u.", kind, number);
+    }
+    *text = found.text.data();
+    *length = found.text.size();
+    return CDPREP_OK;
+}
+
+int cdprep_model_mass(const cdprep_model* model, cdprep_mass* mass, cdprep_error* error) {
+    return guarded(error, [&](Call& call) -> int {
+        if (mass != nullptr) *mass = {};
+        if (const int code = call.need(model, {"model"})) return code;
+        if (const int code = call.need(mass, {"mass"})) return code;
+        if (const int code = check_serves(call, {"model"}, *model, Ask::response)) return code;
+        const cdprep::format::MassProperties* const found = model->model.mass_properties();
+        if (found == nullptr) return call.fail(CDPREP_INTERNAL, "The mass properties are empty.");
+        mass->volume = found->volume;
+        cdprep::c::store(found->centre, mass->centre);
+        std::ranges::copy(found->inertia, mass->inertia);
+        return CDPREP_OK;
+    });
+}
+
+int cdprep_model_verdict(const cdprep_model* model, uint32_t number, cdprep_verdict* verdict,
+                         cdprep_error* error) {
+    Call call(error);
+    if (verdict != nullptr) *verdict = {};
+    if (const int code = call.need(model, {"model"})) return code;
+    if (const int code = call.need(verdict, {"verdict"})) return code;
+    const auto verdicts = model->model.verdicts();
+    if (number >= verdicts.size()) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"number"},
+                           "is %u, but the model has %zu verdicts.", number, verdicts.size());
+    }
+    std::memcpy(verdict, &verdicts[number], sizeof *verdict);
+    return CDPREP_OK;
+}
+
+int cdprep_model_level_error(const cdprep_model* model, uint32_t level, double* bound,
+                             cdprep_error* error) {
+    return guarded(error, [&](Call& call) -> int {
+        if (bound != nullptr) *bound = 0;
+        if (const int code = call.need(model, {"model"})) return code;
+        if (const int code = call.need(bound, {"bound"})) return code;
+        if (const int code = check_serves(call, {"model"}, *model, Ask::tetra_tree)) return code;
+        *bound = cdprep::level_error(model->model, level);
+        return CDPREP_OK;
+    });
+}

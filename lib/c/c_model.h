@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "c/input.h"
+#include "c/memory.h"
+#include "cdprep/c/model.h"
+#include "cdprep/model.h"
+
+/// An open model, and what geometry out needs beside it.
+struct cdprep_model {
+    cdprep::Model model;
+    cdprep::c::Memory object;  ///< this
+    cdprep::c::Memory bytes;   ///< a copy of the file, or none
+    cdprep::c::Memory index;   ///< of what follows, or none
+    /// By number of the imported file; empty where the model does not serve Ask::corners.
+    std::span<std::uint32_t> tree_triangle;
+    /// Empty where there is one component at most.
+    std::span<std::uint32_t> component_of_vertex;
+};
+
+namespace cdprep::c {
+
+template <>
+struct Input<cdprep_open_options> {
+    static const InputType type;
+    static cdprep_open_options defaults() noexcept;
+};
+
+/// One more than the greatest number of a section in a SectionSet.
+inline constexpr std::uint32_t kSectionNumbers = 64;
+
+/// Refuses what a model does not serve.
+int check_serves(Call& call, const Name& name, const cdprep_model& model, Ask asks);
+
+/// Fills the two index arrays: the block has index_size() bytes.
+[[nodiscard]] std::size_t index_size(const Model& model) noexcept;
+void make_index(cdprep_model& model) noexcept;
+
+/// The bytes of a section that is open, or none.
+[[nodiscard]] std::span<const std::byte> section_bytes(const Model& model, SectionId id) noexcept;
+
+}  // namespace cdprep::c

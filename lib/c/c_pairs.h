@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "c/c_mesh.h"
+#include "c/c_model.h"
+#include "c/c_workspace.h"
+#include "c/pose_input.h"
+#include "cdprep/c/contacts.h"
+#include "cdprep/c/pairs.h"
+#include "cdprep/collide.h"
+#include "cdprep/distance.h"
+#include "cdprep/structure.h"
+
+namespace cdprep::c {
+
+template <>
+struct Input<cdprep_pair> {
+    static const InputType type;
+    static cdprep_pair defaults() noexcept;
+};
+
+template <>
+struct Input<cdprep_distance_options> {
+    static const InputType type;
+    static cdprep_distance_options defaults() noexcept;
+};
+
+/// Fields of a pair that a question may use; others must be at their defaults.
+enum Uses : std::uint32_t { uses_body = 1, uses_overlap = 2, uses_degenerate = 4 };
+
+/// Bits of the structures that a question may go through.
+inline constexpr std::uint32_t kBvhAlone = 1U << CDPREP_THROUGH_BVH;
+inline constexpr std::uint32_t kBvhOrPieces = kBvhAlone | 1U << CDPREP_THROUGH_PIECES;
+inline constexpr std::uint32_t kAnyStructure = (2U << CDPREP_THROUGH_PIECES) - 1;
+inline constexpr std::uint32_t kAnyButPieces = kAnyStructure & ~(1U << CDPREP_THROUGH_PIECES);
+
+/// A question about two models: what it needs and uses.
+struct PairQuestion {
+    Ask needs;
+    std::uint32_t uses;
+    std::uint32_t structures;
+};
+
+inline constexpr PairQuestion kCollide = {Ask::collide, uses_body | uses_overlap | uses_degenerate,
+                                          kAnyStructure};
+inline constexpr PairQuestion kContainment = {Ask::collide | Ask::solid, 0, kBvhAlone};
+inline constexpr PairQuestion kCollideAtLevel = {Ask::tetra_tree, 0, kBvhAlone};
+inline constexpr PairQuestion kOverlaps = {Ask::overlap, uses_overlap | uses_degenerate,
+                                           kAnyStructure};
+/// Split, visited or marked.
+inline constexpr PairQuestion kOverlapsOtherwise = {Ask::overlap, uses_overlap | uses_degenerate,
+                                                    kBvhAlone};
+inline constexpr PairQuestion kDistance = {Ask::distance, uses_body, kBvhOrPieces};
+inline constexpr PairQuestion kWithin = {Ask::within, 0, kBvhOrPieces};
+inline constexpr PairQuestion kPairsWithin = {Ask::within, uses_degenerate, kBvhOrPieces};
+inline constexpr PairQuestion kPairsWithinVisit = {Ask::within, uses_degenerate, kBvhAlone};
+inline constexpr PairQuestion kContacts = {Ask::contacts, uses_degenerate, kBvhOrPieces};
+
+/// A pair whose every field was checked, in the terms of C++.
+struct AskedPair {
+    const Model* a = nullptr;
+    const Model* b = nullptr;
+    Placement placement = Placement::b_moves(Pose());
+    CollideOptions options;
+    StructureOptions through;
+    cdprep_cache* cache = nullptr;
+
+    [[nodiscard]] OverlapOptions overlap() const noexcept {
+        return {options.contact, options.degenerate};
+    }
+    [[nodiscard]] bool is_through_bvh() const noexcept {
+        return through.structure == Structure::bvh;
+    }
+};
+
+/// Checks all of a pair, or finds what was checked before.
+int read_pair(Call& call, const Name& name, const PairQuestion& question, const cdprep_pair* given,
+              AskedPair& asked);
+
+/// The structure, and what a model needs to be asked through it.
+[[nodiscard]] Structure structure_of(std::uint32_t through) noexcept;
+[[nodiscard]] Ask needs_of(std::uint32_t through) noexcept;
+
+/// Checks options of a distance; null stands for the defaults.
+int read_distance_options(Call& call, const cdprep_distance_options* given,
+                          cdprep_distance_options& options) noexcept;
+
+[[nodiscard]] std::uint32_t word(Answer answer) noexcept;
+[[nodiscard]] inline std::uint32_t word(bool answer) noexcept {
+    return answer ? CDPREP_YES : CDPREP_NO;
+}
+
+/// Answers that say that nothing is known.
+inline void set_unknown(std::uint32_t& answer) noexcept {
+    answer = CDPREP_UNKNOWN;
+}
+inline void set_unknown(cdprep_collision& answer) noexcept {
+    answer = {CDPREP_UNKNOWN, CDPREP_UNKNOWN, CDPREP_NO, 0, 0};
+}
+inline void set_unknown(cdprep_nearest& answer) noexcept {
+    answer = {};
+}
+inline void set_unknown(cdprep_marks& answer) noexcept {
+    answer.count = 0;
+}
+/// Any list.
+template <class List>
+requires requires(List list) {
+    list.room;
+}
+void set_unknown(List& list) noexcept {
+    list.count = 0;
+}
+
+/// Most answers of a batch that can be in memory.
+template <class Answer>
+inline constexpr std::size_t kMostAnswers = PTRDIFF_MAX / sizeof(Answer);
+
+/// Says of all answers that nothing is known.
+template <class Answer>
+void set_unknown(Answer* answers, std::size_t count) noexcept {
+    if (answers == nullptr || count > kMostAnswers<Answer>) return;
+    for (std::size_t i = 0; i < count; ++i) set_unknown(answers[i]);
+}
+
+/// Refuses a list whose room is null.
+template <class List>
+int check_list(Call& call, const Name& name, const List& list) noexcept {
+    if (list.items != nullptr || list.room == 0) return CDPREP_OK;
+    return call.need(nullptr, name.of("items"));
+}
+
+[[nodiscard]] inline std::span<TrianglePair> room_of(const cdprep_overlap_list& list) noexcept {
+    return {reinterpret_cast<TrianglePair*>(list.items), list.room};
+}
+
+/// A question about one pair: says that nothing is known, checks everything (`check(call)` what is
+/// particular to the question), then calls `ask(pair, workspace)`, or `ask(call, pair, workspace)`,
+/// which may still refuse.
+template <class Answer, class Check, class Asker>
+int ask_pair(const PairQuestion& question, const cdprep_pair* pair, cdprep_workspace* workspace,
+             Answer* answer, const char* answer_name, cdprep_error* error, Check&& check,
+             Asker&& ask) noexcept {
+    if constexpr (!std::is_function_v<Answer>) set_unknown(answer, 1);
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(pair, {"pair"})) return code;
+        if (const int code = call.need(workspace, {"workspace"})) return code;
+        if (answer == nullptr) return call.need(nullptr, {answer_name});
+        if (const int code = check(call)) return code;
+        AskedPair asked;
+        if (const int code = read_pair(call, {"pair"}, question, pair, asked)) return code;
+        InUse use;
+        if (const int code = use.begin(call, *workspace)) return code;
+        if constexpr (std::is_invocable_v<Asker, Call&, const AskedPair&, Workspace&>) {
+            return ask(call, asked, workspace->lanes[0]);
+        } else {
+            ask(asked, workspace->lanes[0]);
+            return CDPREP_OK;
+        }
+    });
+}
+
+/// For questions without anything of their own to check.
+inline constexpr auto nothing_to_check = [](Call& /*call*/) -> int { return CDPREP_OK; };
+
+}  // namespace cdprep::c

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "c/c_pairs.h"
+#include "cdprep/c/points.h"
+#include "cdprep/touching_box.h"
+#include "cdprep/touching_capsule.h"
+#include "cdprep/touching_sphere.h"
+#include "cdprep/touching_triangle.h"
+
+namespace cdprep::c {
+
+template <>
+struct Input<cdprep_shape_query> {
+    static const InputType type;
+    static cdprep_shape_query defaults() noexcept {
+        cdprep_shape_query query{};
+        query.max_distance = std::numeric_limits<double>::infinity();
+        query.world_from_model = kIdentity;
+        return query;
+    }
+};
+
+namespace {
+
+constexpr std::array kFields = {
+    Field{"model", offsetof(cdprep_shape_query, model), Holds::pointer},
+    Field{"shape", offsetof(cdprep_shape_query, shape), Holds::choice, CDPREP_TRIANGLE},
+    Field{"degenerate", offsetof(cdprep_shape_query, degenerate), Holds::choice,
+          CDPREP_SKIP_DEGENERATE},
+    Field{"max_distance", offsetof(cdprep_shape_query, max_distance), Holds::limit},
+    Field{"world_from_model", offsetof(cdprep_shape_query, world_from_model), Holds::number, 0, 12},
+};
+
+constexpr Name kQuery = {"query"};
+
+/// Which of its points a shape uses, and whether a radius.
+struct ShapeFields {
+    std::size_t points;
+    bool has_radius;
+};
+
+ShapeFields fields_of(std::uint32_t shape) noexcept {
+    switch (shape) {
+        case CDPREP_SPHERE:
+            return {1, true};
+        case CDPREP_CAPSULE:
+            return {2, true};
+        case CDPREP_TRIANGLE:
+            return {3, false};
+        default:
+            return {0, false};
+    }
+}
+
+/// Limits may be infinite, but there is room between them.
+int check_box(Call& call, const cdprep_shape_query& query) noexcept {
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (const bool is_lower : {true, false}) {
+            const double limit = is_lower ? query.a[i] : query.b[i];
+            const double open = std::numeric_limits<double>::infinity() * (is_lower ? -1 : 1);
+            if (limit == open) continue;
+            if (const int code = check_numbers(call, kQuery.of(is_lower ? "a" : "b", i),
+                                               Holds::number, &limit, 1)) {
+                return code;
+            }
+        }
+        if (query.a[i] > query.b[i]) {
+            return call.refuse(CDPREP_WHY_OUT_OF_RANGE, kQuery.of("b", i),
+                               "is less than query.a[%zu]: the box is empty.", i);
+        }
+    }
+    return CDPREP_OK;
+}
+
+int check_shape(Call& call, const cdprep_shape_query& query) noexcept {
+    if (query.shape == 0) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, kQuery.of("shape"),
+                           "is 0; choose CDPREP_BOX, _SPHERE, _CAPSULE or _TRIANGLE.");
+    }
+    if (query.shape == CDPREP_BOX) return check_box(call, query);
+    const ShapeFields fields = fields_of(query.shape);
+    const std::array<const double*, 3> points = {query.a, query.b, query.c};
+    constexpr std::array kNames = {"a", "b", "c"};
+    for (std::size_t i = 0; i < fields.points; ++i) {
+        if (const int code =
+                check_numbers(call, kQuery.of(kNames[i]), Holds::number, points[i], 3)) {
+            return code;
+        }
+    }
+    if (!fields.has_radius) return CDPREP_OK;
+    return check_numbers(call, kQuery.of("radius"), Holds::length, &query.radius, 1);
+}
+
+int refuse_meaning(Call& call, const char* field) noexcept {
+    return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of(field),
+                       "is set, but this question cannot use it; leave it at its default.");
+}
+
+Double3 point_of(const double* numbers) noexcept {
+    return {numbers[0], numbers[1], numbers[2]};
+}
+
+/// A query whose every field was checked, but for what depends on the question.
+struct AskedShape {
+    cdprep_shape_query query{};
+    TouchOptions options;
+};
+
+int read_shape(Call& call, const cdprep_shape_query* given, AskedShape& asked) {
+    if (const int code = read_input(call, kQuery, given, asked.query)) return code;
+    if (const int code = check_shape(call, asked.query)) return code;
+    if (asked.query.degenerate == CDPREP_SKIP_DEGENERATE) {
+        asked.options.degenerate = Degenerate::skip;
+    }
+    return read_rigid(call, kQuery.of("world_from_model"), asked.query.world_from_model,
+                      asked.options.world_from_model);
+}
+
+/// Calls `ask` with the shape that the query names.
+template <class Asker>
+void with_shape(const cdprep_shape_query& query, Asker&& ask) {
+    switch (query.shape) {
+        case CDPREP_BOX:
+            return ask(Box{point_of(query.a), point_of(query.b)});
+        case CDPREP_SPHERE:
+            return ask(Sphere{point_of(query.a), query.radius});
+        case CDPREP_CAPSULE:
+            return ask(Capsule{point_of(query.a), point_of(query.b), query.radius});
+        default:
+            return ask(LooseTriangle{{point_of(query.a), point_of(query.b), point_of(query.c)}});
+    }
+}
+
+int check_touch(Call& call, const AskedShape& asked) noexcept {
+    return std::isinf(asked.query.max_distance) ? CDPREP_OK : refuse_meaning(call, "max_distance");
+}
+
+int check_distance(Call& call, const AskedShape& asked) noexcept {
+    if (asked.query.shape == CDPREP_BOX) return refuse_meaning(call, "shape");
+    const bool skips = asked.query.degenerate != CDPREP_KEEP_DEGENERATE;
+    return skips ? refuse_meaning(call, "degenerate") : CDPREP_OK;
+}
+
+/// A question about a shape: says that nothing is known, checks everything (`check(call, shape)`
+/// what is particular to the question), then calls `ask(query, workspace)`.
+template <class Answer, class Check, class Asker>
+int ask_shape(const cdprep_shape_query* query, cdprep_workspace* workspace, Answer* answer,
+              const char* answer_name, cdprep_error* error, Check&& check, Asker&& ask) noexcept {
+    if constexpr (!std::is_function_v<Answer>) set_unknown(answer, 1);
+    return guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(query, kQuery)) return code;
+        if (const int code = call.need(workspace, {"workspace"})) return code;
+        if (answer == nullptr) return call.need(nullptr, {answer_name});
+        if constexpr (requires { answer->items; }) {
+            if (const int code = check_list(call, {answer_name}, *answer)) return code;
+        }
+        AskedShape asked;
+        if (const int code = read_shape(call, query, asked)) return code;
+        if (const int code = check(call, asked)) return code;
+        const cdprep_model& model = *asked.query.model;
+        if (const int code = check_serves(call, kQuery.of("model"), model, Ask::touch)) {
+            return code;
+        }
+        InUse use;
+        if (const int code = use.begin(call, *workspace)) return code;
+        ask(asked, model.model, workspace->lanes[0]);
+        return CDPREP_OK;
+    });
+}
+
+cdprep_nearest in_c(const std::optional<ShapeDistance>& found) noexcept {
+    cdprep_nearest to{};
+    if (!found) return to;
+    to.found = CDPREP_YES;
+    to.triangle_a = found->triangle;
+    to.triangle_b = CDPREP_NONE;
+    to.lower = found->lower;
+    to.upper = found->upper;
+    store(found->on_model, to.on_a);
+    store(found->on_shape, to.on_b);
+    return to;
+}
+
+}  // namespace
+
+const InputType Input<cdprep_shape_query>::type = {"cdprep_shape_query", 0xcd500009U,
+                                                   sizeof(cdprep_shape_query),
+                                                   sizeof(cdprep_shape_query), kFields};
+
+}  // namespace cdprep::c
+
+using cdprep::Model;
+using cdprep::Workspace;
+using cdprep::c::ask_shape;
+using cdprep::c::AskedShape;
+using cdprep::c::check_touch;
+using cdprep::c::with_shape;
+
+void cdprep_shape_query_init(cdprep_shape_query* query, size_t size) {
+    cdprep::c::initialise(query, size);
+}
+
+int cdprep_touch(const cdprep_shape_query* query, cdprep_workspace* workspace, uint32_t* touches,
+                 cdprep_error* error) {
+    return ask_shape(
+        query, workspace, touches, "touches", error, check_touch,
+        [&](const AskedShape& asked, const Model& model, Workspace& scratch) {
+            with_shape(asked.query, [&](const auto& shape) {
+                *touches = cdprep::c::word(cdprep::touches(model, shape, scratch, asked.options));
+            });
+        });
+}
+
+int cdprep_touch_list(const cdprep_shape_query* query, cdprep_workspace* workspace,
+                      cdprep_triangle_list* list, cdprep_error* error) {
+    return ask_shape(query, workspace, list, "list", error, check_touch,
+                     [&](const AskedShape& asked, const Model& model, Workspace& scratch) {
+                         with_shape(asked.query, [&](const auto& shape) {
+                             list->count = touching_triangles(model, shape, scratch,
+                                                              std::span(list->items, list->room),
+                                                              asked.options);
+                         });
+                     });
+}
+
+int cdprep_touch_visit(const cdprep_shape_query* query, cdprep_workspace* workspace,
+                       cdprep_triangle_visitor visit, void* context, cdprep_error* error) {
+    return ask_shape(
+        query, workspace, visit, "visit", error, check_touch,
+        [&](const AskedShape& asked, const Model& model, Workspace& scratch) {
+            const auto hand_on = [&](uint32_t triangle) { return visit(context, triangle) != 0; };
+            with_shape(asked.query, [&](const auto& shape) {
+                visit_touching_triangles(model, shape, scratch, hand_on, asked.options);
+            });
+        });
+}
+
+int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* workspace,
+                          cdprep_nearest* nearest, cdprep_error* error) {
+    return ask_shape(
+        query, workspace, nearest, "nearest", error, cdprep::c::check_distance,
+        [&](const AskedShape& asked, const Model& model, Workspace& scratch) {
+            const cdprep::ShapeDistanceOptions options = {asked.options.world_from_model,
+                                                          asked.query.max_distance};
+            with_shape(asked.query, [&]<class Shape>(const Shape& shape) {
+                if constexpr (std::is_same_v<Shape, cdprep::Sphere>) {
+                    const cdprep::Capsule ball = {shape.centre, shape.centre, shape.radius};
+                    *nearest = cdprep::c::in_c(distance_to(model, ball, scratch, options));
+                } else if constexpr (!std::is_same_v<Shape, cdprep::Box>) {
+                    *nearest = cdprep::c::in_c(distance_to(model, shape, scratch, options));
+                }
+            });
+        });
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <span>
+
+#include "c/input.h"
+#include "c/memory.h"
+#include "cdprep/parallel_for.h"
+#include "cdprep/query_counts.h"
+#include "cdprep/workspace.h"
+
+/// A workspace of one or more lanes. The object, the lanes' objects, their counts and their
+/// scratch lie behind each other in one block.
+struct cdprep_workspace {
+    std::span<cdprep::Workspace> lanes;
+    std::span<cdprep::QueryCounts> counts;  ///< of each lane; empty without counting
+    void (*run)(void*, std::size_t, cdprep_task, const void*);
+    void* context;
+    cdprep::c::Memory memory;  ///< none when the caller's
+    std::atomic<bool> in_use = false;
+};
+
+namespace cdprep::c {
+
+/// Most lanes of a workspace.
+inline constexpr std::uint32_t kMostLanes = 256;
+
+template <>
+struct Input<cdprep_workspace_options> {
+    static const InputType type;
+    static cdprep_workspace_options defaults() noexcept;
+};
+
+/// The use of a workspace by one call: no other may begin until it ends.
+class InUse {
+public:
+    InUse() noexcept = default;
+    InUse(const InUse&) = delete;
+    InUse& operator=(const InUse&) = delete;
+    ~InUse() {
+        if (workspace_ != nullptr) workspace_->in_use.store(false, std::memory_order_release);
+    }
+    /// Refuses a workspace that is in use.
+    int begin(Call& call, cdprep_workspace& workspace) noexcept;
+
+private:
+    cdprep_workspace* workspace_ = nullptr;
+};
+
+/// The caller's threads, as questions take them: each task runs once, whatever `run` does.
+class CallersThreads {
+public:
+    explicit CallersThreads(const cdprep_workspace& workspace) noexcept : workspace_(workspace) {}
+    void operator()(std::size_t count, Task task) const;
+
+private:
+    const cdprep_workspace& workspace_;
+};
+
+}  // namespace cdprep::c

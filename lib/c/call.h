@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <new>
+#include <string_view>
+
+#include "cdprep/c/base.h"
+#include "cdprep/result.h"
+
+namespace cdprep::c {
+
+/// What an error names: "pairs[3].pose_b", "query.points[5]".
+struct Name {
+    static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+
+    const char* argument;
+    std::size_t index = kNone;
+    const char* field = nullptr;
+    std::size_t place = kNone;  ///< in the field
+
+    [[nodiscard]] Name of(const char* its_field, std::size_t its_place = kNone) const noexcept {
+        return {argument, index, its_field, its_place};
+    }
+};
+
+/// One call of the C API: where its error goes. Every function returns the code that it fills in.
+class Call {
+public:
+    /// Says that all is well. `error` may be null.
+    explicit Call(cdprep_error* error) noexcept;
+
+    /// A mistake of the caller. The message is a format of std::snprintf; the name stands in
+    /// front of it.
+    [[gnu::format(printf, 4, 5)]] int refuse(std::int32_t why, const Name& name,
+                                             const char* message, ...) noexcept;
+
+    /// The same with a whole sentence.
+    int refuse_with(std::int32_t why, const Name& name, std::string_view sentence) noexcept;
+
+    /// Something else that went wrong.
+    int fail(int code, std::string_view sentence) noexcept;
+
+    /// Refuses a null pointer.
+    int need(const void* pointer, const Name& name) noexcept {
+        return pointer != nullptr ? CDPREP_OK : refuse_null(name);
+    }
+
+private:
+    int refuse_null(const Name& name) noexcept;
+
+    cdprep_error* error_;
+};
+
+/// Runs `body(call)`, which returns a code, and lets no exception out.
+template <class Body>
+int guarded(cdprep_error* error, Body&& body) noexcept {
+    Call call(error);
+    try {
+        return body(call);
+    } catch (const std::bad_alloc&) {
+        return call.fail(CDPREP_OVER_BUDGET, "There is not enough memory.");
+    } catch (const std::exception& thrown) {
+        return call.fail(CDPREP_INTERNAL, thrown.what());
+    } catch (...) {
+        return call.fail(CDPREP_INTERNAL, "An unknown exception was thrown.");
+    }
+}
+
+}  // namespace cdprep::c

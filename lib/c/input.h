@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "c/call.h"
+
+namespace cdprep::c {
+
+/// What a field of an input struct may hold.
+enum class Holds : std::uint8_t {
+    pointer,   ///< not null
+    choice,    ///< uint32, at most Field::most
+    reserved,  ///< uint32, 0
+    number,    ///< double, finite, at most 2^1000 in magnitude
+    length,    ///< the same, and not negative
+    limit,     ///< double, not negative; may be infinite
+};
+
+/// One field of an input struct that is checked whatever is asked.
+struct Field {
+    const char* name;
+    std::size_t offset;
+    Holds holds;
+    std::uint32_t most = 0;
+    std::uint32_t count = 1;  ///< doubles that follow each other
+};
+
+/// A type of input struct: all that the checks know of it.
+struct InputType {
+    const char* name;
+    std::uint32_t tag;
+    std::uint32_t first_size;  ///< of the first version that had it
+    std::uint32_t size;        ///< as this library knows it
+    std::span<const Field> fields;
+};
+
+/// Greatest size of a struct that is believed: no version will be larger.
+inline constexpr std::uint32_t kGreatestSize = 4096;
+
+/// Checks size and tag, and that what this library does not know is 0. `from` is not null.
+int check_head(Call& call, const Name& name, const InputType& type, const void* from) noexcept;
+
+/// Checks every field of a struct that was read.
+int check_fields(Call& call, const Name& name, const InputType& type, const void* given) noexcept;
+
+/// Checks `count` numbers of a caller; names the wrong one.
+int check_numbers(Call& call, const Name& name, Holds holds, const double* numbers,
+                  std::size_t count) noexcept;
+
+/// Checks a number that is an argument of its own.
+inline int check_number(Call& call, const char* name, Holds holds, double number) noexcept {
+    return check_numbers(call, {name}, holds, &number, 1);
+}
+
+/// For each input struct: its InputType, as `type`, and what its _init() writes.
+template <class T>
+struct Input;
+
+/// Writes what _init() functions write.
+template <class T>
+void initialise(T* to, std::size_t size) noexcept {
+    if (to == nullptr || size < sizeof(cdprep_head) || size > kGreatestSize) return;
+    T made = Input<T>::defaults();
+    made.head = {static_cast<std::uint32_t>(size), Input<T>::type.tag};
+    std::memset(static_cast<void*>(to), 0, size);
+    std::memcpy(static_cast<void*>(to), &made, std::min(size, sizeof made));
+}
+
+/// Reads a struct of the caller's, whose size may be another: fields that it does not have are at
+/// their defaults. Checks all but what depends on the question.
+template <class T>
+int read_input(Call& call, const Name& name, const T* from, T& to) noexcept {
+    if (const int code = check_head(call, name, Input<T>::type, from)) return code;
+    cdprep_head head;
+    std::memcpy(&head, static_cast<const void*>(from), sizeof head);
+    to = Input<T>::defaults();
+    std::memcpy(static_cast<void*>(&to), static_cast<const void*>(from),
+                std::min<std::size_t>(head.size, sizeof to));
+    return check_fields(call, name, Input<T>::type, &to);
+}
+
+/// The same where null stands for the defaults.
+template <class T>
+int read_options(Call& call, const Name& name, const T* from, T& to) noexcept {
+    if (from != nullptr) return read_input(call, name, from, to);
+    to = Input<T>::defaults();
+    return CDPREP_OK;
+}
+
+/// Element `index` of an array of input structs, whose size stands in the first.
+template <class T>
+const T* element(const T* first, std::size_t index) noexcept {
+    cdprep_head head;
+    std::memcpy(&head, static_cast<const void*>(first), sizeof head);
+    return reinterpret_cast<const T*>(reinterpret_cast<const char*>(first) + index * head.size);
+}
+
+}  // namespace cdprep::c

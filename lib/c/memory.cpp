@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "c/memory.h"
+
+#include <cstdint>
+#include <new>
+
+namespace cdprep::c {
+namespace {
+
+void* allocate_by_default(void* /*context*/, std::size_t size, std::size_t alignment) {
+    return ::operator new (size, std::align_val_t{alignment}, std::nothrow);
+}
+
+void release_by_default(void* /*context*/, void* memory, std::size_t /*size*/) {
+    ::operator delete (memory, std::align_val_t{CDPREP_ALIGNMENT}, std::nothrow);
+}
+
+bool is_aligned(const void* memory) noexcept {
+    return reinterpret_cast<std::uintptr_t>(memory) % CDPREP_ALIGNMENT == 0;
+}
+
+}  // namespace
+
+int read_allocator(Call& call, const Name& name, const cdprep_allocator* given,
+                   cdprep_allocator& allocator) noexcept {
+    if (given == nullptr) {
+        allocator = {allocate_by_default, release_by_default, nullptr};
+        return CDPREP_OK;
+    }
+    allocator = *given;
+    if (allocator.allocate == nullptr || allocator.release == nullptr) {
+        return call.refuse(CDPREP_WHY_NULL, name, "lacks one of its two functions.");
+    }
+    return CDPREP_OK;
+}
+
+int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
+             Memory& memory) noexcept {
+    memory = {allocator, nullptr, size};
+    if (size == 0) return CDPREP_OK;
+    memory.start = allocator.allocate(allocator.context, size, CDPREP_ALIGNMENT);
+    if (memory.start == nullptr) {
+        return call.fail(CDPREP_OVER_BUDGET, "The allocator has not enough memory.");
+    }
+    if (is_aligned(memory.start)) return CDPREP_OK;
+    release(memory);
+    memory.start = nullptr;
+    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"allocator"},
+                       "returned memory that does not start at a multiple of %d.",
+                       CDPREP_ALIGNMENT);
+}
+
+void release(const Memory& memory) noexcept {
+    if (memory.start == nullptr) return;
+    memory.allocator.release(memory.allocator.context, memory.start, memory.size);
+}
+
+}  // namespace cdprep::c

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "c/pair_cache_words.h"
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+
+namespace cdprep::c {
+namespace {
+
+constexpr std::size_t kWords = sizeof(PairCache) / sizeof(std::uint64_t);
+constexpr std::size_t kSeal = sizeof(cdprep_cache) / sizeof(std::uint64_t) - 1;
+static_assert(sizeof(PairCache) % sizeof(std::uint64_t) == 0 && kWords <= kSeal);
+static_assert(std::is_trivially_copyable_v<PairCache>);
+
+/// A checksum of the words, side by side so that it costs a few steps. It tells words that a
+/// question wrote from all others, such as those of another program, version or moment; it is no
+/// defence against somebody who makes it up.
+std::uint64_t seal_of(const cdprep_cache& words) noexcept {
+    constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;
+    std::array<std::uint64_t, 4> mixed = {kOdd, ~kOdd, kOdd << 1, 0x63647072U};
+    for (std::size_t i = 0; i < kWords; ++i) {
+        std::uint64_t& lane = mixed[i % mixed.size()];
+        lane = std::rotl((lane ^ words.words[i]) * kOdd, 29);
+    }
+    std::uint64_t seal = 0;
+    for (const std::uint64_t lane : mixed) seal = std::rotl((seal ^ lane) * kOdd, 31);
+    return seal;
+}
+
+}  // namespace
+
+PairCacheWords::PairCacheWords(cdprep_cache* words) noexcept : words_(words) {
+    if (words == nullptr || words->words[kSeal] != seal_of(*words)) return;
+    std::memcpy(static_cast<void*>(&cache_), words, sizeof cache_);
+}
+
+PairCacheWords::~PairCacheWords() {
+    if (words_ == nullptr) return;
+    std::memcpy(words_, &cache_, sizeof cache_);
+    words_->words[kSeal] = seal_of(*words_);
+}
+
+}  // namespace cdprep::c

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cdprep/c/pairs.h"
+#include "cdprep/pair_cache.h"
+
+namespace cdprep::c {
+
+/// The cache of C++ while one question is asked: read from the words of a C program and written
+/// back. Words that were not written here, whatever they are, give a new cache.
+class PairCacheWords {
+public:
+    /// `words` may be null.
+    explicit PairCacheWords(cdprep_cache* words) noexcept;
+    PairCacheWords(const PairCacheWords&) = delete;
+    PairCacheWords& operator=(const PairCacheWords&) = delete;
+    ~PairCacheWords();
+
+    [[nodiscard]] PairCache* get() noexcept {
+        return words_ == nullptr ? nullptr : &cache_;
+    }
+
+private:
+    cdprep_cache* words_;
+    PairCache cache_;
+};
+
+}  // namespace cdprep::c

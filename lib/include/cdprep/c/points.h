@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: MIT */
+#ifndef CDPREP_C_POINTS_H
+#define CDPREP_C_POINTS_H
+
+#include "cdprep/c/pairs.h"
+
+/* Questions about one model: points, rays and shapes. Many points or rays are shared out over the
+ * lanes of the workspace; the answers are the same, in the same order. */
+
+/* --- Points --------------------------------------------------------------------------------- */
+
+typedef struct cdprep_point_query {
+    cdprep_head head;
+    const cdprep_model* model;
+    const double* points; /* 3 numbers each, in the model's coordinates */
+    size_t count;         /* 1 */
+    double max_distance;  /* infinity; cdprep_points_closest() alone uses it */
+    uint32_t through;     /* CDPREP_THROUGH_BVH; cdprep_points_inside() alone uses it */
+    uint32_t reserved;    /* 0 */
+} cdprep_point_query;
+
+CDPREP_API void cdprep_point_query_init(cdprep_point_query* query, size_t size);
+
+typedef struct cdprep_closest_point {
+    uint32_t found;      /* CDPREP_NO: nothing within max_distance; then the rest is 0 */
+    uint32_t triangle;   /* that the point lies on; of equally near ones the lowest number */
+    double point[3];     /* up to rounding */
+    double lower, upper; /* the exact distance lies between, model units */
+} cdprep_closest_point;
+
+/* The points of a model's surface that are nearest to `count` points; `answers` has room for as
+ * many. A point inside a solid is as far away as its walls. Costs O(log n) each, for most.
+ * Needs: CDPREP_ASK_CLOSEST */
+CDPREP_API int cdprep_points_closest(const cdprep_point_query* query, cdprep_workspace* workspace,
+                                     cdprep_closest_point* answers, cdprep_error* error);
+
+typedef struct cdprep_point_state {
+    uint32_t inside;     /* CDPREP_NO, _YES, _UNKNOWN: the model is open there */
+    uint32_t on_surface; /* CDPREP_YES: on a triangle; then inside is CDPREP_YES */
+    double winding;      /* the winding number; 0 on the surface */
+} cdprep_point_state;
+
+/* Whether `count` points are inside a model: their winding number is not 0. Exact for closed
+ * models; `through` may be any but CDPREP_THROUGH_PIECES. Costs O(log n + hits) each.
+ * Needs: CDPREP_ASK_INSIDE */
+CDPREP_API int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* workspace,
+                                    cdprep_point_state* answers, cdprep_error* error);
+
+/* --- Rays ----------------------------------------------------------------------------------- */
+
+typedef struct cdprep_ray {
+    double origin[3];    /* model coordinates */
+    double direction[3]; /* of any length but 0 */
+    double max_t;        /* 0 or more, in lengths of the direction; INFINITY for all of it */
+} cdprep_ray;
+
+typedef struct cdprep_ray_query {
+    cdprep_head head;
+    const cdprep_model* model;
+    const cdprep_ray* rays;
+    size_t count; /* 1 */
+} cdprep_ray_query;
+
+CDPREP_API void cdprep_ray_query_init(cdprep_ray_query* query, size_t size);
+
+typedef struct cdprep_ray_hit {
+    uint32_t found;    /* CDPREP_NO: then the rest is 0 */
+    uint32_t triangle; /* of hits with equal t the lowest number */
+    double t;          /* in lengths of the direction, rounded */
+    double point[3];   /* origin + t * direction, rounded */
+} cdprep_ray_hit;
+
+typedef struct cdprep_ray_hit_list {
+    cdprep_ray_hit* items;
+    size_t room, count;
+} cdprep_ray_hit_list;
+
+typedef int (*cdprep_ray_visitor)(void* context, const cdprep_ray_hit* hit);
+
+/* The first hit of each ray; `hits` has room for `count`. Whether a ray hits a triangle is exact,
+ * edges and vertices included: no ray slips between neighbours. Both sides count. A ray in the
+ * plane of a triangle hits where it enters. t is rounded, and so is what it decides: which hit is
+ * first where two are as good as equal, and what max_t leaves. Costs O(log n) each, for most.
+ * Needs: CDPREP_ASK_RAY */
+CDPREP_API int cdprep_rays_cast(const cdprep_ray_query* query, cdprep_workspace* workspace,
+                                cdprep_ray_hit* hits, cdprep_error* error);
+
+/* Whether each ray hits anything: CDPREP_YES or CDPREP_NO. It stops at the first triangle.
+ * Needs: CDPREP_ASK_RAY */
+CDPREP_API int cdprep_rays_any(const cdprep_ray_query* query, cdprep_workspace* workspace,
+                               uint32_t* hits, cdprep_error* error);
+
+/* All hits of each ray, sorted by t, then triangle, each triangle once; a list for each ray.
+ * Needs: CDPREP_ASK_RAY */
+CDPREP_API int cdprep_rays_all(const cdprep_ray_query* query, cdprep_workspace* workspace,
+                               cdprep_ray_hit_list* lists, cdprep_error* error);
+
+/* Calls `visit` with each hit of one ray, in no particular order. A `count` other than 1 has no
+ * meaning, because a hit does not say of which ray it is.
+ * Needs: CDPREP_ASK_RAY */
+CDPREP_API int cdprep_rays_visit(const cdprep_ray_query* query, cdprep_workspace* workspace,
+                                 cdprep_ray_visitor visit, void* context, cdprep_error* error);
+
+/* --- Shapes --------------------------------------------------------------------------------- */
+
+enum {
+    CDPREP_BOX = 1,     /* limits a and b, a <= b, which may be infinite */
+    CDPREP_SPHERE = 2,  /* centre a, radius */
+    CDPREP_CAPSULE = 3, /* ends a and b, radius; radius 0 is the segment */
+    CDPREP_TRIANGLE = 4 /* corners a, b, c */
+};
+
+/* A closed, solid shape, and where the model is. What the shape does not use is not read. */
+typedef struct cdprep_shape_query {
+    cdprep_head head;
+    const cdprep_model* model;
+    uint32_t shape;                  /* 0, which is refused: choose one */
+    uint32_t degenerate;             /* CDPREP_KEEP_DEGENERATE */
+    double a[3], b[3], c[3], radius; /* 0 */
+    double max_distance;             /* infinity; cdprep_shape_distance() alone uses it */
+    cdprep_pose world_from_model;    /* identity: shapes are in the model's coordinates */
+} cdprep_shape_query;
+
+CDPREP_API void cdprep_shape_query_init(cdprep_shape_query* query, size_t size);
+
+typedef struct cdprep_triangle_list {
+    uint32_t* items;
+    size_t room, count;
+} cdprep_triangle_list;
+
+typedef int (*cdprep_triangle_visitor)(void* context, uint32_t triangle);
+
+/* Whether a shape has a point in common with a triangle of the model. Exact, tangent shapes
+ * included. A model is its surface: a shape deep inside touches nothing. Costs O(log n) for most.
+ * Needs: CDPREP_ASK_TOUCH */
+CDPREP_API int cdprep_touch(const cdprep_shape_query* query, cdprep_workspace* workspace,
+                            uint32_t* touches, cdprep_error* error);
+
+/* All triangles that the shape touches, sorted; too little room keeps the smallest numbers.
+ * Needs: CDPREP_ASK_TOUCH */
+CDPREP_API int cdprep_touch_list(const cdprep_shape_query* query, cdprep_workspace* workspace,
+                                 cdprep_triangle_list* list, cdprep_error* error);
+
+/* Calls `visit` with each of these triangles, in no particular order.
+ * Needs: CDPREP_ASK_TOUCH */
+CDPREP_API int cdprep_touch_visit(const cdprep_shape_query* query, cdprep_workspace* workspace,
+                                  cdprep_triangle_visitor visit, void* context,
+                                  cdprep_error* error);
+
+/* How far a sphere, capsule or triangle is from the surface; CDPREP_BOX has no meaning, nor has
+ * `degenerate`. `a` of the answer is the model and `b` the shape, on_b for spheres and capsules a
+ * point of the centre or segment; triangle_b is CDPREP_NONE.
+ * Needs: CDPREP_ASK_TOUCH */
+CDPREP_API int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* workspace,
+                                     cdprep_nearest* nearest, cdprep_error* error);
+
+#endif /* CDPREP_C_POINTS_H */

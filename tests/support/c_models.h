@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+#include <span>
+
+#include "support/aligned_bytes.h"
+
+#include "cdprep/cdprep.h"
+
+namespace cdprep::test {
+
+/// A model that is open through the C API; ends the test program when that fails. The bytes
+/// outlive it.
+class CModel {
+public:
+    explicit CModel(const AlignedBytes& file, std::uint32_t ask = 0) {
+        cdprep_open_options options;
+        cdprep_open_options_init(&options, sizeof options);
+        options.ask = ask;
+        cdprep_error error;
+        const std::span<const std::byte> bytes = file.span();
+        if (cdprep_model_open_memory(bytes.data(), bytes.size(), &options, &model_, &error) !=
+            CDPREP_OK) {
+            std::fprintf(stderr, "%s\n", error.message);
+            std::abort();
+        }
+    }
+    CModel(const CModel&) = delete;
+    CModel& operator=(const CModel&) = delete;
+    ~CModel() {
+        cdprep_model_close(model_);
+    }
+    [[nodiscard]] const cdprep_model* get() const {
+        return model_;
+    }
+
+private:
+    cdprep_model* model_ = nullptr;
+};
+
+/// A workspace with default options.
+class CWorkspace {
+public:
+    CWorkspace() {
+        if (cdprep_workspace_make(nullptr, nullptr, 0, &workspace_, nullptr) != CDPREP_OK) {
+            std::abort();
+        }
+    }
+    CWorkspace(const CWorkspace&) = delete;
+    CWorkspace& operator=(const CWorkspace&) = delete;
+    ~CWorkspace() {
+        cdprep_workspace_end(workspace_);
+    }
+    [[nodiscard]] cdprep_workspace* get() const {
+        return workspace_;
+    }
+
+private:
+    cdprep_workspace* workspace_ = nullptr;
+};
+
+}  // namespace cdprep::test

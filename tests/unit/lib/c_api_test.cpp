@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "c_api.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "cdprep/cdprep.h"
+#include "cdprep/collide.h"
+#include "support/c_models.h"
+#include "support/meshes.h"
+#include "support/more_sections.h"
+#include "support/run_threads.h"
+#include "support/scratch_folder.h"
+#include "support/tiny_baker.h"
+
+namespace cdprep::test {
+namespace {
+
+AlignedBytes baked_cube() {
+    const TestMesh cube = unit_cube();
+    return bake_tiny(cube.positions, cube.triangles);
+}
+
+/// Asks everything that needs no more than a plain bake.
+void ask_all(const cdprep_model* cube) {
+    const CWorkspace workspace;
+    for (const char* wrong : {ask_pairs(cube, workspace.get()), ask_points(cube, workspace.get()),
+                              read_geometry(cube)}) {
+        EXPECT_EQ(wrong, nullptr) << wrong;
+    }
+}
+
+// By hand: cubes of side 1, moved along x.
+TEST(CApi, AProgramInC99GetsTheAnswers) {
+    const AlignedBytes file = baked_cube();
+    ask_all(CModel(file).get());
+}
+
+// The same cube as above, however it gets into memory.
+TEST(CApi, EveryModeOfOpeningGivesTheSameAnswers) {
+    const AlignedBytes file = baked_cube();
+    const ScratchFolder folder;
+    const std::string path = (folder.path() / "cube.cdp.h5").string();
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(file.span().data()),
+               static_cast<std::streamsize>(file.size()));
+    for (const std::uint32_t mode : {CDPREP_MAP, CDPREP_COPY, CDPREP_MAP_TRUSTED}) {
+        cdprep_open_options options;
+        cdprep_open_options_init(&options, sizeof options);
+        options.mode = mode;
+        cdprep_model* model = nullptr;
+        cdprep_error error;
+        ASSERT_EQ(cdprep_model_open(path.c_str(), &options, &model, &error), CDPREP_OK)
+            << error.message;
+        ask_all(model);
+        cdprep_model_close(model);
+    }
+}
+
+// A copy does not depend on what becomes of the bytes, nor on where they begin.
+TEST(CApi, ACopyOutlivesItsBytes) {
+    const AlignedBytes file = baked_cube();
+    std::vector<std::byte> bytes(file.size() + 1);
+    std::memcpy(bytes.data() + 1, file.span().data(), file.size());
+    cdprep_open_options options;
+    cdprep_open_options_init(&options, sizeof options);
+    options.mode = CDPREP_COPY;
+    cdprep_model* model = nullptr;
+    ASSERT_EQ(cdprep_model_open_memory(bytes.data() + 1, file.size(), &options, &model, nullptr),
+              CDPREP_OK);
+    std::fill(bytes.begin(), bytes.end(), std::byte{0xff});
+    ask_all(model);
+    cdprep_model_close(model);
+}
+
+// Written by hand: what C reads must be what was stored.
+TEST(CApi, ReadsWhatWasFoundWhenAModelWasBaked) {
+    const format::Verdict stored{
+        format::verdict_closed, format::promise_simple_solid, 2, 0, 3, -4, 5, 0, 6.5, 7.5};
+    const std::array<std::uint32_t, 2> from = {7, format::kMadeByRepair};
+    format::FileHeader facts{};
+    facts.triangle_count = 2;
+    const AlignedBytes file = assemble(
+        facts, {as_section(SectionId::verdicts, std::span<const format::Verdict>(&stored, 1)),
+                as_section(SectionId::repaired_from, std::span<const std::uint32_t>(from))});
+    const CModel model(file);
+    cdprep_model_info info{};
+    ASSERT_EQ(cdprep_model_describe(model.get(), &info, nullptr), CDPREP_OK);
+    EXPECT_EQ(info.verdicts, 1u);
+    cdprep_verdict read{};
+    cdprep_error error{};
+    EXPECT_EQ(cdprep_model_verdict(model.get(), 1, &read, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(error.why, CDPREP_WHY_OUT_OF_RANGE);
+    ASSERT_EQ(cdprep_model_verdict(model.get(), 0, &read, nullptr), CDPREP_OK);
+    EXPECT_EQ(read.promises, static_cast<std::uint32_t>(CDPREP_PROMISE_SIMPLE_SOLID));
+    EXPECT_EQ(read.euler, -4);
+    EXPECT_EQ(read.volume, 7.5);
+    cdprep_array array{};
+    constexpr auto kRepairedFrom = static_cast<std::uint32_t>(SectionId::repaired_from);
+    ASSERT_EQ(cdprep_model_section(model.get(), kRepairedFrom, &array, nullptr), CDPREP_OK);
+    ASSERT_EQ(array.count, 2u);
+    EXPECT_EQ(static_cast<const std::uint32_t*>(array.data)[1], UINT32_MAX);
+}
+
+/// A thread for every task, as a C program has them; counts the tasks.
+void run_on_threads(void* tasks, std::size_t count, cdprep_task task, const void* work) {
+    *static_cast<std::size_t*>(tasks) += count;
+    run_threads(count, [&](std::size_t i) { task(work, i); });
+}
+
+// The law of batches: what is asked at once is answered as one by one.
+TEST(CApi, ManyLanesGetTheAnswersOfOne) {
+    const TestMesh ball = icosphere(4), ring = torus(0.3, 0.1, 120, 60);
+    const AlignedBytes a = bake_tiny(ball.positions, ball.triangles);
+    const AlignedBytes b = bake_tiny(ring.positions, ring.triangles);
+    std::size_t tasks = 0;
+    cdprep_workspace_options options;
+    cdprep_workspace_options_init(&options, sizeof options);
+    options.run = run_on_threads;
+    options.context = &tasks;
+    const char* wrong = ask_many(CModel(a).get(), CModel(b).get(), &options);
+    EXPECT_EQ(wrong, nullptr) << wrong;
+    EXPECT_GT(tasks, 8u * 7u);
+}
+
+/// Runs some tasks twice, some never, and one that is none.
+void run_badly(void* /*context*/, std::size_t count, cdprep_task task, const void* work) {
+    for (std::size_t i = 0; i < count; i += 2) task(work, i);
+    for (std::size_t i = 0; i < count; i += 2) task(work, i);
+    task(work, count + 1000);
+}
+
+// The same law, whatever the caller's threads do.
+TEST(CApi, TasksThatAreLeftOutOrRepeatedChangeNothing) {
+    const TestMesh ball = icosphere(4), ring = torus(0.3, 0.1, 120, 60);
+    const AlignedBytes a = bake_tiny(ball.positions, ball.triangles);
+    const AlignedBytes b = bake_tiny(ring.positions, ring.triangles);
+    cdprep_workspace_options options;
+    cdprep_workspace_options_init(&options, sizeof options);
+    options.run = run_badly;
+    const char* wrong = ask_many(CModel(a).get(), CModel(b).get(), &options);
+    EXPECT_EQ(wrong, nullptr) << wrong;
+}
+
+// By hand: cubes of side 1.
+TEST(CApi, HullsOfACubeAreAsFarApartAsItIsMoved) {
+    const AlignedBytes file = with_hulls(baked_cube());
+    const char* wrong = ask_hulls(CModel(file).get());
+    EXPECT_EQ(wrong, nullptr) << wrong;
+}
+
+// By hand: faces, edges and corners of cubes of side 1.
+TEST(CApi, ContactsOfCubesAreWhereTheyAreMoved) {
+    const AlignedBytes file = with_contacts(with_one_piece(baked_cube()));
+    const CWorkspace workspace;
+    const char* wrong = ask_contacts(CModel(file).get(), workspace.get());
+    EXPECT_EQ(wrong, nullptr) << wrong;
+}
+
+TEST(Workspace, MayLiveInTheCallersMemory) {
+    const TestMesh cube = unit_cube();
+    const AlignedBytes file = bake_tiny(cube.positions, cube.triangles);
+    const auto model = Model::open(file.span());
+    ASSERT_TRUE(model);
+    AlignedBytes memory(Workspace::size());
+    ASSERT_EQ(reinterpret_cast<std::uintptr_t>(memory.span().data()) % Workspace::alignment(), 0u);
+    EXPECT_FALSE(Workspace::in(memory.span().first(Workspace::size() - 1)));
+    EXPECT_FALSE(Workspace::in(memory.span().subspan(1)));
+    auto workspace = Workspace::in(memory.span());
+    ASSERT_TRUE(workspace);
+    const Placement still = Placement::b_moves(Pose());
+    EXPECT_TRUE(collide(model.value(), model.value(), still, *workspace).hit);
+}
+
+}  // namespace
+}  // namespace cdprep::test
