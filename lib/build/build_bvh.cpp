@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/build_bvh.h"
 
-#include <cstdlib>
-
 #include "cdprep/format/float_environment.h"
 #include "cdprep/refit_bvh.h"
 #include "frame_map.h"
@@ -22,14 +20,11 @@ using format::Double3;
 using format::kBvhWidth;
 using format::Triangle;
 
-/// Exponents of frames whose scale is an ordinary float.
-constexpr std::int32_t kMaxExactExponent = 100;
-
 void set_frame(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
                ParallelFor parallel_for) {
     const Extent extent = extent_of(positions, triangles, parallel_for);
     bvh.frame = frame_of(extent);
-    bvh.exact_leaves = extent.floats && std::abs(bvh.frame.exponent) <= kMaxExactExponent;
+    bvh.exact_leaves = has_exact_leaves(extent, bvh.frame);
 }
 
 /// What the options want besides the axis-aligned boxes.
@@ -54,7 +49,7 @@ void fill_nodes(Bvh& bvh, std::span<const Double3> positions, std::span<const Tr
     bvh.nodes.resize(shape.node_count);
     bvh.leaves.resize(shape.leaf_count);
     make_leaves(bvh, positions, triangles, options.parallel_for);
-    make_nodes(bvh, options.parallel_for);
+    make_nodes(bvh.nodes, static_cast<std::uint32_t>(triangles.size()), options.parallel_for);
     fit_bounds(bvh, options);
 }
 
@@ -92,8 +87,12 @@ double refit_bvh(Bvh& bvh, std::span<const Double3> positions, std::span<const T
 }
 
 double surface_cost(const Bvh& bvh) noexcept {
+    return surface_cost(bvh.nodes);
+}
+
+double surface_cost(std::span<const BvhNode> nodes) noexcept {
     const format::FloatEnvironment environment;
-    if (bvh.nodes.empty()) return 0;
+    if (nodes.empty()) return 0;
     // Of boxes that are not used the sides are -2: they count for nothing.
     const auto half_areas = [](const BvhNode& node) {
         Lanes<double, kBvhWidth> area;
@@ -106,7 +105,7 @@ double surface_cost(const Bvh& bvh) noexcept {
         return area;
     };
     Lanes<double, kBvhWidth> sum{};
-    for (const BvhNode& node : bvh.nodes) {
+    for (const BvhNode& node : nodes) {
         const Lanes<double, kBvhWidth> area = half_areas(node);
         for_lanes<kBvhWidth>([&](std::size_t box) { sum[box] += area[box]; });
     }
@@ -114,8 +113,7 @@ double surface_cost(const Bvh& bvh) noexcept {
     for (const double area : sum) total += area;
     std::array<double, 3> side{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        side[axis] =
-            double{greatest(bvh.nodes[0].upper[axis])} - double{least(bvh.nodes[0].lower[axis])};
+        side[axis] = double{greatest(nodes[0].upper[axis])} - double{least(nodes[0].lower[axis])};
     }
     const double whole = side[0] * side[1] + side[1] * side[2] + side[2] * side[0];
     return whole > 0 ? total / whole : 0;

@@ -2,6 +2,7 @@
 #include "frame_map.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
 #include "chunks.h"
@@ -10,7 +11,11 @@ namespace cdprep::build {
 namespace {
 
 using format::Double3;
+using format::Float3;
 using format::Triangle;
+
+/// Exponents of frames whose scale is an ordinary float.
+constexpr std::int32_t kMaxExactExponent = 100;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -51,6 +56,16 @@ Extent extent_of_parts(std::size_t count, ParallelFor parallel_for, const Part& 
     return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}, lost == 0};
 }
 
+template <class Position>
+Extent extent_of_all(std::span<const Position> positions, ParallelFor parallel_for) {
+    const auto part = [&](std::size_t first, std::size_t last) {
+        PointBounds bounds;
+        for (std::size_t i = first; i < last; ++i) bounds.grow(as_double(positions[i]));
+        return bounds;
+    };
+    return extent_of_parts(positions.size(), parallel_for, part);
+}
+
 }  // namespace
 
 Extent extent_of(std::span<const Double3> positions, std::span<const Triangle> triangles,
@@ -80,6 +95,18 @@ Extent extent_of(std::span<const Double3> positions, std::span<const std::uint8_
         return bounds;
     };
     return extent_of_parts(positions.size(), parallel_for, part);
+}
+
+Extent extent_of(std::span<const Double3> positions, ParallelFor parallel_for) {
+    return extent_of_all(positions, parallel_for);
+}
+
+Extent extent_of(std::span<const Float3> positions, ParallelFor parallel_for) {
+    return extent_of_all(positions, parallel_for);
+}
+
+bool has_exact_leaves(const Extent& extent, const Frame& frame) {
+    return extent.floats && std::abs(frame.exponent) <= kMaxExactExponent;
 }
 
 Frame frame_of(const Extent& extent) {

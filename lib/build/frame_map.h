@@ -14,6 +14,13 @@ namespace cdprep::build {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
+[[nodiscard]] inline format::Double3 as_double(const format::Double3& p) {
+    return p;
+}
+[[nodiscard]] inline format::Double3 as_double(const format::Float3& p) {
+    return {double{p.x}, double{p.y}, double{p.z}};
+}
+
 /// The next float above x, or x when it is one. Finite numbers of float's range.
 [[nodiscard]] inline float float_above(double x) {
     const auto rounded = static_cast<float>(x);
@@ -42,9 +49,18 @@ struct Extent {
 [[nodiscard]] Extent extent_of(std::span<const format::Double3> positions,
                                std::span<const std::uint8_t> marks, ParallelFor parallel_for);
 
+/// The same, of all vertices.
+[[nodiscard]] Extent extent_of(std::span<const format::Double3> positions,
+                               ParallelFor parallel_for);
+[[nodiscard]] Extent extent_of(std::span<const format::Float3> positions, ParallelFor parallel_for);
+
 /// Centres the box and scales it by a power of two so that no coordinate leaves
 /// [-1, 1], not even after rounding: the largest distance lands in [1/4, 1/2].
 [[nodiscard]] Frame frame_of(const Extent& extent);
+
+/// Whether leaves keep model coordinates: all are floats, and the scale of the frame is an
+/// ordinary float.
+[[nodiscard]] bool has_exact_leaves(const Extent& extent, const Frame& frame);
 
 /// A frame coordinate between two floats.
 struct Interval {

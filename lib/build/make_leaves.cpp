@@ -16,6 +16,7 @@ using format::BvhLeaf;
 using format::BvhNode;
 using format::BvhShape;
 using format::Double3;
+using format::Float3;
 using format::kBvhWidth;
 using format::Triangle;
 
@@ -88,14 +89,25 @@ private:
     bool exact_;
 };
 
-/// Asks for what leaves ahead will read: the tree order is not that of the memory.
-class Ahead {
+/// Triangles anywhere in memory, in an order of their own.
+class OrderedTriangles {
 public:
-    Ahead(std::span<const std::uint32_t> order, std::span<const Double3> positions,
-          std::span<const Triangle> triangles)
+    OrderedTriangles(std::span<const std::uint32_t> order, std::span<const Double3> positions,
+                     std::span<const Triangle> triangles)
         : order_(order), positions_(positions), triangles_(triangles) {}
 
-    void ask_for(std::size_t leaf) const {
+    [[nodiscard]] std::size_t size() const {
+        return order_.size();
+    }
+    [[nodiscard]] const Triangle& triangle(std::size_t index) const {
+        return triangles_[order_[index]];
+    }
+    [[nodiscard]] const Double3& position(std::uint32_t vertex) const {
+        return positions_[vertex];
+    }
+
+    /// Asks for what leaves ahead will read: the tree order is not that of the memory.
+    void ask_ahead_of(std::size_t leaf) const {
         each_of(leaf + 2 * kLeavesAhead, [](const Triangle& t) { prefetch(&t); });
         each_of(leaf + kLeavesAhead, [&](const Triangle& t) {
             for (const std::uint32_t vertex : t.vertex) prefetch(&positions_[vertex]);
@@ -117,38 +129,77 @@ private:
     std::span<const Triangle> triangles_;
 };
 
+/// Triangles that lie in tree order, and nearly so their vertices: the processor sees itself
+/// what comes next.
+template <class Position>
+class SortedTriangles {
+public:
+    SortedTriangles(std::span<const Position> positions, std::span<const Triangle> triangles)
+        : positions_(positions), triangles_(triangles) {}
+
+    [[nodiscard]] std::size_t size() const {
+        return triangles_.size();
+    }
+    [[nodiscard]] const Triangle& triangle(std::size_t index) const {
+        return triangles_[index];
+    }
+    [[nodiscard]] Double3 position(std::uint32_t vertex) const {
+        return as_double(positions_[vertex]);
+    }
+    void ask_ahead_of(std::size_t /*leaf*/) const {}
+
+private:
+    std::span<const Position> positions_;
+    std::span<const Triangle> triangles_;
+};
+
+template <class Source>
+void make_leaves_of(const LeafRoom& room, const Source& source, ParallelFor parallel_for) {
+    const LeafMaker maker(room.frame, room.exact);
+    const std::size_t count = source.size();
+    const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(count));
+    BvhNode* const lowest = &room.nodes[shape.first[0]];
+    for_chunks(room.leaves.size(), kLeavesPerTask, parallel_for,
+               [&](std::size_t first, std::size_t last) {
+                   LeafCorners corners;
+                   for (std::size_t leaf = first; leaf < last; ++leaf) {
+                       source.ask_ahead_of(leaf);
+                       const std::size_t begin = leaf * kBvhWidth;
+                       const std::size_t used = std::min<std::size_t>(kBvhWidth, count - begin);
+                       for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
+                           const Triangle& t = source.triangle(begin + std::min(lane, used - 1));
+                           for (std::size_t corner = 0; corner < 3; ++corner) {
+                               const Double3& p = source.position(t.vertex[corner]);
+                               const std::size_t at = corner * kBvhWidth + lane;
+                               corners[0][at] = p.x;
+                               corners[1][at] = p.y;
+                               corners[2][at] = p.z;
+                           }
+                       }
+                       maker.make(corners, static_cast<std::uint32_t>(used), room.leaves[leaf],
+                                  lowest[leaf / kBvhWidth], leaf % kBvhWidth);
+                   }
+               });
+    const std::size_t last = room.leaves.size();
+    if (last % kBvhWidth != 0) set_unused_boxes(lowest[last / kBvhWidth], last % kBvhWidth);
+}
+
 }  // namespace
 
 void make_leaves(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
                  ParallelFor parallel_for) {
-    const LeafMaker maker(bvh.frame, bvh.exact_leaves);
-    const std::size_t count = bvh.order.size();
-    const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(count));
-    BvhNode* const lowest = &bvh.nodes[shape.first[0]];
-    for_chunks(
-        bvh.leaves.size(), kLeavesPerTask, parallel_for, [&](std::size_t first, std::size_t last) {
-            LeafCorners corners;
-            const Ahead ahead(bvh.order, positions, triangles);
-            for (std::size_t leaf = first; leaf < last; ++leaf) {
-                ahead.ask_for(leaf);
-                const std::size_t begin = leaf * kBvhWidth;
-                const std::size_t used = std::min<std::size_t>(kBvhWidth, count - begin);
-                for (std::size_t lane = 0; lane < kBvhWidth; ++lane) {
-                    const Triangle& t = triangles[bvh.order[begin + std::min(lane, used - 1)]];
-                    for (std::size_t corner = 0; corner < 3; ++corner) {
-                        const Double3& p = positions[t.vertex[corner]];
-                        const std::size_t at = corner * kBvhWidth + lane;
-                        corners[0][at] = p.x;
-                        corners[1][at] = p.y;
-                        corners[2][at] = p.z;
-                    }
-                }
-                maker.make(corners, static_cast<std::uint32_t>(used), bvh.leaves[leaf],
-                           lowest[leaf / kBvhWidth], leaf % kBvhWidth);
-            }
-        });
-    const std::size_t last = bvh.leaves.size();
-    if (last % kBvhWidth != 0) set_unused_boxes(lowest[last / kBvhWidth], last % kBvhWidth);
+    make_leaves_of({bvh.frame, bvh.exact_leaves, bvh.nodes, bvh.leaves},
+                   OrderedTriangles(bvh.order, positions, triangles), parallel_for);
+}
+
+void make_leaves(const LeafRoom& room, std::span<const Double3> positions,
+                 std::span<const Triangle> triangles, ParallelFor parallel_for) {
+    make_leaves_of(room, SortedTriangles<Double3>(positions, triangles), parallel_for);
+}
+
+void make_leaves(const LeafRoom& room, std::span<const Float3> positions,
+                 std::span<const Triangle> triangles, ParallelFor parallel_for) {
+    make_leaves_of(room, SortedTriangles<Float3>(positions, triangles), parallel_for);
 }
 
 }  // namespace cdprep::build

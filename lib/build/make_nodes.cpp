@@ -31,12 +31,12 @@ void set_unused_boxes(BvhNode& node, std::size_t first) {
     }
 }
 
-void make_nodes(Bvh& bvh, ParallelFor parallel_for) {
-    const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
+void make_nodes(std::span<BvhNode> all, std::uint32_t triangle_count, ParallelFor parallel_for) {
+    const BvhShape shape = format::bvh_shape(triangle_count);
     constexpr std::size_t kNodesPerTask = 256;
     for (std::uint32_t level = 1; level < shape.levels; ++level) {
-        BvhNode* const nodes = &bvh.nodes[shape.first[level]];
-        const BvhNode* const below = &bvh.nodes[shape.first[level - 1]];
+        BvhNode* const nodes = &all[shape.first[level]];
+        const BvhNode* const below = &all[shape.first[level - 1]];
         const auto make = [&](std::size_t i) {
             const std::uint32_t used = shape.used_boxes(level, static_cast<std::uint32_t>(i));
             for (std::size_t box = 0; box < used; ++box) {

@@ -5,8 +5,9 @@
 
 namespace cdprep::build {
 
-/// Fills the levels of bvh.nodes above the lowest, from that one.
-void make_nodes(Bvh& bvh, ParallelFor parallel_for);
+/// Fills the levels of a hierarchy's nodes above the lowest, from that one.
+void make_nodes(std::span<format::BvhNode> all, std::uint32_t triangle_count,
+                ParallelFor parallel_for);
 
 /// Marks boxes from `first` on as not used.
 void set_unused_boxes(format::BvhNode& node, std::size_t first);

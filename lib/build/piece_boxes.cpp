@@ -91,7 +91,7 @@ void bound_leaves(PieceBoxes& made, const PiecesOf& surface, const Frame& frame,
     bvh.nodes.resize(shape.node_count);
     bvh.leaves.resize(shape.leaf_count);
     make_leaves(bvh, surface.positions, surface.triangles, parallel_for);
-    make_nodes(bvh, parallel_for);
+    make_nodes(bvh.nodes, static_cast<std::uint32_t>(bvh.order.size()), parallel_for);
     make_oriented(bvh, parallel_for);
     make_swept(bvh, BvhBounds::swept_rectangles, parallel_for);
     made.nodes = std::move(bvh.nodes);

@@ -1,31 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/tree_order.h"
 
-#include <limits>
+#include <utility>
+
+#include "cdprep/mesh_arrays.h"
 
 namespace cdprep::mesh {
 
 TreeOrdered in_tree_order(const Mesh& mesh, std::span<const std::uint32_t> order) {
-    constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+    build::TreeOrder made = build::in_tree_order(mesh.positions.size(), mesh.triangles, order);
     TreeOrdered ordered;
-    ordered.new_vertex.assign(mesh.positions.size(), kNone);
+    ordered.new_vertex = std::move(made.new_vertex);
     Mesh& result = ordered.mesh;
     result.single_precision = mesh.single_precision;
-    result.positions.reserve(mesh.positions.size());
-    result.source_vertex.reserve(mesh.positions.size());
-    result.triangles.reserve(order.size());
-    for (const std::uint32_t source : order) {
-        Triangle triangle = mesh.triangles[source];
-        for (std::uint32_t& vertex : triangle.vertex) {
-            std::uint32_t& renamed = ordered.new_vertex[vertex];
-            if (renamed == kNone) {
-                renamed = static_cast<std::uint32_t>(result.positions.size());
-                result.positions.push_back(mesh.positions[vertex]);
-                result.source_vertex.push_back(mesh.source_vertex[vertex]);
-            }
-            vertex = renamed;
-        }
-        result.triangles.push_back(triangle);
+    result.triangles = std::move(made.triangles);
+    result.positions.reserve(made.vertices.size());
+    result.source_vertex.reserve(made.vertices.size());
+    for (const std::uint32_t vertex : made.vertices) {
+        result.positions.push_back(mesh.positions[vertex]);
+        result.source_vertex.push_back(mesh.source_vertex[vertex]);
     }
     return ordered;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cdprep/build_image.h"
+#include "cdprep/build_model.h"
 #include "cdprep/format/sections.h"
 #include "convex/contact_arrays.h"
 #include "convex/find_bounds.h"
@@ -13,9 +14,6 @@
 #include "convex/piece_tree.h"
 #include "convex/section_list.h"
 #include "convex/surface_pieces.h"
-#include "mesh/degenerate.h"
-#include "mesh/topology.h"
-#include "mesh/tree_order.h"
 
 namespace cdprep::study {
 namespace {
@@ -33,14 +31,18 @@ auto timed(double& seconds, Work work) {
     return made;
 }
 
-std::vector<format::Float3> as_floats(const mesh::Mesh& mesh) {
-    std::vector<format::Float3> floats;
-    floats.reserve(mesh.positions.size());
-    for (const format::Double3& p : mesh.positions) {
-        floats.push_back(
-            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+/// The mesh as the model has it, with source numbers of its own.
+mesh::Mesh ordered_mesh(const mesh::Mesh& mesh, const build::ModelArrays& arrays) {
+    mesh::Mesh ordered;
+    ordered.single_precision = mesh.single_precision;
+    ordered.triangles = arrays.triangles;
+    ordered.positions.reserve(arrays.source_vertex.size());
+    ordered.source_vertex.reserve(arrays.source_vertex.size());
+    for (const std::uint32_t vertex : arrays.source_vertex) {
+        ordered.positions.push_back(mesh.positions[vertex]);
+        ordered.source_vertex.push_back(mesh.source_vertex[vertex]);
     }
-    return floats;
+    return ordered;
 }
 
 /// What is built beside the hierarchy of boxes.
@@ -115,18 +117,6 @@ void build_pieces(BuiltParts& built, const mesh::Mesh& mesh, const build::Frame&
                            [&] { return convex::make_contact_arrays(mesh, built.pieces, run); });
 }
 
-format::FileHeader facts_of(const mesh::Mesh& mesh, const build::Bvh& bvh, bool is_closed) {
-    format::FileHeader facts{};
-    facts.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
-    facts.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
-    if (is_closed) facts.flags |= format::model_closed;
-    if (bvh.exact_leaves) facts.flags |= format::model_exact_leaves;
-    facts.flags |= format::swept_flags(bvh.swept_kind);
-    facts.frame_origin = bvh.frame.origin;
-    facts.frame_exponent = bvh.frame.exponent;
-    return facts;
-}
-
 /// Nothing where a hull would leave the range of double.
 std::optional<BuiltParts> build_parts(const mesh::Mesh& mesh, const build::Frame& frame,
                                       const MemoryParts& parts, ParallelFor run,
@@ -196,43 +186,32 @@ void ImageBytes::Free::operator()(std::byte* bytes) const noexcept {
 Result<MemoryModel> make_memory_model(const mesh::Mesh& mesh, const MemoryParts& parts,
                                       ParallelFor parallel_for) {
     BuildSeconds seconds;
-    const build::Bvh bvh = timed(seconds.tree, [&] {
+    build::Bvh bvh = timed(seconds.tree, [&] {
         return build::build_bvh(mesh.positions, mesh.triangles,
                                 {.parallel_for = parallel_for, .bounds = parts.bounds});
     });
-    mesh::TreeOrdered ordered = mesh::in_tree_order(mesh, bvh.order);
-    mesh::Topology topology = mesh::find_topology(mesh);
-    for (format::Component& component : topology.components) {
-        component.vertex = ordered.new_vertex[component.vertex];
-    }
-    const auto degenerate = mesh::find_degenerate(ordered.mesh, parallel_for);
+    build::ModelArrays arrays =
+        build::arrange_model(mesh.positions, mesh.triangles, std::move(bvh),
+                             mesh.single_precision ? build::Precision::single_precision
+                                                   : build::Precision::double_precision,
+                             parallel_for);
+    mesh::Mesh ordered = ordered_mesh(mesh, arrays);
+    arrays.source_vertex = ordered.source_vertex;
     const format::Bounds bounds = convex::find_bounds(mesh);
-    const auto built = build_parts(ordered.mesh, bvh.frame, parts, parallel_for, seconds);
+    const auto built = build_parts(ordered, arrays.bvh.frame, parts, parallel_for, seconds);
     if (!built) {
         return Error{ErrorCode::over_budget,
                      "A hull of the model would have coordinates beyond the range of double."};
     }
-    const std::vector<format::Float3> floats = as_floats(ordered.mesh);
-    build::SectionList list(wanted_sections(parts));
-    if (mesh.single_precision) {
-        list.add(SectionId::positions_f32, floats);
-    } else {
-        list.add(SectionId::positions_f64, ordered.mesh.positions);
-    }
-    list.add(SectionId::triangles, ordered.mesh.triangles);
-    list.add(SectionId::source_vertex, ordered.mesh.source_vertex);
-    add_sections(list, bvh);
-    list.add_unless_empty(SectionId::degenerate_bits, degenerate);
-    list.add(SectionId::components, topology.components);
+    build::SectionList list = arrays.sections(wanted_sections(parts));
     list.add_one(SectionId::bounds, bounds);
     add_parts(list, *built);
-    Result<ImageBytes> filled = image_of(facts_of(ordered.mesh, bvh, topology.closed), list);
+    Result<ImageBytes> filled = image_of(arrays.facts, list);
     if (!filled) return filled.error();
     ImageBytes image = std::move(filled).value();
     Result<Model> opened = Model::open(std::as_const(image).span());
     if (!opened) return opened.error();
-    return MemoryModel{std::move(image), std::move(opened).value(), std::move(ordered.mesh),
-                       seconds};
+    return MemoryModel{std::move(image), std::move(opened).value(), std::move(ordered), seconds};
 }
 
 std::uint64_t bytes_of(const MemoryModel& model, format::SectionSet sections) noexcept {

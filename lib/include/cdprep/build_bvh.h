@@ -102,5 +102,6 @@ void rebuild_bvh(Bvh& bvh, std::span<const format::Double3> positions,
 /// through that one passes, 1 at least. Less is better; compare hierarchies over the same
 /// triangles. 0 when there are no triangles, or all lie on a line. O(nodes).
 [[nodiscard]] double surface_cost(const Bvh& bvh) noexcept;
+[[nodiscard]] double surface_cost(std::span<const format::BvhNode> nodes) noexcept;
 
 }  // namespace cdprep::build

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "degenerate.h"
+
+#include <algorithm>
+
+#include "cdprep/mesh_arrays.h"
+#include "chunks.h"
+#include "frame_map.h"
+#include "triangle_contact.h"
+
+namespace cdprep::build {
+namespace {
+
+using format::Double3;
+using format::Float3;
+using format::Triangle;
+
+constexpr std::size_t kBits = 64;
+
+template <class Position>
+void mark(std::span<const Position> positions, std::span<const Triangle> triangles,
+          std::span<std::uint64_t> words, ParallelFor parallel_for) {
+    constexpr std::size_t kWordsPerTask = kItemsPerTask / kBits;
+    for_chunks(words.size(), kWordsPerTask, parallel_for, [&](std::size_t first, std::size_t last) {
+        for (std::size_t word = first; word < last; ++word) {
+            const std::size_t begin = word * kBits;
+            const std::size_t end = std::min(begin + kBits, triangles.size());
+            std::uint64_t bits = 0;
+            for (std::size_t i = begin; i < end; ++i) {
+                const auto& v = triangles[i].vertex;
+                const bool is_flat =
+                    is_degenerate({as_double(positions[v[0]]), as_double(positions[v[1]]),
+                                   as_double(positions[v[2]])});
+                bits |= std::uint64_t{is_flat} << (i - begin);
+            }
+            words[word] = bits;
+        }
+    });
+}
+
+}  // namespace
+
+void mark_degenerate(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                     std::span<std::uint64_t> words, ParallelFor parallel_for) {
+    mark(positions, triangles, words, parallel_for);
+}
+
+void mark_degenerate(std::span<const Float3> positions, std::span<const Triangle> triangles,
+                     std::span<std::uint64_t> words, ParallelFor parallel_for) {
+    mark(positions, triangles, words, parallel_for);
+}
+
+std::vector<std::uint64_t> find_degenerate(std::span<const Double3> positions,
+                                           std::span<const Triangle> triangles,
+                                           ParallelFor parallel_for) {
+    std::vector<std::uint64_t> words((triangles.size() + kBits - 1) / kBits);
+    mark_degenerate(positions, triangles, words, parallel_for);
+    const bool any = std::ranges::any_of(words, [](std::uint64_t word) { return word != 0; });
+    if (!any) words.clear();
+    return words;
+}
+
+}  // namespace cdprep::build

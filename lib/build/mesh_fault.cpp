@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "mesh_fault.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "cdprep/format/limits.h"
+#include "frame_map.h"
+
+namespace cdprep::build {
+namespace {
+
+using format::Double3;
+using format::Float3;
+using format::Triangle;
+
+Error bad(const std::string& message) {
+    return {ErrorCode::bad_argument, message};
+}
+
+/// False for NaN.
+bool is_coordinate(double x) {
+    return std::fabs(x) <= format::kMaxCoordinate;
+}
+
+template <class Position>
+bool is_good(const Position& position) {
+    const Double3 p = as_double(position);
+    // Without branches: nearly all are good.
+    return (is_coordinate(p.x) & is_coordinate(p.y) & is_coordinate(p.z)) != 0;
+}
+
+const char* fault_of(double x) {
+    if (std::isnan(x)) return "is NaN";
+    return std::isinf(x) ? "is infinite" : "lies beyond 2^1000";
+}
+
+std::string sentence(std::size_t vertex, const Double3& p) {
+    const bool x = is_coordinate(p.x);
+    const bool y = is_coordinate(p.y);
+    const char* name = !x ? "x" : !y ? "y" : "z";
+    return "Vertex " + std::to_string(vertex) + " cannot be used: its " + name + " coordinate " +
+           fault_of(!x   ? p.x
+                    : !y ? p.y
+                         : p.z) +
+           ".";
+}
+
+template <class Position>
+std::optional<Error> find_bad(std::span<const Position> positions) {
+    if (positions.size() > format::kMaxVertices) {
+        return bad(std::to_string(positions.size()) + " vertices are more than the " +
+                   std::to_string(format::kMaxVertices) + " that a model may have.");
+    }
+    bool all_good = true;
+    for (const Position& p : positions) all_good &= is_good(p);
+    if (all_good) return std::nullopt;
+    const auto at = std::ranges::find_if_not(positions, is_good<Position>);
+    return bad(sentence(static_cast<std::size_t>(at - positions.begin()), as_double(*at)));
+}
+
+}  // namespace
+
+std::optional<Error> find_bad_position(std::span<const Double3> positions) {
+    return find_bad(positions);
+}
+
+std::optional<Error> find_bad_position(std::span<const Float3> positions) {
+    return find_bad(positions);
+}
+
+std::optional<Error> find_bad_triangle(std::size_t vertex_count,
+                                       std::span<const Triangle> triangles) {
+    if (triangles.size() > format::kMaxTriangles) {
+        return bad(std::to_string(triangles.size()) + " triangles are more than the " +
+                   std::to_string(format::kMaxTriangles) + " that a model may have.");
+    }
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const std::uint32_t greatest = std::ranges::max(triangles[i].vertex);
+        if (greatest < vertex_count) continue;
+        return bad("Triangle " + std::to_string(i) + " uses vertex " + std::to_string(greatest) +
+                   " of " + std::to_string(vertex_count) + ": vertices are numbered from 0.");
+    }
+    return std::nullopt;
+}
+
+}  // namespace cdprep::build
