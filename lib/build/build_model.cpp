@@ -8,6 +8,7 @@
 #include "cdprep/format/float_environment.h"
 #include "degenerate.h"
 #include "frame_map.h"
+#include "guarded_for.h"
 #include "mesh_fault.h"
 
 namespace cdprep::build {
@@ -84,7 +85,8 @@ SectionList ModelArrays::sections(format::SectionSet wanted) const {
 
 ModelArrays arrange_model(std::span<const Double3> positions, std::span<const Triangle> triangles,
                           Bvh bvh, Precision precision, ParallelFor parallel_for) {
-    const format::FloatEnvironment environment;
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, parallel_for);
     ModelArrays arrays;
     arrays.bvh = std::move(bvh);
     arrays.precision = precision;
@@ -92,7 +94,7 @@ ModelArrays arrange_model(std::span<const Double3> positions, std::span<const Tr
     arrays.triangles = std::move(ordered.triangles);
     arrays.source_vertex = std::move(ordered.vertices);
     add_positions(arrays, positions);
-    add_degenerate_bits(arrays, parallel_for);
+    add_degenerate_bits(arrays, guarded);
     Topology topology = find_topology(positions, triangles);
     for (format::Component& component : topology.components) {
         component.vertex = ordered.new_vertex[component.vertex];

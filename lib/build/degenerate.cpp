@@ -3,9 +3,11 @@
 
 #include <algorithm>
 
+#include "cdprep/format/float_environment.h"
 #include "cdprep/mesh_arrays.h"
 #include "chunks.h"
 #include "frame_map.h"
+#include "guarded_for.h"
 #include "triangle_contact.h"
 
 namespace cdprep::build {
@@ -53,8 +55,10 @@ void mark_degenerate(std::span<const Float3> positions, std::span<const Triangle
 std::vector<std::uint64_t> find_degenerate(std::span<const Double3> positions,
                                            std::span<const Triangle> triangles,
                                            ParallelFor parallel_for) {
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, parallel_for);
     std::vector<std::uint64_t> words((triangles.size() + kBits - 1) / kBits);
-    mark_degenerate(positions, triangles, words, parallel_for);
+    mark_degenerate(positions, triangles, words, guarded);
     const bool any = std::ranges::any_of(words, [](std::uint64_t word) { return word != 0; });
     if (!any) words.clear();
     return words;

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "cdprep/disjoint_sets.h"
+#include "cdprep/format/float_environment.h"
 #include "cdprep/mesh_arrays.h"
 
 namespace cdprep::build {
@@ -97,6 +98,7 @@ ComponentNumbers number_components(std::size_t vertex_count, std::span<const Tri
 }
 
 Topology find_topology(std::span<const Double3> positions, std::span<const Triangle> triangles) {
+    const format::FloatEnvironment environment;
     const ComponentNumbers components = number_components(positions.size(), triangles);
     const std::vector<std::uint32_t>& number = components.of_vertex;
     Topology topology;

@@ -16,9 +16,10 @@ namespace cdprep {
 /// surfaces proved to be some gap apart: until the models have moved as far, they do
 /// not touch.
 ///
-/// One a pair of models, for any questions; a cache of another pair only costs time.
-/// Threads need one each. One whose models' memory was changed in place must be made
-/// anew. The members belong to the library; all zero is a new cache.
+/// One a pair of models, for any questions; a cache of another pair only costs time, and
+/// so does one of a build::RuntimeModel before its last refit(). Threads need one each.
+/// One whose models' memory was changed in place by other means must be made anew. The
+/// members belong to the library; all zero is a new cache.
 struct PairCache {
     std::uint32_t holds = 0;                   ///< bit set: 1 a pair, 2 a place, 4 the pair touched
     std::uint32_t triangle_a = 0;              ///< of the pair, tree order

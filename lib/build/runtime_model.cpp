@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/runtime_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "cdprep/format/checksum.h"
+#include "cdprep/format/float_environment.h"
+#include "cdprep/format/make_user_block.h"
+#include "cdprep/format/sections.h"
+#include "degenerate.h"
+#include "frame_map.h"
+#include "guarded_for.h"
+#include "make_leaves.h"
+#include "make_nodes.h"
+#include "mesh_fault.h"
+
+namespace cdprep::build {
+namespace {
+
+using format::Double3;
+using format::Float3;
+using format::SectionEntry;
+using format::SectionId;
+using format::SectionSet;
+using format::Triangle;
+
+/// What a run-time model has: what follows its positions, and what these leave as it is.
+constexpr SectionSet kSections = {
+    SectionId::positions_f32,   SectionId::positions_f64,   SectionId::triangles,
+    SectionId::source_triangle, SectionId::source_vertex,   SectionId::bvh_nodes,
+    SectionId::bvh_leaves,      SectionId::degenerate_bits, SectionId::components};
+
+/// The facts without swept spheres, which are left out.
+format::FileHeader facts_of(format::FileHeader base) {
+    base.flags &= ~(format::model_swept_lines | format::model_swept_rectangles);
+    return base;
+}
+
+/// What a run-time model is made of: views of its base.
+struct Start {
+    format::FileHeader facts;
+    SectionList list;
+    /// A triangle may become degenerate: the model has marks even when none is set.
+    std::vector<std::uint64_t> no_marks;
+
+    Start(const format::FileHeader& base, SectionList views, bool has_marks)
+        : facts(facts_of(base)), list(std::move(views)) {
+        if (has_marks) return;
+        no_marks.resize((std::size_t{base.triangle_count} + 63) / 64);
+        list.add(SectionId::degenerate_bits, no_marks);
+    }
+    // The list has a view of the marks.
+    Start(const Start&) = delete;
+    Start& operator=(const Start&) = delete;
+};
+
+Error bad(const std::string& message) {
+    return {ErrorCode::bad_argument, message};
+}
+
+/// Why a model cannot be the base of a run-time model.
+std::optional<Error> find_fault(const Model& base) {
+    for (const SectionId id :
+         {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
+          SectionId::bvh_nodes, SectionId::bvh_leaves}) {
+        if (base.sections().contains(id)) continue;
+        return bad(std::string("A run-time model cannot be made of a model without the section ") +
+                   format::section_name(id) +
+                   ": bake it with --effects overlap, and open it "
+                   "with that section.");
+    }
+    if (!base.sections().contains(SectionId::positions_f32) &&
+        !base.sections().contains(SectionId::positions_f64)) {
+        return bad(
+            "A run-time model cannot be made of a model without positions: bake it with "
+            "--effects overlap, and open it with them.");
+    }
+    const auto source = base.source_vertex();
+    const auto made = std::ranges::find(source, format::kMadeByRepair);
+    if (made == source.end()) return std::nullopt;
+    return bad("A run-time model cannot be made of this model: vertex " +
+               std::to_string(made - source.begin()) +
+               " was made by a repair, so the imported file has no position for it.");
+}
+
+SectionList views_of(const Model& base) {
+    SectionList list(kSections);
+    const SectionSet present = base.sections();
+    const auto add = [&](SectionId id, const auto& elements) {
+        if (present.contains(id)) list.add(id, elements);
+    };
+    add(SectionId::positions_f32, base.positions_f32());
+    add(SectionId::positions_f64, base.positions_f64());
+    add(SectionId::triangles, base.triangles());
+    add(SectionId::source_triangle, base.source_triangle());
+    add(SectionId::source_vertex, base.source_vertex());
+    add(SectionId::bvh_nodes, base.nodes());
+    add(SectionId::bvh_leaves, base.leaves());
+    add(SectionId::components, base.components());
+    list.add_unless_empty(SectionId::degenerate_bits, base.degenerate_bits());
+    return list;
+}
+
+Start start_of(const ModelArrays& base) {
+    return {base.facts, base.sections(kSections), !base.degenerate_bits.empty()};
+}
+
+Start start_of(const Model& base) {
+    return {base.header(), views_of(base), !base.degenerate_bits().empty()};
+}
+
+/// The elements of a section of an image that was checked.
+template <class Element>
+std::span<Element> elements_of(std::span<std::byte> image, SectionId id) {
+    const std::optional<SectionEntry> entry = format::find_section(image, id);
+    if (!entry || entry->count == 0) return {};
+    return {reinterpret_cast<Element*>(image.data() + entry->offset),
+            static_cast<std::size_t>(entry->count)};
+}
+
+/// The table of an image, to be changed and put back.
+struct Table {
+    explicit Table(std::span<const std::byte> image)
+        : count(format::read_header(image).section_count) {
+        std::memcpy(entries.data(), image.data() + format::kSectionTableOffset,
+                    count * sizeof(SectionEntry));
+    }
+    [[nodiscard]] std::span<SectionEntry> used() {
+        return std::span(entries).first(count);
+    }
+    /// Adds up the bytes of a section anew.
+    static void sum(std::span<const std::byte> image, SectionEntry& entry) {
+        entry.checksum = format::checksum(
+            image.subspan(static_cast<std::size_t>(entry.offset),
+                          static_cast<std::size_t>(entry.count * entry.element_size)));
+    }
+    void put(std::span<std::byte> image, const format::FileHeader& facts) {
+        constexpr std::array<std::byte, sizeof(format::FileHeader::superblock)> kNoSuperblock{};
+        const format::UserBlock block =
+            format::make_user_block(facts, used(), kNoSuperblock, image.size());
+        std::memcpy(image.data(), block.data(), block.size());
+    }
+
+    std::uint32_t count;
+    std::array<SectionEntry, format::kMaxSections> entries{};
+};
+
+bool is_positions(SectionId id) {
+    return id == SectionId::positions_f32 || id == SectionId::positions_f64;
+}
+
+/// As they were imported: components are found in that order.
+std::vector<Triangle> in_source_order(const Model& model) {
+    const auto triangles = model.triangles();
+    std::vector<Triangle> sorted(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        sorted[model.source_triangle()[i]] = triangles[i];
+    }
+    return sorted;
+}
+
+std::vector<Double3> positions_of(const Model& model) {
+    std::vector<Double3> positions(model.positions_f64().begin(), model.positions_f64().end());
+    for (const Float3& p : model.positions_f32()) positions.push_back(as_double(p));
+    return positions;
+}
+
+}  // namespace
+
+RuntimeModel::RuntimeModel(std::span<std::byte> image, Model model)
+    : image_(image),
+      model_(std::move(model)),
+      moving_{elements_of<Float3>(image, SectionId::positions_f32),
+              elements_of<Double3>(image, SectionId::positions_f64),
+              elements_of<format::BvhNode>(image, SectionId::bvh_nodes),
+              elements_of<format::BvhLeaf>(image, SectionId::bvh_leaves),
+              elements_of<std::uint64_t>(image, SectionId::degenerate_bits),
+              elements_of<format::Component>(image, SectionId::components)} {
+    for (const std::uint32_t vertex : model_.source_vertex()) {
+        position_count_ = std::max(position_count_, std::size_t{vertex} + 1);
+    }
+}
+
+Result<std::size_t> RuntimeModel::bytes(const ModelArrays& base) {
+    return image_size(start_of(base).list.sections());
+}
+
+Result<std::size_t> RuntimeModel::bytes(const Model& base) {
+    if (const auto fault = find_fault(base)) return *fault;
+    return image_size(start_of(base).list.sections());
+}
+
+Result<RuntimeModel> RuntimeModel::in(std::span<std::byte> memory, const ModelArrays& base) {
+    const Start start = start_of(base);
+    return in(memory, start.facts, start.list);
+}
+
+Result<RuntimeModel> RuntimeModel::in(std::span<std::byte> memory, const Model& base) {
+    if (const auto fault = find_fault(base)) return *fault;
+    const Start start = start_of(base);
+    return in(memory, start.facts, start.list);
+}
+
+Result<RuntimeModel> RuntimeModel::in(std::span<std::byte> memory, const format::FileHeader& facts,
+                                      const SectionList& list) {
+    const Result<std::span<std::byte>> image = build_image(facts, list.sections(), memory);
+    if (!image) return image.error();
+    Result<Model> opened =
+        Model::open(std::span<const std::byte>(image.value()), {.name = "run-time model"});
+    if (!opened) return opened.error();
+    return RuntimeModel(image.value(), std::move(opened).value());
+}
+
+Result<double> RuntimeModel::refit(std::span<const Double3> positions, ParallelFor parallel_for) {
+    if (!moving_.positions_f32.empty()) {
+        return bad(
+            "The run-time model keeps positions as floats, and doubles were given: give "
+            "floats, or build it from doubles.");
+    }
+    return refit_to(positions, parallel_for);
+}
+
+Result<double> RuntimeModel::refit(std::span<const Float3> positions, ParallelFor parallel_for) {
+    return refit_to(positions, parallel_for);
+}
+
+template <class Position>
+Result<double> RuntimeModel::refit_to(std::span<const Position> positions,
+                                      ParallelFor parallel_for) {
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, parallel_for);
+    if (positions.size() < position_count_) {
+        return bad("The run-time model has " + std::to_string(position_count_) +
+                   " positions, and " + std::to_string(positions.size()) + " were given.");
+    }
+    const std::span<const Position> used = positions.first(position_count_);
+    if (const auto fault = find_bad_position(used)) return *fault;
+    const std::span<const std::uint32_t> source = model_.source_vertex();
+    if constexpr (std::is_same_v<Position, Float3>) {
+        if (!moving_.positions_f32.empty()) {
+            std::ranges::transform(source, moving_.positions_f32.begin(),
+                                   [&](std::uint32_t vertex) { return used[vertex]; });
+            return refit_over(model_.positions_f32(), guarded);
+        }
+    }
+    std::ranges::transform(source, moving_.positions_f64.begin(),
+                           [&](std::uint32_t vertex) { return as_double(used[vertex]); });
+    return refit_over(model_.positions_f64(), guarded);
+}
+
+/// Everything that follows from the positions, which stand in the image.
+template <class Kept>
+double RuntimeModel::refit_over(std::span<const Kept> positions, ParallelFor parallel_for) {
+    if (moving_.leaves.empty()) return 0;
+    const Extent extent = extent_of(positions, parallel_for);
+    const Frame frame = frame_of(extent);
+    const bool exact = has_exact_leaves(extent, frame);
+    const std::span<const Triangle> triangles = model_.triangles();
+    make_leaves({frame, exact, moving_.nodes, moving_.leaves}, positions, triangles, parallel_for);
+    make_nodes(moving_.nodes, static_cast<std::uint32_t>(triangles.size()), parallel_for);
+    mark_degenerate(positions, triangles, moving_.degenerate_bits, parallel_for);
+    update_header(frame, exact);
+    return surface_cost(moving_.nodes);
+}
+
+/// The content hash has to tell these positions from any others: caches compare it. All else
+/// that moves follows from the positions, so their checksum is enough.
+void RuntimeModel::update_header(const Frame& frame, bool exact_leaves) {
+    format::FileHeader facts = format::read_header(image_);
+    facts.flags &= ~format::model_exact_leaves;
+    if (exact_leaves) facts.flags |= format::model_exact_leaves;
+    facts.frame_origin = frame.origin;
+    facts.frame_exponent = frame.exponent;
+    Table table(image_);
+    for (SectionEntry& entry : table.used()) {
+        if (is_positions(entry.id)) Table::sum(image_, entry);
+    }
+    table.put(image_, facts);
+}
+
+std::span<const std::byte> RuntimeModel::image() {
+    const format::FloatEnvironment environment;
+    const Topology topology = find_topology(positions_of(model_), in_source_order(model_));
+    if (moving_.components.size() == topology.components.size()) {
+        std::ranges::copy(topology.components, moving_.components.begin());
+    }
+    Table table(image_);
+    for (SectionEntry& entry : table.used()) Table::sum(image_, entry);
+    table.put(image_, format::read_header(image_));
+    return image_;
+}
+
+}  // namespace cdprep::build

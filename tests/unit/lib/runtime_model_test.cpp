@@ -1,0 +1,367 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/runtime_model.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <random>
+
+#include "cdprep/cast_ray.h"
+#include "cdprep/closest_point.h"
+#include "cdprep/collide.h"
+#include "cdprep/distance.h"
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/sections.h"
+#include "cdprep/refit_bvh.h"
+#include "support/brute_force.h"
+#include "support/changed_sections.h"
+#include "support/open_tiny.h"
+#include "support/random_pose.h"
+#include "support/same_distance.h"
+
+namespace cdprep::test {
+namespace {
+
+using build::build_model;
+using build::ModelArrays;
+using build::RuntimeModel;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// A run-time model and its memory.
+struct Running {
+    AlignedBytes memory;
+    RuntimeModel object;
+
+    [[nodiscard]] const Model& model() const {
+        return object.model();
+    }
+};
+
+template <class Base>
+Running run(const Base& base) {
+    AlignedBytes memory(RuntimeModel::bytes(base).value());
+    auto made = RuntimeModel::in(memory.span(), base);
+    return {std::move(memory), std::move(made).value()};
+}
+
+ModelArrays arrays_of(const TestMesh& mesh) {
+    return build_model(mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned})
+        .value();
+}
+
+std::vector<Float3> floats_of(const TestMesh& mesh) {
+    std::vector<Float3> floats;
+    for (const Double3& p : mesh.positions) {
+        floats.push_back(
+            {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)});
+    }
+    return floats;
+}
+
+TestMesh sheared(TestMesh mesh, double by) {
+    for (Double3& p : mesh.positions) p.x += by * p.z;
+    return mesh;
+}
+
+TestMesh flattened(TestMesh mesh) {
+    for (Double3& p : mesh.positions) p = {p.x, 0, 0};
+    return mesh;
+}
+
+/// A mesh, and shapes that it takes one after the other.
+struct Motion {
+    TestMesh start;
+    std::vector<TestMesh> shapes;
+};
+
+std::vector<Motion> motions() {
+    const TestMesh ball = icosphere(3);
+    const TestMesh soup = random_soup(1, 300, 0.3);
+    const TestMesh two = joined(icosphere(1), moved_by(icosphere(2), 2, {9, 0, 0}));
+    return {{ball, {sheared(ball, 0.5), in_floats(ball), moved_by(ball, 1000, {1e6, 0, -1e6})}},
+            {soup, {sheared(soup, 1), flattened(soup), soup}},
+            {flattened(soup), {soup}},
+            {two, {moved_by(two, 0x1p-1000, {}), moved_by(two, 0x1p900, {}), sheared(two, 2)}},
+            {coarse_grid_soup(2, 65, 3), {coarse_grid_soup(5, 65, 3)}},
+            {fan(1), {moved_by(fan(1), 3, {1, 1, 1})}}};
+}
+
+/// The model of a shape, in the order of an earlier one, made without RuntimeModel's refit.
+Running made_anew(const ModelArrays& start, const TestMesh& shape) {
+    build::Bvh bvh = start.bvh;
+    build::refit_bvh(bvh, shape.positions, shape.triangles, {.bounds = build::BvhBounds::aligned});
+    return run(build::arrange_model(shape.positions, shape.triangles, std::move(bvh),
+                                    build::Precision::double_precision));
+}
+
+// refit_bvh() and arrange_model() come to the same bytes on another way: with them to the same
+// answers. The deep check of the format proves boxes and marks by itself.
+TEST(RuntimeModel, ARefittedImageIsThatOfAModelMadeAnew) {
+    for (const Motion& motion : motions()) {
+        const ModelArrays arrays = arrays_of(motion.start);
+        Running moving = run(arrays);
+        for (const TestMesh& shape : motion.shapes) {
+            ASSERT_TRUE(moving.object.refit(shape.positions));
+            Running expected = made_anew(arrays, shape);
+            const auto image = moving.object.image();
+            EXPECT_TRUE(std::ranges::equal(image, expected.object.image()));
+            EXPECT_FALSE(format::find_deep_damage(image));
+            EXPECT_TRUE(Model::open(image));
+        }
+    }
+}
+
+void expect_same_answers(const Model& moving, const Model& fresh, const Model& other,
+                         const Placement& placement) {
+    Workspace workspace;
+    auto pairs = all_pairs(moving, other, placement, workspace);
+    auto expected = all_pairs(fresh, other, placement, workspace);
+    std::ranges::sort(pairs);
+    std::ranges::sort(expected);
+    EXPECT_EQ(pairs, expected);
+    for (const As as : {As::surface, As::solid}) {
+        const Collision one = collide(moving, other, placement, workspace, {.as = as});
+        const Collision two = collide(fresh, other, placement, workspace, {.as = as});
+        EXPECT_EQ(one.hit, two.hit);
+        EXPECT_EQ(one.containment.answer, two.containment.answer);
+        EXPECT_EQ(one.containment.winding, two.containment.winding);
+    }
+    const auto near = distance(moving, other, placement, workspace);
+    const auto exact = distance(fresh, other, placement, workspace);
+    ASSERT_EQ(near.has_value(), exact.has_value());
+    if (near) {  // both intervals hold the exact distance
+        EXPECT_LE(near->lower, exact->upper);
+        EXPECT_LE(exact->lower, near->upper);
+    }
+}
+
+void expect_same_points(const Model& moving, const Model& fresh, std::uint32_t seed) {
+    Workspace workspace;
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0, 1);
+    const auto point = [&] { return Double3{normal(random), normal(random), normal(random)}; };
+    for (int i = 0; i < 30; ++i) {
+        const Ray ray{point(), point()};
+        const auto hit = cast_ray(moving, ray, workspace);
+        const auto expected = cast_ray(fresh, ray, workspace);
+        ASSERT_EQ(hit.has_value(), expected.has_value());
+        if (hit) {
+            EXPECT_EQ(hit->t, expected->t);
+        }
+        EXPECT_EQ(ray_hits(moving, ray, workspace), expected.has_value());
+        const Double3 at = point();
+        const auto near = closest_point(moving, at, workspace);
+        const auto nearest = closest_point(fresh, at, workspace);
+        ASSERT_TRUE(near && nearest);
+        EXPECT_LE(near->lower, nearest->upper);
+        EXPECT_LE(nearest->lower, near->upper);
+        const Inclusion inside = includes(moving, at, workspace);
+        const Inclusion expected_inside = includes(fresh, at, workspace);
+        EXPECT_EQ(inside.answer, expected_inside.answer);
+        EXPECT_EQ(inside.on_surface, expected_inside.on_surface);
+    }
+}
+
+// The truth is a model that is baked of the moved mesh, with an order and boxes of its own.
+TEST(RuntimeModel, AnswersAreThoseOfABakeOfTheMovedMesh) {
+    const OpenModel other = open_tiny(torus(1, 0.3, 24, 12), {.double_precision = true});
+    const TestMesh ball = icosphere(3);
+    const TestMesh soup = random_soup(7, 400, 0.4);
+    const TestMesh in_hole = moved_by(icosphere(2), 0.1, {1, 0, 0});  // inside the other's tube
+    for (const TestMesh& mesh : {ball, soup, in_hole}) {
+        Running moving = run(arrays_of(mesh));
+        for (const double by : {0.0, 0.3, -1.5}) {
+            const TestMesh shape = sheared(mesh, by);
+            ASSERT_TRUE(moving.object.refit(shape.positions));
+            const OpenModel fresh = open_tiny(shape, {.double_precision = true});
+            std::mt19937 random(3);
+            for (int i = 0; i < 8; ++i) {
+                const Placement placement =
+                    Placement::b_moves(i == 0 ? Pose() : random_pose(random, 1));
+                expect_same_answers(moving.model(), fresh.model, other.model, placement);
+            }
+            expect_same_points(moving.model(), fresh.model, 5);
+        }
+    }
+}
+
+TEST(RuntimeModel, FloatsAreKeptAsFloats) {
+    const TestMesh ball = in_floats(icosphere(3));
+    Running moving = run(build_model(floats_of(ball), ball.triangles).value());
+    const TestMesh shape = in_floats(sheared(ball, 0.7));
+    ASSERT_TRUE(moving.object.refit(floats_of(shape)));
+    EXPECT_TRUE(moving.model().has_exact_leaves());
+    const OpenModel fresh = open_tiny(shape);
+    const OpenModel other = open_tiny(in_floats(torus(1, 0.3, 24, 12)));
+    expect_same_answers(moving.model(), fresh.model, other.model, Placement::b_moves({}));
+    EXPECT_EQ(moving.object.refit(shape.positions).error().code, ErrorCode::bad_argument);
+}
+
+// A float is a double: the model of doubles comes to the same bytes.
+TEST(RuntimeModel, AModelOfDoublesTakesFloats) {
+    const TestMesh ball = in_floats(icosphere(2));
+    const ModelArrays arrays = arrays_of(icosphere(2));
+    Running floats = run(arrays);
+    Running doubles = run(arrays);
+    ASSERT_TRUE(floats.object.refit(floats_of(ball)));
+    ASSERT_TRUE(doubles.object.refit(ball.positions));
+    EXPECT_TRUE(std::ranges::equal(floats.object.image(), doubles.object.image()));
+}
+
+TEST(RuntimeModel, ABakedModelIsABaseToo) {
+    const TestMesh ball = icosphere(3);
+    const OpenModel baked =
+        open_tiny(ball, {.double_precision = true, .bounds = build::BvhBounds::oriented_and_swept});
+    Running moving = run(baked.model);
+    EXPECT_TRUE(moving.model().oriented_nodes().empty());
+    EXPECT_TRUE(moving.model().swept_nodes().empty());
+    EXPECT_EQ(moving.object.position_count(), ball.positions.size());
+    const TestMesh shape = sheared(ball, -0.4);
+    ASSERT_TRUE(moving.object.refit(shape.positions));
+    const OpenModel other = open_tiny(torus(1, 0.3, 24, 12), {.double_precision = true});
+    const OpenModel fresh = open_tiny(shape, {.double_precision = true});
+    expect_same_answers(moving.model(), fresh.model, other.model, Placement::b_moves({}));
+}
+
+TEST(RuntimeModel, ABaseThatLacksASectionIsRefusedByItsName) {
+    const TestMesh ball = icosphere(1);
+    for (const SectionId id :
+         {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
+          SectionId::bvh_nodes, SectionId::bvh_leaves}) {
+        const AlignedBytes bytes = bake_tiny(ball.positions, ball.triangles);
+        SectionSet wanted = SectionSet::all();
+        wanted.erase(id);
+        const auto base = Model::open(bytes.span(), wanted);
+        ASSERT_TRUE(base);
+        const auto size = RuntimeModel::bytes(base.value());
+        ASSERT_FALSE(size) << format::section_name(id);
+        EXPECT_NE(size.error().message.find(format::section_name(id)), std::string::npos);
+        AlignedBytes memory(1 << 20);
+        EXPECT_FALSE(RuntimeModel::in(memory.span(), base.value()));
+    }
+    const AlignedBytes bytes = bake_tiny(ball.positions, ball.triangles);
+    const auto blind = Model::open(
+        bytes.span(), {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
+                       SectionId::bvh_nodes, SectionId::bvh_leaves});
+    EXPECT_NE(RuntimeModel::bytes(blind.value()).error().message.find("positions"),
+              std::string::npos);
+}
+
+// No position of the imported file stands for such a vertex.
+TEST(RuntimeModel, VerticesThatARepairMadeAreRefused) {
+    const TestMesh ball = icosphere(1);
+    const AlignedBytes bytes =
+        with(bake_tiny(ball.positions, ball.triangles), SectionId::source_vertex,
+             4 * sizeof(std::uint32_t), format::kMadeByRepair);
+    const auto base = Model::open(bytes.span());
+    ASSERT_TRUE(base);
+    EXPECT_NE(RuntimeModel::bytes(base.value()).error().message.find("vertex 4 was made by"),
+              std::string::npos);
+}
+
+TEST(RuntimeModel, BadPositionsAreRefusedByNumberAndChangeNothing) {
+    const TestMesh ball = icosphere(2);
+    Running moving = run(arrays_of(ball));
+    ASSERT_TRUE(moving.object.refit(sheared(ball, 0.3).positions));
+    const AlignedBytes before(moving.memory.span());
+    for (const double bad : {kNan, std::numeric_limits<double>::infinity(), -0x1.1p1000}) {
+        TestMesh shape = sheared(ball, 0.5);
+        shape.positions[17].z = bad;
+        shape.positions[40].x = kNan;
+        const auto refused = moving.object.refit(shape.positions);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::bad_argument);
+        EXPECT_EQ(refused.error().message.find("Vertex 17 cannot be used: its z"), 0U);
+    }
+    std::vector<Float3> floats = floats_of(ball);
+    floats[3].y = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_EQ(moving.object.refit(floats).error().message.find("Vertex 3 "), 0U);
+    const std::span<const Double3> few = std::span(ball.positions).first(ball.positions.size() - 1);
+    EXPECT_EQ(moving.object.refit(few).error().message,
+              "The run-time model has 162 positions, and 161 were given.");
+    EXPECT_TRUE(std::ranges::equal(before.span(), moving.memory.span()));
+}
+
+TEST(RuntimeModel, MemoryThatDoesNotFitIsRefused) {
+    const ModelArrays arrays = arrays_of(icosphere(1));
+    const std::size_t size = RuntimeModel::bytes(arrays).value();
+    AlignedBytes memory(size + 64);
+    EXPECT_FALSE(RuntimeModel::in(memory.span().first(size - 1), arrays));
+    EXPECT_FALSE(RuntimeModel::in(memory.span().subspan(8), arrays));
+    EXPECT_TRUE(RuntimeModel::in(memory.span(), arrays));
+}
+
+// With one cache through all shapes, and shared with another model of the same mesh that has
+// other shapes: each answer is that without a cache. Shapes come near and go, so that gaps
+// are proved and given up.
+TEST(RuntimeModel, CachesAreNotFooledByARefit) {
+    const OpenModel other = open_tiny(icosphere(3), {.double_precision = true});
+    const TestMesh ball = icosphere(3);
+    const ModelArrays arrays = arrays_of(ball);
+    Running first = run(arrays);
+    Running second = run(arrays);
+    Workspace workspace;
+    PairCache cache;
+    const Placement placement = Placement::b_moves({});
+    std::size_t hits = 0;
+    for (int i = 0; i < 60; ++i) {
+        const double gap = 0.05 * (i % 7) - 0.1;
+        ASSERT_TRUE(first.object.refit(moved_by(ball, 1, {2 + gap, 0, 0}).positions));
+        ASSERT_TRUE(second.object.refit(moved_by(ball, 1, {2 - gap, 0, 0}).positions));
+        EXPECT_EQ(first.model().header().content_hash == second.model().header().content_hash,
+                  std::fabs(gap) < 1e-12);
+        for (const Model* model : {&first.model(), &second.model(), &first.model()}) {
+            const bool plain = collide(*model, other.model, placement, workspace).hit;
+            EXPECT_EQ(collide(*model, other.model, placement, workspace, {}, &cache).hit, plain);
+            const auto exact = distance(*model, other.model, placement, workspace);
+            expect_same(distance(*model, other.model, placement, workspace, {}, &cache), exact);
+            hits += plain ? 1 : 0;
+        }
+    }
+    EXPECT_GT(hits, 40U);
+    EXPECT_LT(hits, 160U);
+}
+
+// A flat triangle has the bit that skips it only while it is flat.
+TEST(RuntimeModel, TrianglesAreMarkedDegenerateAsTheyBecomeIt) {
+    const TestMesh sheet = grid_sheet(3, 3);
+    const OpenModel wall = open_tiny(turned(grid_sheet(3, 3), 0.7), {.double_precision = true});
+    Running moving = run(arrays_of(sheet));
+    Workspace workspace;
+    const OverlapOptions skip{.degenerate = Degenerate::skip};
+    const Placement placement = Placement::b_moves({});
+    const auto count = [&] {
+        return all_pairs(moving.model(), wall.model, placement, workspace, skip).size();
+    };
+    const std::size_t whole = count();
+    EXPECT_GT(whole, 0U);
+    ASSERT_TRUE(moving.object.refit(flattened(sheet).positions));
+    EXPECT_EQ(count(), 0U);
+    ASSERT_TRUE(moving.object.refit(sheet.positions));
+    EXPECT_EQ(count(), whole);
+}
+
+TEST(RuntimeModel, AModelOfNothingIsRefitted) {
+    Running moving = run(arrays_of({}));
+    const auto cost = moving.object.refit(std::span<const Double3>());
+    ASSERT_TRUE(cost);
+    EXPECT_EQ(cost.value(), 0);
+    EXPECT_EQ(moving.model().triangle_count(), 0U);
+}
+
+TEST(RuntimeModel, TheCostRisesWhenNeighboursPart) {
+    const TestMesh ball = icosphere(4);
+    Running moving = run(arrays_of(ball));
+    const double before = moving.object.refit(ball.positions).value();
+    TestMesh torn = ball;
+    for (std::size_t i = 0; i < torn.positions.size(); i += 2) torn.positions[i].x += 5;
+    EXPECT_GT(moving.object.refit(torn.positions).value(), 2 * before);
+}
+
+}  // namespace
+}  // namespace cdprep::test

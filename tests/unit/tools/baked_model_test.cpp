@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "cdprep/build_model.h"
+#include "cdprep/format/sections.h"
+#include "cdprep/model.h"
+#include "cdprep/pipeline.h"
+#include "study/memory_model.h"
+#include "support/scratch_folder.h"
+
+namespace cdprep::cli {
+namespace {
+
+using format::SectionId;
+
+// The mesh that a baked file holds, given to the library: of all that build_model() makes the
+// file has the same bytes, and the same facts. Numbers of source vertices aside, which are
+// those of another file.
+TEST(BakedModel, TheLibraryBuildsWhatABakeHolds) {
+    const test::ScratchFolder folder;
+    for (const char* name : {"bracket", "bolt"}) {
+        BakeOptions options;
+        options.effects.sections = format::SectionSet::all();
+        options.effects.sections.erase(SectionId::pieces);
+        options.effects.sections.erase(SectionId::piece_adjacency);
+        options.bounds = build::BvhBounds::oriented_and_swept;
+        const std::string file = folder.file("m.cdp.h5");
+        const auto baked = bake(std::string(CDPREP_SOURCE_DIR) + "/samples/meshes/" + name + ".obj",
+                                file, options, Threads(1), [](const char*) {});
+        ASSERT_TRUE(baked) << baked.error().message;
+        const auto model = Model::open(file);
+        ASSERT_TRUE(model) << model.error().message;
+        const mesh::Mesh mesh = study::mesh_of(model.value());
+        build::ModelArrays arrays = build::arrange_model(
+            mesh.positions, mesh.triangles,
+            build::build_bvh(mesh.positions, mesh.triangles, {.bounds = options.bounds}),
+            mesh.single_precision ? build::Precision::single_precision
+                                  : build::Precision::double_precision);
+        const format::FileHeader& facts = model.value().header();
+        EXPECT_EQ(arrays.facts.flags, facts.flags);
+        EXPECT_EQ(arrays.facts.vertex_count, facts.vertex_count);
+        EXPECT_EQ(arrays.facts.triangle_count, facts.triangle_count);
+        EXPECT_EQ(arrays.facts.frame_origin, facts.frame_origin);
+        EXPECT_EQ(arrays.facts.frame_exponent, facts.frame_exponent);
+        const build::SectionList list = arrays.sections();
+        const auto table = build::make_section_table(list.sections());
+        ASSERT_TRUE(table);
+        std::size_t compared = 0;
+        for (const build::Section& section : list.sections()) {
+            if (section.id == SectionId::source_vertex) continue;
+            const auto* bytes = reinterpret_cast<const std::byte*>(&facts);
+            const std::span<const std::byte> image(bytes, facts.file_size);
+            const auto entry = format::find_section(image, section.id);
+            ASSERT_TRUE(entry) << format::section_name(section.id);
+            ASSERT_EQ(entry->count * entry->element_size, section.bytes.size());
+            EXPECT_EQ(std::memcmp(image.data() + entry->offset, section.bytes.data(),
+                                  section.bytes.size()),
+                      0)
+                << name << ": " << format::section_name(section.id);
+            ++compared;
+        }
+        EXPECT_GE(compared, 8U);
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::cli
