@@ -17,7 +17,7 @@ namespace cdprep {
 /// (PotentialSet), what the leaf cells of A list in which its corners lie. Misses triangles
 /// that cross others between their corners.
 ///
-/// Both models must have the sections that sections_of() names.
+/// Both models must serve Ask::hashed_octree.
 bool visit_contacts_through_keys(const QuestionThrough& question, ContactVisitor visit) noexcept;
 
 }  // namespace cdprep

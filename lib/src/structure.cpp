@@ -21,14 +21,4 @@ Ask ask_of(Structure structure) noexcept {
     }
 }
 
-format::SectionSet sections_of(Structure structure) noexcept {
-    const Needs* row = find_needs(ask_of(structure));
-    return row == nullptr ? format::SectionSet{} : row->needed;
-}
-
-format::SectionSet more_sections_of(Structure structure) noexcept {
-    const Needs* row = find_needs(ask_of(structure));
-    return row == nullptr ? format::SectionSet{} : row->used;
-}
-
 }  // namespace cdprep

@@ -58,7 +58,7 @@ def inaccessible(program, folder):
 
     bake(program, folder / "nested.off", "-o", folder / "bare")
     without = run(program, "query", "inaccessible", folder / "bare")
-    must(without.returncode == 2 and "--structures tetra-tree" in without.stderr, without.stderr)
+    must(without.returncode == 2 and "--effects inaccessible" in without.stderr, without.stderr)
     stl = run(program, "query", "inaccessible", folder / "nested", "--export", folder / "x.stl")
     must(stl.returncode == 2 and not (folder / "x.stl").exists(), stl.stderr)
 

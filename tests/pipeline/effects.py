@@ -27,6 +27,7 @@ ALLOWED = {
     "collide": GEOMETRY | PAIR | {"components"}, "inside": GEOMETRY | {"components"},
     "overlap": GEOMETRY | PAIR | SOURCE, "ray": GEOMETRY | SOURCE, "closest": GEOMETRY | SOURCE,
     "distance": GEOMETRY | PAIR | SOURCE, "within": GEOMETRY | PAIR | SOURCE,
+    "touch": GEOMETRY | SOURCE, "corners": GEOMETRY | SOURCE | {"components"},
     "response": {"mass_properties"}, "pieces": GEOMETRY | PAIR | SOURCE | PIECES,
     "contacts": GEOMETRY | PAIR | SOURCE | PIECES | CONTACTS,
 }

@@ -181,8 +181,8 @@ void add_bake(CLI::App& app, Exit& exit) {
     command->add_option("--output-dir", arguments->output_folder, "Where many outputs go")
         ->excludes(output);
     command->add_option("--effects", arguments->effects,
-                        "What the file is to serve, with commas, or all, with every structure "
-                        "too. Default: collide, overlap, distance, within, ray, closest");
+                        "Comma-separated queries to bake for, or all, with every structure. "
+                        "Default: collide,overlap,distance,within,ray,closest");
     add_normalize(*command, arguments->options.normalize);
     add_weld(*command, arguments->options.weld_distance);
     command

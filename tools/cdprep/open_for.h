@@ -8,10 +8,10 @@
 
 namespace cdprep::cli {
 
-/// Opens a baked file with the sections that a question needs, and those of the
-/// structure through which it is asked, no others. bad_argument names those that the
-/// file was baked without, and says how to bake it.
-[[nodiscard]] Result<Model> open_for(const std::filesystem::path& path, SectionSet needed,
+/// Opens a baked file with the sections that a question and the structure it goes through need or
+/// use, and no others. Fails with bad_argument when the file was baked without one of them; the
+/// message says how to bake it.
+[[nodiscard]] Result<Model> open_for(const std::filesystem::path& path, Ask asks,
                                      Structure through = Structure::bvh);
 
 }  // namespace cdprep::cli

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "cdprep/contacts.h"
-#include "effects.h"
 #include "interrupt.h"
 #include "open_for.h"
 #include "query.h"
@@ -48,10 +47,9 @@ Exit run(const Arguments& arguments) {
         parse_structure(arguments.structure, "contacts", kServing);
     if (!options) return fail("query", options.error());
     const Structure through = options.value().structure;
-    const format::SectionSet needed = sections_for("contacts");
-    const Result<Model> a = open_for(arguments.a, needed, through);
+    const Result<Model> a = open_for(arguments.a, Ask::contacts, through);
     if (!a) return fail("query", a.error());
-    const Result<Model> b = open_for(arguments.b, needed, through);
+    const Result<Model> b = open_for(arguments.b, Ask::contacts, through);
     if (!b) return fail("query", b.error());
     const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
     if (!placements) return fail("query", placements.error());

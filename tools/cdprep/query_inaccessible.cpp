@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "effects.h"
 #include "mesh/inaccessible.h"
 #include "open_for.h"
 #include "parallel.h"
@@ -43,8 +42,7 @@ Result<Done> write_coloured(const std::filesystem::path& path, const Model& mode
 }
 
 Exit run(const Arguments& arguments) {
-    const Result<Model> opened =
-        open_for(arguments.model, sections_for("inaccessible"), Structure::tetra_tree);
+    const Result<Model> opened = open_for(arguments.model, Ask::inaccessible);
     if (!opened) return fail("query", opened.error());
     const Model& model = opened.value();
     const std::vector<Double3> positions = positions_of(model);

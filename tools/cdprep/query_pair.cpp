@@ -20,7 +20,6 @@
 #include "cdprep/model_hulls.h"
 #include "cdprep/overlap_through.h"
 #include "cdprep/query_counts.h"
-#include "effects.h"
 #include "interrupt.h"
 #include "open_for.h"
 #include "query.h"
@@ -293,12 +292,12 @@ std::optional<Error> find_idle_for_hulls(const Arguments& arguments) {
 }
 
 Result<Model> open_hulls(const std::filesystem::path& path) {
-    Result<Model> opened = Model::open(path, kHullSections);
+    Result<Model> opened = open_for(path, Ask::hulls);
     if (!opened || find_hull(opened.value(), format::HullScope::whole)) return opened;
     return Error{ErrorCode::bad_argument,
                  path.string() +
-                     ": was baked without what --structure hull needs: hulls. Bake it "
-                     "again with --structures hull."};
+                     ": has no convex hull of the whole model. Bake the mesh again with "
+                     "--structures hull."};
 }
 
 std::string hull_counts(const QueryCounts& counts) {
@@ -353,13 +352,19 @@ Exit run_hulls(const Arguments& arguments) {
     return Exit::success;
 }
 
-format::SectionSet needed_for(const Arguments& arguments) {
-    format::SectionSet needed = sections_for("collide");
-    if (arguments.question == Question::overlap) needed.insert(sections_for("overlap"));
-    if (arguments.question == Question::distance) needed.insert(sections_for("distance"));
-    if (arguments.pairs) needed.insert(sections_for("within"));
-    if (arguments.as == "surface") needed.erase(format::SectionId::components);
-    return needed;
+/// What both models must serve.
+Ask asks_of(const Arguments& arguments) {
+    const Ask solid = arguments.as == "solid" ? Ask::solid : Ask::nothing;
+    switch (arguments.question) {
+        case Question::collide:
+            return Ask::collide | solid;
+        case Question::overlap:
+            return Ask::overlap;
+        case Question::distance:
+            return Ask::distance | solid;
+        default:
+            return Ask::within;
+    }
 }
 
 const char* name_of(Question question) {
@@ -417,10 +422,10 @@ Exit run(const Arguments& arguments) {
     if (asks_hulls(arguments)) return run_hulls(arguments);
     const Result<StructureOptions> through = structure_of(arguments);
     if (!through) return fail("query", through.error());
-    const format::SectionSet needed = needed_for(arguments);
-    const Result<Model> a = open_for(arguments.a, needed, through.value().structure);
+    const Ask asks = asks_of(arguments);
+    const Result<Model> a = open_for(arguments.a, asks, through.value().structure);
     if (!a) return fail("query", a.error());
-    const Result<Model> b = open_for(arguments.b, needed, through.value().structure);
+    const Result<Model> b = open_for(arguments.b, asks, through.value().structure);
     if (!b) return fail("query", b.error());
     const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
     if (!placements) return fail("query", placements.error());

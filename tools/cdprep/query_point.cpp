@@ -10,7 +10,6 @@
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
 #include "cdprep/includes_through.h"
-#include "effects.h"
 #include "interrupt.h"
 #include "open_for.h"
 #include "points_file.h"
@@ -45,6 +44,7 @@ std::uint8_t shade_of(const Inclusion& inclusion) {
 template <class Place>
 struct Question {
     const char* name;
+    Ask ask_of_model;
     const char* description;
     const char* option;  ///< --points or --rays
     const char* option_description;
@@ -86,20 +86,35 @@ constexpr const char* kThroughInside =
     "--structures. The answers are the same";
 constexpr const char* kThroughBvh = "bvh: no other serves this question";
 
-constexpr Question<Double3> kInside = {"inside",       "Which points are inside?",
-                                       "--points",     "File of points, 3 numbers a line",
-                                       read_points,    kServingInside,
-                                       kThroughInside, true,
+constexpr Question<Double3> kInside = {"inside",
+                                       Ask::inside,
+                                       "Which points are inside?",
+                                       "--points",
+                                       "File of points, 3 numbers a line",
+                                       read_points,
+                                       kServingInside,
+                                       kThroughInside,
+                                       true,
                                        ask_inside};
-constexpr Question<Double3> kClosest = {"closest",   "What is nearest to each point?",
-                                        "--points",  "File of points, 3 numbers a line",
-                                        read_points, kBvhAlone,
-                                        kThroughBvh, false,
+constexpr Question<Double3> kClosest = {"closest",
+                                        Ask::closest,
+                                        "What is nearest to each point?",
+                                        "--points",
+                                        "File of points, 3 numbers a line",
+                                        read_points,
+                                        kBvhAlone,
+                                        kThroughBvh,
+                                        false,
                                         ask_closest};
-constexpr Question<Ray> kRay = {"ray",       "What does each ray meet first?",
-                                "--rays",    "File of rays, 6 numbers a line: origin, direction",
-                                read_rays,   kBvhAlone,
-                                kThroughBvh, false,
+constexpr Question<Ray> kRay = {"ray",
+                                Ask::ray,
+                                "What does each ray meet first?",
+                                "--rays",
+                                "File of rays, 6 numbers a line: origin, direction",
+                                read_rays,
+                                kBvhAlone,
+                                kThroughBvh,
+                                false,
                                 ask_ray};
 
 /// Rays are not exported.
@@ -123,7 +138,7 @@ Exit run(const Arguments& arguments, const Question<Place>& question) {
         parse_structure(arguments.structure, question.name, question.serving);
     if (!through) return fail("query", through.error());
     const Structure structure = through.value().structure;
-    const Result<Model> model = open_for(arguments.model, sections_for(question.name), structure);
+    const Result<Model> model = open_for(arguments.model, question.ask_of_model, structure);
     if (!model) return fail("query", model.error());
     const Result<std::vector<Place>> places = question.read(arguments.places);
     if (!places) return fail("query", places.error());

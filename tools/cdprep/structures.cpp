@@ -23,6 +23,11 @@ const report::StructureName* find_baked(const std::string& name) {
     return at == report::kStructureNames.end() ? nullptr : at;
 }
 
+/// What the file holds for a structure that is baked.
+format::SectionSet needed_by(Structure structure) {
+    return find_needs(ask_of(structure))->needed;
+}
+
 std::vector<std::string> baked_names() {
     std::vector<std::string> names;
     for (const report::StructureName& known : report::kStructureNames) {
@@ -110,17 +115,15 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
     if (!names) return names.error();
     StructureChoice choice;
     // The one effect that needs a structure, when it was asked for by its own name.
-    if (!effects.all &&
-        std::count(effects.names.begin(), effects.names.end(), "inaccessible") > 0) {
-        choice.sections.insert(sections_of(Structure::tetra_tree));
+    if (!effects.all && contains(effects.asks, Ask::inaccessible)) {
+        choice.sections.insert(needed_by(Structure::tetra_tree));
     }
     for (const std::string& name : names.value()) {
-        choice.sections.insert(name == kHull ? kHullSections
-                                             : sections_of(find_baked(name)->structure));
+        choice.sections.insert(find_needs(std::string_view(name))->needed);
     }
     for (const report::StructureName& known : report::kStructureNames) {
         // The hashed octree brings the octree's own sections.
-        if (known.is_baked && choice.sections.contains(sections_of(known.structure))) {
+        if (known.is_baked && choice.sections.contains(needed_by(known.structure))) {
             choice.names.emplace_back(known.name);
         }
     }
@@ -152,7 +155,7 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
         }
     }
     if (choice.has_tetra_tree() && choice.tetra_tree.bounding == format::TetraBounding::boxes) {
-        choice.sections.insert(more_sections_of(Structure::tetra_tree));
+        choice.sections.insert(find_needs(Ask::tetra_tree)->used);
     }
     return choice;
 }

@@ -43,13 +43,6 @@ struct StructureArguments {
     HullChoice hulls = {};
 };
 
-/// What --structures hull stores, and --structure hull needs.
-inline constexpr format::SectionSet kHullSections = {
-    format::SectionId::hulls,         format::SectionId::hull_blocks,
-    format::SectionId::hull_vertices, format::SectionId::hull_facets,
-    format::SectionId::hull_groups,   format::SectionId::hull_neighbours,
-    format::SectionId::hull_starts};
-
 /// Adds --structures and the options that say how they are built.
 void add_structure_options(CLI::App& command, StructureArguments& arguments);
 

@@ -28,20 +28,8 @@ Result<mesh::Mesh> load_for_study(const std::filesystem::path& input, const Load
                          ": is baked already; --normalize and --weld are for mesh files. Leave "
                          "them out, or give the mesh file."};
     }
-    const Result<Model> opened =
-        open_for(input, {SectionId::triangles, SectionId::source_triangle});
-    if (!opened) return opened.error();
-    // Which of the two positions a file has is not known before.
-    const Result<Model> model = Model::open(
-        input, {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
-                SectionId::positions_f32, SectionId::positions_f64});
+    const Result<Model> model = open_for(input, Ask::corners);
     if (!model) return model.error();
-    const bool has_positions =
-        !model.value().positions_f32().empty() || !model.value().positions_f64().empty();
-    if (!has_positions && model.value().vertex_count() > 0) {
-        return Error{ErrorCode::bad_argument,
-                     input.string() + ": was baked without positions. Bake it again."};
-    }
     return study::mesh_of(model.value());
 }
 

@@ -65,6 +65,21 @@ std::string findings_text(const Model& model) {
     return text.empty() ? "findings: none\n" : "findings:\n" + text;
 }
 
+/// The names of what the model can be asked for.
+std::vector<std::string> served_names(const Model& model) {
+    std::vector<std::string> names;
+    for (const Needs& row : needs()) {
+        if (model.serves(row.ask)) names.emplace_back(row.name);
+    }
+    return names;
+}
+
+std::string served_text(const Model& model) {
+    std::string text = "serves:";
+    for (const std::string& name : served_names(model)) text += " " + name;
+    return text + "\n";
+}
+
 std::string mesh_text(const Model& model) {
     if (model.verdicts().empty()) return {};
     const format::Verdict& verdict = model.verdicts()[0];
@@ -93,6 +108,7 @@ std::string info_text(const std::string& file, const Model& model,
     }
     text +=
         std::string("questions about pairs: bounded by ") + bounds_name(bounds_of(model)) + "\n";
+    text += served_text(model);
     text += mesh_text(model);
     if (const std::string others = structures_text(structure_reports(model)); !others.empty()) {
         text += "structures:\n" + others;
@@ -127,6 +143,7 @@ std::string info_json(const std::string& file, const Model& model,
         {"metres_per_unit", model.header().metres_per_unit},
         {"up_axis", up_axis(model)},
         {"bounds", bounds_name(bounds_of(model))},
+        {"serves", served_names(model)},
         {"guarantees", {{"surface", "exact"}, {"solid", model.is_closed() ? "exact" : "unknown"}}},
     };
     if (!model.verdicts().empty()) {

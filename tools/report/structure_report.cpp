@@ -109,7 +109,7 @@ std::vector<StructureReport> structure_reports(const Model& model) {
         const OctreeFigures figures = octree_figures(model);
         const bool has_boxes = model.sections().contains(format::SectionId::octree_boxes);
         reports.push_back(report_of(Structure::octree, *grid, figures, has_boxes));
-        if (model.sections().contains(sections_of(Structure::hashed_octree))) {
+        if (model.serves(Ask::hashed_octree)) {
             reports.push_back(report_of(Structure::hashed_octree, *grid, figures, has_boxes));
         }
     }

@@ -55,11 +55,4 @@ struct StructureOptions {
 /// Structure::bvh.
 [[nodiscard]] Ask ask_of(Structure structure) noexcept;
 
-/// Returns the sections that a question through a structure needs of each file, beside those that
-/// it needs anyway: the row of ask_of() in the table of needs.
-[[nodiscard]] format::SectionSet sections_of(Structure structure) noexcept;
-
-/// Returns the sections that some files have and that such a question is faster with.
-[[nodiscard]] format::SectionSet more_sections_of(Structure structure) noexcept;
-
 }  // namespace cdprep

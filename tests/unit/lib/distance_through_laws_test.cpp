@@ -366,7 +366,7 @@ TEST(DistanceThroughLaws, NothingIsFarFromAModelWithoutPieces) {
 }
 
 // On read-only pages, with every section closed that is neither what distance() needs nor named
-// by sections_of().
+// by the table of needs.
 TEST(DistanceThroughLaws, PiecesReadOnlyTheSectionsThatTheyName) {
     const TestMesh mesh = icosphere(3);
     const AlignedBytes file = on_pages(with_piece_tree(bake_tiny(mesh.positions, mesh.triangles)));
@@ -374,7 +374,7 @@ TEST(DistanceThroughLaws, PiecesReadOnlyTheSectionsThatTheyName) {
     format::SectionSet wanted = {SectionId::bvh_nodes, SectionId::bvh_leaves,
                                  SectionId::source_triangle, SectionId::positions_f32,
                                  SectionId::triangles};
-    wanted.insert(sections_of(Structure::pieces));
+    wanted.insert(find_needs(ask_of(Structure::pieces))->needed);
     const GuardedPages pages(file.span(), wanted);
     EXPECT_GE(pages.guarded(), 3);
     const auto opened = Model::open(pages.bytes(), wanted);

@@ -386,7 +386,7 @@ TEST(OverlapThroughLaws, FilesWithoutTheStructureOverlapNothing) {
 }
 
 // The mapped file is what is asked: on read-only pages, with every section that
-// sections_of() does not name closed.
+// the table of needs does not name closed.
 TEST(OverlapThroughLaws, ReadOnlyTheSectionsThatTheyName) {
     const TestMesh mesh = icosphere(3);
     const AlignedBytes file =
@@ -404,9 +404,10 @@ TEST(OverlapThroughLaws, ReadOnlyTheSectionsThatTheyName) {
         format::SectionSet wanted = {SectionId::bvh_nodes, SectionId::bvh_leaves,
                                      SectionId::source_triangle, SectionId::positions_f32,
                                      SectionId::triangles};
-        wanted.insert(sections_of(structure));
+        wanted.insert(find_needs(ask_of(structure))->needed);
         // The tetra-tree with boxes, and without.
-        if (std::exchange(with_more, !with_more)) wanted.insert(more_sections_of(structure));
+        if (std::exchange(with_more, !with_more))
+            wanted.insert(find_needs(ask_of(structure))->used);
         const GuardedPages pages(file.span(), wanted);
         EXPECT_GE(pages.guarded(), 5);
         const auto opened = Model::open(pages.bytes(), wanted);

@@ -55,9 +55,9 @@ TEST(ChooseStructures, ListsNameThem) {
     const StructureChoice tetra = choose({.list = "tetra-tree"}).value();
     EXPECT_TRUE(tetra.has_tetra_tree() && !tetra.has_octree() && !tetra.has_adaptive_octree());
     EXPECT_EQ(choose({.list = "tetra-tree", .bounding = "caps"}).value().sections,
-              sections_of(Structure::tetra_tree));
-    format::SectionSet with_boxes = sections_of(Structure::tetra_tree);
-    with_boxes.insert(more_sections_of(Structure::tetra_tree));
+              find_needs(ask_of(Structure::tetra_tree))->needed);
+    format::SectionSet with_boxes = find_needs(ask_of(Structure::tetra_tree))->needed;
+    with_boxes.insert(find_needs(ask_of(Structure::tetra_tree))->used);
     EXPECT_EQ(choose({.list = "tetra-tree", .bounding = "boxes"}).value().sections, with_boxes);
 }
 
