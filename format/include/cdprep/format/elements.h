@@ -41,4 +41,9 @@ struct Element {
     std::span<const Field> fields;
 };
 
+/// In the section table: a section of one element, and one of text (UTF-8).
+template <class T>
+struct One {};
+struct Text {};
+
 }  // namespace cdprep::format

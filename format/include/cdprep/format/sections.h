@@ -5,9 +5,28 @@
 #include <optional>
 #include <span>
 
+#include "cdprep/format/elements.h"
 #include "cdprep/format/file_header.h"
 
 namespace cdprep::format {
+
+/// A row of the section table.
+struct SectionKind {
+    SectionId id;
+    const char* name;  ///< as FORMAT.md and the HDF5 datasets spell it
+    Element element;
+    const char* count;        ///< how many elements a file holds
+    const char* when;         ///< a bake holds it
+    const char* serves;       ///< what reads it
+    const char* units;        ///< HDF5 attribute
+    const char* description;  ///< HDF5 attribute
+};
+
+/// Returns the section table, by rising id.
+[[nodiscard]] std::span<const SectionKind> section_kinds() noexcept;
+
+/// Returns the row of `id`, or null for an id that this version does not know.
+[[nodiscard]] const SectionKind* find_section_kind(SectionId id) noexcept;
 
 /// Reads the header. `file` must hold at least kUserBlockSize bytes.
 [[nodiscard]] FileHeader read_header(std::span<const std::byte> file) noexcept;
