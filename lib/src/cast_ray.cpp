@@ -7,6 +7,7 @@
 
 #include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
+#include "core/require.h"
 #include "ray_triangle.h"
 #include "smallest.h"
 #include "walk_model.h"
@@ -161,6 +162,7 @@ bool operator<(const RayHit& a, const RayHit& b) noexcept {
 std::optional<RayHit> cast_ray(const Model& model, const Ray& ray, Workspace& workspace,
                                const RayOptions& options) noexcept {
     const format::FloatEnvironment environment;
+    require(model, Ask::ray);
     const RayQuery query(model, ray, options);
     if (query.limit() < 0) return std::nullopt;
     double best_t = query.limit();
@@ -186,6 +188,7 @@ std::optional<RayHit> cast_ray(const Model& model, const Ray& ray, Workspace& wo
 bool ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
               const RayOptions& options) noexcept {
     const format::FloatEnvironment environment;
+    require(model, Ask::ray);
     const RayQuery query(model, ray, options);
     return !for_each_hit(model, query, workspace, [](double, std::uint32_t) { return false; });
 }
@@ -193,6 +196,7 @@ bool ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
 std::size_t all_ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                          std::span<RayHit> hits, const RayOptions& options) noexcept {
     const format::FloatEnvironment environment;
+    require(model, Ask::ray);
     const RayQuery query(model, ray, options);
     Smallest<RayHit> smallest(hits);
     for_each_hit(model, query, workspace, [&](double t, std::uint32_t i) {
@@ -207,6 +211,7 @@ std::size_t all_ray_hits(const Model& model, const Ray& ray, Workspace& workspac
 bool visit_ray_hits(const Model& model, const Ray& ray, Workspace& workspace, RayVisitor visit,
                     const RayOptions& options) noexcept {
     format::FloatEnvironment environment;
+    require(model, Ask::ray);
     const RayQuery query(model, ray, options);
     return for_each_hit(model, query, workspace, [&](double t, std::uint32_t i) {
         const RayHit hit = query.hit(t, source_number(model, i));

@@ -5,6 +5,7 @@
 
 #include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
+#include "core/require.h"
 #include "point_triangle_distance.h"
 #include "shape_gap.h"
 #include "walk_ordered.h"
@@ -14,6 +15,7 @@ namespace cdprep {
 std::optional<ClosestPoint> closest_point(const Model& model, const Double3& query,
                                           Workspace& workspace, double max_distance) noexcept {
     const format::FloatEnvironment environment;
+    require(model, Ask::closest);
     const MovedModel still(model, nullptr);
     ShapeGap gap(still, {query, query, query});
     std::optional<ClosestPoint> best;

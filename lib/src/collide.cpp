@@ -2,6 +2,7 @@
 #include "cdprep/collide.h"
 
 #include "cdprep/format/float_environment.h"
+#include "core/require.h"
 #include "find_contact.h"
 
 namespace cdprep {
@@ -9,6 +10,7 @@ namespace cdprep {
 Collision collide(const Model& a, const Model& b, const Placement& placement, Workspace& workspace,
                   const CollideOptions& options, PairCache* cache) noexcept {
     const format::FloatEnvironment environment;
+    require(a, b, options.as == As::solid ? Ask::collide | Ask::solid : Ask::collide);
     Collision collision;
     const OverlapOptions pairs = {options.contact, options.degenerate};
     collision.hit = any_contact(a, b, placement, workspace, pairs, cache);

@@ -8,6 +8,7 @@
 #include "cdprep/format/float_environment.h"
 #include "contact_of_pieces.h"
 #include "contact_pairs.h"
+#include "core/require.h"
 #include "near_triangles.h"
 
 // Triangles within the tolerance say which pieces are, each pair of pieces as often as it has
@@ -131,17 +132,10 @@ private:
     Gathered gathered_;
 };
 
-bool is_baked(const Model& model) {
-    return !model.pieces().empty() &&
-           model.piece_adjacency().size() == model.piece_facets().size() &&
-           !model.triangle_piece().empty() && !model.edge_convexity().empty();
-}
-
 template <class Found>
 bool for_each_piece_contact(const Model& a, const Model& b, const Placement& placement,
                             double tolerance, Workspace& workspace, const ContactOptions& options,
                             Found&& found) noexcept {
-    if (!is_baked(a) || !is_baked(b)) return true;
     return ContactSearch(a, b, placement, tolerance, workspace, options).run(found);
 }
 
@@ -151,6 +145,7 @@ std::size_t contacts(const Model& a, const Model& b, const Placement& placement,
                      Workspace& workspace, std::span<PieceContact> contacts,
                      const ContactOptions& options) noexcept {
     const format::FloatEnvironment environment;
+    require(a, b, Ask::contacts | ask_of(options.structure));
     std::size_t count = 0;
     for_each_piece_contact(a, b, placement, tolerance, workspace, options,
                            [&](const PieceContact& contact) {
@@ -165,6 +160,7 @@ bool visit_contacts(const Model& a, const Model& b, const Placement& placement, 
                     Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options) noexcept {
     format::FloatEnvironment environment;
+    require(a, b, Ask::contacts | ask_of(options.structure));
     return for_each_piece_contact(a, b, placement, tolerance, workspace, options,
                                   [&](const PieceContact& contact) {
                                       return environment.outside([&] { return visit(contact); });

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cdprep/format/float_environment.h"
+#include "core/require.h"
 #include "moved_model.h"
 #include "moved_point.h"
 #include "walk_model.h"
@@ -158,6 +159,7 @@ Containment find_inside(const MovedModel& inner, const MovedModel& outer,
 Containment find_containment(const Model& a, const Model& b, const Placement& placement,
                              Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
+    require(a, b, Ask::solid);
     const MovedModel in_a = moved_a(a, placement);
     const MovedModel in_b = moved_b(b, placement);
     Workspace::Storage& scratch = workspace.storage();
@@ -170,6 +172,7 @@ Containment find_containment(const Model& a, const Model& b, const Placement& pl
 
 Inclusion includes(const Model& model, const Double3& p, Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
+    require(model, Ask::inside);
     return inclusion({model, nullptr}, p, workspace.storage());
 }
 

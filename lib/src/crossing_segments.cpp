@@ -3,6 +3,7 @@
 
 #include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
+#include "core/require.h"
 #include "edge_on_plane.h"
 
 namespace cdprep {
@@ -11,6 +12,7 @@ bool visit_crossing_segments(const Model& a, const Model& b, const Placement& pl
                              Workspace& workspace, Visitor<Crossing> visit,
                              const OverlapOptions& options) noexcept {
     format::FloatEnvironment environment;
+    require(a, b, Ask::overlap);
     const MovedModel in_a = moved_a(a, placement);
     const MovedModel in_b = moved_b(b, placement);
     return for_each_contact<Search::all>(

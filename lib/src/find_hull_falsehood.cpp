@@ -245,7 +245,7 @@ private:
 
 std::optional<format::Damage> find_hull_falsehood(std::span<const std::byte> file,
                                                   const Model& model) {
-    if (model.hulls().empty()) return std::nullopt;
+    if (model.hulls().empty() || !model.serves(Ask::hulls)) return std::nullopt;
     const HullCheck check(file, model);
     for (std::uint32_t i = 0; i < model.hulls().size(); ++i) {
         if (const Found damage = check.find_falsehood(i)) return damage;

@@ -6,6 +6,7 @@
 #include "cdprep/format/float_environment.h"
 #include "cdprep/touching.h"
 #include "contact_pairs.h"
+#include "core/require.h"
 #include "smallest.h"
 #include "sort_numbers.h"
 #include "walk_model.h"
@@ -50,6 +51,7 @@ template <class Shape, class Asked>
 bool any_touching(const Model& model, const Asked& asked, Workspace& workspace,
                   const TouchOptions& options) noexcept {
     const format::FloatEnvironment environment;
+    require(model, Ask::touch);
     return !for_each_touching<Shape>(model, asked, workspace, options,
                                      [](std::uint32_t) { return false; });
 }
@@ -58,6 +60,7 @@ template <class Shape, class Asked>
 std::size_t all_touching(const Model& model, const Asked& asked, Workspace& workspace,
                          std::span<std::uint32_t> triangles, const TouchOptions& options) noexcept {
     const format::FloatEnvironment environment;
+    require(model, Ask::touch);
     Smallest<std::uint32_t> smallest(triangles);
     for_each_touching<Shape>(model, asked, workspace, options, [&](std::uint32_t i) {
         smallest.add(source_number(model, i));
@@ -71,6 +74,7 @@ template <class Shape, class Asked>
 bool visit_touching(const Model& model, const Asked& asked, Workspace& workspace,
                     TriangleVisitor visit, const TouchOptions& options) noexcept {
     format::FloatEnvironment environment;
+    require(model, Ask::touch);
     return for_each_touching<Shape>(model, asked, workspace, options, [&](std::uint32_t i) {
         const std::uint32_t source = source_number(model, i);
         return environment.outside([&] { return visit(source); });

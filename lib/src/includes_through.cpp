@@ -11,6 +11,7 @@
 #include "adaptive_octree_tree.h"
 #include "box_placement.h"
 #include "cdprep/format/float_environment.h"
+#include "core/require.h"
 #include "moved_model.h"
 #include "octree_codes.h"
 #include "octree_tree.h"
@@ -280,21 +281,18 @@ Inclusion through_keys(const Model& model, const Double3& q, QueryCounts* counts
 Inclusion includes_through(Structure structure, const Model& model, const Double3& p,
                            Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
-    if (!model.is_closed()) return includes(model, p, workspace);
+    require(model, Ask::inside | ask_of(structure));
+    if (!model.is_closed() || model.triangle_count() == 0) return includes(model, p, workspace);
     QueryCounts* counts = workspace.storage().counts;
     switch (structure) {
         case Structure::tetra_tree:
-            if (model.tetra_top().empty()) break;
             return through_tetra_tree(model, p, counts);
         case Structure::octree:
-            if (model.octree_nodes().empty()) break;
             return through_cells(OctreeTree(model), model, p, counts);
         case Structure::adaptive_octree:
-            if (model.adaptive_octree_nodes().empty()) break;
             return through_cells(AdaptiveOctreeTree(model), model, p, counts);
         case Structure::hashed_octree:
         case Structure::hashed_octree_literal:
-            if (model.octree_leaf_codes().empty()) break;
             return through_keys(model, p, counts);
         case Structure::bvh:
         case Structure::pieces:  // nothing is asked of one model through them

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "cdprep/format/float_environment.h"
+#include "core/require.h"
 #include "moved_model.h"
 #include "moved_point.h"
 #include "tetra_tree_cells.h"
@@ -25,10 +26,6 @@ using format::TetraNode;
 
 constexpr double kSlack = 0x1p-36;
 constexpr double kRoot3 = 1.7320508075688773;
-
-bool has_tree(const Model& model) noexcept {
-    return model.tetra_tree() != nullptr;
-}
 
 /// The cones of a level, and those above it that are not split.
 class Facets {
@@ -204,7 +201,8 @@ bool may_meet(const Model& a, const Model& b, const Placement& placement, std::u
 
 double level_error(const Model& model, std::uint32_t level) noexcept {
     const format::FloatEnvironment environment;
-    if (!has_tree(model)) return 0;
+    require(model, Ask::tetra_tree);
+    if (model.triangle_count() == 0) return 0;
     const Facets facets(model, level);
     double widest = 0;
     facets.any([&](const TetraNode& node) {
@@ -218,8 +216,8 @@ double level_error(const Model& model, std::uint32_t level) noexcept {
 CoarseCollision collide_at_level(const Model& a, const Model& b, const Placement& placement,
                                  std::uint32_t level, Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
+    require(a, b, Ask::tetra_tree);
     if (a.triangle_count() == 0 || b.triangle_count() == 0) return {Answer::no, 0, 0};
-    if (!has_tree(a) || !has_tree(b)) return {};
     CoarseCollision result{Answer::unknown, level_error(a, level), level_error(b, level)};
     if (!may_meet(a, b, placement, level, workspace.storage())) {
         result.answer = Answer::no;

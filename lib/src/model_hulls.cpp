@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/require.h"
+
 namespace cdprep {
 
 using format::Hull;
@@ -13,6 +15,7 @@ static_assert(kDirectionStarts == format::kHullStarts);
 
 std::optional<std::uint32_t> find_hull(const Model& model, HullScope scope,
                                        std::uint32_t number) noexcept {
+    require(model, Ask::hulls);
     const auto place = [](const Hull& hull) {
         return std::uint64_t{static_cast<std::uint32_t>(hull.scope)} << 32 | hull.number;
     };
@@ -26,6 +29,7 @@ std::optional<std::uint32_t> find_hull(const Model& model, HullScope scope,
 }
 
 ConvexPoints convex_points(const Model& model, std::uint32_t hull) noexcept {
+    require(model, Ask::hulls);
     assert(hull < model.hulls().size());
     const Hull& found = model.hulls()[hull];
     ConvexPoints points;

@@ -4,6 +4,7 @@
 #include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
 #include "contacts_through.h"
+#include "core/require.h"
 #include "hashed_overlap.h"
 #include "piece_contact.h"
 #include "smallest_pairs.h"
@@ -42,6 +43,7 @@ std::size_t overlapping_triangles_through(const StructureOptions& through, const
                                           Workspace& workspace, std::span<TrianglePair> pairs,
                                           const OverlapOptions& options) noexcept {
     const format::FloatEnvironment environment;
+    require(a, b, Ask::overlap | ask_of(through.structure));
     if (through.structure == Structure::bvh) {
         return overlapping_triangles(a, b, placement, workspace, pairs, options);
     }
@@ -56,6 +58,7 @@ bool any_overlap_through(const StructureOptions& through, const Model& a, const 
                          const Placement& placement, Workspace& workspace,
                          const OverlapOptions& options, PieceCache* cache) noexcept {
     const format::FloatEnvironment environment;
+    require(a, b, Ask::overlap | ask_of(through.structure));
     if (through.structure == Structure::bvh) {
         PairCache* pair = cache == nullptr ? nullptr : &cache->pair;
         return any_contact(a, b, placement, workspace, options, pair);

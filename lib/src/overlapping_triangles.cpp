@@ -5,6 +5,7 @@
 
 #include "cached_contacts.h"
 #include "cdprep/format/float_environment.h"
+#include "core/require.h"
 #include "smallest_pairs.h"
 
 namespace cdprep {
@@ -13,6 +14,7 @@ std::size_t overlapping_triangles(const Model& a, const Model& b, const Placemen
                                   Workspace& workspace, std::span<TrianglePair> pairs,
                                   const OverlapOptions& options, PairCache* cache) noexcept {
     const format::FloatEnvironment environment;
+    require(a, b, Ask::overlap);
     return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
         for_each_contact(a, b, placement, workspace, options, cache, found);
     });
@@ -22,6 +24,7 @@ bool visit_overlapping_triangles(const Model& a, const Model& b, const Placement
                                  Workspace& workspace, PairVisitor visit,
                                  const OverlapOptions& options, PairCache* cache) noexcept {
     format::FloatEnvironment environment;
+    require(a, b, Ask::overlap);
     return for_each_contact(
         a, b, placement, workspace, options, cache, [&](std::uint32_t at_a, std::uint32_t at_b) {
             const TrianglePair pair = {source_number(a, at_a), source_number(b, at_b)};
@@ -34,6 +37,7 @@ std::size_t mark_overlapping_triangles(const Model& a, const Model& b, const Pla
                                        std::span<std::uint64_t> bits_b,
                                        const OverlapOptions& options, PairCache* cache) noexcept {
     const format::FloatEnvironment environment;
+    require(a, b, Ask::overlap);
     std::fill(bits_a.begin(), bits_a.end(), 0);
     std::fill(bits_b.begin(), bits_b.end(), 0);
     const auto mark = [](std::span<std::uint64_t> bits, std::uint32_t triangle) {

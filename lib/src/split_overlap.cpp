@@ -8,6 +8,7 @@
 
 #include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
+#include "core/require.h"
 #include "guarded_for.h"
 #include "share_out.h"
 #include "sort_pairs.h"
@@ -180,6 +181,7 @@ std::size_t split_overlapping_triangles(const Model& a, const Model& b, const Pl
                                         std::span<TrianglePair> pairs,
                                         const OverlapOptions& options) noexcept {
     format::FloatEnvironment environment;
+    require(a, b, Ask::overlap);
     assert(!workspaces.empty());
     const GuardedFor guarded(environment, parallel_for);
     const PlacedBoxes placed = place_boxes(a, b, placement);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cdprep/format/float_environment.h"
+#include "core/require.h"
 #include "exact_within.h"
 #include "find_touching.h"
 #include "nearest_to_shape.h"
@@ -119,6 +120,7 @@ std::optional<ShapeDistance> distance_to(const Model& model, const Capsule& caps
                                          Workspace& workspace,
                                          const ShapeDistanceOptions& options) noexcept {
     const format::FloatEnvironment environment;
+    require(model, Ask::touch);
     if (!(capsule.radius >= 0) || !(options.max_distance >= 0)) return std::nullopt;
     const MovedModel moved = placed(model, options.world_from_model);
     const Corners segment = {capsule.from, capsule.to, capsule.to};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cdprep/format/float_environment.h"
+#include "core/require.h"
 #include "find_touching.h"
 #include "nearest_to_shape.h"
 #include "shape_frame.h"
@@ -101,6 +102,7 @@ std::optional<ShapeDistance> distance_to(const Model& model, const LooseTriangle
                                          Workspace& workspace,
                                          const ShapeDistanceOptions& options) noexcept {
     const format::FloatEnvironment environment;
+    require(model, Ask::touch);
     if (!(options.max_distance >= 0)) return std::nullopt;
     const MovedModel moved = placed(model, options.world_from_model);
     std::optional<ShapeDistance> found;

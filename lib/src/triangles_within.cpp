@@ -6,6 +6,7 @@
 
 #include "cdprep/distance_through.h"
 #include "cdprep/format/float_environment.h"
+#include "core/require.h"
 #include "exact_within.h"
 #include "near_triangles.h"
 #include "smallest_pairs.h"
@@ -163,6 +164,7 @@ std::size_t triangles_within_through(const StructureOptions& through, const Mode
                                      Workspace& workspace, std::span<TrianglePair> pairs,
                                      const WithinOptions& options) noexcept {
     const format::FloatEnvironment environment;
+    require(a, b, Ask::within | ask_of(through.structure));
     return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
         for_each_within(
             through.structure, a, b, placement, tolerance, workspace, options,
@@ -173,7 +175,6 @@ std::size_t triangles_within_through(const StructureOptions& through, const Mode
 std::size_t triangles_within(const Model& a, const Model& b, const Placement& placement,
                              double tolerance, Workspace& workspace, std::span<TrianglePair> pairs,
                              const WithinOptions& options) noexcept {
-    const format::FloatEnvironment environment;
     return triangles_within_through({}, a, b, placement, tolerance, workspace, pairs, options);
 }
 
@@ -181,6 +182,7 @@ bool visit_triangles_within(const Model& a, const Model& b, const Placement& pla
                             double tolerance, Workspace& workspace, PairVisitor visit,
                             const WithinOptions& options) noexcept {
     format::FloatEnvironment environment;
+    require(a, b, Ask::within);
     return for_each_within(
         Structure::bvh, a, b, placement, tolerance, workspace, options,
         [&](std::uint32_t at_a, std::uint32_t at_b, Touch) {

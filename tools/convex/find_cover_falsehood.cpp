@@ -253,6 +253,7 @@ private:
 
 std::optional<format::Damage> find_cover_falsehood(std::span<const std::byte> file,
                                                    const Model& model) {
+    if (!model.serves(Ask::hulls)) return std::nullopt;
     const auto first = find_hull(model, format::HullScope::part);
     if (!first) return std::nullopt;
     CoverCheck check(model, *first);

@@ -89,6 +89,7 @@ public:
     }
 
     void add_hull() {
+        if (!climb_.a.model.serves(Ask::hulls) || !climb_.b.model.serves(Ask::hulls)) return;
         const auto number_a = find_hull(climb_.a.model, format::HullScope::whole);
         const auto number_b = find_hull(climb_.b.model, format::HullScope::whole);
         if (!number_a || !number_b) return;

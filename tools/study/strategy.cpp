@@ -40,7 +40,7 @@ StrategyPair::StrategyPair(const Strategy& strategy, const ModelForms& a, const 
       a_((a.*strategy.form).model),
       b_((b.*strategy.form).model),
       pairs_(std::size_t{1} << 16) {
-    if (!strategy.of_hulls) return;
+    if (!strategy.of_hulls || !a_.serves(Ask::hulls) || !b_.serves(Ask::hulls)) return;
     const auto hull_a = find_hull(a_, format::HullScope::whole);
     const auto hull_b = find_hull(b_, format::HullScope::whole);
     if (!hull_a || !hull_b) return;

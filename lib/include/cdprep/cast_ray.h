@@ -46,8 +46,8 @@ struct RayOptions {
 /// leaves. Among hits whose t are equal the lowest source triangle answers. A model
 /// without triangles is never hit, nor does a direction of zero hit anything.
 ///
-/// Needs triangles and positions, or bvh_leaves where Model::has_exact_leaves(), and
-/// bvh_nodes. Costs O(log n) for compact surfaces. Never allocates.
+/// Needs Ask::ray, as do the questions below. Costs O(log n) for compact surfaces. Never
+/// allocates.
 [[nodiscard]] std::optional<RayHit> cast_ray(const Model& model, const Ray& ray,
                                              Workspace& workspace,
                                              const RayOptions& options = {}) noexcept;

@@ -29,7 +29,7 @@ struct ClosestPoint {
 /// nothing that near is missed, and what is found has `lower` at most
 /// `max_distance`. The interval always holds the truth (closest_point_laws_test);
 /// it is a few ulp of the triangle's farthest corner wide, more for slivers.
-/// Needs triangles, positions and bvh_nodes. Never allocates. Visits every node
+/// Needs Ask::closest. Never allocates. Visits every node
 /// in the worst case: a point at the centre of a sphere.
 ///
 ///     if (auto near = cdprep::closest_point(model, {0, 0, 2}, workspace)) {

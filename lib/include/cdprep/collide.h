@@ -34,8 +34,7 @@ struct Collision {
 /// As::solid they do, when a winding number other than 0 proves it: see
 /// find_containment() for open models. As exact as overlapping_triangles().
 ///
-/// Needs of both what overlapping_triangles() needs; As::solid also triangles,
-/// positions and components.
+/// Needs Ask::collide of both models; As::solid also Ask::solid.
 /// Costs O(log n) for most hits and misses; with a cache O(1) while the pair of
 /// triangles that touched last still does, or while the models have moved less than
 /// the gap that was proved. Never allocates. `cache` may be null.

@@ -81,8 +81,8 @@ struct ContactOptions {
 /// triangles_within() says).
 ///
 /// Returns how many there are and stores the first of them, in the order of (piece_a,
-/// piece_b), in `contacts`. A negative tolerance or NaN gives none, as does a model that was
-/// baked without the effect "contacts".
+/// piece_b), in `contacts`. A negative tolerance or NaN gives none. Needs Ask::contacts and
+/// ask_of() the structure of both models.
 ///
 /// Pieces that are apart answer with the features of the mesh where they are nearest to each
 /// other, the distance an interval no wider than convex_distance() has it. Pieces whose hulls

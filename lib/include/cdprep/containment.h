@@ -32,8 +32,9 @@ struct Containment {
 ///
 /// Boxes decide most cases: a component whose vertex lies outside the other
 /// model's box is outside, open or not. Exact for closed models (symbolic
-/// perturbation of a ray; Feito and Torres). Costs O(components (log n + hits));
-/// O(n) per component against an open model. Never allocates.
+/// perturbation of a ray; Feito and Torres). Needs Ask::solid of both models. Costs
+/// O(components (log n + hits)); O(n) per component against an open model. Never
+/// allocates.
 [[nodiscard]] Containment find_containment(const Model& a, const Model& b,
                                            const Placement& placement,
                                            Workspace& workspace) noexcept;
@@ -46,7 +47,7 @@ struct Inclusion {
 };
 
 /// Returns whether `p` (model units, finite) is inside `model`. Same exactness
-/// and costs as find_containment().
+/// and costs as find_containment(). Needs Ask::inside.
 [[nodiscard]] Inclusion includes(const Model& model, const Double3& p,
                                  Workspace& workspace) noexcept;
 

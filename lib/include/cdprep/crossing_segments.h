@@ -27,8 +27,8 @@ struct Crossing {
 /// (crossing_segments_laws_test). Neighbours that share an edge so share the end on
 /// it, bit for bit, up to those ties. Subnormal coordinates may be off by one unit.
 ///
-/// Needs what overlapping_triangles() needs, and some microseconds more a pair. Never
-/// allocates; takes some 20 KiB of stack.
+/// Needs Ask::overlap of both models. Costs some microseconds more a pair than
+/// overlapping_triangles(). Never allocates; takes some 20 KiB of stack.
 bool visit_crossing_segments(const Model& a, const Model& b, const Placement& placement,
                              Workspace& workspace, Visitor<Crossing> visit,
                              const OverlapOptions& options = {}) noexcept;

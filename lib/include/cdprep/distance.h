@@ -49,9 +49,9 @@ struct Distance {
 /// 1e-15 of the largest coordinate wide (triangle_distance_laws_test); with them
 /// at most that wide or as permitted.
 ///
-/// Needs what overlapping_triangles() needs; As::solid also triangles, positions and
-/// components. Never allocates. Costs O(log n) for compact surfaces; every triangle in the worst
-/// case, such as concentric spheres. `cache` may be null.
+/// Needs Ask::distance of both models; As::solid also Ask::solid. Never allocates. Costs
+/// O(log n) for compact surfaces; every triangle in the worst case, such as concentric spheres.
+/// `cache` may be null.
 [[nodiscard]] std::optional<Distance> distance(const Model& a, const Model& b,
                                                const Placement& placement, Workspace& workspace,
                                                const DistanceOptions& options = {},
@@ -64,7 +64,7 @@ struct Distance {
 /// Exact for the vertices as `placement` moves them: a distance that is equal to the
 /// tolerance to the last bit is within it, and one step less is not. Stops at the
 /// first pair of triangles that is near enough; triangles_within() finds all of them.
-/// Needs and costs as distance(), less where the answer is clear.
+/// Needs Ask::within of both models. Costs as distance(), less where the answer is clear.
 [[nodiscard]] bool is_within(const Model& a, const Model& b, const Placement& placement,
                              double tolerance, Workspace& workspace,
                              PairCache* cache = nullptr) noexcept;

@@ -10,9 +10,9 @@ namespace cdprep {
 
 /// Answers as distance(), bit for bit where the models do not touch, and where they do perhaps by
 /// another pair of triangles that touch, through another structure of both files:
-/// Structure::pieces, which must have the sections that sections_of() names beside those that
-/// distance() needs; a file that lacks them is as one without triangles. Through every other
-/// structure distance() itself answers. Never allocates. `cache` may be null.
+/// Structure::pieces. Through every other structure distance() itself answers. Needs what
+/// distance() needs, and ask_of() the structure of both models. Never allocates. `cache` may be
+/// null.
 [[nodiscard]] std::optional<Distance> distance_through(const StructureOptions& through,
                                                        const Model& a, const Model& b,
                                                        const Placement& placement,
@@ -20,12 +20,13 @@ namespace cdprep {
                                                        const DistanceOptions& options = {},
                                                        PieceCache* cache = nullptr) noexcept;
 
-/// Answers as is_within(), likewise.
+/// Answers as is_within(). Needs Ask::within and ask_of() the structure of both models.
 [[nodiscard]] bool is_within_through(const StructureOptions& through, const Model& a,
                                      const Model& b, const Placement& placement, double tolerance,
                                      Workspace& workspace, PieceCache* cache = nullptr) noexcept;
 
-/// Answers as triangles_within(), the same pairs in the same order.
+/// Answers as triangles_within(), the same pairs in the same order. Needs Ask::within and
+/// ask_of() the structure of both models.
 [[nodiscard]] std::size_t triangles_within_through(const StructureOptions& through, const Model& a,
                                                    const Model& b, const Placement& placement,
                                                    double tolerance, Workspace& workspace,

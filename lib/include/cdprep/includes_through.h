@@ -12,8 +12,9 @@ namespace cdprep {
 ///
 /// Any finite point may be asked for: in the plane of a face, behind an edge or a corner,
 /// on a border of cells or cones, at the tree's centre. hashed_octree_literal answers as
-/// hashed_octree: for one point the talk's search is right. A model that is not closed,
-/// or a file without the sections that sections_of() names, is answered by includes().
+/// hashed_octree: for one point the talk's search is right. includes() itself answers for a
+/// model that is not closed, and for Structure::bvh and Structure::pieces. Needs Ask::inside
+/// and ask_of() the structure.
 ///
 /// As exact as includes(), never allocates. Costs O(level + triangles in one cone), or
 /// O(cells along the ray + triangles in them); how many triangles these are is counted in

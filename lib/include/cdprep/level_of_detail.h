@@ -21,8 +21,8 @@ struct CoarseCollision {
 
 /// Returns how far the outer and the inner facets of a level are apart at most, along any
 /// ray from the tetra-tree's centre, model units: the error of a model at that level. Falls
-/// as the level rises, to what the leaves have. 0 for a model without triangles or
-/// tetra-tree. O(cones of the level).
+/// as the level rises, to what the leaves have. 0 for a model without triangles. Needs
+/// Ask::tetra_tree. O(cones of the level).
 ///
 /// Level 0 has one outer and one inner facet an octant, level l four times as many as level
 /// l - 1, where the tree is that deep; a cone that is not split stays as it is. The outer
@@ -31,7 +31,7 @@ struct CoarseCollision {
 [[nodiscard]] double level_error(const Model& model, std::uint32_t level) noexcept;
 
 /// Returns whether two solids collide, as far as one level of their tetra-trees tells.
-/// Both models need tetra_tree and tetra_nodes; without them the answer is `unknown`.
+/// Needs Ask::tetra_tree of both models.
 ///
 /// Conservative: `no` when no two cones meet that are cut off at their outer facets; this
 /// is right for open models too, as for surfaces. `yes` when a point is found below the

@@ -11,10 +11,8 @@
 namespace cdprep {
 
 /// Finds what overlapping_triangles() finds, through another structure of both files,
-/// which must have the sections that sections_of() names; a file that lacks them
-/// overlaps nothing. Same sets, same order, same exactness, never allocates; takes some
-/// 20 KiB of stack. What cells list is tested by the leaves of the hierarchy that hold it,
-/// so bvh_nodes and bvh_leaves are needed too.
+/// with the same sets, the same order and the same exactness. Never allocates; takes some
+/// 20 KiB of stack. Needs Ask::overlap and ask_of() the structure of both models.
 /// Costs most where triangles are larger than cells and thousands of pairs overlap: then
 /// answers cannot all be remembered, and each is traced to the cells that own it.
 /// Structure::hashed_octree_literal finds a part of them: that is the talk's algorithm.
@@ -24,7 +22,8 @@ namespace cdprep {
     const OverlapOptions& options = {}) noexcept;
 
 /// Returns whether any two triangles overlap; stops at the first pair found. `cache` may be
-/// null; Structure::bvh and Structure::pieces start from it, the others leave it alone.
+/// null; Structure::bvh and Structure::pieces start from it, the others leave it alone. Needs
+/// what overlapping_triangles_through() needs.
 [[nodiscard]] bool any_overlap_through(const StructureOptions& through, const Model& a,
                                        const Model& b, const Placement& placement,
                                        Workspace& workspace, const OverlapOptions& options = {},

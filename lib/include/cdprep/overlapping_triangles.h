@@ -46,10 +46,10 @@ struct OverlapOptions {
 /// The order costs a sort of the stored pairs.
 ///
 /// Exact: the answer is that of exact arithmetic on the vertices as `placement`
-/// moves them (Pose, level E1), the same on every machine. Both models need
-/// bvh_nodes and bvh_leaves and, unless Model::has_exact_leaves(), triangles and
-/// positions; oriented_nodes or swept_nodes make it faster. Without source_triangle the
-/// numbering is that of the tree order. An empty model overlaps nothing.
+/// moves them (Pose, level E1), the same on every machine and in every floating-point
+/// environment of the caller. An empty model overlaps nothing.
+///
+/// Needs Ask::overlap of both models; oriented_nodes or swept_nodes make it faster.
 ///
 /// Costs O(log n + pairs) for compact surfaces, O(n m) at worst. Never
 /// allocates. If only "do they touch?" matters, collide() stops at the first.

@@ -30,8 +30,8 @@ struct Box {
 /// in double, touch it. From two world poses that is
 /// relative_pose(world_from_box, world_from_model).
 ///
-/// Needs triangles and positions, or bvh_leaves where Model::has_exact_leaves(), and
-/// bvh_nodes. Costs O(log n) for most hits and misses. Never allocates.
+/// Needs Ask::touch, as do the questions below. Costs O(log n) for most hits and misses.
+/// Never allocates.
 [[nodiscard]] bool touches(const Model& model, const Box& box, Workspace& workspace,
                            const TouchOptions& options = {}) noexcept;
 

@@ -26,8 +26,8 @@ struct Capsule {
 /// Exact, tangent capsules included: distances are compared in integers where double
 /// cannot tell. A capsule of radius 0 asks exactly about a segment, both ends included.
 ///
-/// Needs triangles and positions, or bvh_leaves where Model::has_exact_leaves(), and
-/// bvh_nodes. Costs O(log n) for most hits and misses. Never allocates.
+/// Needs Ask::touch, as do the questions below. Costs O(log n) for most hits and misses.
+/// Never allocates.
 [[nodiscard]] bool touches(const Model& model, const Capsule& capsule, Workspace& workspace,
                            const TouchOptions& options = {}) noexcept;
 

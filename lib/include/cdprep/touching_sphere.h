@@ -23,8 +23,8 @@ struct Sphere {
 /// Exact, tangent spheres included: distances are compared in integers where double
 /// cannot tell. If the distance itself matters, closest_point() measures it.
 ///
-/// Needs triangles and positions, or bvh_leaves where Model::has_exact_leaves(), and
-/// bvh_nodes. Costs O(log n) for most hits and misses. Never allocates.
+/// Needs Ask::touch, as do the questions below. Costs O(log n) for most hits and misses.
+/// Never allocates.
 [[nodiscard]] bool touches(const Model& model, const Sphere& sphere, Workspace& workspace,
                            const TouchOptions& options = {}) noexcept;
 

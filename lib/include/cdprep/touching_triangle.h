@@ -23,8 +23,8 @@ struct LooseTriangle {
 /// Returns whether `triangle` has a point in common with one of `model`; stops at the
 /// first found. Exact, as overlapping_triangles() with Contact::closed.
 ///
-/// Needs triangles and positions, or bvh_leaves where Model::has_exact_leaves(), and
-/// bvh_nodes. Costs O(log n) for most hits and misses. Never allocates.
+/// Needs Ask::touch, as do the questions below. Costs O(log n) for most hits and misses.
+/// Never allocates.
 [[nodiscard]] bool touches(const Model& model, const LooseTriangle& triangle, Workspace& workspace,
                            const TouchOptions& options = {}) noexcept;
 

@@ -26,7 +26,7 @@ struct WithinOptions {
 /// one step less they are not. Degenerate triangles are as far away as the segment or
 /// point that they are, unless they are skipped.
 ///
-/// Needs what overlapping_triangles() needs. Costs O(log n + pairs) for compact
+/// Needs Ask::within of both models. Costs O(log n + pairs) for compact
 /// surfaces and tolerances that are small against them, O(n m) at worst. Never
 /// allocates. If only "is any?" matters, is_within() stops at the first; if "how far?",
 /// distance() tells.

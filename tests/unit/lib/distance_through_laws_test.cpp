@@ -343,26 +343,37 @@ TEST(DistanceThroughLaws, SizeDoesNotMatter) {
     }
 }
 
-// By definition: a model without the sections has no pieces.
-TEST(DistanceThroughLaws, NothingIsFarFromAModelWithoutPieces) {
+// By the table of needs: a file without pieces does not serve questions through them.
+TEST(DistanceThroughLawsDeathTest, QuestionsStopWhereAModelWasNotBakedForThem) {
     const OpenModel plain = open_tiny(unit_cube()), cube = open_pieces(unit_cube());
+    Workspace workspace;
+    const Placement still = Placement::b_moves(Pose());
+    EXPECT_DEATH((void)distance_through(kPieces, plain.model, cube.model, still, workspace),
+                 "pieces needs");
+    EXPECT_DEATH((void)is_within_through(kPieces, cube.model, plain.model, still, 1, workspace),
+                 "pieces needs");
+    EXPECT_DEATH(
+        (void)triangles_within_through(kPieces, cube.model, plain.model, still, 1, workspace, {}),
+        "pieces needs");
+    EXPECT_DEATH((void)any_overlap_through(kPieces, plain.model, plain.model, still, workspace),
+                 "pieces needs");
+    EXPECT_EQ(distance_through({}, plain.model, cube.model, still, workspace)->upper, 0);
+}
+
+// By definition: a model without triangles is far from nothing.
+TEST(DistanceThroughLaws, NothingIsFarFromAnEmptyModel) {
+    const OpenModel cube = open_pieces(unit_cube());
     const OpenModel empty = open_pieces(TestMesh{});
     Workspace workspace;
     PieceCache cache;
     const Placement still = Placement::b_moves(Pose());
     (void)distance_through(kPieces, cube.model, cube.model, still, workspace, {}, &cache);
-    for (const OpenModel* none : {&plain, &empty}) {
-        EXPECT_FALSE(
-            distance_through(kPieces, none->model, cube.model, still, workspace, {}, &cache));
-        EXPECT_FALSE(
-            is_within_through(kPieces, cube.model, none->model, still, 1, workspace, &cache));
-        EXPECT_EQ(
-            triangles_within_through(kPieces, cube.model, none->model, still, 1, workspace, {}),
-            0U);
-        EXPECT_FALSE(
-            any_overlap_through(kPieces, none->model, none->model, still, workspace, {}, &cache));
-    }
-    EXPECT_EQ(distance_through({}, plain.model, cube.model, still, workspace)->upper, 0);
+    EXPECT_FALSE(distance_through(kPieces, empty.model, cube.model, still, workspace, {}, &cache));
+    EXPECT_FALSE(is_within_through(kPieces, cube.model, empty.model, still, 1, workspace, &cache));
+    EXPECT_EQ(triangles_within_through(kPieces, cube.model, empty.model, still, 1, workspace, {}),
+              0U);
+    EXPECT_FALSE(
+        any_overlap_through(kPieces, empty.model, empty.model, still, workspace, {}, &cache));
 }
 
 // On read-only pages, with every section closed that is neither what distance() needs nor named

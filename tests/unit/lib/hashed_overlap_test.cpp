@@ -167,8 +167,8 @@ TEST(HashedOverlap, TrivialMeshesHaveDefinedAnswers) {
     }
 }
 
-// As overlap_through.h promises.
-TEST(HashedOverlap, WithoutTheSectionsNothingOverlaps) {
+// By the table of needs: files without an octree or without its tables do not serve the question.
+TEST(HashedOverlapDeathTest, StopsWhereAModelWasNotBakedForIt) {
     const TestMesh cube = unit_cube();
     const OpenModel plain = open_tiny(cube);
     const OpenModel whole = open_tiny(with_octree(bake_tiny(cube.positions, cube.triangles)));
@@ -179,10 +179,12 @@ TEST(HashedOverlap, WithoutTheSectionsNothingOverlaps) {
         const StructureOptions through = {.structure = structure};
         EXPECT_TRUE(any_overlap_through(through, whole.model, whole.model, kAsTheyAre, workspace));
         for (const OpenModel* other : {&plain, &without_tables}) {
-            EXPECT_FALSE(
-                any_overlap_through(through, whole.model, other->model, kAsTheyAre, workspace));
-            EXPECT_FALSE(
-                any_overlap_through(through, other->model, whole.model, kAsTheyAre, workspace));
+            EXPECT_DEATH((void)any_overlap_through(through, whole.model, other->model, kAsTheyAre,
+                                                   workspace),
+                         "hashed-octree needs");
+            EXPECT_DEATH((void)any_overlap_through(through, other->model, whole.model, kAsTheyAre,
+                                                   workspace),
+                         "hashed-octree needs");
         }
     }
 }

@@ -34,7 +34,12 @@ TEST(FindHull, AnswersByScopeAndNumber) {
     EXPECT_FALSE(find_hull(ball.model, HullScope::whole, 1));
     EXPECT_FALSE(find_hull(ball.model, HullScope::component, 1));
     EXPECT_FALSE(find_hull(ball.model, HullScope::instance, 0));
-    EXPECT_FALSE(find_hull(open_tiny(icosphere(2)).model, HullScope::whole));
+}
+
+// By the table of needs: a file without hulls does not serve Ask::hulls.
+TEST(FindHullDeathTest, StopsWhereAModelWasNotBakedForIt) {
+    const OpenModel bare = open_tiny(icosphere(2));
+    EXPECT_DEATH((void)find_hull(bare.model, HullScope::whole), "hull needs");
 }
 
 // A ball's vertices are all corners of its hull, in any order.

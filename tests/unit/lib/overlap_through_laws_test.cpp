@@ -371,15 +371,20 @@ TEST(OverlapThroughLaws, AnyScaleAndPlaceAnswersAlike) {
                  workspace);
 }
 
-TEST(OverlapThroughLaws, FilesWithoutTheStructureOverlapNothing) {
+// By the table of needs: a file without a structure does not serve questions through it.
+TEST(OverlapThroughLawsDeathTest, QuestionsStopWhereAModelWasNotBakedForThem) {
     const OpenModel with = open_all(icosphere(2), {});
     const OpenModel without = open_tiny(icosphere(2));
     Workspace workspace;
     const Placement still = Placement::b_moves(Pose());
     for (const Structure structure : kStructures) {
         const StructureOptions through = {.structure = structure};
-        EXPECT_FALSE(any_overlap_through(through, with.model, without.model, still, workspace));
-        EXPECT_TRUE(pairs_through(through, without.model, with.model, still, workspace).empty());
+        if (structure == Structure::bvh) continue;
+        EXPECT_DEATH(
+            (void)any_overlap_through(through, with.model, without.model, still, workspace),
+            " needs section");
+        EXPECT_DEATH((void)pairs_through(through, without.model, with.model, still, workspace),
+                     " needs section");
     }
     EXPECT_EQ(pairs_through({}, with.model, without.model, still, workspace),
               all_pairs(with.model, without.model, still, workspace));

@@ -430,10 +430,12 @@ TEST(Contacts, ManyPairsComeOnceAndInOrder) {
     EXPECT_EQ(visited, 5U);
 }
 
-TEST(Contacts, WithoutTheirSectionsThereAreNone) {
+// By the table of needs: a model without pieces does not serve Ask::contacts.
+TEST(ContactsDeathTest, StopWhereAModelWasNotBakedForThem) {
     const OpenModel bare = open_tiny(unit_cube()), cube = open_with_pieces(unit_cube());
-    EXPECT_EQ(all_contacts(bare, cube, shifted({0, 0, 1}), 0.5).size(), 0U);
-    EXPECT_EQ(all_contacts(cube, bare, shifted({0, 0, 1}), 0.5).size(), 0U);
+    EXPECT_TRUE(cube.model.serves(Ask::contacts));
+    EXPECT_DEATH((void)all_contacts(bare, cube, shifted({0, 0, 1}), 0.5), "contacts needs");
+    EXPECT_DEATH((void)all_contacts(cube, bare, shifted({0, 0, 1}), 0.5), "contacts needs");
 }
 
 // Triangles without area are the segment or point that they are, unless they are skipped.
