@@ -3,6 +3,7 @@
 #include <iostream>
 #include <new>
 
+#include "cdprep/format/float_environment.h"
 #include "command.h"
 #include "interrupt.h"
 
@@ -46,6 +47,8 @@ Exit run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using cdprep::cli::Exit;
+    // A preloaded library, or one linked with -ffast-math, may have changed it.
+    const cdprep::format::FloatEnvironment environment;
     try {
         return static_cast<int>(cdprep::cli::run(argc, argv));
     } catch (const std::bad_alloc&) {

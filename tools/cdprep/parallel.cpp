@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "cdprep/format/float_environment.h"
+
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
 #endif
@@ -62,6 +64,7 @@ struct Threads::Pool {
     void operator()(std::size_t count, Task task) const {
         ForkJoin edges;
         oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+            const format::FloatEnvironment environment;
             edges.begin_task();
             task(i);
             edges.end_task();
@@ -87,6 +90,7 @@ void Threads::run_all(std::initializer_list<std::function<void()>> jobs) const {
     oneapi::tbb::task_group group;
     for (const std::function<void()>& job : jobs) {
         group.run([&edges, &job] {
+            const format::FloatEnvironment environment;
             edges.begin_task();
             job();
             edges.end_task();
@@ -116,6 +120,7 @@ void Threads::run_in_order(std::size_t count,
     };
     // Isolated: a thread that waits within one piece of work begins no other.
     const auto run = [&](std::size_t i) {
+        const format::FloatEnvironment environment;
         edges.begin_task();
         deliveries[i] = oneapi::tbb::this_task_arena::isolate([&] { return work(i); });
         edges.end_task();
@@ -123,6 +128,7 @@ void Threads::run_in_order(std::size_t count,
     };
     // Sees what was delivered before, too.
     const auto take = [&](std::size_t i) {
+        const format::FloatEnvironment environment;
         edges.joined();
         std::exchange(deliveries[i], nullptr)();
         edges.end_task();

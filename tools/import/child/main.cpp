@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 
+#include "cdprep/format/float_environment.h"
 #include "read_assimp.h"
 #include "read_gltf.h"
 #include "scene.h"
@@ -67,6 +68,7 @@ bool import_scene(const std::string& path) {
 
 int main(int count, char** arguments) {
     using namespace cdprep::import;
+    const cdprep::format::FloatEnvironment environment;
     constexpr int kArguments = 4;
     if (count != kArguments) return kExitUnwritten;
     const std::uint64_t memory_bytes = std::strtoull(arguments[2], nullptr, 10);
