@@ -43,6 +43,10 @@ Error bad_pose(std::string message) {
 
 Result<Pose> Pose::from_rows(const std::array<double, 12>& rows) {
     const format::FloatEnvironment environment;
+    return checked(rows);
+}
+
+Result<Pose> Pose::checked(const std::array<double, 12>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         if (!std::isfinite(rows[i])) {
             return bad_pose("Number " + std::to_string(i + 1) + " of the pose is " +
@@ -86,10 +90,10 @@ Result<Pose> Pose::from_quaternion(double w, double x, double y, double z,
     y = std::scalbn(y, exponent);
     z = std::scalbn(z, exponent);
     const double s = 2 / (w * w + x * x + y * y + z * z);
-    return from_rows({1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y),
-                      s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x),
-                      s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y),
-                      translation.x, translation.y, translation.z});
+    return checked({1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y),
+                    s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x),
+                    s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y),
+                    translation.x, translation.y, translation.z});
 }
 
 Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept {

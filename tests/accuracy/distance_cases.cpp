@@ -7,6 +7,7 @@
 
 #include "accuracy/asked_models.h"
 #include "accuracy/hard_cases.h"
+#include "accuracy/in_mode.h"
 #include "accuracy/mesh_variants.h"
 #include "support/exact_distance.h"
 #include "support/hard_distances.h"
@@ -52,21 +53,24 @@ public:
         const StructureOptions pieces = {.structure = Structure::pieces};
 
         PairCache cache;
-        const auto found = distance(a, b, placement, workspace_);
+        const auto found = in_mode([&] { return distance(a, b, placement, workspace_); });
         expect(bvh, found);
-        expect(bvh, distance(a, b, placement, workspace_, {}, &cache));
-        expect(bvh, distance(a, b, placement, workspace_, {}, &cache));
-        expect("pieces", distance_through(pieces, a, b, placement, workspace_));
-        ask_again(bvh, found, distance(a, b, placement, workspace_));
+        expect(bvh, in_mode([&] { return distance(a, b, placement, workspace_, {}, &cache); }));
+        expect(bvh, in_mode([&] { return distance(a, b, placement, workspace_, {}, &cache); }));
+        expect("pieces",
+               in_mode([&] { return distance_through(pieces, a, b, placement, workspace_); }));
+        ask_again(bvh, found, in_mode([&] { return distance(a, b, placement, workspace_); }));
         ask_permitted(bvh, a, b);
         expect_within("within", [&](double length) {
-            return is_within(a, b, placement, length, workspace_);
+            return in_mode([&] { return is_within(a, b, placement, length, workspace_); });
         });
         expect_within("pieces", [&](double length) {
-            return is_within_through(pieces, a, b, placement, length, workspace_);
+            return in_mode(
+                [&] { return is_within_through(pieces, a, b, placement, length, workspace_); });
         });
         if (hard_.is_nested) {
-            const auto solid = distance(a, b, placement, workspace_, {.as = As::solid});
+            const auto solid =
+                in_mode([&] { return distance(a, b, placement, workspace_, {.as = As::solid}); });
             of(bvh).expect(solid && solid->lower == 0 && solid->upper == 0, told());
         }
         if (turn % 2 == 0) ask_c_face(asked_a, asked_b);
@@ -107,10 +111,14 @@ private:
         if (!hard_.id.starts_with("X08")) return;
         const double unit = variant_->change.length(1);
         for (const double error : {1e-6, 1e-3, 0.1, 1.0}) {
-            const auto by_ratio =
-                distance(a, b, variant_->placement, workspace_, {.relative_error = error});
-            const auto by_length =
-                distance(a, b, variant_->placement, workspace_, {.absolute_error = error * unit});
+            const auto by_ratio = in_mode([&] {
+                return distance(a, b, variant_->placement, workspace_, {.relative_error = error});
+            });
+            const double permitted = error * unit;
+            const auto by_length = in_mode([&] {
+                return distance(a, b, variant_->placement, workspace_,
+                                {.absolute_error = permitted});
+            });
             Tally& tally = of(strategy);
             for (const auto& found : {by_ratio, by_length}) {
                 tally.expect(found && is_held(found->lower, found->upper), told());

@@ -4,11 +4,12 @@
 // answer it, relabelled, swapped, turned, scaled and shifted where that loses no bit. Truths
 // are known by hand, or from exact numbers that ask nothing of the library.
 //
-// Usage: hard_cases [--full] [--family F] [--csv FILE] [--json FILE]
+// Usage: hard_cases [--full] [--family F] [--float-mode M] [--csv FILE] [--json FILE]
 //                   [--peers PROGRAM] [--peer-csv FILE] [--limit SECONDS]
 // --full: cases as large as the catalogue has them. --family: those whose names begin so.
 // --peers: the same families on other libraries, asked by PROGRAM (hard_peers), a case that
-// takes longer than the limit (10) counts as one that hangs.
+// takes longer than the limit (10) counts as one that hangs. --float-mode: the floating-point
+// environment of whoever asks: default, flush_to_zero, downwards, upwards, towards_zero, trapping.
 //
 // Exits with 1 when an answer was wrong, or a family was not reached; with 2 when asked wrongly.
 #include <algorithm>
@@ -24,6 +25,7 @@
 #include "accuracy/ask_peers.h"
 #include "accuracy/families.h"
 #include "accuracy/hard_cases.h"
+#include "accuracy/in_mode.h"
 #include "accuracy/print_scoreboard.h"
 #include "kernels.h"
 
@@ -33,6 +35,7 @@ namespace {
 struct Arguments {
     HardCaseOptions cases;
     bool only_rows = false;  ///< a child, which asks with its kernels alone
+    std::string float_mode = "default";
     std::string csv;
     std::string json;
     std::string peers;  ///< the program that asks them
@@ -55,6 +58,9 @@ std::optional<Arguments> read(int count, char** values) {
             arguments.only_rows = true;
         } else if (name == "--family") {
             if (!value(arguments.cases.family)) return std::nullopt;
+        } else if (name == "--float-mode") {
+            if (!value(arguments.float_mode)) return std::nullopt;
+            if (!set_mode_of_questions(arguments.float_mode)) return std::nullopt;
         } else if (name == "--csv") {
             if (!value(arguments.csv)) return std::nullopt;
         } else if (name == "--json") {
@@ -99,7 +105,8 @@ class Child {
 public:
     Child(const std::string& program, const Arguments& arguments, const char* kernels) {
         std::string command = std::string("CDPREP_KERNELS=") + kernels + " '" + program +
-                              "' --rows --family '" + arguments.cases.family + "'";
+                              "' --rows --family '" + arguments.cases.family + "' --float-mode " +
+                              arguments.float_mode;
         if (arguments.cases.size == CaseSize::full) command += " --full";
         output_ = popen(command.c_str(), "r");  // NOLINT(cert-env33-c): our own program
     }
@@ -216,8 +223,8 @@ int main(int count, char** values) {
     const auto arguments = cdprep::test::read(count, values);
     if (!arguments) {
         std::fprintf(stderr,
-                     "usage: hard_cases [--full] [--family F] [--csv FILE] [--json FILE] "
-                     "[--peers PROGRAM] [--peer-csv FILE] [--limit SECONDS]\n");
+                     "usage: hard_cases [--full] [--family F] [--float-mode M] [--csv FILE] "
+                     "[--json FILE] [--peers PROGRAM] [--peer-csv FILE] [--limit SECONDS]\n");
         return 2;
     }
     std::error_code none;

@@ -10,6 +10,7 @@
 #include "accuracy/asked_models.h"
 #include "accuracy/exact_change.h"
 #include "accuracy/hard_cases.h"
+#include "accuracy/in_mode.h"
 #include "support/exact_pairs.h"
 #include "support/hard_hulls.h"
 #include "support/small_hull.h"
@@ -175,8 +176,11 @@ private:
     void ask_search(const std::string& strategy, const ConvexPoints& a, const ConvexPoints& b,
                     ConvexCache* cache) {
         Tally& tally = of(strategy);
-        tally.expect(convex_collide(a, b, variant_->placement, cache) == meet(), told());
-        const auto found = convex_distance(a, b, variant_->placement, {}, cache);
+        tally.expect(
+            in_mode([&] { return convex_collide(a, b, variant_->placement, cache); }) == meet(),
+            told());
+        const auto found =
+            in_mode([&] { return convex_distance(a, b, variant_->placement, {}, cache); });
         expect_distance(tally, found->lower, found->upper);
     }
 
@@ -191,7 +195,7 @@ private:
     }
 
     void ask_depth(const ConvexPoints& a, const ConvexPoints& b) {
-        const auto found = convex_penetration(a, b, variant_->placement);
+        const auto found = in_mode([&] { return convex_penetration(a, b, variant_->placement); });
         expect_depth(of("EPA/cold"), found.has_value(), found ? found->lower : 0,
                      found ? found->upper : 0);
     }
@@ -200,8 +204,8 @@ private:
     void ask_tolerance(const ConvexPoints& a, const ConvexPoints& b) {
         Tally& tally = of("within");
         const auto is_within = [&](double length) {
-            return convex_is_within(a, b, variant_->placement,
-                                    std::ldexp(length, variant_->exponent));
+            const double tolerance = std::ldexp(length, variant_->exponent);
+            return in_mode([&] { return convex_is_within(a, b, variant_->placement, tolerance); });
         };
         tally.expect(is_within(0) == meet(), told());
         if (meet()) return;
@@ -233,12 +237,15 @@ private:
         const OpenModel model_a = open_tiny(mesh_of(a), {.double_precision = true});
         const OpenModel model_b = open_tiny(mesh_of(b), {.double_precision = true});
         Tally& tally = of("bvh");
-        tally.expect(collide(model_a.model, model_b.model, variant_->placement, workspace_,
-                             {.as = As::solid})
-                             .hit == meet(),
+        tally.expect(in_mode([&] {
+                         return collide(model_a.model, model_b.model, variant_->placement,
+                                        workspace_, {.as = As::solid});
+                     }).hit == meet(),
                      told());
         if (meet()) return;
-        const auto found = distance(model_a.model, model_b.model, variant_->placement, workspace_);
+        const auto found = in_mode([&] {
+            return distance(model_a.model, model_b.model, variant_->placement, workspace_);
+        });
         tally.expect(
             found && found->upper > 0 && is_held(found->lower, found->upper, *truth_->distance),
             told());
@@ -276,17 +283,21 @@ private:
 
     /// Who is said to be apart has a direction that separates, and who is not, a common point.
     void ask_with_proof(const SmallHull& a, const SmallHull& b) {
-        const auto found = convex_distance(a.view(), b.view(), variant_->placement);
+        const auto found =
+            in_mode([&] { return convex_distance(a.view(), b.view(), variant_->placement); });
         const Placement& placement = variant_->placement;
         const Points at_a =
             placement.a_is_moved() ? moved_points(a.points(), placement.pose_a()) : a.points();
         const Points at_b =
             placement.b_is_moved() ? moved_points(b.points(), placement.pose_b()) : b.points();
         Tally& tally = of("GJK/climb");
-        const bool meet = convex_collide(a.view(), b.view(), placement);
+        const bool meet = in_mode([&] { return convex_collide(a.view(), b.view(), placement); });
         tally.expect(meet == (found->upper == 0), told());
         of("EPA/cold")
-            .expect(convex_penetration(a.view(), b.view(), placement).has_value() == meet, told());
+            .expect(in_mode([&] {
+                        return convex_penetration(a.view(), b.view(), placement);
+                    }).has_value() == meet,
+                    told());
         if (meet) {
             tally.expect(surfaces_meet(a, at_a, b, at_b) || holds(a, at_a, at_b[0]) ||
                              holds(b, at_b, at_a[0]),

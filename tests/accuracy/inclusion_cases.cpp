@@ -7,6 +7,7 @@
 #include "accuracy/asked_models.h"
 #include "accuracy/exact_change.h"
 #include "accuracy/hard_cases.h"
+#include "accuracy/in_mode.h"
 #include "accuracy/mesh_variants.h"
 #include "support/hard_points.h"
 
@@ -52,8 +53,11 @@ public:
             for (const auto& [structure, name] : kThrough) {
                 const bool is_bvh = structure == Structure::bvh;
                 const Inclusion found =
-                    is_bvh ? includes(asked.model(), point.at, workspace_)
-                           : includes_through(structure, asked.model(), point.at, workspace_);
+                    is_bvh ? in_mode([&] { return includes(asked.model(), point.at, workspace_); })
+                           : in_mode([&] {
+                                 return includes_through(structure, asked.model(), point.at,
+                                                         workspace_);
+                             });
                 const std::string kind = is_bvh          ? asked.bounds()
                                          : turn % 2 == 1 ? "boxes"
                                                          : "plain";

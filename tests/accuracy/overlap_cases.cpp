@@ -8,6 +8,7 @@
 
 #include "accuracy/asked_models.h"
 #include "accuracy/hard_cases.h"
+#include "accuracy/in_mode.h"
 #include "accuracy/mesh_variants.h"
 #include "support/brute_force.h"
 #include "support/exact_pairs.h"
@@ -84,18 +85,22 @@ private:
         const Placement& placement = variant_->placement;
         const auto overlapping = [&](const Pairs& expected, const OverlapOptions& options) {
             return listed(expected, [&](std::span<TrianglePair> pairs) {
-                return overlapping_triangles(a, b, placement, workspace_, pairs, options);
+                return in_mode([&] {
+                    return overlapping_triangles(a, b, placement, workspace_, pairs, options);
+                });
             });
         };
         expect_pairs(name, overlapping(truth.closed, {}), truth.closed);
         expect_pairs(name, overlapping(truth.proper, {.contact = Contact::proper}), truth.proper);
         PairCache cache;
         for (int i = 0; i < 2; ++i) {
-            expect(name,
-                   collide(a, b, placement, workspace_, {}, &cache).hit == !truth.closed.empty());
+            expect(name, in_mode([&] {
+                             return collide(a, b, placement, workspace_, {}, &cache);
+                         }).hit == !truth.closed.empty());
         }
         if (truth.is_nested) {
-            const Collision solid = collide(a, b, placement, workspace_, {.as = As::solid});
+            const Collision solid =
+                in_mode([&] { return collide(a, b, placement, workspace_, {.as = As::solid}); });
             expect(name, solid.hit && solid.containment.answer == Answer::yes);
         }
     }
@@ -105,10 +110,12 @@ private:
         const std::string name = "within 0/" + std::string(a_->bounds());
         const Model &a = a_->model(), &b = b_->model();
         const Pairs within = listed(truth.closed, [&](std::span<TrianglePair> pairs) {
-            return triangles_within(a, b, variant_->placement, 0, workspace_, pairs);
+            return in_mode(
+                [&] { return triangles_within(a, b, variant_->placement, 0, workspace_, pairs); });
         });
         expect_pairs(name, within, truth.closed);
-        expect(name, is_within(a, b, variant_->placement, 0, workspace_) != truth.closed.empty());
+        expect(name, in_mode([&] { return is_within(a, b, variant_->placement, 0, workspace_); }) !=
+                         truth.closed.empty());
     }
 
     /// All that a question lists. It is asked once where as many fit as are expected; at some
@@ -131,8 +138,11 @@ private:
     [[nodiscard]] Pairs through(const StructureOptions& options, const Pairs& expected,
                                 const OverlapOptions& overlap = {}) {
         return listed(expected, [&](std::span<TrianglePair> pairs) {
-            return overlapping_triangles_through(options, a_->model(), b_->model(),
-                                                 variant_->placement, workspace_, pairs, overlap);
+            return in_mode([&] {
+                return overlapping_triangles_through(options, a_->model(), b_->model(),
+                                                     variant_->placement, workspace_, pairs,
+                                                     overlap);
+            });
         });
     }
 
@@ -146,9 +156,10 @@ private:
             const std::string strategy =
                 structure == Structure::pieces ? "pieces/scattered" : name + boxes;
             StructureOptions options = {.structure = structure, .descent = descent};
-            expect(strategy,
-                   any_overlap_through(options, a_->model(), b_->model(), variant_->placement,
-                                       workspace_) == !truth.closed.empty());
+            expect(strategy, in_mode([&] {
+                                 return any_overlap_through(options, a_->model(), b_->model(),
+                                                            variant_->placement, workspace_);
+                             }) == !truth.closed.empty());
             expect_through(strategy, options, truth.closed);
             expect_through(strategy, options, truth.proper, {.contact = Contact::proper});
             if (turn % 3 != 0) continue;
@@ -173,9 +184,11 @@ private:
     void ask_threads(const Truth& truth, std::size_t threads) {
         std::vector<Workspace>& workers = workers_of();
         Pairs pairs(truth.closed.size());
-        const std::size_t count =
-            split_overlapping_triangles(a_->model(), b_->model(), variant_->placement,
-                                        std::span(workers).first(threads), run_threads, pairs);
+        const std::size_t count = in_mode([&] {
+            return split_overlapping_triangles(a_->model(), b_->model(), variant_->placement,
+                                               std::span(workers).first(threads), run_threads,
+                                               pairs);
+        });
         pairs.resize(std::min(count, pairs.size()));
         expect("threads/1 to 16", count == truth.closed.size() && pairs == truth.closed,
                [&] { return counted(pairs, truth.closed); });
@@ -222,12 +235,16 @@ void ask_as_hulls(const HardPair& pair, Scoreboard& board, const std::string& ch
     const SmallHull a(pair.a, Edges::none), b(pair.b, Edges::none);
     const Placement still = Placement::b_moves(Pose());
     const auto told = [&] { return pair.id + ": " + change; };
-    const auto distance = convex_distance(a.view(), b.view(), still);
+    const auto distance = in_mode([&] { return convex_distance(a.view(), b.view(), still); });
     Tally& tally = board.of(pair.id, "hulls/GJK");
-    tally.expect(convex_collide(a.view(), b.view(), still) == pair.closed, told);
+    tally.expect(in_mode([&] { return convex_collide(a.view(), b.view(), still); }) == pair.closed,
+                 told);
     tally.expect((distance->upper == 0) == pair.closed, told);
     board.of(pair.id, "hulls/EPA")
-        .expect(convex_penetration(a.view(), b.view(), still).has_value() == pair.closed, told);
+        .expect(in_mode([&] {
+                    return convex_penetration(a.view(), b.view(), still);
+                }).has_value() == pair.closed,
+                told);
 }
 
 /// The predicates alone, without boxes.
@@ -329,8 +346,8 @@ void score_triangles(const HardCaseOptions& options, Scoreboard& board) {
 void score_count(const HardMeshes& hard, Scoreboard& board) {
     const AskedModel a(hard.a, 1), b(hard.b, 1);
     Workspace workspace;
-    const std::size_t count =
-        overlapping_triangles(a.model(), b.model(), hard.placement, workspace, {});
+    const std::size_t count = in_mode(
+        [&] { return overlapping_triangles(a.model(), b.model(), hard.placement, workspace, {}); });
     board.of(hard.id, "bvh/oriented").expect(count == *hard.count, [&] {
         return hard.id + ": " + std::to_string(count) + " pairs";
     });

@@ -56,6 +56,10 @@ struct Refusal {
 /// Model is alive. Move-only. All const members and all queries may run on any
 /// number of threads at once.
 ///
+/// No answer depends on the caller's floating-point environment: rounding mode, flushing of
+/// subnormal numbers, unmasked exceptions. Each call computes in the default one and restores the
+/// caller's (cdprep/format/float_environment.h).
+///
 ///     auto opened = cdprep::Model::open("bracket.cdp.h5");
 ///     if (!opened) {
 ///         std::cerr << opened.error().message << '\n';

@@ -33,7 +33,8 @@ private:
 /// std::bad_alloc. Tasks that begin late find little left to do: best is a `run` whose own
 /// thread takes tasks too and waits only for those that have begun. Refers to the callable,
 /// an object with a name such as a lambda, and copies nothing; it must outlive the call it
-/// is handed to, and options that hold it.
+/// is handed to, and options that hold it. Runs in the floating-point environment of the
+/// caller; tasks compute in the default one on whatever thread they run.
 ///
 ///     const auto run = [&](std::size_t count, cdprep::Task task) {
 ///         std::vector<std::jthread> threads;

@@ -47,6 +47,9 @@ public:
     static constexpr double kQuaternionError = 8 * 0x1p-53;
 
 private:
+    /// from_rows() in the floating-point environment of the thread.
+    [[nodiscard]] static Result<Pose> checked(const std::array<double, 12>& rows);
+
     std::array<double, 9> rotation_ = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     Double3 translation_ = {0, 0, 0};
 
@@ -90,7 +93,8 @@ inline constexpr double kGreatestPoseTolerance = 0.25;
 
 /// Moves one point: ((R00 x + R01 y) + R02 z) + T0 and so on, in double without
 /// contraction. This is *the* formula: an exact query answers for the points
-/// that it returns (level E1 of exactness).
+/// that it returns (level E1 of exactness). Neither the compiler's options nor the
+/// floating-point environment of the caller change it.
 [[nodiscard]] Double3 moved(const Pose& pose, const Double3& p) noexcept;
 
 }  // namespace cdprep

@@ -7,7 +7,8 @@ namespace cdprep {
 
 /// Something to be called with each answer; false ends the search. Refers to the
 /// callable and copies nothing, which must outlive the call it is handed to. It may
-/// not throw and may not use the workspace of the question.
+/// not throw and may not use the workspace of the question. Runs in the floating-point
+/// environment of the caller.
 template <class Answer>
 class Visitor {
 public:

@@ -1,0 +1,609 @@
+// SPDX-License-Identifier: MIT
+// Asks every question in every floating-point environment that a caller may have. The expected
+// bytes are those of the default environment, for which all other tests hold.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "cdprep/batch.h"
+#include "cdprep/build_adaptive_octree.h"
+#include "cdprep/build_octree.h"
+#include "cdprep/build_tetra_tree.h"
+#include "cdprep/cast_ray.h"
+#include "cdprep/closest_features.h"
+#include "cdprep/closest_point.h"
+#include "cdprep/collide.h"
+#include "cdprep/contacts.h"
+#include "cdprep/convex_penetration.h"
+#include "cdprep/crossing_segments.h"
+#include "cdprep/distance.h"
+#include "cdprep/distance_through.h"
+#include "cdprep/find_list_damage.h"
+#include "cdprep/format/find_damage.h"
+#include "cdprep/includes_through.h"
+#include "cdprep/level_of_detail.h"
+#include "cdprep/model_pieces.h"
+#include "cdprep/overlap_through.h"
+#include "cdprep/refit_bvh.h"
+#include "cdprep/split_overlap.h"
+#include "cdprep/tetra_figures.h"
+#include "cdprep/touching_box.h"
+#include "cdprep/touching_capsule.h"
+#include "cdprep/touching_sphere.h"
+#include "cdprep/touching_triangle.h"
+#include "cdprep/triangles_within.h"
+#include "support/every_structure.h"
+#include "support/float_modes.h"
+#include "support/hard_hulls.h"
+#include "support/open_tiny.h"
+#include "support/run_threads.h"
+#include "support/small_hull.h"
+#include "support/tiny_pieces.h"
+
+namespace cdprep::test {
+namespace {
+
+/// Answers as bytes, without padding. Takes them as they are: no arithmetic, which a mode would
+/// change.
+class Bytes {
+public:
+    template <class Number>
+    requires std::is_arithmetic_v<Number> || std::is_enum_v<Number>
+    void add(Number number) {
+        const auto* from = reinterpret_cast<const std::byte*>(&number);
+        bytes_.insert(bytes_.end(), from, from + sizeof(Number));
+    }
+    void add(const Double3& p) {
+        add(p.x);
+        add(p.y);
+        add(p.z);
+    }
+    void add(const TrianglePair& pair) {
+        add(pair.a);
+        add(pair.b);
+    }
+    void add(const RayHit& hit) {
+        add(hit.t);
+        add(hit.point);
+        add(hit.triangle);
+    }
+    void add(const Crossing& crossing) {
+        add(crossing.pair);
+        add(crossing.is_flat);
+        add(crossing.from);
+        add(crossing.to);
+    }
+    void add(const Distance& d) {
+        add(d.lower);
+        add(d.upper);
+        add(d.witness_a);
+        add(d.witness_b);
+        add(d.triangle_a);
+        add(d.triangle_b);
+    }
+    void add(const ShapeDistance& d) {
+        add(d.lower);
+        add(d.upper);
+        add(d.on_model);
+        add(d.on_shape);
+        add(d.triangle);
+    }
+    void add(const ClosestPoint& d) {
+        add(d.point);
+        add(d.lower);
+        add(d.upper);
+        add(d.triangle);
+    }
+    void add(const ConvexDistance& d) {
+        add(d.lower);
+        add(d.upper);
+        add(d.witness_a);
+        add(d.witness_b);
+    }
+    void add(const Penetration& d) {
+        add(d.lower);
+        add(d.upper);
+        add(d.normal);
+        add(d.witness_a);
+        add(d.witness_b);
+    }
+    void add(const ClosestFeatures& f) {
+        add(f.a.kind);
+        add(f.a.number);
+        add(f.b.kind);
+        add(f.b.number);
+        add(f.lower);
+        add(f.upper);
+        add(f.witness_a);
+        add(f.witness_b);
+        add(f.parallel);
+    }
+    void add(const Inclusion& found) {
+        add(found.answer);
+        add(found.on_surface);
+        add(found.winding);
+    }
+    void add(const Containment& found) {
+        add(found.answer);
+        add(found.winding);
+        add(found.a_inside_b);
+    }
+    void add(const Collision& found) {
+        add(found.hit);
+        add(found.containment);
+    }
+    void add(const PieceContact& c) {
+        add(c.piece_a);
+        add(c.piece_b);
+        add(c.point_a);
+        add(c.point_b);
+        add(c.normal);
+        add(c.lower);
+        add(c.upper);
+        add(c.flags);
+        for (std::uint32_t i = 0; i < c.point_count; ++i) add(c.points[i].on_a);
+        for (std::uint32_t i = 0; i < c.point_count; ++i) add(c.points[i].on_b);
+        for (std::uint32_t i = 0; i < c.point_count; ++i) add(c.points[i].distance);
+    }
+    void add(const Pose& pose) {
+        for (const double number : pose.rotation()) add(number);
+        add(pose.translation());
+    }
+    template <class Answer>
+    void add(const std::optional<Answer>& answer) {
+        add(answer.has_value());
+        if (answer) add(*answer);
+    }
+    void add(const std::optional<format::Damage>& damage) {
+        add(damage.has_value());
+    }
+    /// The first of a list, as many as were found.
+    template <class Answer>
+    void add(const std::vector<Answer>& list, std::size_t count) {
+        add(count);
+        for (std::size_t i = 0; i < std::min(count, list.size()); ++i) add(list[i]);
+    }
+    /// Elements as they are stored: of structs without padding.
+    template <class Element>
+    void add_stored(const std::vector<Element>& list) {
+        const auto bytes = std::as_bytes(std::span(list));
+        bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
+    }
+
+    [[nodiscard]] std::size_t size() const {
+        return bytes_.size();
+    }
+    friend bool operator==(const Bytes&, const Bytes&) = default;
+
+private:
+    std::vector<std::byte> bytes_;
+};
+
+/// One answer's bytes, and the environments that its visitors and hooks ran in.
+struct Asked {
+    Bytes bytes;
+    std::vector<std::uint64_t> seen;
+
+    void see() {
+        seen.push_back(control_bits(format::float_control()));
+    }
+};
+
+using Question = std::function<void(Asked&)>;
+
+/// Asks in every mode: the bytes are those of the default environment, the caller's is what it
+/// was, and visitors ran in it.
+void expect_same_in_every_mode(const std::string& name, const Question& question) {
+    Asked expected;
+    question(expected);
+    ASSERT_GT(expected.bytes.size(), 0U) << name;
+    for (const FloatMode& mode : float_modes()) {
+        Asked asked;
+        const std::uint64_t left = run_in(mode, [&] { question(asked); });
+        EXPECT_TRUE(asked.bytes == expected.bytes) << name << ", " << mode.name;
+        EXPECT_EQ(left, control_bits(mode.control)) << name << ", " << mode.name;
+        EXPECT_EQ(asked.seen.size(), expected.seen.size()) << name << ", " << mode.name;
+        for (const std::uint64_t seen : asked.seen) {
+            ASSERT_EQ(seen, control_bits(mode.control)) << name << ", " << mode.name;
+        }
+    }
+}
+
+/// Two models with every structure at one scale, and what is asked of them.
+struct Scene {
+    std::string name;
+    double scale;
+    OpenModel a;
+    OpenModel b;
+    Placement placement;
+    std::array<Double3, 3> point;  ///< at the scale
+};
+
+OpenModel open_scaled(TestMesh mesh, double scale) {
+    for (Double3& p : mesh.positions) p = {p.x * scale, p.y * scale, p.z * scale};
+    const AlignedBytes file = bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true});
+    return open_tiny(with_piece_tree(with_every_structure(file, {.boxes = true})));
+}
+
+Scene scene(double scale, double apart) {
+    const TestMesh ball = icosphere(2);
+    const TestMesh ring = turned(torus(1, 0.25, 24, 12), 0.3);
+    const Double3 shift = {apart * scale, 0.125 * scale, 0.0625 * scale};
+    const Pose pose = Pose::from_quaternion(5, 1, 2, 3, shift).value();
+    std::array<Double3, 3> points = {{{0.1, 0.2, 0.3}, {1.2, 0.05, 0.02}, {-0.9, 2.5, 0.7}}};
+    for (Double3& p : points) p = {p.x * scale, p.y * scale, p.z * scale};
+    return {"scale 2^" + std::to_string(std::ilogb(scale)) + ", apart " + std::to_string(apart),
+            scale,
+            open_scaled(ball, scale),
+            open_scaled(ring, scale),
+            Placement::b_moves(pose),
+            points};
+}
+
+/// From all but the largest coordinates to subnormal ones; crossing, nested and apart.
+std::vector<Scene> scenes() {
+    std::vector<Scene> scenes;
+    for (const double scale : {1.0, 0x1p-1000, 0x1p-1040, 0x1p990}) {
+        for (const double apart : {0.2, 2.75}) scenes.push_back(scene(scale, apart));
+    }
+    return scenes;
+}
+
+TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
+    for (const Scene& s : scenes()) {
+        const Model &a = s.a.model, &b = s.b.model;
+        Workspace workspace;
+        std::vector<Workspace> workspaces(3);
+        std::vector<TrianglePair> pairs(20'000);
+        std::vector<std::uint64_t> bits_a(a.triangle_count() / 64 + 1);
+        std::vector<std::uint64_t> bits_b(b.triangle_count() / 64 + 1);
+        const double near = 0.125 * s.scale, exactly = 0;
+        const auto each = [&](const char* name, const Question& question) {
+            expect_same_in_every_mode(s.name + ": " + name, question);
+        };
+        each("collide", [&](Asked& out) {
+            out.bytes.add(collide(a, b, s.placement, workspace, {.as = As::solid}));
+            PairCache cache;
+            out.bytes.add(collide(a, b, s.placement, workspace, {}, &cache));
+            out.bytes.add(collide(a, b, s.placement, workspace, {}, &cache));
+        });
+        each("find_containment",
+             [&](Asked& out) { out.bytes.add(find_containment(a, b, s.placement, workspace)); });
+        each("overlapping_triangles", [&](Asked& out) {
+            out.bytes.add(pairs, overlapping_triangles(a, b, s.placement, workspace, pairs));
+        });
+        each("visit_overlapping_triangles", [&](Asked& out) {
+            const auto visit = [&](const TrianglePair& pair) {
+                out.see();
+                out.bytes.add(pair);
+                return true;
+            };
+            out.bytes.add(visit_overlapping_triangles(a, b, s.placement, workspace, visit));
+        });
+        each("mark_overlapping_triangles", [&](Asked& out) {
+            out.bytes.add(mark_overlapping_triangles(a, b, s.placement, workspace, bits_a, bits_b));
+            out.bytes.add_stored(bits_a);
+            out.bytes.add_stored(bits_b);
+        });
+        each("visit_crossing_segments", [&](Asked& out) {
+            const auto visit = [&](const Crossing& crossing) {
+                out.see();
+                out.bytes.add(crossing);
+                return true;
+            };
+            out.bytes.add(visit_crossing_segments(a, b, s.placement, workspace, visit));
+        });
+        each("distance", [&](Asked& out) {
+            out.bytes.add(distance(a, b, s.placement, workspace));
+            out.bytes.add(distance(a, b, s.placement, workspace, {.relative_error = 0.1}));
+            out.bytes.add(distance(a, b, s.placement, workspace, {.as = As::solid}));
+        });
+        each("is_within", [&](Asked& out) {
+            out.bytes.add(is_within(a, b, s.placement, near, workspace));
+            out.bytes.add(is_within(a, b, s.placement, exactly, workspace));
+        });
+        each("triangles_within", [&](Asked& out) {
+            out.bytes.add(pairs, triangles_within(a, b, s.placement, near, workspace, pairs));
+        });
+        each("visit_triangles_within", [&](Asked& out) {
+            const auto visit = [&](const TrianglePair& pair) {
+                out.see();
+                out.bytes.add(pair);
+                return true;
+            };
+            out.bytes.add(visit_triangles_within(a, b, s.placement, near, workspace, visit));
+        });
+        each("split_overlapping_triangles", [&](Asked& out) {
+            const auto run = [&](std::size_t count, Task task) {
+                out.see();
+                run_threads(count, task);
+                out.see();
+            };
+            out.bytes.add(pairs,
+                          split_overlapping_triangles(a, b, s.placement, workspaces, run, pairs));
+        });
+        each("distance_all", [&](Asked& out) {
+            const PairJob job = {&a, &b, s.placement};
+            std::vector<std::optional<Distance>> answers(3);
+            distance_all(std::vector<PairJob>{job, job, job}, workspaces, run_threads, answers);
+            for (const auto& answer : answers) out.bytes.add(answer);
+        });
+        each("collide_at_level", [&](Asked& out) {
+            const CoarseCollision found = collide_at_level(a, b, s.placement, 2, workspace);
+            out.bytes.add(found.answer);
+            out.bytes.add(found.error_a);
+            out.bytes.add(level_error(b, 3));
+        });
+        each("overlap_through", [&](Asked& out) {
+            for (const Structure structure : kStructures) {
+                const StructureOptions through = {.structure = structure};
+                out.bytes.add(pairs, overlapping_triangles_through(through, a, b, s.placement,
+                                                                   workspace, pairs));
+                out.bytes.add(any_overlap_through(through, a, b, s.placement, workspace));
+            }
+        });
+        each("questions through pieces", [&](Asked& out) {
+            const StructureOptions through = {.structure = Structure::pieces};
+            PieceCache cache;
+            out.bytes.add(any_overlap_through(through, a, b, s.placement, workspace, {}, &cache));
+            out.bytes.add(distance_through(through, a, b, s.placement, workspace, {}, &cache));
+            out.bytes.add(is_within_through(through, a, b, s.placement, near, workspace, &cache));
+            out.bytes.add(pairs, triangles_within_through(through, a, b, s.placement, near,
+                                                          workspace, pairs));
+        });
+    }
+}
+
+/// Adds every answer about one shape.
+template <class Shape>
+void ask_touching(const Model& model, const Shape& shape, const TouchOptions& options,
+                  Workspace& workspace, Asked& out) {
+    std::vector<std::uint32_t> triangles(model.triangle_count());
+    out.bytes.add(touches(model, shape, workspace, options));
+    out.bytes.add(triangles, touching_triangles(model, shape, workspace, triangles, options));
+    const auto visit = [&](std::uint32_t triangle) {
+        out.see();
+        out.bytes.add(triangle);
+        return true;
+    };
+    out.bytes.add(visit_touching_triangles(model, shape, workspace, visit, options));
+}
+
+TEST(FloatModes, ChangeNoAnswerAboutOneModel) {
+    for (const Scene& s : scenes()) {
+        const Model& model = s.b.model;
+        Workspace workspace;
+        const auto each = [&](const char* name, const Question& question) {
+            expect_same_in_every_mode(s.name + ": " + name, question);
+        };
+        const TouchOptions turned = {.world_from_model = s.placement.pose_b()};
+        const std::array<Double3, 3>& p = s.point;
+        const double radius = 0.25 * s.scale, reach = 4 * s.scale;
+        const Double3 along = {p[1].x * 0.5, -p[1].x, p[1].x};
+        each("includes", [&](Asked& out) {
+            for (const Double3& at : p) {
+                out.bytes.add(includes(model, at, workspace));
+                for (const Structure structure : kStructures) {
+                    out.bytes.add(includes_through(structure, model, at, workspace));
+                }
+            }
+        });
+        each("closest_point", [&](Asked& out) {
+            for (const Double3& at : p) {
+                out.bytes.add(closest_point(model, at, workspace));
+                out.bytes.add(closest_point(model, at, workspace, reach));
+            }
+        });
+        each("rays", [&](Asked& out) {
+            std::vector<RayHit> hits(100);
+            const auto visit = [&](const RayHit& hit) {
+                out.see();
+                out.bytes.add(hit);
+                return true;
+            };
+            for (const Double3& from : p) {
+                for (const Double3& way : {along, Double3{-1, 0, 0}}) {
+                    const Ray ray = {from, way};
+                    out.bytes.add(cast_ray(model, ray, workspace));
+                    out.bytes.add(ray_hits(model, ray, workspace));
+                    out.bytes.add(hits, all_ray_hits(model, ray, workspace, hits));
+                    out.bytes.add(visit_ray_hits(model, ray, workspace, visit));
+                }
+            }
+        });
+        each("touching", [&](Asked& out) {
+            const Box box = {p[0], p[1]};
+            const Sphere sphere = {p[1], radius};
+            const Capsule capsule = {p[0], p[1], radius};
+            const LooseTriangle triangle = {{p[0], p[1], p[2]}};
+            for (const TouchOptions& options : {TouchOptions{}, turned}) {
+                ask_touching(model, box, options, workspace, out);
+                ask_touching(model, sphere, options, workspace, out);
+                ask_touching(model, capsule, options, workspace, out);
+                ask_touching(model, triangle, options, workspace, out);
+                const ShapeDistanceOptions placed = {options.world_from_model};
+                out.bytes.add(distance_to(model, capsule, workspace, placed));
+                out.bytes.add(distance_to(model, triangle, workspace, placed));
+            }
+        });
+        each("tetra_figures", [&](Asked& out) {
+            const TetraFigures figures = tetra_figures(model);
+            out.bytes.add(figures.mean_layers);
+            out.bytes.add(figures.most_layers);
+        });
+        each("checks", [&](Asked& out) {
+            out.bytes.add(format::find_damage(s.b.bytes.span()));
+            out.bytes.add(format::find_header_damage(s.b.bytes.span()));
+            out.bytes.add(format::find_deep_damage(s.b.bytes.span()));
+            out.bytes.add(find_list_damage(s.b.bytes.span(), model));
+            out.bytes.add(Model::open(s.b.bytes.span()).ok());
+        });
+    }
+}
+
+TEST(FloatModes, ChangeNoAnswerAboutHulls) {
+    for (const HardHulls& hard : hard_hulls(false)) {
+        if (hard.is_large) continue;
+        for (const double scale : {1.0, 0x1p-1030}) {
+            const auto scaled = [&](Points points) {
+                for (Double3& p : points) p = {p.x * scale, p.y * scale, p.z * scale};
+                return points;
+            };
+            const SmallHull hull_a(scaled(hard.a)), hull_b(scaled(hard.b));
+            const ConvexPoints a = hull_a.view(), b = hull_b.view();
+            const double near = 0x1p-10 * scale;
+            expect_same_in_every_mode(hard.id, [&](Asked& out) {
+                out.bytes.add(convex_collide(a, b, hard.placement));
+                out.bytes.add(convex_distance(a, b, hard.placement));
+                out.bytes.add(convex_is_within(a, b, hard.placement, near));
+                out.bytes.add(convex_penetration(a, b, hard.placement));
+                out.bytes.add(direction_cell(a.point(0)));
+                out.bytes.add(a.point(0));
+            });
+        }
+    }
+}
+
+// By definition: a float's value as a double is the same in every mode, subnormal ones too.
+TEST(FloatModes, ChangeNoPointOfAHull) {
+    const std::vector<format::Float3> floats = {{0x1p-140F, -0x1p-149F, 1}};
+    const std::vector<std::uint32_t> corners = {0};
+    ConvexPoints points;
+    points.count = 1;
+    points.corners = corners;
+    points.floats = floats;
+    for (const FloatMode& mode : float_modes()) {
+        Double3 point{};
+        (void)run_in(mode, [&] { point = points.point(0); });
+        EXPECT_EQ(point, (Double3{0x1p-140, -0x1p-149, 1})) << mode.name;
+    }
+}
+
+TEST(FloatModes, ChangeNoContact) {
+    for (const double scale : {1.0, 0x1p-1000, 0x1p-1040}) {
+        const TestMesh ball = moved_by(icosphere(1), scale, {});
+        const TestMesh ring = moved_by(torus(1, 0.25, 12, 8), scale, {});
+        const TinyOptions doubles = {.double_precision = true};
+        const OpenModel a = open_tiny(
+            with_contacts(with_one_piece(bake_tiny(ball.positions, ball.triangles, doubles))));
+        const OpenModel b = open_tiny(
+            with_contacts(with_pieces(bake_tiny(ring.positions, ring.triangles, doubles))));
+        const Double3 shift = {0.2 * scale, 0.1 * scale, 0};
+        const Placement placement =
+            Placement::b_moves(Pose::from_quaternion(5, 1, 2, 3, shift).value());
+        const double near = 0.0625 * scale;
+        Workspace workspace;
+        std::vector<PieceContact> room(20);
+        const ContactOptions options = {.manifold = Manifold::four};
+        const std::string at = "contacts at 2^" + std::to_string(std::ilogb(scale));
+        expect_same_in_every_mode(at, [&](Asked& out) {
+            const auto visit = [&](const PieceContact& contact) {
+                out.see();
+                out.bytes.add(contact);
+                return true;
+            };
+            out.bytes.add(room,
+                          contacts(a.model, b.model, placement, near, workspace, room, options));
+            out.bytes.add(
+                visit_contacts(a.model, b.model, placement, near, workspace, visit, options));
+        });
+        const FeatureHull hull_a = feature_hull(a.model, 0), hull_b = feature_hull(b.model, 3);
+        expect_same_in_every_mode(at + ", closest_features", [&](Asked& out) {
+            out.bytes.add(closest_features(hull_a, hull_b, placement));
+        });
+    }
+}
+
+/// Builds everything over a mesh. The hook runs tasks on threads, and sees the environment.
+void build_all(const TestMesh& mesh, Asked& out) {
+    const auto run = [&](std::size_t count, Task task) {
+        out.see();
+        if (count < 8) {
+            run_threads(count, task);
+        } else {
+            serial_for(count, task);
+        }
+        out.see();
+    };
+    build::Bvh bvh =
+        build::build_bvh(mesh.positions, mesh.triangles,
+                         {.parallel_for = run, .bounds = build::BvhBounds::oriented_and_swept});
+    out.bytes.add(bvh.frame.origin);
+    out.bytes.add(bvh.frame.exponent);
+    out.bytes.add_stored(bvh.order);
+    out.bytes.add_stored(bvh.nodes);
+    out.bytes.add_stored(bvh.leaves);
+    out.bytes.add_stored(bvh.oriented_nodes);
+    out.bytes.add_stored(bvh.swept_nodes);
+    out.bytes.add(build::surface_cost(bvh));
+    out.bytes.add(build::refit_bvh(bvh, mesh.positions, mesh.triangles, {.parallel_for = run}));
+    out.bytes.add_stored(bvh.nodes);
+    const build::Octree octree = build::build_octree(mesh.positions, mesh.triangles,
+                                                     {.parallel_for = run, .boxes_in = bvh.frame});
+    out.bytes.add(octree.grid.origin);
+    out.bytes.add(octree.grid.step);
+    out.bytes.add_stored(octree.nodes);
+    out.bytes.add_stored(octree.references);
+    out.bytes.add_stored(octree.boxes);
+    const build::AdaptiveOctree adaptive = build::build_adaptive_octree(
+        mesh.positions, mesh.triangles,
+        {.parallel_for = run, .rule = format::SplitRule::surface_area, .boxes_in = bvh.frame});
+    out.bytes.add_stored(adaptive.nodes);
+    out.bytes.add_stored(adaptive.references);
+    const build::TetraTree tetra =
+        build::build_tetra_tree(mesh.positions, mesh.triangles,
+                                {.parallel_for = run,
+                                 .bounding = format::TetraBounding::boxes,
+                                 .frame_exponent = bvh.frame.exponent,
+                                 .frame_origin = bvh.frame.origin});
+    out.bytes.add(tetra.tree.centre);
+    out.bytes.add_stored(tetra.nodes);
+    out.bytes.add_stored(tetra.references);
+    out.bytes.add_stored(tetra.oriented);
+}
+
+TEST(FloatModes, ChangeNothingThatIsBuilt) {
+    for (const double scale : {1.0, 0x1p-1000, 0x1p-1040, 0x1p990}) {
+        for (const TestMesh& mesh : {icosphere(3), random_soup(5, 5000, 0.1)}) {
+            const TestMesh scaled = moved_by(mesh, scale, {});
+            expect_same_in_every_mode("build at 2^" + std::to_string(std::ilogb(scale)),
+                                      [&](Asked& out) { build_all(scaled, out); });
+        }
+    }
+}
+
+TEST(FloatModes, ChangeNoPose) {
+    const double small = 0x1p-1060;
+    expect_same_in_every_mode("poses", [&](Asked& out) {
+        const Pose a = Pose::from_quaternion(5, 1, 2, 3, {0.1, 0.2, small}).value();
+        const Pose b = Pose::from_quaternion(small, small, 0, 3 * 0x1p-1062, {small, 1, 0}).value();
+        const Pose both = relative_pose(a, b);
+        out.bytes.add(a);
+        out.bytes.add(b);
+        out.bytes.add(both);
+        out.bytes.add(moved(both, {0.1, 0.3, 0x1p-30}));
+        out.bytes.add(moved(Pose(), {small, -small, small}));
+        std::array<double, 12> rows{};
+        std::copy_n(a.rotation().begin(), 9, rows.begin());
+        out.bytes.add(Pose::from_rows(rows).ok());
+    });
+}
+
+// By definition of the order; in a mode that takes small numbers for 0 too.
+TEST(FloatModes, ChangeNoOrderOfHits) {
+    const RayHit first = {0x1p-1070, {}, 2}, second = {0x1p-1069, {}, 1};
+    for (const FloatMode& mode : float_modes()) {
+        bool is_less = false;
+        (void)run_in(mode, [&] { is_less = first < second; });
+        EXPECT_TRUE(is_less) << mode.name;
+    }
+}
+
+}  // namespace
+}  // namespace cdprep::test
