@@ -145,6 +145,7 @@ bool leaf_matches(const Tree& tree, const BvhLeaf& leaf, std::uint64_t first) {
                 if (std::fabs(local * scale) > reach) return false;
                 const float kept = static_cast<float>(exact ? x : local);
                 if (leaf.corner[i][axis][lane] != kept) return false;
+                if (exact && double{kept} != x) return false;  // the flag says: without loss
             }
         }
     }

@@ -12,9 +12,11 @@
 #include "convex/contact_arrays.h"
 #include "convex/find_cover_falsehood.h"
 #include "damage_sentence.h"
+#include "false_fact.h"
 #include "find_hull_falsehood.h"
 #include "find_piece_falsehood.h"
 #include "mapped_file.h"
+#include "parallel.h"
 #include "report/info_report.h"
 
 namespace cdprep::cli {
@@ -52,6 +54,11 @@ Exit run(const Arguments& arguments) {
         if (!damage) damage = find_piece_falsehood(bytes, opened.value());
         if (damage) {
             return fail("info", {ErrorCode::unreadable, damage_sentence(file, *damage)});
+        }
+        const Threads threads(0);
+        if (const auto fact = find_false_fact(opened.value(), threads.parallel_for())) {
+            return fail("info", {ErrorCode::unreadable,
+                                 false_fact_sentence(arguments.file.string(), *fact)});
         }
     }
     const Model& model = opened.value();

@@ -262,6 +262,27 @@ TEST(FindDeepDamage, SeesALeafThatLostACorner) {
     EXPECT_EQ(kind_of(find_deep_damage(with(file, half, 0.0F).span())), DamageKind::bad_fact);
 }
 
+// One leaf about the origin, in a frame of exponent 0: its corners are the same numbers whether
+// they are model coordinates or not. One tenth is no float.
+TEST(FindDeepDamage, SeesLeavesThatLoseWhatTheFlagSaysTheyKeep) {
+    const double a = 0.25;
+    const double b = 0.1;
+    const std::vector<Double3> corners = {{a, 0, 0},  {-a, 0, 0}, {0, a, 0},
+                                          {0, -a, 0}, {0, 0, b},  {0, 0, -b}};
+    const std::vector<Triangle> triangles = {{{0, 2, 4}}, {{2, 1, 4}}, {{1, 3, 4}}, {{3, 0, 4}},
+                                             {{2, 0, 5}}, {{1, 2, 5}}, {{3, 1, 5}}, {{0, 3, 5}}};
+    const AlignedBytes file = test::bake_tiny(corners, triangles, {.double_precision = true});
+    EXPECT_FALSE(find_deep_damage(file.span()));
+    ASSERT_EQ(read_header(file.span()).frame_exponent, 0);
+    const std::uint32_t flags = read_header(file.span()).flags;
+    ASSERT_EQ(flags & model_exact_leaves, 0U);
+    const AlignedBytes forged = with(file, offsetof(FileHeader, flags), flags | model_exact_leaves);
+    const auto damage = find_deep_damage(forged.span());
+    ASSERT_TRUE(damage);
+    EXPECT_EQ(damage->kind, DamageKind::bad_fact);
+    EXPECT_EQ(damage->section, SectionId::bvh_leaves);
+}
+
 TEST(FindDeepDamage, SeesAnOrientedBoxThatIsTooSmallOrCrooked) {
     const AlignedBytes file = baked_cube();
     const std::uint64_t node = start_of(file, SectionId::oriented_nodes);
