@@ -9,13 +9,17 @@
 
 namespace cdprep {
 
-/// A file mapped read-only. The only part of the library that knows the
-/// operating system. Move-only; unmaps when it ends.
+/// The bytes of a file, mapped or copied, read-only. The only part of the library that
+/// knows the operating system. Move-only; gives the memory back when it ends.
 class MappedFile {
 public:
     /// Fails with `unreadable` when the path is no regular file that can be
     /// read and mapped. An empty file maps to no bytes.
     [[nodiscard]] static Result<MappedFile> map(const std::filesystem::path& path);
+
+    /// Reads the file into pages of its own, so that what happens to the file later changes
+    /// nothing. Fails as map() does, and when the file becomes shorter while it is read.
+    [[nodiscard]] static Result<MappedFile> copy(const std::filesystem::path& path);
 
     MappedFile() noexcept = default;
     MappedFile(MappedFile&& other) noexcept;

@@ -15,7 +15,7 @@
 namespace cdprep {
 
 struct Model::State {
-    MappedFile mapping;  ///< empty when the caller keeps the bytes
+    MappedFile mapping;  ///< or a copy; empty when the caller keeps the bytes
     std::string name;    ///< of the file, for messages
     std::span<const std::byte> file;
     const format::FileHeader* header = nullptr;
@@ -198,7 +198,8 @@ Model& Model::operator=(Model&& other) noexcept {
 Model::~Model() = default;
 
 Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
-    Result<MappedFile> mapped = MappedFile::map(path);
+    const bool is_copied = options.mode == OpenMode::copy;
+    Result<MappedFile> mapped = is_copied ? MappedFile::copy(path) : MappedFile::map(path);
     if (!mapped) return mapped.error();
     OpenOptions named = options;
     const std::string name = path.string();

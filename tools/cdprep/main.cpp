@@ -6,6 +6,7 @@
 #include "cdprep/format/float_environment.h"
 #include "command.h"
 #include "interrupt.h"
+#include "lost_page.h"
 
 namespace cdprep::cli {
 namespace {
@@ -27,6 +28,7 @@ Exit run(int argc, char** argv) {
     add_repair(app, exit);
     add_accuracy(app, exit);
     watch_for_interrupts();
+    watch_for_lost_pages();
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

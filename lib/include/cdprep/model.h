@@ -27,6 +27,17 @@ using format::Float3;
 using format::SectionId;
 using format::SectionSet;
 
+/// Where the bytes of an opened file are.
+enum class OpenMode : std::uint8_t {
+    /// In the file, mapped: nothing is copied, and processes share the memory. Needs a file that
+    /// nobody truncates or rewrites while the Model lives; see Model.
+    map,
+    /// In memory that the Model owns, aligned to pages. Costs reading the whole file at opening,
+    /// and its size in memory. Whatever happens to the file then, the answers stay the same. For
+    /// network shares, removable media, and files that others truncate.
+    copy,
+};
+
 /// How a model is opened. Only the sections that are opened are checked and read.
 struct OpenOptions {
     /// What will be asked. Opening fails when the file was baked without something that this
@@ -37,6 +48,8 @@ struct OpenOptions {
     std::optional<SectionSet> sections = std::nullopt;
     /// Stands for the file in messages about bytes in memory.
     std::string_view name = "memory";
+    /// Of a path; bytes in memory are used where they are.
+    OpenMode mode = OpenMode::map;
 };
 
 /// Why a model does not serve a question.
@@ -51,10 +64,19 @@ struct Refusal {
 
 /// A baked model, open for queries.
 ///
-/// Opening maps the file and checks it once; nothing is copied or decoded.
-/// Every span and every answer that refers to geometry is valid as long as the
-/// Model is alive. Move-only. All const members and all queries may run on any
-/// number of threads at once.
+/// Opening maps the file and checks it once; nothing is decoded, and nothing copied unless
+/// OpenMode::copy asks for it. Every span and every answer that refers to geometry is valid as long
+/// as the Model is alive. Move-only. All const members and all queries may run on any number of
+/// threads at once.
+///
+/// A mapped file must stay as it is while the Model lives:
+/// - Replacing it by rename is safe: the Model keeps the old file, also when that has no name any
+///   more. `cdprep bake` writes in this way.
+/// - When it is truncated, or a network share or disk fails, touching a page that is not there
+///   stops the program with SIGBUS on POSIX. Nothing can be checked beforehand.
+/// - When it is rewritten in place, queries may see the new bytes, which nobody has checked:
+///   answers may be wrong, and a query may read outside the file or not end.
+/// Open with OpenMode::copy where others may do so.
 ///
 /// No answer depends on the caller's floating-point environment: rounding mode, flushing of
 /// subnormal numbers, unmasked exceptions. Each call computes in the default one and restores the
@@ -69,11 +91,11 @@ struct Refusal {
 ///     std::cout << model.triangle_count() << " triangles\n";
 class Model {
 public:
-    /// Maps `path` and checks completely the sections that `options` names; the others are not
-    /// touched and give empty spans. Fails with `unreadable` when the file cannot be read, is not
-    /// a finished bake, was written by an incompatible version, was rewritten by another tool, or
-    /// is damaged; with `bad_argument` when it lacks sections that options.asks needs. O(bytes of
-    /// the sections), at memory speed.
+    /// Maps or copies `path` and checks completely the sections that `options` names; the others
+    /// are not touched and give empty spans. Fails with `unreadable` when the file cannot be read,
+    /// is not a finished bake, was written by an incompatible version, was rewritten by another
+    /// tool, or is damaged; with `bad_argument` when it lacks sections that options.asks needs.
+    /// O(bytes of the sections), at memory speed.
     [[nodiscard]] static Result<Model> open(const std::filesystem::path& path,
                                             const OpenOptions& options = {});
 

@@ -6,9 +6,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include "cdprep/collide.h"
 #include "cdprep/format/sections.h"
+#include "cdprep/overlapping_triangles.h"
 #include "support/guarded_pages.h"
 #include "support/open_tiny.h"
 #include "support/scratch_folder.h"
@@ -36,6 +39,105 @@ TEST(Model, OpensFromAPathAsFromMemory) {
         EXPECT_EQ(opened.value().components().size(), 1u);
         EXPECT_EQ(opened.value().mass_properties(), nullptr);
     }
+}
+
+/// The number of triangles that a query about two copies of a model finds: it reads every section.
+std::size_t overlaps_of(const Model& model) {
+    Workspace workspace;
+    std::vector<TrianglePair> pairs(1000);
+    const Pose pose = Pose::from_quaternion(1, 0, 0, 0, {0.5, 0.25, 0.125}).value();
+    return overlapping_triangles(model, model, Placement::b_moves(pose), workspace, pairs);
+}
+
+fs::path write_cube(const ScratchFolder& scratch) {
+    return scratch.write("cube.cdp.h5", baked_cube().span());
+}
+
+// What POSIX promises of rename: an open file stays what it was.
+TEST(Model, StaysWhatItWasWhenTheFileIsReplacedByRename) {
+    for (const OpenMode mode : {OpenMode::map, OpenMode::copy}) {
+        const ScratchFolder scratch;
+        const fs::path path = write_cube(scratch);
+        const Result<Model> before = Model::open(path, {.mode = mode});
+        ASSERT_TRUE(before) << before.error().message;
+        const std::size_t overlaps = overlaps_of(before.value());
+        ASSERT_GT(overlaps, 0U);
+        const TestMesh sphere = in_floats(icosphere(1));
+        const AlignedBytes other = bake_tiny(sphere.positions, sphere.triangles);
+        fs::rename(scratch.write("new", other.span()), path);
+        EXPECT_EQ(before.value().triangle_count(), 12U);
+        EXPECT_EQ(overlaps_of(before.value()), overlaps);
+        const Result<Model> after = Model::open(path, {.mode = mode});
+        ASSERT_TRUE(after) << after.error().message;
+        EXPECT_EQ(after.value().triangle_count(), 80U);
+        fs::remove(path);
+        EXPECT_EQ(overlaps_of(before.value()), overlaps);
+    }
+}
+
+// A copy is the Model's own; a mapping would end the test with SIGBUS.
+TEST(Model, CopyStaysWhatItWasWhenTheFileIsTruncated) {
+    const ScratchFolder scratch;
+    const fs::path path = write_cube(scratch);
+    const Result<Model> copied = Model::open(path, {.mode = OpenMode::copy});
+    ASSERT_TRUE(copied) << copied.error().message;
+    const std::size_t overlaps = overlaps_of(copied.value());
+    fs::resize_file(path, 0);
+    EXPECT_EQ(overlaps_of(copied.value()), overlaps);
+    EXPECT_EQ(copied.value().triangle_count(), 12U);
+}
+
+// The same when it is rewritten in place: a mapping may see the new bytes.
+TEST(Model, CopyStaysWhatItWasWhenTheFileIsRewritten) {
+    const ScratchFolder scratch;
+    const fs::path path = write_cube(scratch);
+    const Result<Model> copied = Model::open(path, {.mode = OpenMode::copy});
+    ASSERT_TRUE(copied) << copied.error().message;
+    const std::size_t overlaps = overlaps_of(copied.value());
+    std::fstream(path, std::ios::binary | std::ios::in | std::ios::out)
+        << std::string(fs::file_size(path), '\xff');
+    EXPECT_EQ(overlaps_of(copied.value()), overlaps);
+    EXPECT_FALSE(Model::open(path, {.mode = OpenMode::copy}));
+}
+
+// Both modes look at the same bytes, so they refuse the same files in the same words.
+TEST(Model, CopyIsCheckedAsAMappingIs) {
+    const ScratchFolder scratch;
+    AlignedBytes bytes = baked_cube();
+    bytes.span()[bytes.size() - 1] ^= std::byte{1};
+    for (const fs::path& path : {scratch.write("damaged", bytes.span()), scratch.path() / "none",
+                                 scratch.path(), scratch.write("empty", "")}) {
+        const Result<Model> mapped = Model::open(path);
+        const Result<Model> copied = Model::open(path, {.mode = OpenMode::copy});
+        ASSERT_FALSE(mapped);
+        ASSERT_FALSE(copied) << path;
+        EXPECT_EQ(copied.error().code, ErrorCode::unreadable);
+        EXPECT_EQ(copied.error().message, mapped.error().message);
+    }
+}
+
+// Spans of sections keep the alignment that the format promises.
+TEST(Model, CopyIsAlignedAsSectionsAre) {
+    const ScratchFolder scratch;
+    const fs::path path = write_cube(scratch);
+    const Result<Model> copied = Model::open(path, {.mode = OpenMode::copy});
+    ASSERT_TRUE(copied) << copied.error().message;
+    const auto place = reinterpret_cast<std::uintptr_t>(&copied.value().header());
+    EXPECT_EQ(place % format::kSectionAlignment, 0U);
+}
+
+// Attributes of Linux's sysfs say that they have a page, and end before: as does a file that is
+// truncated while it is copied.
+TEST(Model, CopyOfAFileThatEndsEarlyIsRefused) {
+    const fs::path path = "/sys/kernel/mm/transparent_hugepage/enabled";
+    std::error_code none;
+    if (!fs::is_regular_file(path, none) || fs::file_size(path, none) != 4096) GTEST_SKIP();
+    const Result<Model> copied = Model::open(path, {.mode = OpenMode::copy});
+    ASSERT_FALSE(copied);
+    EXPECT_EQ(copied.error().code, ErrorCode::unreadable);
+    EXPECT_NE(copied.error().message.find("had 4096 bytes when it was opened, but only "),
+              std::string::npos)
+        << copied.error().message;
 }
 
 // Written by hand: what is read must be what was stored.
