@@ -17,9 +17,9 @@ namespace cdprep::build {
 ///
 /// Triangles, the numbers of answers and the order of the hierarchy stay; positions, boxes,
 /// leaves and marks of degenerate triangles follow each refit(). The model has no oriented
-/// boxes, swept spheres, hulls, pieces, octrees, bounds or mass: with the first two a refit
-/// would take three to eight times as long. So it serves what needs none of the others:
-/// collide, overlap, distance, within, ray, closest, inside and touch.
+/// boxes, with which a refit would take three times as long, and no swept spheres, hulls,
+/// pieces, octrees, bounds or mass. So it serves what needs none of these: collide, overlap,
+/// distance, within, ray, closest, inside and touch.
 ///
 /// Move-only; moving it does not move its model's bytes. Const members and questions about
 /// model() may run on any number of threads at once, but not while refit() or image() runs.
