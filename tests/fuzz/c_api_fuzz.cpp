@@ -1,0 +1,635 @@
+// SPDX-License-Identifier: MIT
+// Hostile arguments: whatever the C API is called with, it answers or refuses.
+//
+// Every struct is made by its initialiser, as the header demands, and then changed at random:
+// fields, sizes, tags, caches, pointers that may be null. What is refused must leave answers that
+// say that nothing is known; what is answered must be finite; no call may report a mistake of the
+// library.
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "support/aligned_bytes.h"
+#include "support/every_structure.h"
+#include "support/meshes.h"
+#include "support/more_sections.h"
+#include "support/tiny_baker.h"
+
+#include "cdprep/cdprep.h"
+
+namespace {
+
+using namespace cdprep::test;  // NOLINT(google-build-using-namespace): a program of its own
+
+#define MUST(condition)                                                 \
+    do {                                                                \
+        if (!(condition)) {                                             \
+            std::fprintf(stderr, "%d: not %s\n", __LINE__, #condition); \
+            std::abort();                                               \
+        }                                                               \
+    } while (0)
+
+/// The input, taken byte by byte; zeros when it is at its end.
+class Draw {
+public:
+    explicit Draw(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+    std::uint8_t byte() {
+        if (at_ == bytes_.size()) return 0;
+        return bytes_[at_++];
+    }
+    std::uint32_t below(std::uint32_t count) {
+        return (byte() | std::uint32_t{byte()} << 8) % count;
+    }
+    bool one_in(std::uint32_t count) {
+        return below(count) == count - 1;
+    }
+    [[nodiscard]] bool is_at_end() const {
+        return at_ == bytes_.size();
+    }
+    std::uint32_t word() {
+        constexpr std::array<std::uint32_t, 8> kWords = {0, 1,  2,           3,
+                                                         5, 77, 0x80000000U, 0xffffffffU};
+        return kWords[below(kWords.size())];
+    }
+    double number() {
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        constexpr std::array kNumbers = {0.0,
+                                         -0.0,
+                                         0.5,
+                                         1.0,
+                                         -1.0,
+                                         1.25,
+                                         1e-3,
+                                         3.0,
+                                         1e300,
+                                         -1e300,
+                                         0x1p1000,
+                                         0x1p1001,
+                                         0x1p-1060,
+                                         std::numeric_limits<double>::denorm_min(),
+                                         std::numeric_limits<double>::max(),
+                                         kInfinity,
+                                         -kInfinity,
+                                         std::numeric_limits<double>::quiet_NaN()};
+        if (one_in(3)) return static_cast<std::int8_t>(byte()) / 16.0;
+        return kNumbers[below(kNumbers.size())];
+    }
+
+private:
+    std::span<const std::uint8_t> bytes_;
+    std::size_t at_ = 0;
+};
+
+/// Baked models of every kind, open for as long as the program runs.
+class Models {
+public:
+    Models() {
+        const TestMesh cube = unit_cube(), ball = icosphere(1);
+        TestMesh open = icosphere(1);
+        open.triangles.resize(open.triangles.size() / 2);
+        TestMesh flat = unit_cube();
+        for (auto& p : flat.positions) p.z = 0;
+        TestMesh huge = unit_cube();
+        for (auto& p : huge.positions) p = {p.x * 0x1p999, p.y * 0x1p999, p.z * 0x1p999};
+        add(with_hulls(with_every_structure(with_contacts(with_one_piece(baked(cube))))));
+        add(with_every_structure(with_contacts(with_one_piece(baked(ball)))));
+        add(with_hulls(baked(open, true)));
+        add(baked(flat, true));
+        add(baked(huge, true));
+        add(baked({}));
+        add(baked(cube), CDPREP_ASK_RAY);
+        add(baked(cube), CDPREP_ASK_CLOSEST | CDPREP_ASK_INSIDE);
+    }
+    const cdprep_model* any(Draw& draw) const {
+        if (draw.one_in(20)) return nullptr;
+        return open_[draw.below(static_cast<std::uint32_t>(open_.size()))];
+    }
+
+private:
+    static AlignedBytes baked(const TestMesh& mesh, bool doubles = false) {
+        return bake_tiny(mesh.positions, mesh.triangles, {.double_precision = doubles});
+    }
+    void add(AlignedBytes bytes, std::uint32_t ask = 0) {
+        files_.push_back(std::make_unique<AlignedBytes>(std::move(bytes)));
+        cdprep_open_options options;
+        cdprep_open_options_init(&options, sizeof options);
+        options.ask = ask;
+        cdprep_model* model = nullptr;
+        cdprep_error error;
+        const auto file = std::as_const(*files_.back()).span();
+        if (cdprep_model_open_memory(file.data(), file.size(), &options, &model, &error) !=
+            CDPREP_OK) {
+            std::fprintf(stderr, "%s\n", error.message);
+            std::abort();
+        }
+        open_.push_back(model);
+    }
+    std::vector<std::unique_ptr<AlignedBytes>> files_;
+    std::vector<cdprep_model*> open_;
+};
+
+/// An input struct with eight bytes behind it, as a longer one of a newer version has them.
+template <class T>
+struct Longer {
+    T value;
+    std::uint64_t behind = 0;
+
+    /// Changes what a caller could get wrong about the struct itself.
+    void spoil(Draw& draw) {
+        if (!draw.one_in(12)) return;
+        constexpr auto kSize = static_cast<std::uint32_t>(sizeof(T));
+        const std::array<std::uint32_t, 6> sizes = {0, 1, 8, kSize - 8, kSize, kSize + 8};
+        value.head.size = sizes[draw.below(sizes.size())];
+        if (draw.one_in(4)) value.head.tag = draw.word();
+        behind = draw.one_in(2) ? 0 : draw.byte();
+        if (draw.one_in(4))
+            std::memset(static_cast<void*>(&value), draw.one_in(2) ? 0 : 0xcd, kSize);
+    }
+};
+
+void draw_pose(Draw& draw, cdprep_pose& pose) {
+    switch (draw.below(8)) {
+        case 0: {
+            const std::array<double, 4> q = {draw.number(), draw.number(), draw.number(), 1};
+            const std::array<double, 3> t = {draw.number(), draw.number(), draw.number()};
+            cdprep_pose made;
+            if (cdprep_pose_from_quaternion(q.data(), t.data(), &made, nullptr) == CDPREP_OK) {
+                pose = made;
+            }
+            break;
+        }
+        case 1:
+            pose.rows[draw.below(12)] = draw.number();
+            break;
+        case 2:
+            for (double& number : pose.rows) number = draw.number();
+            break;
+        case 3:
+        case 4:
+            for (std::size_t i = 9; i < 12; ++i)
+                pose.rows[i] = static_cast<std::int8_t>(draw.byte()) / 32.0;
+            break;
+        default:
+            break;
+    }
+}
+
+template <class Cache>
+void draw_cache(Draw& draw, Cache& cache) {
+    if (!draw.one_in(4)) return;
+    for (auto& word : cache.words) {
+        if (draw.one_in(2))
+            word = draw.number() > 0 ? ~std::uint64_t{0} / (1U + draw.byte()) : draw.byte();
+    }
+}
+
+bool is_finite(std::span<const double> numbers) {
+    for (const double number : numbers) {
+        if (!std::isfinite(number)) return false;
+    }
+    return true;
+}
+
+bool is_finite(const cdprep_nearest& n) {
+    const std::array numbers = {n.lower,   n.upper,   n.on_a[0], n.on_a[1],
+                                n.on_a[2], n.on_b[0], n.on_b[1], n.on_b[2]};
+    return is_finite(numbers) && n.lower <= n.upper;
+}
+
+/// One call after the other, with one workspace and a few caches.
+class Caller {
+public:
+    Caller(Draw& draw, const Models& models) : draw_(draw), models_(models) {
+        MUST(cdprep_workspace_make(nullptr, nullptr, 0, &workspace_, nullptr) == CDPREP_OK);
+    }
+    Caller(const Caller&) = delete;
+    Caller& operator=(const Caller&) = delete;
+    ~Caller() {
+        cdprep_workspace_end(workspace_);
+    }
+
+    void call() {
+        error_.code = 99;
+        switch (draw_.below(14)) {
+            case 0:
+                return collide();
+            case 1:
+                return list_pairs();
+            case 2:
+                return distance();
+            case 3:
+                return mark();
+            case 4:
+                return contacts();
+            case 5:
+                return hulls();
+            case 6:
+                return points();
+            case 7:
+                return rays();
+            case 8:
+                return shapes();
+            case 9:
+                return geometry();
+            case 10:
+                return batch();
+            case 11:
+                return poses();
+            case 12:
+                return visit();
+            default:
+                return open();
+        }
+    }
+
+private:
+    /// Whether the call was answered; checks what every call promises.
+    bool is_answered(int code) {
+        MUST(code == CDPREP_OK || code == CDPREP_BAD_ARGUMENT || code == CDPREP_UNREADABLE);
+        MUST(error_.code == code && (error_.why != 0) == (code == CDPREP_BAD_ARGUMENT));
+        MUST(std::memchr(error_.message, 0, sizeof error_.message) != nullptr);
+        MUST((error_.message[0] != 0) == (code != CDPREP_OK));
+        return code == CDPREP_OK;
+    }
+    cdprep_workspace* workspace() {
+        return draw_.one_in(40) ? nullptr : workspace_;
+    }
+    const cdprep_pair* pair() {
+        cdprep_pair_init(&pair_.value, sizeof pair_.value);
+        cdprep_pair& p = pair_.value;
+        p.a = models_.any(draw_);
+        p.b = models_.any(draw_);
+        if (draw_.one_in(2)) p.cache = &cache_;
+        draw_cache(draw_, cache_);
+        draw_pose(draw_, p.pose_a);
+        draw_pose(draw_, p.pose_b);
+        if (draw_.one_in(2)) p.moving = draw_.below(3);
+        if (draw_.one_in(4)) p.body = draw_.below(2);
+        if (draw_.one_in(4)) p.overlap = draw_.below(2);
+        if (draw_.one_in(4)) p.degenerate = draw_.below(2);
+        if (draw_.one_in(3)) p.through = draw_.below(6);
+        if (draw_.one_in(20)) (&p.moving)[draw_.below(6)] = draw_.word();
+        pair_.spoil(draw_);
+        return draw_.one_in(40) ? nullptr : &pair_.value;
+    }
+    const cdprep_distance_options* options() {
+        cdprep_distance_options_init(&distance_.value, sizeof distance_.value);
+        if (draw_.one_in(3)) distance_.value.relative_error = draw_.number();
+        if (draw_.one_in(3)) distance_.value.absolute_error = draw_.number();
+        if (draw_.one_in(3)) distance_.value.max_distance = draw_.number();
+        distance_.spoil(draw_);
+        return draw_.one_in(3) ? nullptr : &distance_.value;
+    }
+    void collide() {
+        cdprep_collision found = {9, 9, 9, 9, 9};
+        std::uint32_t hit = 9;
+        int code = 0;
+        const cdprep_pair* const given = pair();
+        switch (draw_.below(4)) {
+            case 0:
+                code = cdprep_containment(given, workspace(), &found, &error_);
+                break;
+            case 1:
+                code = cdprep_collide_at_level(given, draw_.word(), workspace(), &hit, &error_);
+                MUST(hit <= CDPREP_UNKNOWN && (is_answered(code) || hit == CDPREP_UNKNOWN));
+                return;
+            case 2:
+                code = cdprep_within(given, draw_.number(), workspace(), &hit, &error_);
+                MUST(is_answered(code) ? hit <= CDPREP_YES : hit == CDPREP_UNKNOWN);
+                return;
+            default:
+                code = cdprep_collide(given, workspace(), &found, &error_);
+        }
+        MUST(found.hit <= CDPREP_UNKNOWN && std::isfinite(found.winding));
+        MUST(is_answered(code) || found.hit == CDPREP_UNKNOWN);
+    }
+    void list_pairs() {
+        cdprep_overlap_list list = {draw_.one_in(8) ? nullptr : overlaps_.data(),
+                                    draw_.below(kRoom + 1), 99};
+        const cdprep_pair* const given = pair();
+        int code = 0;
+        if (draw_.one_in(3)) {
+            code = cdprep_pairs_within(given, draw_.number(), workspace(), &list, &error_);
+        } else if (draw_.one_in(3)) {
+            code = cdprep_overlaps_split(given, workspace(), &list, &error_);
+        } else {
+            code = cdprep_overlaps(given, workspace(), &list, &error_);
+        }
+        if (!is_answered(code)) MUST(list.count == 0);
+        cdprep_crossing_list crossings = {crossings_.data(), draw_.below(kRoom + 1), 99};
+        code = cdprep_crossings(given, workspace(), &crossings, &error_);
+        if (!is_answered(code)) {
+            MUST(crossings.count == 0);
+            return;
+        }
+        for (std::size_t i = 0; i < std::min(crossings.count, crossings.room); ++i) {
+            MUST(is_finite(crossings_[i].ends[0]) && is_finite(crossings_[i].ends[1]));
+        }
+    }
+    void distance() {
+        cdprep_nearest nearest{};
+        nearest.found = 99;
+        const cdprep_pair* const given = pair();
+        const int code = cdprep_distance(given, options(), workspace(), &nearest, &error_);
+        if (!is_answered(code)) MUST(nearest.found == CDPREP_NO);
+        MUST(is_finite(nearest));
+    }
+    void mark() {
+        std::array<std::uint64_t, 2> bits_a{}, bits_b{};
+        cdprep_marks marks = {draw_.one_in(8) ? nullptr : bits_a.data(), bits_b.data(),
+                              draw_.below(3), draw_.below(3), 99};
+        const int code = cdprep_overlaps_mark(pair(), workspace(), &marks, &error_);
+        if (!is_answered(code)) MUST(marks.count == 0);
+    }
+    void contacts() {
+        Longer<cdprep_contact_options> given{};
+        cdprep_contact_options_init(&given.value, sizeof given.value);
+        given.value.tolerance = draw_.number();
+        if (draw_.one_in(2)) given.value.manifold = 4;
+        if (draw_.one_in(8)) given.value.manifold = draw_.word();
+        if (draw_.one_in(4)) given.value.most = draw_.word();
+        if (draw_.one_in(4)) given.value.work = draw_.word();
+        given.spoil(draw_);
+        std::array<cdprep_contact, 8> items{};
+        cdprep_contact_list list = {items.data(), draw_.below(9), 99, 99, 99};
+        const int code = cdprep_contacts(pair(), &given.value, workspace(), &list, &error_);
+        if (!is_answered(code)) MUST(list.count == 0 && list.complete == CDPREP_NO);
+        for (std::size_t i = 0; i < std::min(list.count, list.room); ++i) {
+            MUST(is_finite(items[i].normal) && std::isfinite(items[i].upper));
+        }
+    }
+    void draw_hull(cdprep_hull& hull) {
+        hull = {models_.any(draw_), draw_.below(5), draw_.below(3)};
+        if (draw_.one_in(10)) hull.scope = draw_.word();
+        if (draw_.one_in(10)) hull.number = draw_.word();
+    }
+    void hulls() {
+        Longer<cdprep_hull_pair> given{};
+        cdprep_hull_pair_init(&given.value, sizeof given.value);
+        draw_hull(given.value.a);
+        draw_hull(given.value.b);
+        draw_pose(draw_, given.value.pose_a);
+        draw_pose(draw_, given.value.pose_b);
+        draw_cache(draw_, hull_cache_);
+        if (draw_.one_in(2)) given.value.cache = &hull_cache_;
+        if (draw_.one_in(2)) given.value.moving = draw_.below(4);
+        given.spoil(draw_);
+        std::uint32_t yes = 9;
+        cdprep_nearest nearest{};
+        cdprep_penetration depth{};
+        cdprep_closest_features features{};
+        switch (draw_.below(5)) {
+            case 0:
+                if (!is_answered(cdprep_hulls_collide(&given.value, &yes, &error_)))
+                    MUST(yes == CDPREP_UNKNOWN);
+                return;
+            case 1:
+                if (!is_answered(cdprep_hulls_within(&given.value, draw_.number(), &yes, &error_)))
+                    MUST(yes == CDPREP_UNKNOWN);
+                return;
+            case 2:
+                if (!is_answered(cdprep_hulls_distance(&given.value, options(), &nearest, &error_)))
+                    MUST(nearest.found == CDPREP_NO);
+                MUST(is_finite(nearest));
+                return;
+            case 3:
+                if (!is_answered(
+                        cdprep_hulls_penetration(&given.value, options(), &depth, &error_)))
+                    MUST(depth.found == CDPREP_NO);
+                MUST(is_finite(depth.normal) && std::isfinite(depth.upper));
+                return;
+            default:
+                if (!is_answered(cdprep_hulls_features(&given.value, &features, &error_)))
+                    MUST(features.found == CDPREP_NO);
+                MUST(std::isfinite(features.upper) && is_finite(features.on_a));
+                return;
+        }
+    }
+    void points() {
+        std::array<double, 9> numbers{};
+        for (double& number : numbers)
+            number = draw_.one_in(3) ? draw_.number() : draw_.byte() / 64.0;
+        Longer<cdprep_point_query> given{};
+        cdprep_point_query_init(&given.value, sizeof given.value);
+        given.value.model = models_.any(draw_);
+        given.value.points = draw_.one_in(20) ? nullptr : numbers.data();
+        given.value.count = draw_.below(4);
+        if (draw_.one_in(4)) given.value.max_distance = draw_.number();
+        if (draw_.one_in(4)) given.value.through = draw_.below(7);
+        given.spoil(draw_);
+        std::array<cdprep_closest_point, 3> closest{};
+        std::array<cdprep_point_state, 3> states{};
+        if (draw_.one_in(2)) {
+            if (!is_answered(
+                    cdprep_points_closest(&given.value, workspace(), closest.data(), &error_)))
+                MUST(closest[0].found == CDPREP_NO);
+            for (const auto& c : closest)
+                MUST(is_finite(c.point) && std::isfinite(c.upper) && c.lower <= c.upper);
+        } else {
+            (void)is_answered(
+                cdprep_points_inside(&given.value, workspace(), states.data(), &error_));
+            for (const auto& s : states)
+                MUST(s.inside <= CDPREP_UNKNOWN && std::isfinite(s.winding));
+        }
+    }
+    void rays() {
+        std::array<cdprep_ray, 2> rays{};
+        for (auto& ray : rays) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                ray.origin[i] = draw_.one_in(4) ? draw_.number()
+                                                : static_cast<std::int8_t>(draw_.byte()) / 32.0;
+                ray.direction[i] = draw_.one_in(4) ? draw_.number()
+                                                   : static_cast<std::int8_t>(draw_.byte()) / 32.0;
+            }
+            ray.max_t = draw_.one_in(4) ? draw_.number() : std::numeric_limits<double>::infinity();
+        }
+        Longer<cdprep_ray_query> given{};
+        cdprep_ray_query_init(&given.value, sizeof given.value);
+        given.value.model = models_.any(draw_);
+        given.value.rays = draw_.one_in(20) ? nullptr : rays.data();
+        given.value.count = draw_.below(3);
+        given.spoil(draw_);
+        std::array<cdprep_ray_hit, 4> items{};
+        std::array<cdprep_ray_hit, 2> hits{};
+        std::array<std::uint32_t, 2> any{};
+        std::array<cdprep_ray_hit_list, 2> lists = {
+            {{items.data(), 2, 0}, {items.data() + 2, 2, 0}}};
+        (void)is_answered(cdprep_rays_any(&given.value, workspace(), any.data(), &error_));
+        (void)is_answered(cdprep_rays_all(&given.value, workspace(), lists.data(), &error_));
+        (void)is_answered(cdprep_rays_cast(&given.value, workspace(), hits.data(), &error_));
+        for (const auto& hit : hits) MUST(std::isfinite(hit.t) && is_finite(hit.point));
+        for (const auto& hit : items) MUST(std::isfinite(hit.t) && is_finite(hit.point));
+    }
+    void shapes() {
+        Longer<cdprep_shape_query> given{};
+        cdprep_shape_query_init(&given.value, sizeof given.value);
+        cdprep_shape_query& q = given.value;
+        q.model = models_.any(draw_);
+        q.shape = draw_.below(6);
+        for (double* const point : {q.a, q.b, q.c}) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                point[i] = draw_.one_in(5) ? draw_.number()
+                                           : static_cast<std::int8_t>(draw_.byte()) / 32.0;
+            }
+        }
+        q.radius = draw_.number();
+        if (draw_.one_in(4)) q.max_distance = draw_.number();
+        if (draw_.one_in(4)) q.degenerate = draw_.below(3);
+        draw_pose(draw_, q.world_from_model);
+        given.spoil(draw_);
+        std::array<std::uint32_t, 4> items{};
+        cdprep_triangle_list list = {items.data(), 4, 99};
+        std::uint32_t touches = 9;
+        cdprep_nearest nearest{};
+        if (!is_answered(cdprep_touch(&q, workspace(), &touches, &error_)))
+            MUST(touches == CDPREP_UNKNOWN);
+        if (!is_answered(cdprep_touch_list(&q, workspace(), &list, &error_))) MUST(list.count == 0);
+        if (!is_answered(cdprep_shape_distance(&q, workspace(), &nearest, &error_)))
+            MUST(nearest.found == CDPREP_NO);
+        MUST(is_finite(nearest));
+    }
+    void geometry() {
+        const cdprep_model* const model = models_.any(draw_);
+        std::array<std::uint32_t, 3> triangles = {draw_.word(), draw_.byte(), 0};
+        std::array<cdprep_corners, 3> corners{};
+        cdprep_model_info info;
+        cdprep_array array;
+        cdprep_verdict verdict;
+        cdprep_mass mass;
+        const char* text = nullptr;
+        std::size_t length = 0;
+        double bound = 0;
+        std::array<double, 12> positions{};
+        std::array<std::uint32_t, 12> indices{};
+        cdprep_mesh mesh = {positions.data(), indices.data(), nullptr, 4, 4, 0, 0};
+        cdprep_hull hull;
+        draw_hull(hull);
+        (void)is_answered(cdprep_model_describe(model, &info, &error_));
+        (void)is_answered(
+            cdprep_model_corners(model, triangles.data(), draw_.below(4), corners.data(), &error_));
+        (void)is_answered(cdprep_model_section(
+            model, draw_.one_in(4) ? draw_.word() : draw_.byte() % 70U, &array, &error_));
+        (void)is_answered(
+            cdprep_model_text(model, draw_.below(6), draw_.word(), &text, &length, &error_));
+        (void)is_answered(cdprep_model_verdict(model, draw_.word(), &verdict, &error_));
+        (void)is_answered(cdprep_model_mass(model, &mass, &error_));
+        (void)is_answered(cdprep_model_level_error(model, draw_.word(), &bound, &error_));
+        (void)is_answered(cdprep_model_mesh(model, &mesh, &error_));
+        (void)is_answered(cdprep_model_serves(model, draw_.word(), &error_));
+        (void)is_answered(cdprep_model_prefetch(model, draw_.word(), &error_));
+        (void)is_answered(cdprep_hull_mesh(&hull, &mesh, &error_));
+        (void)is_answered(cdprep_hull_find(model, hull.scope, hull.number, &hull, &error_));
+    }
+    void batch() {
+        std::array<cdprep_pair, 3> pairs;
+        for (cdprep_pair& p : pairs) {
+            const cdprep_pair* const drawn = pair();
+            p = drawn == nullptr ? cdprep_pair{} : *drawn;
+            // A size that is not the array's would be a lie about memory.
+            p.head.size = sizeof p;
+            p.cache = nullptr;
+        }
+        std::array<cdprep_collision, 3> found{};
+        std::array<cdprep_nearest, 3> nearest{};
+        std::array<cdprep_overlap_list, 3> lists = {
+            {{overlaps_.data(), 4, 9}, {overlaps_.data() + 4, 4, 9}, {nullptr, draw_.below(2), 9}}};
+        const std::size_t count = draw_.below(4);
+        if (!is_answered(
+                cdprep_collide_many(pairs.data(), count, workspace(), found.data(), &error_))) {
+            for (std::size_t i = 0; i < count; ++i) MUST(found[i].hit == CDPREP_UNKNOWN);
+        }
+        if (!is_answered(
+                cdprep_overlaps_many(pairs.data(), count, workspace(), lists.data(), &error_))) {
+            for (std::size_t i = 0; i < count; ++i) MUST(lists[i].count == 0);
+        }
+        (void)is_answered(cdprep_distance_many(pairs.data(), count, options(), workspace(),
+                                               nearest.data(), &error_));
+        for (const auto& n : nearest) MUST(is_finite(n));
+    }
+    void poses() {
+        std::array<double, 16> matrix = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+        for (int i = 0; i < 3; ++i) matrix[draw_.below(16)] = draw_.number();
+        cdprep_pose pose = {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}}, other = pose, made;
+        draw_pose(draw_, pose);
+        draw_pose(draw_, other);
+        (void)is_answered(
+            cdprep_pose_nearest(matrix.data(), draw_.word(), draw_.number(), &made, &error_));
+        MUST(is_finite(made.rows));
+        (void)is_answered(cdprep_pose_compose(&pose, &other, &made, &error_));
+        MUST(is_finite(made.rows));
+        (void)is_answered(cdprep_pose_inverse(&pose, &made, &error_));
+        MUST(is_finite(made.rows));
+        std::array<double, 3> point = {draw_.number(), draw_.number(), draw_.number()};
+        if (is_answered(cdprep_pose_move(&pose, point.data(), 1, point.data(), &error_)))
+            MUST(is_finite(point));
+    }
+    /// A visitor that asks with the workspace that is in use.
+    static int ask_again(void* caller, const cdprep_overlap* /*overlap*/) {
+        auto* const self = static_cast<Caller*>(caller);
+        cdprep_pair inner;
+        cdprep_pair_init(&inner, sizeof inner);
+        inner.a = self->pair_.value.a;
+        inner.b = self->pair_.value.b;
+        cdprep_collision found = {9, 9, 9, 9, 9};
+        cdprep_error error;
+        const int code = cdprep_collide(&inner, self->workspace_, &found, &error);
+        MUST(code == CDPREP_BAD_ARGUMENT && found.hit == CDPREP_UNKNOWN);
+        return self->draw_.byte() % 4;
+    }
+    void visit() {
+        (void)is_answered(cdprep_overlaps_visit(
+            pair(), workspace(), draw_.one_in(20) ? nullptr : ask_again, this, &error_));
+        (void)is_answered(cdprep_pairs_within_visit(pair(), draw_.number(), workspace(), ask_again,
+                                                    this, &error_));
+    }
+    void open() {
+        Longer<cdprep_open_options> given{};
+        cdprep_open_options_init(&given.value, sizeof given.value);
+        if (draw_.one_in(2)) given.value.ask = draw_.word();
+        given.value.mode = draw_.below(4);
+        given.spoil(draw_);
+        std::array<std::uint8_t, 128> bytes{};
+        for (auto& byte : bytes) byte = draw_.byte();
+        cdprep_model* model = nullptr;
+        (void)is_answered(cdprep_model_open_memory(bytes.data(), draw_.below(128), &given.value,
+                                                   &model, &error_));
+        MUST(model == nullptr);
+        Longer<cdprep_workspace_options> options{};
+        cdprep_workspace_options_init(&options.value, sizeof options.value);
+        if (draw_.one_in(2)) options.value.lanes = draw_.word();
+        options.value.counting = draw_.below(3);
+        options.spoil(draw_);
+        std::size_t size = 99;
+        if (!is_answered(cdprep_workspace_size(&options.value, &size, &error_))) MUST(size == 0);
+    }
+
+    static constexpr std::uint32_t kRoom = 16;
+    Draw& draw_;
+    const Models& models_;
+    cdprep_workspace* workspace_ = nullptr;
+    cdprep_error error_{};
+    Longer<cdprep_pair> pair_{};
+    Longer<cdprep_distance_options> distance_{};
+    cdprep_cache cache_{};
+    cdprep_hull_cache hull_cache_{};
+    std::array<cdprep_overlap, kRoom> overlaps_{};
+    std::array<cdprep_crossing, kRoom> crossings_{};
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const Models models;
+    Draw draw({data, size});
+    Caller caller(draw, models);
+    for (int calls = 0; calls < 32 && !draw.is_at_end(); ++calls) caller.call();
+    return 0;
+}

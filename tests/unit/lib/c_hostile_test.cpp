@@ -1,0 +1,801 @@
+// SPDX-License-Identifier: MIT
+// What a caller can get wrong, argument by argument and field by field: each is refused with a
+// code, a reason and the name of what is wrong, and the answer says that nothing is known.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <new>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "c/input.h"
+#include "cdprep/cdprep.h"
+#include "support/c_models.h"
+#include "support/c_questions.h"
+#include "support/every_structure.h"
+#include "support/meshes.h"
+#include "support/more_sections.h"
+#include "support/tiny_baker.h"
+
+namespace {
+std::atomic<std::size_t> allocations = 0;
+
+void* counted(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size)) return memory;
+    throw std::bad_alloc();
+}
+}  // namespace
+
+// Counts every allocation of this program.
+void* operator new(std::size_t size) {
+    return counted(size);
+}
+void* operator new[](std::size_t size) {
+    return counted(size);
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t /*unused*/) noexcept {
+    std::free(memory);
+}
+void operator delete[](void* memory, std::size_t /*unused*/) noexcept {
+    std::free(memory);
+}
+
+namespace cdprep::c {
+
+/// A struct that has grown twice: at first it had `a`, then `b` too, now `c`.
+struct Grown {
+    cdprep_head head;
+    std::uint32_t a, b;
+    double c;
+};
+
+template <>
+struct Input<Grown> {
+    static const InputType type;
+    static Grown defaults() noexcept {
+        return {{}, 1, 2, 3};
+    }
+};
+const InputType Input<Grown>::type = {"grown", 0x1234U, 12, sizeof(Grown), {}};
+
+}  // namespace cdprep::c
+
+namespace cdprep::test {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// How a question went.
+struct Outcome {
+    int code;
+    int why;
+    std::string argument;
+    bool is_unknown;
+};
+
+/// One change of an input struct, and how it must be refused.
+template <class T>
+struct Mistake {
+    const char* what;
+    std::function<void(T&)> make;
+    int why;
+    const char* argument;
+};
+
+/// The mistakes that any input struct can have.
+template <class T>
+std::vector<Mistake<T>> struct_mistakes(const char* argument) {
+    const auto sized = [](std::uint32_t size) {
+        return [size](T& given) { given.head.size = size; };
+    };
+    constexpr int kWhy = CDPREP_WHY_NOT_INITIALISED;
+    return {
+        {"zeros", [](T& given) { std::memset(static_cast<void*>(&given), 0, sizeof given); }, kWhy,
+         argument},
+        {"what memory held",
+         [](T& given) { std::memset(static_cast<void*>(&given), 0xcd, sizeof given); }, kWhy,
+         argument},
+        {"another tag", [](T& given) { given.head.tag += 1; }, kWhy, argument},
+        {"no tag", [](T& given) { given.head.tag = 0; }, kWhy, argument},
+        {"size 0", sized(0), kWhy, argument},
+        {"size 1", sized(1), kWhy, argument},
+        {"size 8", sized(8), kWhy, argument},
+        {"a smaller size than the first version's", sized(sizeof(T) - 8), kWhy, argument},
+        {"a size of 4 GiB", sized(UINT32_MAX), kWhy, argument},
+    };
+}
+
+/// Numbers that no field takes, and 2^1001 that only limits to infinity would.
+std::vector<std::pair<double, int>> bad_numbers() {
+    return {{kNan, CDPREP_WHY_NOT_FINITE},
+            {-kInfinity, CDPREP_WHY_NOT_FINITE},
+            {0x1p1001, CDPREP_WHY_OUT_OF_RANGE}};
+}
+
+class CHostile : public testing::Test {
+protected:
+    CHostile()
+        : file_(
+              with_hulls(with_every_structure(with_contacts(with_one_piece(baked(unit_cube())))))),
+          model_(file_) {}
+
+    static AlignedBytes baked(const TestMesh& mesh) {
+        return bake_tiny(mesh.positions, mesh.triangles);
+    }
+    cdprep_pair pair() const {
+        return pair_of({model_.get(), model_.get(), 0.5, nullptr});
+    }
+    static Outcome outcome(int code, const cdprep_error& error, bool is_unknown) {
+        return {code, error.why, error.argument, is_unknown};
+    }
+    /// Every mistake is refused as it says, and the struct without it is taken.
+    template <class T, class Ask>
+    void expect_refused(const T& right, const std::vector<Mistake<T>>& mistakes, Ask&& ask) {
+        const Outcome taken = ask(&right);
+        ASSERT_EQ(taken.code, CDPREP_OK) << taken.argument;
+        for (const Mistake<T>& mistake : mistakes) {
+            T wrong = right;
+            mistake.make(wrong);
+            const Outcome refused = ask(&wrong);
+            EXPECT_EQ(refused.code, CDPREP_BAD_ARGUMENT) << mistake.what;
+            EXPECT_EQ(refused.why, mistake.why) << mistake.what;
+            EXPECT_EQ(refused.argument, mistake.argument) << mistake.what;
+            EXPECT_TRUE(refused.is_unknown) << mistake.what;
+        }
+        expect_sizes(right, ask);
+    }
+    /// A longer struct is taken when what is unknown is 0.
+    template <class T, class Ask>
+    void expect_sizes(const T& right, Ask&& ask) {
+        struct {
+            T known;
+            std::uint64_t unknown;
+        } longer = {right, 0};
+        longer.known.head.size = sizeof longer;
+        EXPECT_EQ(ask(&longer.known).code, CDPREP_OK);
+        longer.unknown = 1;
+        const Outcome refused = ask(&longer.known);
+        EXPECT_EQ(refused.code, CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(refused.why, CDPREP_WHY_NEWER_FIELD);
+        EXPECT_TRUE(refused.is_unknown);
+        EXPECT_EQ(ask(static_cast<const T*>(nullptr)).why, CDPREP_WHY_NULL);
+    }
+
+    AlignedBytes file_;
+    CModel model_;
+    CWorkspace workspace_;
+};
+
+std::vector<Mistake<cdprep_pair>> pair_mistakes() {
+    using P = cdprep_pair;
+    std::vector<Mistake<P>> all = struct_mistakes<P>("pair");
+    const auto word = [&](const char* name, std::uint32_t P::*field) {
+        for (const std::uint32_t value : {7U, 77U, UINT32_MAX}) {
+            all.push_back({name, [=](P& p) { p.*field = value; }, CDPREP_WHY_OUT_OF_RANGE, name});
+        }
+    };
+    all.push_back({"a", [](P& p) { p.a = nullptr; }, CDPREP_WHY_NULL, "pair.a"});
+    all.push_back({"b", [](P& p) { p.b = nullptr; }, CDPREP_WHY_NULL, "pair.b"});
+    word("pair.moving", &P::moving);
+    word("pair.body", &P::body);
+    word("pair.overlap", &P::overlap);
+    word("pair.degenerate", &P::degenerate);
+    word("pair.through", &P::through);
+    all.push_back(
+        {"reserved", [](P& p) { p.reserved = 1; }, CDPREP_WHY_NEWER_FIELD, "pair.reserved"});
+    for (const auto& [number, why] : bad_numbers()) {
+        const double bad = number;
+        all.push_back(
+            {"a number", [bad](P& p) { p.pose_a.rows[11] = bad; }, why, "pair.pose_a[11]"});
+        all.push_back({"a number", [bad](P& p) { p.pose_b.rows[0] = bad; }, why, "pair.pose_b[0]"});
+    }
+    const auto not_rigid = [&](const char* what, auto make) {
+        all.push_back({what, make, CDPREP_WHY_NOT_RIGID, "pair.pose_b"});
+    };
+    not_rigid("zeros", [](P& p) { p.pose_b = {}; });
+    not_rigid("scaled", [](P& p) { p.pose_b.rows[0] = 1 + 1e-11; });
+    not_rigid("mirrored", [](P& p) { p.pose_b.rows[4] = -1; });
+    not_rigid("sheared", [](P& p) { p.pose_b.rows[1] = 1e-9; });
+    not_rigid("1e300", [](P& p) { p.pose_b.rows[1] = 1e300; });
+    all.push_back({"too far apart",
+                   [](P& p) {
+                       p.pose_a.rows[9] = -0x1p1000;
+                       p.pose_b.rows[9] = 0x1p1000;
+                   },
+                   CDPREP_WHY_OUT_OF_RANGE, "pair.pose_b"});
+    return all;
+}
+
+TEST_F(CHostile, PairsAreCheckedFieldByField) {
+    expect_refused(pair(), pair_mistakes(), [&](const cdprep_pair* given) {
+        cdprep_collision found = {CDPREP_NO, 0, 0, 0, 0};
+        cdprep_error error;
+        const int code = cdprep_collide(given, workspace_.get(), &found, &error);
+        return outcome(code, error, found.hit == CDPREP_UNKNOWN);
+    });
+    expect_refused(pair(), pair_mistakes(), [&](const cdprep_pair* given) {
+        cdprep_overlap_list list = {nullptr, 0, 77};
+        cdprep_error error;
+        const int code = cdprep_overlaps(given, workspace_.get(), &list, &error);
+        return outcome(code, error, list.count == 0);
+    });
+}
+
+// A struct with a mistake is refused by every question that takes it, batches too.
+TEST_F(CHostile, BatchesNameTheWrongPair) {
+    for (const Mistake<cdprep_pair>& mistake : pair_mistakes()) {
+        std::array<cdprep_pair, 3> pairs = {pair(), pair(), pair()};
+        mistake.make(pairs[2]);
+        std::array<cdprep_nearest, 3> nearest{};
+        for (cdprep_nearest& answer : nearest) answer.found = CDPREP_YES;
+        cdprep_error error;
+        EXPECT_EQ(cdprep_distance_many(pairs.data(), 3, nullptr, workspace_.get(), nearest.data(),
+                                       &error),
+                  CDPREP_BAD_ARGUMENT);
+        EXPECT_TRUE(std::string(error.argument).starts_with("pairs[2]")) << error.argument;
+        for (const cdprep_nearest& answer : nearest) EXPECT_EQ(answer.found, CDPREP_NO);
+    }
+}
+
+TEST_F(CHostile, FieldsThatAQuestionCannotUseAreRefused) {
+    using P = cdprep_pair;
+    const std::vector<std::pair<const char*, std::uint32_t P::*>> fields = {
+        {"pair.body", &P::body},
+        {"pair.overlap", &P::overlap},
+        {"pair.degenerate", &P::degenerate},
+        {"pair.through", &P::through}};
+    for (const auto& [name, field] : fields) {
+        P wrong = pair();
+        wrong.*field = 1;
+        std::uint32_t within = CDPREP_NO;
+        cdprep_error error;
+        EXPECT_EQ(cdprep_within(&wrong, 1, workspace_.get(), &within, &error), CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, CDPREP_WHY_NO_MEANING) << name;
+        EXPECT_STREQ(error.argument, name);
+        EXPECT_EQ(within, std::uint32_t{CDPREP_UNKNOWN});
+    }
+    P solid = pair();
+    solid.body = CDPREP_SOLID;
+    cdprep_overlap_list list = {nullptr, 0, 77};
+    cdprep_error error;
+    EXPECT_EQ(cdprep_overlaps(&solid, workspace_.get(), &list, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(error.why, CDPREP_WHY_NO_MEANING);
+}
+
+TEST_F(CHostile, DistanceOptionsAreCheckedFieldByField) {
+    using O = cdprep_distance_options;
+    O right;
+    cdprep_distance_options_init(&right, sizeof right);
+    std::vector<Mistake<O>> all = struct_mistakes<O>("options");
+    for (const auto& [number, why] : bad_numbers()) {
+        const double bad = number;
+        all.push_back(
+            {"relative", [bad](O& o) { o.relative_error = bad; }, why, "options.relative_error"});
+        all.push_back({"max", [bad](O& o) { o.max_distance = bad; }, why, "options.max_distance"});
+    }
+    all.push_back({"infinite", [](O& o) { o.absolute_error = kInfinity; }, CDPREP_WHY_NOT_FINITE,
+                   "options.absolute_error"});
+    all.push_back({"negative", [](O& o) { o.absolute_error = -1; }, CDPREP_WHY_OUT_OF_RANGE,
+                   "options.absolute_error"});
+    all.push_back({"negative", [](O& o) { o.max_distance = -1; }, CDPREP_WHY_OUT_OF_RANGE,
+                   "options.max_distance"});
+    const cdprep_pair given = pair();
+    const auto ask = [&](const O* options) {
+        cdprep_nearest nearest{};
+        nearest.found = CDPREP_YES;
+        cdprep_error error;
+        const int code = cdprep_distance(&given, options, workspace_.get(), &nearest, &error);
+        Outcome told = outcome(code, error, nearest.found == CDPREP_NO);
+        if (options == nullptr) told.why = CDPREP_WHY_NULL;  // null stands for the defaults
+        return told;
+    };
+    expect_refused(right, all, ask);
+}
+
+// Zeros but for the size and one field found nothing for models that were 450 apart.
+TEST_F(CHostile, ZeroedOptionsAreNeverReadAsNothing) {
+    cdprep_distance_options zeros{};
+    zeros.head.size = sizeof zeros;
+    zeros.relative_error = 0.01;
+    const cdprep_pair given = pair();
+    cdprep_nearest nearest{};
+    cdprep_error error;
+    EXPECT_EQ(cdprep_distance(&given, &zeros, workspace_.get(), &nearest, &error),
+              CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(error.why, CDPREP_WHY_NOT_INITIALISED);
+}
+
+TEST_F(CHostile, PointQueriesAreCheckedFieldByField) {
+    using Q = cdprep_point_query;
+    static double points[6] = {0.5, 0.5, 0.5, 2, 2, 2};
+    Q right;
+    cdprep_point_query_init(&right, sizeof right);
+    right.model = model_.get();
+    right.points = points;
+    right.count = 2;
+    std::vector<Mistake<Q>> all = struct_mistakes<Q>("query");
+    all.push_back({"model", [](Q& q) { q.model = nullptr; }, CDPREP_WHY_NULL, "query.model"});
+    all.push_back({"points", [](Q& q) { q.points = nullptr; }, CDPREP_WHY_NULL, "query.points"});
+    all.push_back(
+        {"through", [](Q& q) { q.through = 77; }, CDPREP_WHY_OUT_OF_RANGE, "query.through"});
+    all.push_back({"through pieces", [](Q& q) { q.through = CDPREP_THROUGH_PIECES; },
+                   CDPREP_WHY_NO_MEANING, "query.through"});
+    all.push_back({"max_distance", [](Q& q) { q.max_distance = 1; }, CDPREP_WHY_NO_MEANING,
+                   "query.max_distance"});
+    for (const double bad : {kNan, kInfinity, -kInfinity, 1e302}) {
+        static std::vector<std::array<double, 6>> kept;
+        kept.reserve(8);
+        kept.push_back({0.5, 0.5, 0.5, 2, bad, 2});
+        const double* const at = kept.back().data();
+        all.push_back({"a point", [at](Q& q) { q.points = at; },
+                       std::isfinite(bad) ? CDPREP_WHY_OUT_OF_RANGE : CDPREP_WHY_NOT_FINITE,
+                       "query.points[1]"});
+    }
+    expect_refused(right, all, [&](const Q* query) {
+        std::array<cdprep_point_state, 2> states = {{{CDPREP_NO, 0, 0}, {CDPREP_NO, 0, 0}}};
+        cdprep_error error;
+        const int code = cdprep_points_inside(query, workspace_.get(), states.data(), &error);
+        // Where the query itself is no query, how many answers there are is not known.
+        const bool has_count = error.why != CDPREP_WHY_NOT_INITIALISED &&
+                               error.why != CDPREP_WHY_NEWER_FIELD && query != nullptr;
+        return outcome(code, error, !has_count || states[1].inside == CDPREP_UNKNOWN);
+    });
+}
+
+TEST_F(CHostile, RaysAreChecked) {
+    const auto ask = [&](const cdprep_ray& ray) {
+        cdprep_ray_query query;
+        cdprep_ray_query_init(&query, sizeof query);
+        query.model = model_.get();
+        query.rays = &ray;
+        cdprep_ray_hit hit = {CDPREP_YES, 1, 1, {}};
+        cdprep_error error;
+        const int code = cdprep_rays_cast(&query, workspace_.get(), &hit, &error);
+        EXPECT_TRUE(code == CDPREP_OK || hit.found == CDPREP_NO);
+        return outcome(code, error, true);
+    };
+    const cdprep_ray right = {{-1, 0.5, 0.25}, {1, 0, 0}, kInfinity};
+    EXPECT_EQ(ask(right).code, CDPREP_OK);
+    for (const double bad : {kNan, kInfinity, -kInfinity, 0x1p1001}) {
+        cdprep_ray origin = right, direction = right;
+        origin.origin[1] = bad;
+        direction.direction[2] = bad;
+        EXPECT_EQ(ask(origin).argument, "query.rays[0]");
+        EXPECT_EQ(ask(direction).argument, "query.rays[0]");
+    }
+    cdprep_ray still = right, backwards = right, endless = right;
+    still.direction[0] = 0;
+    backwards.max_t = -1;
+    endless.max_t = kNan;
+    EXPECT_EQ(ask(still).why, CDPREP_WHY_OUT_OF_RANGE);
+    EXPECT_EQ(ask(backwards).why, CDPREP_WHY_OUT_OF_RANGE);
+    EXPECT_EQ(ask(endless).why, CDPREP_WHY_NOT_FINITE);
+}
+
+TEST_F(CHostile, ShapesAreCheckedFieldByField) {
+    using Q = cdprep_shape_query;
+    const Q right = detail::shape_of({model_.get(), nullptr, 0, nullptr});
+    std::vector<Mistake<Q>> all = struct_mistakes<Q>("query");
+    all.push_back({"model", [](Q& q) { q.model = nullptr; }, CDPREP_WHY_NULL, "query.model"});
+    for (const std::uint32_t shape : {0U, 5U, 77U}) {
+        all.push_back(
+            {"shape", [shape](Q& q) { q.shape = shape; }, CDPREP_WHY_OUT_OF_RANGE, "query.shape"});
+    }
+    all.push_back({"degenerate", [](Q& q) { q.degenerate = 77; }, CDPREP_WHY_OUT_OF_RANGE,
+                   "query.degenerate"});
+    for (const auto& [number, why] : bad_numbers()) {
+        const double bad = number;
+        all.push_back({"a", [bad](Q& q) { q.a[1] = bad; }, why, "query.a[1]"});
+        all.push_back({"radius", [bad](Q& q) { q.radius = bad; }, why, "query.radius"});
+        all.push_back({"pose", [bad](Q& q) { q.world_from_model.rows[3] = bad; }, why,
+                       "query.world_from_model[3]"});
+    }
+    all.push_back({"radius", [](Q& q) { q.radius = -1; }, CDPREP_WHY_OUT_OF_RANGE, "query.radius"});
+    all.push_back({"pose", [](Q& q) { q.world_from_model = {}; }, CDPREP_WHY_NOT_RIGID,
+                   "query.world_from_model"});
+    all.push_back({"max_distance", [](Q& q) { q.max_distance = 1; }, CDPREP_WHY_NO_MEANING,
+                   "query.max_distance"});
+    all.push_back({"an empty box",
+                   [](Q& q) {
+                       q.shape = CDPREP_BOX;
+                       q.b[2] = -1;
+                   },
+                   CDPREP_WHY_OUT_OF_RANGE, "query.b[0]"});
+    all.push_back({"a box that begins at infinity",
+                   [](Q& q) {
+                       q.shape = CDPREP_BOX;
+                       q.a[0] = kInfinity;
+                   },
+                   CDPREP_WHY_NOT_FINITE, "query.a[0]"});
+    expect_refused(right, all, [&](const Q* query) {
+        std::uint32_t touches = CDPREP_NO;
+        cdprep_error error;
+        const int code = cdprep_touch(query, workspace_.get(), &touches, &error);
+        return outcome(code, error, touches == CDPREP_UNKNOWN);
+    });
+}
+
+TEST_F(CHostile, HullPairsAreCheckedFieldByField) {
+    using P = cdprep_hull_pair;
+    P right;
+    cdprep_hull_pair_init(&right, sizeof right);
+    right.a = right.b = {model_.get(), CDPREP_HULL_WHOLE, 0};
+    std::vector<Mistake<P>> all = struct_mistakes<P>("pair");
+    all.push_back({"model", [](P& p) { p.b.model = nullptr; }, CDPREP_WHY_NULL, "pair.b.model"});
+    all.push_back({"scope", [](P& p) { p.a.scope = 77; }, CDPREP_WHY_OUT_OF_RANGE, "pair.a.scope"});
+    all.push_back(
+        {"number", [](P& p) { p.b.number = 77; }, CDPREP_WHY_OUT_OF_RANGE, "pair.b.number"});
+    all.push_back({"moving", [](P& p) { p.moving = 3; }, CDPREP_WHY_OUT_OF_RANGE, "pair.moving"});
+    all.push_back(
+        {"pose", [](P& p) { p.pose_a.rows[0] = kNan; }, CDPREP_WHY_NOT_FINITE, "pair.pose_a[0]"});
+    all.push_back({"pose", [](P& p) { p.pose_b = {}; }, CDPREP_WHY_NOT_RIGID, "pair.pose_b"});
+    expect_refused(right, all, [&](const P* given) {
+        std::uint32_t hit = CDPREP_NO;
+        cdprep_error error;
+        const int code = cdprep_hulls_collide(given, &hit, &error);
+        return outcome(code, error, hit == CDPREP_UNKNOWN);
+    });
+}
+
+TEST_F(CHostile, ContactOptionsAreCheckedFieldByField) {
+    using O = cdprep_contact_options;
+    O right;
+    cdprep_contact_options_init(&right, sizeof right);
+    std::vector<Mistake<O>> all = struct_mistakes<O>("options");
+    for (const auto& [number, why] : bad_numbers()) {
+        const double bad = number;
+        all.push_back({"tolerance", [bad](O& o) { o.tolerance = bad; }, why, "options.tolerance"});
+    }
+    for (const std::uint32_t points : {1U, 3U, 77U}) {
+        all.push_back({"manifold", [points](O& o) { o.manifold = points; }, CDPREP_WHY_OUT_OF_RANGE,
+                       "options.manifold"});
+    }
+    const cdprep_pair given = pair();
+    expect_refused(right, all, [&](const O* options) {
+        cdprep_contact_list list = {nullptr, 0, 77, CDPREP_YES, 0};
+        cdprep_error error;
+        const int code = cdprep_contacts(&given, options, workspace_.get(), &list, &error);
+        Outcome told = outcome(code, error, list.count == 0 && list.complete == CDPREP_NO);
+        if (options == nullptr) told.why = CDPREP_WHY_NULL;  // null stands for the defaults
+        return told;
+    });
+}
+
+TEST_F(CHostile, OptionsOfWorkspacesAndOpeningAreChecked) {
+    using W = cdprep_workspace_options;
+    W right;
+    cdprep_workspace_options_init(&right, sizeof right);
+    std::vector<Mistake<W>> all = struct_mistakes<W>("options");
+    all.push_back({"lanes", [](W& w) { w.lanes = 0; }, CDPREP_WHY_OUT_OF_RANGE, "options.lanes"});
+    all.push_back({"lanes", [](W& w) { w.lanes = 257; }, CDPREP_WHY_OUT_OF_RANGE, "options.lanes"});
+    all.push_back({"nobody", [](W& w) { w.lanes = 2; }, CDPREP_WHY_NO_MEANING, "options.lanes"});
+    all.push_back(
+        {"counting", [](W& w) { w.counting = 2; }, CDPREP_WHY_OUT_OF_RANGE, "options.counting"});
+    static const cdprep_allocator none = {nullptr, nullptr, nullptr};
+    all.push_back(
+        {"allocator", [](W& w) { w.allocator = &none; }, CDPREP_WHY_NULL, "options.allocator"});
+    expect_refused(right, all, [&](const W* options) {
+        cdprep_workspace* made = nullptr;
+        cdprep_error error;
+        const int code = cdprep_workspace_make(options, nullptr, 0, &made, &error);
+        Outcome told = outcome(code, error, made == nullptr);
+        cdprep_workspace_end(made);
+        if (options == nullptr) told.why = CDPREP_WHY_NULL;  // null stands for the defaults
+        return told;
+    });
+    using O = cdprep_open_options;
+    O open;
+    cdprep_open_options_init(&open, sizeof open);
+    std::vector<Mistake<O>> wrong = struct_mistakes<O>("options");
+    wrong.push_back({"mode", [](O& o) { o.mode = 77; }, CDPREP_WHY_OUT_OF_RANGE, "options.mode"});
+    wrong.push_back({"ask", [](O& o) { o.ask = 1U << 6; }, CDPREP_WHY_OUT_OF_RANGE, "options.ask"});
+    wrong.push_back(
+        {"ask", [](O& o) { o.ask = CDPREP_ASK_RESPONSE; }, CDPREP_WHY_NOT_BAKED, "options.ask"});
+    wrong.push_back(
+        {"mode", [](O& o) { o.mode = CDPREP_MAP_TRUSTED; }, CDPREP_WHY_NO_MEANING, "options.mode"});
+    expect_refused(open, wrong, [&](const O* options) {
+        cdprep_model* model = nullptr;
+        cdprep_error error;
+        const int code =
+            cdprep_model_open_memory(file_.span().data(), file_.size(), options, &model, &error);
+        Outcome told = outcome(code, error, model == nullptr);
+        cdprep_model_close(model);
+        if (options == nullptr) told.why = CDPREP_WHY_NULL;  // null stands for the defaults
+        return told;
+    });
+}
+
+TEST_F(CHostile, MemoryOfWorkspacesIsChecked) {
+    std::size_t size = 0;
+    ASSERT_EQ(cdprep_workspace_size(nullptr, &size, nullptr), CDPREP_OK);
+    AlignedBytes memory(size + 1);
+    std::byte* const at = memory.span().data();
+    cdprep_workspace* made = nullptr;
+    cdprep_error error;
+    const auto refused = [&](void* start, std::size_t room) {
+        const int code = cdprep_workspace_make(nullptr, start, room, &made, &error);
+        EXPECT_EQ(made, nullptr);
+        return code == CDPREP_BAD_ARGUMENT ? error.why : 0;
+    };
+    EXPECT_EQ(refused(at, size - 1), CDPREP_WHY_TOO_SMALL);
+    EXPECT_EQ(refused(at, 0), CDPREP_WHY_TOO_SMALL);
+    EXPECT_EQ(refused(at + 1, size), CDPREP_WHY_OUT_OF_RANGE);
+    EXPECT_EQ(refused(nullptr, size), CDPREP_WHY_NULL);
+    ASSERT_EQ(cdprep_workspace_make(nullptr, at, size, &made, nullptr), CDPREP_OK);
+    cdprep_workspace_end(made);
+}
+
+// Every question with a null for each of its arguments would be a page; the others share the code.
+TEST_F(CHostile, NullsAreRefusedAndNamed) {
+    const cdprep_pair given = pair();
+    cdprep_error error;
+    cdprep_collision found = {CDPREP_NO, 0, 0, 0, 0};
+    EXPECT_EQ(cdprep_collide(nullptr, workspace_.get(), &found, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "pair");
+    EXPECT_EQ(cdprep_collide(&given, nullptr, &found, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "workspace");
+    EXPECT_EQ(found.hit, std::uint32_t{CDPREP_UNKNOWN});
+    EXPECT_EQ(cdprep_collide(&given, workspace_.get(), nullptr, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "collision");
+    EXPECT_EQ(cdprep_collide(nullptr, nullptr, nullptr, nullptr), CDPREP_BAD_ARGUMENT);
+    cdprep_overlap_list list = {nullptr, 1, 77};
+    EXPECT_EQ(cdprep_overlaps(&given, workspace_.get(), &list, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "list.items");
+    EXPECT_EQ(list.count, 0u);
+    EXPECT_EQ(cdprep_overlaps_visit(&given, workspace_.get(), nullptr, nullptr, &error),
+              CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "visit");
+    std::uint64_t bits = 0;
+    cdprep_marks marks = {&bits, nullptr, 1, 1, 77};
+    EXPECT_EQ(cdprep_overlaps_mark(&given, workspace_.get(), &marks, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "marks.bits_b");
+    cdprep_model* model = nullptr;
+    EXPECT_EQ(cdprep_model_open(nullptr, nullptr, &model, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(cdprep_model_open("no such file", nullptr, &model, &error), CDPREP_UNREADABLE);
+    EXPECT_NE(std::string(error.message).find("no such file"), std::string::npos);
+    EXPECT_EQ(cdprep_model_open_memory("short", 5, nullptr, &model, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(model, nullptr);
+    cdprep_model_close(nullptr);
+    cdprep_workspace_end(nullptr);
+    cdprep_version_get(nullptr);
+    cdprep_pair_init(nullptr, sizeof(cdprep_pair));
+}
+
+struct Nested {
+    const cdprep_pair* pair;
+    cdprep_workspace* same;
+    cdprep_workspace* other;
+    int codes[3] = {-1, -1, -1};
+    std::uint32_t hit = CDPREP_NO;
+};
+
+int ask_within_visitor(void* context, const cdprep_overlap* /*overlap*/) {
+    auto* const nested = static_cast<Nested*>(context);
+    cdprep_collision found = {CDPREP_NO, 0, 0, 0, 0};
+    cdprep_error error;
+    nested->codes[0] = cdprep_collide(nested->pair, nested->same, &found, &error);
+    nested->codes[1] = error.why;
+    nested->hit = found.hit;
+    nested->codes[2] = cdprep_collide(nested->pair, nested->other, &found, nullptr);
+    cdprep_workspace_end(nested->same);  // in use: does nothing
+    return 0;
+}
+
+// A visitor runs within its question.
+TEST_F(CHostile, AWorkspaceInUseIsRefusedAndAnotherIsNot) {
+    const CWorkspace other;
+    const cdprep_pair given = pair();
+    Nested nested = {&given, workspace_.get(), other.get()};
+    ASSERT_EQ(cdprep_overlaps_visit(&given, workspace_.get(), ask_within_visitor, &nested, nullptr),
+              CDPREP_OK);
+    EXPECT_EQ(nested.codes[0], CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(nested.codes[1], CDPREP_WHY_BUSY);
+    EXPECT_EQ(nested.hit, std::uint32_t{CDPREP_UNKNOWN});
+    EXPECT_EQ(nested.codes[2], CDPREP_OK);
+    cdprep_collision found{};
+    EXPECT_EQ(cdprep_collide(&given, workspace_.get(), &found, nullptr), CDPREP_OK);
+}
+
+// The law of caches: any content gives the answer of none.
+TEST_F(CHostile, RandomCachesChangeNoAnswer) {
+    std::mt19937_64 random(20261122);
+    std::size_t hits = 0;
+    constexpr std::size_t kRounds = 2000;
+    for (std::size_t round = 0; round < kRounds; ++round) {
+        cdprep_pair given = pair();
+        given.pose_b.rows[9] = static_cast<double>(random() % 32) / 16;
+        cdprep_cache cache;
+        if (round % 4 == 0) {
+            std::memset(&cache, static_cast<int>(random() % 256), sizeof cache);
+        } else if (round % 4 == 1) {  // what a question left, with one word changed
+            cache = {};
+            given.cache = &cache;
+            cdprep_nearest ignored;
+            ASSERT_EQ(cdprep_distance(&given, nullptr, workspace_.get(), &ignored, nullptr), 0);
+            cache.words[random() % 32] ^= std::uint64_t{1} << random() % 64;
+        } else {
+            for (std::uint64_t& word : cache.words) word = random();
+            if (round % 4 == 2) cache.words[0] &= 7;
+        }
+        cdprep_collision with{}, without{};
+        cdprep_nearest nearest_with{}, nearest_without{};
+        given.cache = nullptr;
+        ASSERT_EQ(cdprep_collide(&given, workspace_.get(), &without, nullptr), CDPREP_OK);
+        ASSERT_EQ(cdprep_distance(&given, nullptr, workspace_.get(), &nearest_without, nullptr), 0);
+        given.cache = &cache;
+        ASSERT_EQ(cdprep_collide(&given, workspace_.get(), &with, nullptr), CDPREP_OK);
+        ASSERT_EQ(cdprep_distance(&given, nullptr, workspace_.get(), &nearest_with, nullptr), 0);
+        EXPECT_EQ(with.hit, without.hit);
+        EXPECT_EQ(nearest_with.upper, nearest_without.upper);
+        hits += with.hit == CDPREP_YES;
+    }
+    EXPECT_GT(hits, kRounds * 3 / 10);
+    EXPECT_LT(hits, kRounds * 7 / 10);
+}
+
+// What is left out of an older struct is at its default; below the first version it is no struct.
+TEST(CInput, OlderStructsAreFilledUp) {
+    c::Call call(nullptr);
+    for (const std::uint32_t size : {12U, 16U, 24U}) {
+        const c::Grown given = {{size, 0x1234U}, 10, 20, 30};
+        c::Grown read{};
+        ASSERT_EQ(c::read_input(call, {"grown"}, &given, read), CDPREP_OK) << size;
+        EXPECT_EQ(read.a, 10u);
+        EXPECT_EQ(read.b, size >= 16 ? 20u : 2u);
+        EXPECT_EQ(read.c, size >= 24 ? 30 : 3);
+    }
+    const c::Grown given = {{11, 0x1234U}, 10, 20, 30};
+    c::Grown read{};
+    EXPECT_EQ(c::read_input(call, {"grown"}, &given, read), CDPREP_BAD_ARGUMENT);
+}
+
+TEST(CInput, AnInitialiserWritesWhatTheCallerHas) {
+    struct {
+        cdprep_pair known;
+        std::uint64_t more;
+    } longer;
+    std::memset(static_cast<void*>(&longer), 0xff, sizeof longer);
+    cdprep_pair_init(&longer.known, sizeof longer);
+    EXPECT_EQ(longer.known.head.size, sizeof longer);
+    EXPECT_EQ(longer.more, 0u) << "what is unknown is 0";
+    cdprep_pair none;
+    std::memset(static_cast<void*>(&none), 0, sizeof none);
+    cdprep_pair_init(&none, 0);
+    cdprep_pair_init(&none, 4);
+    cdprep_pair_init(&none, SIZE_MAX);
+    EXPECT_EQ(none.head.size, 0u) << "nothing is written where the size is none";
+}
+
+struct Blocks {
+    std::size_t given = 0;
+    std::size_t taken = 0;
+    bool is_empty = false;
+};
+
+void* give(void* blocks, std::size_t size, std::size_t alignment) {
+    auto* const b = static_cast<Blocks*>(blocks);
+    if (b->is_empty) return nullptr;
+    ++b->given;
+    return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+void take_back(void* blocks, void* memory, std::size_t /*size*/) {
+    ++static_cast<Blocks*>(blocks)->taken;
+    std::free(memory);
+}
+
+TEST_F(CHostile, AllocatorsGetBackWhatTheyGave) {
+    Blocks blocks;
+    const cdprep_allocator allocator = {give, take_back, &blocks};
+    cdprep_open_options open;
+    cdprep_open_options_init(&open, sizeof open);
+    open.allocator = &allocator;
+    open.mode = CDPREP_COPY;
+    cdprep_model* model = nullptr;
+    ASSERT_EQ(cdprep_model_open_memory(file_.span().data(), file_.size(), &open, &model, nullptr),
+              CDPREP_OK);
+    cdprep_workspace_options options;
+    cdprep_workspace_options_init(&options, sizeof options);
+    options.allocator = &allocator;
+    cdprep_workspace* workspace = nullptr;
+    ASSERT_EQ(cdprep_workspace_make(&options, nullptr, 0, &workspace, nullptr), CDPREP_OK);
+    EXPECT_GE(blocks.given, 3u);
+    cdprep_model_close(model);
+    cdprep_workspace_end(workspace);
+    EXPECT_EQ(blocks.taken, blocks.given);
+    blocks.is_empty = true;
+    EXPECT_EQ(cdprep_model_open_memory(file_.span().data(), file_.size(), &open, &model, nullptr),
+              CDPREP_OVER_BUDGET);
+    EXPECT_EQ(cdprep_workspace_make(&options, nullptr, 0, &workspace, nullptr), CDPREP_OVER_BUDGET);
+    EXPECT_EQ(blocks.taken, blocks.given);
+}
+
+TEST_F(CHostile, NoQuestionAllocates) {
+    for (const CQuestion& question : c_questions()) {
+        const CScene scene = {model_.get(), model_.get(), 0.5, workspace_.get()};
+        (void)question.ask(scene);  // its own room is made
+        cdprep_model_info info{};
+        const std::size_t begin = allocations;
+        const int code = cdprep_model_describe(model_.get(), &info, nullptr);
+        EXPECT_EQ(code, CDPREP_OK);
+        EXPECT_EQ(allocations, begin);
+    }
+    cdprep_pair given = pair();
+    cdprep_cache cache{};
+    given.cache = &cache;
+    std::vector<cdprep_overlap> overlaps(200);
+    std::vector<cdprep_contact> contacts(20);
+    std::vector<cdprep_crossing> crossings(200);
+    std::uint32_t triangle = 3, yes = 0;
+    const std::size_t before = allocations;
+    for (int i = 0; i < 20; ++i) {
+        given.pose_b.rows[9] = 0.1 * i;
+        cdprep_collision collision;
+        cdprep_nearest nearest;
+        cdprep_overlap_list list = {overlaps.data(), overlaps.size(), 0};
+        cdprep_contact_list found = {contacts.data(), contacts.size(), 0, 0, 0};
+        cdprep_crossing_list crossed = {crossings.data(), crossings.size(), 0};
+        cdprep_corners corners;
+        cdprep_workspace* const scratch = workspace_.get();
+        EXPECT_EQ(cdprep_collide(&given, scratch, &collision, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_distance(&given, nullptr, scratch, &nearest, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_within(&given, 0.5, scratch, &yes, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_overlaps(&given, scratch, &list, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_overlaps_split(&given, scratch, &list, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_pairs_within(&given, 0.5, scratch, &list, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_contacts(&given, nullptr, scratch, &found, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_crossings(&given, scratch, &crossed, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_collide_many(&given, 1, scratch, &collision, nullptr), CDPREP_OK);
+        EXPECT_EQ(cdprep_model_corners(model_.get(), &triangle, 1, &corners, nullptr), CDPREP_OK);
+    }
+    EXPECT_EQ(allocations, before);
+}
+
+TEST(CVersion, SaysWhatRuns) {
+    cdprep_version version{};
+    cdprep_version_get(&version);
+    EXPECT_EQ(version.minor, std::uint32_t{CDPREP_VERSION_MINOR});
+    EXPECT_GE(version.newest_format, version.oldest_format);
+    EXPECT_NE(std::string(version.kernels), "");
+    EXPECT_STREQ(cdprep_code_name(CDPREP_UNREADABLE), "CDPREP_UNREADABLE");
+    EXPECT_STREQ(cdprep_code_name(77), "CDPREP_UNKNOWN_CODE");
+}
+
+// Counts are sums of what questions did: boxes were compared, and none without counting.
+TEST_F(CHostile, CountsAreThoseOfAllQuestions) {
+    cdprep_workspace_options options;
+    cdprep_workspace_options_init(&options, sizeof options);
+    options.counting = CDPREP_YES;
+    cdprep_workspace* counting = nullptr;
+    ASSERT_EQ(cdprep_workspace_make(&options, nullptr, 0, &counting, nullptr), CDPREP_OK);
+    const cdprep_pair given = pair();
+    cdprep_overlap_list list = {nullptr, 0, 0};
+    cdprep_counts once{}, twice{};
+    ASSERT_EQ(cdprep_overlaps(&given, counting, &list, nullptr), CDPREP_OK);
+    ASSERT_EQ(cdprep_workspace_counts(counting, &once, nullptr), CDPREP_OK);
+    ASSERT_EQ(cdprep_overlaps(&given, counting, &list, nullptr), CDPREP_OK);
+    ASSERT_EQ(cdprep_workspace_counts(counting, &twice, nullptr), CDPREP_OK);
+    EXPECT_GT(once.n[CDPREP_COUNT_TRIANGLE_PAIRS], 0u);
+    for (std::size_t i = 0; i < 32; ++i) EXPECT_EQ(twice.n[i], 2 * once.n[i]) << i;
+    cdprep_workspace_end(counting);
+    cdprep_error error;
+    EXPECT_EQ(cdprep_workspace_counts(workspace_.get(), &once, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_EQ(error.why, CDPREP_WHY_NO_MEANING);
+}
+
+}  // namespace
+}  // namespace cdprep::test
