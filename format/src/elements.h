@@ -225,9 +225,12 @@ constexpr Element compound(const char* name, const std::array<Field, N>& fields)
     return {name, sizeof(T), u8, 1, fields};
 }
 
+template <class T>
+constexpr Element no_layout() noexcept = delete;
+
 /// The layout of an element type of the section table. A type without one does not compile.
 template <class T>
-inline constexpr Element element_of;
+inline constexpr Element element_of = no_layout<T>();
 
 template <>
 inline constexpr Element element_of<Text> = {"u8", 1, u8, 1, {}};
