@@ -22,9 +22,11 @@ TEST(BakedModel, TheLibraryBuildsWhatABakeHolds) {
     const test::ScratchFolder folder;
     for (const char* name : {"bracket", "bolt"}) {
         BakeOptions options;
-        options.effects.sections = format::SectionSet::all();
-        options.effects.sections.erase(SectionId::pieces);
-        options.effects.sections.erase(SectionId::piece_adjacency);
+        options.effects.sections = {
+            SectionId::positions_f32,   SectionId::positions_f64,   SectionId::triangles,
+            SectionId::source_triangle, SectionId::source_vertex,   SectionId::bvh_nodes,
+            SectionId::bvh_leaves,      SectionId::degenerate_bits, SectionId::oriented_nodes,
+            SectionId::swept_nodes,     SectionId::components};
         options.bounds = build::BvhBounds::oriented_and_swept;
         const std::string file = folder.file("m.cdp.h5");
         const auto baked = bake(std::string(CDPREP_SOURCE_DIR) + "/samples/meshes/" + name + ".obj",
