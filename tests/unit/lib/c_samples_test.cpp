@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// The samples in C, as a stranger runs them.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "support/meshes.h"
+#include "support/scratch_folder.h"
+#include "support/tiny_baker.h"
+
+namespace cdprep::test {
+namespace {
+
+struct Close {
+    void operator()(std::FILE* pipe) const {
+        pclose(pipe);
+    }
+};
+
+std::string output_of(const std::string& command) {
+    const std::unique_ptr<std::FILE, Close> pipe(popen((command + " 2>&1").c_str(), "r"));
+    std::string output;
+    std::array<char, 256> line{};
+    while (std::fgets(line.data(), line.size(), pipe.get()) != nullptr) output += line.data();
+    return output;
+}
+
+class CSamples : public testing::Test {
+protected:
+    CSamples() : path_((folder_.path() / "cube.cdp.h5").string()) {
+        const TestMesh cube = unit_cube();
+        const AlignedBytes file = bake_tiny(cube.positions, cube.triangles);
+        std::ofstream(path_, std::ios::binary)
+            .write(reinterpret_cast<const char*>(file.span().data()),
+                   static_cast<std::streamsize>(file.size()));
+    }
+    [[nodiscard]] std::string run(const char* sample) const {
+        return output_of(std::string(sample) + " " + path_ + " " + path_);
+    }
+    ScratchFolder folder_;
+    std::string path_;
+};
+
+// By hand: the cube is 1 wide and moves by 0.01 a frame, so it hits itself up to frame 100, where
+// the faces touch.
+TEST_F(CSamples, ACubeHitsItselfUntilItHasMovedByItsWidth) {
+    const std::string output = run(SAMPLE_COLLIDE);
+    EXPECT_TRUE(output.starts_with("frame 0\nframe 1\n")) << output.substr(0, 100);
+    EXPECT_TRUE(output.ends_with("frame 99\nframe 100\n"))
+        << output.substr(output.size() < 100 ? 0 : output.size() - 100);
+}
+
+// By hand: a cube on itself, each triangle is in one pair with itself at least.
+TEST_F(CSamples, ACubeOverlapsItself) {
+    const std::string output = run(SAMPLE_OVERLAPS);
+    EXPECT_TRUE(output.starts_with("0: (")) << output.substr(0, 100);
+    EXPECT_TRUE(output.ends_with(" pairs\n")) << output;
+}
+
+TEST_F(CSamples, AFileThatIsNotThereIsNamed) {
+    const std::string output = output_of(std::string(SAMPLE_COLLIDE) + " nothing.cdp.h5 " + path_);
+    EXPECT_NE(output.find("CDPREP_UNREADABLE: nothing.cdp.h5"), std::string::npos) << output;
+}
+
+}  // namespace
+}  // namespace cdprep::test
