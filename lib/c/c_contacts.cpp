@@ -5,6 +5,7 @@
 
 #include "c/c_pairs.h"
 #include "cdprep/contacts.h"
+#include "cdprep/format/float_environment.h"
 
 namespace cdprep::c {
 
@@ -92,7 +93,9 @@ bool visit_all(const AskedPair& asked, const cdprep_contact_options& options, Wo
                           wanted);
 }
 
+/// Visitors call it in the caller's floating-point environment.
 bool is_deeper(const cdprep_contact& x, const cdprep_contact& y) noexcept {
+    const format::FloatEnvironment environment;
     return std::tie(x.lower, x.piece_a, x.piece_b) < std::tie(y.lower, y.piece_a, y.piece_b);
 }
 

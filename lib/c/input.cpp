@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cdprep/format/float_environment.h"
 #include "cdprep/format/limits.h"
 
 namespace cdprep::c {
@@ -24,8 +25,10 @@ bool is_null(const void* given, const Field& field) noexcept {
     return pointer == nullptr;
 }
 
-/// NaN is in no range.
+/// NaN is in no range. The caller's floating-point environment may trap it, or take a small
+/// negative number for 0.
 bool is_in_range(Holds holds, double number) noexcept {
+    const format::FloatEnvironment environment;
     switch (holds) {
         case Holds::length:
             return number >= 0 && number <= format::kMaxCoordinate;
