@@ -58,7 +58,7 @@ format::FileHeader facts_of(const ModelArrays& arrays, bool is_closed) {
     format::FileHeader facts{};
     facts.vertex_count = static_cast<std::uint32_t>(arrays.source_vertex.size());
     facts.triangle_count = static_cast<std::uint32_t>(arrays.triangles.size());
-    if (is_closed) facts.flags |= format::model_closed;
+    if (is_closed) facts.flags |= format::model_balanced;
     if (arrays.bvh.exact_leaves) facts.flags |= format::model_exact_leaves;
     facts.flags |= format::swept_flags(arrays.bvh.swept_kind);
     facts.frame_origin = arrays.bvh.frame.origin;

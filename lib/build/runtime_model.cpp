@@ -82,7 +82,7 @@ std::optional<Error> find_fault(const Model& base) {
             "A run-time model cannot be made of a model without positions: bake it with "
             "--effects overlap, and open it with them.");
     }
-    const auto source = base.source_vertex();
+    const auto source = base.source().vertex;
     const auto made = std::ranges::find(source, format::kMadeByRepair);
     if (made == source.end()) return std::nullopt;
     return bad("A run-time model cannot be made of this model: vertex " +
@@ -96,15 +96,15 @@ SectionList views_of(const Model& base) {
     const auto add = [&](SectionId id, const auto& elements) {
         if (present.contains(id)) list.add(id, elements);
     };
-    add(SectionId::positions_f32, base.positions_f32());
-    add(SectionId::positions_f64, base.positions_f64());
-    add(SectionId::triangles, base.triangles());
-    add(SectionId::source_triangle, base.source_triangle());
-    add(SectionId::source_vertex, base.source_vertex());
-    add(SectionId::bvh_nodes, base.nodes());
-    add(SectionId::bvh_leaves, base.leaves());
-    add(SectionId::components, base.components());
-    list.add_unless_empty(SectionId::degenerate_bits, base.degenerate_bits());
+    add(SectionId::positions_f32, base.mesh().positions_f32);
+    add(SectionId::positions_f64, base.mesh().positions_f64);
+    add(SectionId::triangles, base.mesh().triangles);
+    add(SectionId::source_triangle, base.source().triangle);
+    add(SectionId::source_vertex, base.source().vertex);
+    add(SectionId::bvh_nodes, base.bvh().nodes);
+    add(SectionId::bvh_leaves, base.bvh().leaves);
+    add(SectionId::components, base.record().components);
+    list.add_unless_empty(SectionId::degenerate_bits, base.mesh().degenerate_bits);
     return list;
 }
 
@@ -113,7 +113,7 @@ Start start_of(const ModelArrays& base) {
 }
 
 Start start_of(const Model& base) {
-    return {base.header(), views_of(base), !base.degenerate_bits().empty()};
+    return {base.header(), views_of(base), !base.mesh().degenerate_bits.empty()};
 }
 
 /// The elements of a section of an image that was checked.
@@ -158,17 +158,18 @@ bool is_positions(SectionId id) {
 
 /// As they were imported: components are found in that order.
 std::vector<Triangle> in_source_order(const Model& model) {
-    const auto triangles = model.triangles();
+    const auto triangles = model.mesh().triangles;
     std::vector<Triangle> sorted(triangles.size());
     for (std::size_t i = 0; i < triangles.size(); ++i) {
-        sorted[model.source_triangle()[i]] = triangles[i];
+        sorted[model.source().triangle[i]] = triangles[i];
     }
     return sorted;
 }
 
 std::vector<Double3> positions_of(const Model& model) {
-    std::vector<Double3> positions(model.positions_f64().begin(), model.positions_f64().end());
-    for (const Float3& p : model.positions_f32()) positions.push_back(as_double(p));
+    std::vector<Double3> positions(model.mesh().positions_f64.begin(),
+                                   model.mesh().positions_f64.end());
+    for (const Float3& p : model.mesh().positions_f32) positions.push_back(as_double(p));
     return positions;
 }
 
@@ -183,7 +184,7 @@ RuntimeModel::RuntimeModel(std::span<std::byte> image, Model model)
               elements_of<format::BvhLeaf>(image, SectionId::bvh_leaves),
               elements_of<std::uint64_t>(image, SectionId::degenerate_bits),
               elements_of<format::Component>(image, SectionId::components)} {
-    for (const std::uint32_t vertex : model_.source_vertex()) {
+    for (const std::uint32_t vertex : model_.source().vertex) {
         position_count_ = std::max(position_count_, std::size_t{vertex} + 1);
     }
 }
@@ -242,17 +243,17 @@ Result<double> RuntimeModel::refit_to(std::span<const Position> positions,
     }
     const std::span<const Position> used = positions.first(position_count_);
     if (const auto fault = find_bad_position(used)) return *fault;
-    const std::span<const std::uint32_t> source = model_.source_vertex();
+    const std::span<const std::uint32_t> source = model_.source().vertex;
     if constexpr (std::is_same_v<Position, Float3>) {
         if (!moving_.positions_f32.empty()) {
             std::ranges::transform(source, moving_.positions_f32.begin(),
                                    [&](std::uint32_t vertex) { return used[vertex]; });
-            return refit_over(model_.positions_f32(), guarded);
+            return refit_over(model_.mesh().positions_f32, guarded);
         }
     }
     std::ranges::transform(source, moving_.positions_f64.begin(),
                            [&](std::uint32_t vertex) { return as_double(used[vertex]); });
-    return refit_over(model_.positions_f64(), guarded);
+    return refit_over(model_.mesh().positions_f64, guarded);
 }
 
 /// Everything that follows from the positions, which stand in the image.
@@ -262,7 +263,7 @@ double RuntimeModel::refit_over(std::span<const Kept> positions, ParallelFor par
     const Extent extent = extent_of(positions, parallel_for);
     const Frame frame = frame_of(extent);
     const bool exact = has_exact_leaves(extent, frame);
-    const std::span<const Triangle> triangles = model_.triangles();
+    const std::span<const Triangle> triangles = model_.mesh().triangles;
     make_leaves({frame, exact, moving_.nodes, moving_.leaves}, positions, triangles, parallel_for);
     make_nodes(moving_.nodes, static_cast<std::uint32_t>(triangles.size()), parallel_for);
     mark_degenerate(positions, triangles, moving_.degenerate_bits, parallel_for);

@@ -102,7 +102,7 @@ Topology find_topology(std::span<const Double3> positions, std::span<const Trian
     const ComponentNumbers components = number_components(positions.size(), triangles);
     const std::vector<std::uint32_t>& number = components.of_vertex;
     Topology topology;
-    topology.components.assign(components.count, {0, 0, format::component_closed, 0, 0});
+    topology.components.assign(components.count, {0, 0, format::component_balanced, 0, 0});
     topology.closed = true;
 
     EdgeUses edges = collect_edges(positions.size(), triangles);
@@ -117,7 +117,7 @@ Topology find_topology(std::span<const Double3> positions, std::span<const Trian
     for (const Triangle& triangle : triangles) {
         format::Component& component = topology.components[number[triangle.vertex[0]]];
         if (component.triangle_count++ == 0) component.vertex = triangle.vertex[0];
-        if ((component.flags & format::component_closed) == 0) continue;
+        if ((component.flags & format::component_balanced) == 0) continue;
         const auto [a, b, c] = triangle.vertex;
         component.signed_volume +=  // six times, until the end: whole numbers stay exact
             signed_volume_6(positions[a], positions[b], positions[c], positions[component.vertex]);

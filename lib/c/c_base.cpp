@@ -186,7 +186,7 @@ int cdprep_pose_move(const cdprep_pose* pose, const double* points, size_t count
         const cdprep::format::FloatEnvironment environment;
         for (size_t i = 0; i < 3 * count; i += 3) {
             const cdprep::Double3 p =
-                cdprep::moved(read, {points[i], points[i + 1], points[i + 2]});
+                cdprep::transform_point(read, {points[i], points[i + 1], points[i + 2]});
             to[i] = p.x;
             to[i + 1] = p.y;
             to[i + 2] = p.z;

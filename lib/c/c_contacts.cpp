@@ -44,7 +44,7 @@ cdprep_feature in_c(const ContactFeature& feature) noexcept {
             {feature.vertex, CDPREP_NONE, CDPREP_NONE}};
 }
 
-cdprep_contact in_c(const PieceContact& contact) noexcept {
+cdprep_contact in_c(const Contact& contact) noexcept {
     cdprep_contact to{};
     to.piece_a = contact.piece_a;
     to.piece_b = contact.piece_b;
@@ -84,7 +84,7 @@ bool visit_all(const AskedPair& asked, const cdprep_contact_options& options, Wo
     wanted.degenerate = asked.options.degenerate;
     wanted.structure = asked.through.structure;
     std::uint64_t seen = 0;
-    const auto visit = [&](const PieceContact& contact) {
+    const auto visit = [&](const Contact& contact) {
         if (options.work != 0 && seen == options.work) return false;
         ++seen;
         return take(in_c(contact));

@@ -52,14 +52,14 @@ private:
 };
 
 bool has_several_components(const Model& model) noexcept {
-    return model.components().size() > 1;
+    return model.record().components.size() > 1;
 }
 
 /// Components are numbered by the order of the section, which names one vertex of each.
 void number_components(cdprep_model& model) noexcept {
     const std::span<std::uint32_t> of = model.component_of_vertex;
     ConnectedVertices connected(of);
-    for (const format::Triangle& triangle : model.model.triangles()) {
+    for (const format::Triangle& triangle : model.model.mesh().triangles) {
         if (std::ranges::any_of(triangle.vertex, [&](auto v) { return v >= of.size(); })) continue;
         connected.join(triangle.vertex[0], triangle.vertex[1]);
         connected.join(triangle.vertex[0], triangle.vertex[2]);
@@ -68,7 +68,7 @@ void number_components(cdprep_model& model) noexcept {
     for (std::uint32_t i = 0; i < of.size(); ++i) of[i] = of[of[i]];
     // Roots take their component's number, marked so that it is no vertex; then all others.
     constexpr std::uint32_t kNumber = 0x80000000U;
-    const std::span<const format::Component> components = model.model.components();
+    const std::span<const format::Component> components = model.model.record().components;
     for (std::uint32_t i = 0; i < components.size(); ++i) {
         const std::uint32_t vertex = components[i].vertex;
         if (vertex >= of.size() || (of[vertex] & kNumber) != 0) continue;
@@ -84,7 +84,7 @@ void number_components(cdprep_model& model) noexcept {
 
 void number_triangles(cdprep_model& model) noexcept {
     std::ranges::fill(model.tree_triangle, 0U);
-    const std::span<const std::uint32_t> source = model.model.source_triangle();
+    const std::span<const std::uint32_t> source = model.model.source().triangle;
     for (std::uint32_t i = 0; i < source.size(); ++i) {
         if (source[i] < model.tree_triangle.size()) model.tree_triangle[source[i]] = i;
     }
@@ -104,11 +104,11 @@ std::uint32_t name_of_run(std::span<const format::NamedRun> runs, std::uint32_t 
 
 std::uint32_t component_of(const cdprep_model& model, std::uint32_t vertex) noexcept {
     if (!model.component_of_vertex.empty()) return model.component_of_vertex[vertex];
-    return model.model.components().size() == 1 ? 0 : CDPREP_NONE;
+    return model.model.record().components.size() == 1 ? 0 : CDPREP_NONE;
 }
 
 bool is_degenerate(const Model& model, std::uint32_t tree_triangle) noexcept {
-    const std::span<const std::uint64_t> bits = model.degenerate_bits();
+    const std::span<const std::uint64_t> bits = model.mesh().degenerate_bits;
     return !bits.empty() && (bits[tree_triangle / 64] >> (tree_triangle % 64) & 1) != 0;
 }
 
@@ -117,20 +117,20 @@ cdprep_corners corners_of(const cdprep_model& model, std::uint32_t triangle) noe
     const std::uint32_t at = model.tree_triangle[triangle];
     cdprep_corners corners{};
     for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t vertex = m.triangles()[at].vertex[i];
+        const std::uint32_t vertex = m.mesh().triangles[at].vertex[i];
         store(position_of(m, vertex), corners.point[i]);
         corners.vertex[i] = source_vertex_of(m, vertex);
         corners.component = component_of(model, vertex);
     }
-    const std::span<const std::uint32_t> faces = m.source_face();
-    const format::Instance* const instance = run_of(m.instances(), triangle);
+    const std::span<const std::uint32_t> faces = m.source().face;
+    const format::Instance* const instance = run_of(m.source().instances, triangle);
     const std::uint32_t first = instance == nullptr ? 0 : instance->first_triangle;
     corners.face = faces.empty() ? triangle - first : faces[triangle];
     corners.instance = instance == nullptr
                            ? CDPREP_NONE
-                           : static_cast<std::uint32_t>(instance - m.instances().data());
-    corners.group = name_of_run(m.group_runs(), triangle);
-    corners.material = name_of_run(m.material_runs(), triangle);
+                           : static_cast<std::uint32_t>(instance - m.source().instances.data());
+    corners.group = name_of_run(m.source().group_runs, triangle);
+    corners.material = name_of_run(m.source().material_runs, triangle);
     corners.degenerate = is_degenerate(m, at) ? CDPREP_YES : CDPREP_NO;
     return corners;
 }
@@ -152,9 +152,9 @@ std::uint32_t count_names(const Model& model, SectionId names) noexcept {
 
 /// A box around all triangles: as baked, or of the positions, or of the hierarchy's boxes.
 void store_box(const Model& model, cdprep_model_info& info) noexcept {
-    if (model.bounds() != nullptr) {
-        store(model.bounds()->lower, info.lower);
-        store(model.bounds()->upper, info.upper);
+    if (model.record().bounds != nullptr) {
+        store(model.record().bounds->lower, info.lower);
+        store(model.record().bounds->upper, info.upper);
         return;
     }
     const std::uint32_t vertices = count_positions(model);
@@ -181,12 +181,13 @@ Found find_name(const Model& model, SectionId names, std::uint32_t number) noexc
 Found find_text(const Model& model, std::uint32_t kind, std::uint32_t number) noexcept {
     switch (kind) {
         case CDPREP_PROVENANCE:
-            return {number == 0, model.provenance()};
+            return {number == 0, model.record().provenance};
         case CDPREP_FINDINGS:
-            return {number == 0, model.findings()};
+            return {number == 0, model.record().findings};
         case CDPREP_INSTANCE_NAME:
-            if (number >= model.instances().size()) return {false, {}};
-            return find_name(model, SectionId::instance_names, model.instances()[number].name);
+            if (number >= model.source().instances.size()) return {false, {}};
+            return find_name(model, SectionId::instance_names,
+                             model.source().instances[number].name);
         case CDPREP_GROUP_NAME:
             return find_name(model, SectionId::group_names, number);
         case CDPREP_MATERIAL_NAME:
@@ -242,15 +243,15 @@ int cdprep_model_describe(const cdprep_model* model, cdprep_model_info* info, cd
     const Model& m = model->model;
     info->triangles = m.triangle_count();
     info->vertices = m.vertex_count();
-    info->components = static_cast<uint32_t>(m.components().size());
-    info->instances = static_cast<uint32_t>(m.instances().size());
+    info->components = static_cast<uint32_t>(m.record().components.size());
+    info->instances = static_cast<uint32_t>(m.source().instances.size());
     info->groups = cdprep::c::count_names(m, SectionId::group_names);
     info->materials = cdprep::c::count_names(m, SectionId::material_names);
-    info->pieces = static_cast<uint32_t>(m.pieces().size());
-    info->hulls = static_cast<uint32_t>(m.hulls().size());
-    info->verdicts = static_cast<uint32_t>(m.verdicts().size());
+    info->pieces = static_cast<uint32_t>(m.pieces().pieces.size());
+    info->hulls = static_cast<uint32_t>(m.hulls().hulls.size());
+    info->verdicts = static_cast<uint32_t>(m.record().verdicts.size());
     info->serves = static_cast<uint32_t>(m.asks());
-    info->closed = m.is_closed() ? CDPREP_YES : CDPREP_NO;
+    info->closed = m.is_balanced() ? CDPREP_YES : CDPREP_NO;
     info->stores_f64 = cdprep::c::is_in_file(m, SectionId::positions_f64) ? CDPREP_YES : CDPREP_NO;
     cdprep::c::store_box(m, *info);
     info->metres_per_unit = m.header().metres_per_unit;
@@ -290,7 +291,7 @@ int cdprep_model_mesh(const cdprep_model* model, cdprep_mesh* mesh, cdprep_error
             writer.add_vertex(cdprep::c::position_of(m, i), cdprep::c::source_vertex_of(m, i));
         }
         for (uint32_t i = 0; i < m.triangle_count() && writer.has_room_for_triangle(); ++i) {
-            writer.add_triangle(m.triangles()[model->tree_triangle[i]].vertex);
+            writer.add_triangle(m.mesh().triangles[model->tree_triangle[i]].vertex);
         }
         mesh->vertex_count = m.vertex_count();
         mesh->triangle_count = m.triangle_count();
@@ -347,7 +348,7 @@ int cdprep_model_mass(const cdprep_model* model, cdprep_mass* mass, cdprep_error
         if (const int code = call.need(model, {"model"})) return code;
         if (const int code = call.need(mass, {"mass"})) return code;
         if (const int code = check_serves(call, {"model"}, *model, Ask::response)) return code;
-        const cdprep::format::MassProperties* const found = model->model.mass_properties();
+        const cdprep::format::MassProperties* const found = model->model.record().mass;
         if (found == nullptr) return call.fail(CDPREP_INTERNAL, "The mass properties are empty.");
         mass->volume = found->volume;
         cdprep::c::store(found->centre, mass->centre);
@@ -362,7 +363,7 @@ int cdprep_model_verdict(const cdprep_model* model, uint32_t number, cdprep_verd
     if (verdict != nullptr) *verdict = {};
     if (const int code = call.need(model, {"model"})) return code;
     if (const int code = call.need(verdict, {"verdict"})) return code;
-    const auto verdicts = model->model.verdicts();
+    const auto verdicts = model->model.record().verdicts;
     if (number >= verdicts.size()) {
         return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"number"},
                            "is %u, but the model has %zu verdicts.", number, verdicts.size());

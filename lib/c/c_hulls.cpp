@@ -54,7 +54,7 @@ int check_scope(Call& call, const Name& name, std::uint32_t scope) noexcept {
 /// Whether the model has the hull.
 bool exists(const cdprep_hull& hull) noexcept {
     const Model& model = hull.model->model;
-    if (hull.scope == CDPREP_HULL_PIECE) return hull.number < model.pieces().size();
+    if (hull.scope == CDPREP_HULL_PIECE) return hull.number < model.pieces().pieces.size();
     return find_hull(model, format::HullScope{hull.scope}, hull.number).has_value();
 }
 
@@ -260,11 +260,11 @@ void write_piece(const Model& model, std::uint32_t piece, cdprep_mesh& mesh) noe
 
 /// The same of a baked hull.
 void write_hull(const Model& model, std::uint32_t number, cdprep_mesh& mesh) noexcept {
-    const format::Hull& hull = model.hulls()[number];
+    const format::Hull& hull = model.hulls().hulls[number];
     const ConvexPoints points = convex_points(model, number);
     const auto vertices =
-        model.hull_vertices().subspan(std::size_t{hull.first_block} * format::kHullLanes);
-    const auto facets = model.hull_facets().subspan(hull.first_facet, hull.facet_count);
+        model.hulls().vertices.subspan(std::size_t{hull.first_block} * format::kHullLanes);
+    const auto facets = model.hulls().facets.subspan(hull.first_facet, hull.facet_count);
     mesh.vertex_count = hull.point_count;
     mesh.triangle_count = facets.size();
     MeshWriter writer(mesh);

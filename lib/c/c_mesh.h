@@ -19,20 +19,20 @@ inline void store(const Double3& p, double* numbers) noexcept {
 
 /// Vertices whose positions are open.
 [[nodiscard]] inline std::uint32_t count_positions(const Model& model) noexcept {
-    const bool has_any = !model.positions_f32().empty() || !model.positions_f64().empty();
+    const bool has_any = !model.mesh().positions_f32.empty() || !model.mesh().positions_f64.empty();
     return has_any ? model.vertex_count() : 0;
 }
 
 [[nodiscard]] inline Double3 position_of(const Model& model, std::uint32_t vertex) noexcept {
-    if (model.positions_f32().empty()) return model.positions_f64()[vertex];
-    const format::Float3& p = model.positions_f32()[vertex];
+    if (model.mesh().positions_f32.empty()) return model.mesh().positions_f64[vertex];
+    const format::Float3& p = model.mesh().positions_f32[vertex];
     return {p.x, p.y, p.z};
 }
 
 /// The imported file's number of a vertex.
 [[nodiscard]] inline std::uint32_t source_vertex_of(const Model& model,
                                                     std::uint32_t vertex) noexcept {
-    const auto source = model.source_vertex();
+    const auto source = model.source().vertex;
     return source.empty() ? vertex : source[vertex];
 }
 

@@ -118,8 +118,8 @@ int read_pair(Call& call, const Name& name, const PairQuestion& question, const 
     if (const int code = check_serves(call, name.of("b"), *pair.b, needs)) return code;
     asked.a = &pair.a->model;
     asked.b = &pair.b->model;
-    asked.options.as = pair.body == CDPREP_SOLID ? As::solid : As::surface;
-    asked.options.contact = pair.overlap == CDPREP_PROPER ? Contact::proper : Contact::closed;
+    asked.options.body = pair.body == CDPREP_SOLID ? Body::solid : Body::surface;
+    asked.options.overlap = pair.overlap == CDPREP_PROPER ? Overlap::proper : Overlap::closed;
     asked.options.degenerate =
         pair.degenerate == CDPREP_SKIP_DEGENERATE ? Degenerate::skip : Degenerate::keep;
     asked.through.structure = structure_of(pair.through);

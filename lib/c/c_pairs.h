@@ -70,7 +70,7 @@ struct AskedPair {
     cdprep_cache* cache = nullptr;
 
     [[nodiscard]] OverlapOptions overlap() const noexcept {
-        return {options.contact, options.degenerate};
+        return {options.overlap, options.degenerate};
     }
     [[nodiscard]] bool is_through_bvh() const noexcept {
         return through.structure == Structure::bvh;

@@ -131,7 +131,7 @@ void with_shape(const cdprep_shape_query& query, Asker&& ask) {
         case CDPREP_CAPSULE:
             return ask(Capsule{point_of(query.a), point_of(query.b), query.radius});
         default:
-            return ask(LooseTriangle{{point_of(query.a), point_of(query.b), point_of(query.c)}});
+            return ask(TriangleShape{{point_of(query.a), point_of(query.b), point_of(query.c)}});
     }
 }
 

@@ -92,7 +92,7 @@ cdprep_workspace* make_in(const Asked& asked, std::byte* block, const Memory& me
     for (std::uint32_t i = 0; i < lanes; ++i) {
         const std::span<std::byte> scratch(block + layout.scratch + i * layout.scratch_size,
                                            layout.scratch_size);
-        std::optional<Workspace> lane = Workspace::in(scratch);
+        std::optional<Workspace> lane = Workspace::in_memory(scratch);
         if (!lane) return nullptr;
         new (objects + i) Workspace{std::move(*lane)};
         new (counts + i) QueryCounts{};

@@ -53,7 +53,7 @@ cdprep_collision collision_of(const AskedPair& asked, Workspace& workspace) noex
     }
     const bool surfaces_touch = any_overlap_through(asked.through, *asked.a, *asked.b,
                                                     asked.placement, workspace, asked.overlap());
-    if (surfaces_touch || asked.options.as == As::surface) return in_c(surfaces_touch, {});
+    if (surfaces_touch || asked.options.body == Body::surface) return in_c(surfaces_touch, {});
     return in_c(false, find_containment(*asked.a, *asked.b, asked.placement, workspace));
 }
 
@@ -79,7 +79,7 @@ std::size_t mark_overlaps(const AskedPair& asked, Workspace& workspace,
 cdprep_nearest nearest_of(const AskedPair& asked, const cdprep_distance_options& options,
                           Workspace& workspace) noexcept {
     const DistanceOptions wanted = {options.relative_error, options.absolute_error,
-                                    options.max_distance, asked.options.as};
+                                    options.max_distance, asked.options.body};
     if (!asked.is_through_bvh()) {
         return in_c(distance_through(asked.through, *asked.a, *asked.b, asked.placement, workspace,
                                      wanted));

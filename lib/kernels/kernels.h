@@ -230,7 +230,7 @@ struct BoundTests {
                      const BoxChoice& choice, const Reach& reach, BoxPairFloats& gaps) noexcept;
 };
 
-/// What points are held against: moved to rotation * p + translation, as cdprep::moved()
+/// What points are held against: moved to rotation * p + translation, as cdprep::transform_point()
 /// does, they are so far along `direction` from `origin`.
 struct MovedDirection {
     double rotation[9];

@@ -23,12 +23,12 @@ public:
     };
 
     explicit AdaptiveOctreeTree(const Model& model) noexcept
-        : tree_(model.adaptive_octree()),
-          nodes_(model.adaptive_octree_nodes().data()),
-          references_(model.adaptive_octree_references()),
+        : tree_(model.adaptive_octree().tree),
+          nodes_(model.adaptive_octree().nodes.data()),
+          references_(model.adaptive_octree().references),
           frame_(model),
-          boxes_(model.adaptive_octree_boxes().data()),
-          is_empty_(tree_ == nullptr || model.adaptive_octree_nodes().empty()) {}
+          boxes_(model.adaptive_octree().boxes.data()),
+          is_empty_(tree_ == nullptr || model.adaptive_octree().nodes.empty()) {}
 
     [[nodiscard]] bool is_empty() const noexcept {
         return is_empty_;

@@ -11,9 +11,9 @@
 namespace cdprep {
 
 /// The decision about one pair of triangles by the paper's six segments.
-inline bool in_contact_by_segments(const Corners& a, const Corners& b, Contact contact) noexcept {
+inline bool in_contact_by_segments(const Corners& a, const Corners& b, Overlap overlap) noexcept {
     if (!triangles_touch_by_segments(a, b)) return false;
-    if (contact == Contact::closed) return true;
+    if (overlap == Overlap::closed) return true;
     const TriangleContact kind = classify_contact(a, b);
     return kind == TriangleContact::cross || kind == TriangleContact::coplanar_overlap;
 }
@@ -160,7 +160,7 @@ bool CellContacts<Found, Owns>::flush_by_segments(std::size_t count) noexcept {
                 if (!overlap(box_around(corners_a), box_b)) continue;
                 if (touch_.skips(at_a, at_b)) continue;
                 if (scratch_.counts != nullptr) ++scratch_.counts->by_exact;
-                if (!in_contact_by_segments(corners_a, corners_b, options_.contact)) continue;
+                if (!in_contact_by_segments(corners_a, corners_b, options_.overlap)) continue;
                 if (!answer(i, at_a, at_b)) return false;
             }
         }

@@ -120,7 +120,7 @@ public:
 
     /// The deepest, the one farthest from it, and those with the largest triangles on either
     /// side of the line between. Of equal ones the first.
-    void choose(PieceContact& contact) const noexcept {
+    void choose(Contact& contact) const noexcept {
         const std::size_t first = best([&](const ManifoldPoint& p) { return -p.distance; });
         take(first, contact);
         const Double3 origin = point_[first].on_a;
@@ -150,7 +150,7 @@ private:
         }
         return best;
     }
-    void take(std::size_t i, PieceContact& contact) const noexcept {
+    void take(std::size_t i, Contact& contact) const noexcept {
         contact.points[contact.point_count++] = point_[i];
     }
 
@@ -161,7 +161,7 @@ private:
 }  // namespace
 
 void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature& feature_a,
-                  const PieceFeature& feature_b, double tolerance, PieceContact& contact) noexcept {
+                  const PieceFeature& feature_b, double tolerance, Contact& contact) noexcept {
     const Double3 n = contact.normal;
     const Polygon of_a = facing(a, feature_a, n), of_b = facing(b, feature_b, -n);
     const double across_a = dot(of_a.normal, n), across_b = -dot(of_b.normal, n);

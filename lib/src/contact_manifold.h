@@ -10,6 +10,6 @@ namespace cdprep {
 /// it, as far as they are within the tolerance; the contact's own points where no face stands
 /// across.
 void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature& feature_a,
-                  const PieceFeature& feature_b, double tolerance, PieceContact& contact) noexcept;
+                  const PieceFeature& feature_b, double tolerance, Contact& contact) noexcept;
 
 }  // namespace cdprep

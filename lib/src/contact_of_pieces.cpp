@@ -37,8 +37,8 @@ public:
                  const ContactQuestion& question) noexcept
         : a_(a), b_(b), near_(near), question_(question) {}
 
-    [[nodiscard]] PieceContact answer() const noexcept {
-        PieceContact contact{};
+    [[nodiscard]] Contact answer() const noexcept {
+        Contact contact{};
         contact.piece_a = static_cast<std::uint32_t>(near_.key >> 32);
         contact.piece_b = static_cast<std::uint32_t>(near_.key);
         const TwoHulls hulls = {a_.hull(), b_.hull()};
@@ -82,7 +82,7 @@ private:
     }
     static PieceFeature feature_of(const ContactSide& side, std::uint32_t triangle,
                                    const VertexSet& set) noexcept {
-        const auto& vertex = side.model().model->triangles()[triangle].vertex;
+        const auto& vertex = side.model().model->mesh().triangles[triangle].vertex;
         const auto place = [&](std::uint32_t number) {
             const auto* at = std::find(vertex.begin(), vertex.end(), number);
             return static_cast<std::uint32_t>(at - vertex.begin());
@@ -93,8 +93,7 @@ private:
         return {FeatureKind::edge, triangle, (first + 1) % 3 == second ? first : second};
     }
 
-    [[nodiscard]] Meeting answer_apart(const HullNearest& hulls,
-                                       PieceContact& contact) const noexcept {
+    [[nodiscard]] Meeting answer_apart(const HullNearest& hulls, Contact& contact) const noexcept {
         const Meeting meeting = nearest_features(hulls);
         contact.point_a = weighted_sum(meeting.nearest.simplex, &Difference::at_a);
         contact.point_b = weighted_sum(meeting.nearest.simplex, &Difference::at_b);
@@ -114,7 +113,7 @@ private:
 
     /// Of a face or of two edges by themselves, which is exact however small the gap is.
     [[nodiscard]] Double3 normal_between(const Meeting& meeting,
-                                         const PieceContact& contact) const noexcept {
+                                         const Contact& contact) const noexcept {
         const Double3 gap = nearest_direction(meeting.nearest.simplex);
         const Double3 towards = -gap;  // of A - B, and the normal leads to B
         Double3 normal{};
@@ -147,7 +146,7 @@ private:
     // --- Overlapping ----------------------------------------------------------------
 
     [[nodiscard]] Meeting answer_overlap(const TwoHulls& hulls, const NearestSimplex& common,
-                                         PieceContact& contact) const noexcept {
+                                         Contact& contact) const noexcept {
         const Penetration depth = hull_depth(hulls, common, {}, question_.counts);
         contact.flags |= contact_overlap;
         contact.normal = depth.normal;
@@ -214,7 +213,7 @@ private:
 
     /// Another normal, and the points that meet along it: of the farthest ones that of the piece
     /// without a face there, and its foot on the other.
-    void turn(const Double3& normal, Meeting& meeting, PieceContact& contact) const noexcept {
+    void turn(const Double3& normal, Meeting& meeting, Contact& contact) const noexcept {
         const WayOut way = way_out(normal);
         contact.flags |= contact_internal_edge;
         contact.normal = normal;
@@ -236,8 +235,8 @@ private:
 
 }  // namespace
 
-PieceContact contact_of_pieces(const ContactSide& a, const ContactSide& b, const NearPieces& near,
-                               const ContactQuestion& question) noexcept {
+Contact contact_of_pieces(const ContactSide& a, const ContactSide& b, const NearPieces& near,
+                          const ContactQuestion& question) noexcept {
     return PairOfPieces(a, b, near, question).answer();
 }
 

@@ -15,8 +15,8 @@ struct ContactQuestion {
 };
 
 /// Answers for one pair of pieces, of which two triangles are within the tolerance.
-[[nodiscard]] PieceContact contact_of_pieces(const ContactSide& a, const ContactSide& b,
-                                             const NearPieces& near,
-                                             const ContactQuestion& question) noexcept;
+[[nodiscard]] Contact contact_of_pieces(const ContactSide& a, const ContactSide& b,
+                                        const NearPieces& near,
+                                        const ContactQuestion& question) noexcept;
 
 }  // namespace cdprep

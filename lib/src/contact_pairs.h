@@ -13,27 +13,27 @@ namespace cdprep {
 /// A triangle's number in the imported file, or in the tree order where that
 /// section is absent.
 inline std::uint32_t source_number(const Model& model, std::uint32_t triangle) noexcept {
-    const auto source = model.source_triangle();
+    const auto source = model.source().triangle;
     return source.empty() ? triangle : source[triangle];
 }
 
 inline bool is_marked_degenerate(const Model& model, std::uint32_t triangle) noexcept {
-    const auto bits = model.degenerate_bits();
+    const auto bits = model.mesh().degenerate_bits;
     return !bits.empty() && ((bits[triangle / 64] >> (triangle % 64)) & 1) != 0;
 }
 
 /// The exact decision about one pair of triangles. Neighbours in one mesh, most of
 /// what touches, are known by a common corner.
-inline bool in_contact(const Corners& a, const Corners& b, Contact contact,
+inline bool in_contact(const Corners& a, const Corners& b, Overlap overlap,
                        QueryCounts* counts) noexcept {
-    if (contact == Contact::closed && share_a_corner(a, b)) {
+    if (overlap == Overlap::closed && share_a_corner(a, b)) {
         if (counts != nullptr) ++counts->by_corner;
         return true;
     }
     const std::optional<TriangleContact> sure = contact_by_filter(a, b);
     if (counts != nullptr) ++(sure ? counts->by_filter : counts->by_exact);
     const TriangleContact kind = sure ? *sure : contact_beyond_filter(a, b);
-    if (contact == Contact::closed) return kind != TriangleContact::disjoint;
+    if (overlap == Overlap::closed) return kind != TriangleContact::disjoint;
     return kind == TriangleContact::cross || kind == TriangleContact::coplanar_overlap;
 }
 
@@ -51,7 +51,7 @@ public:
     bool operator()(std::uint32_t at_a, std::uint32_t at_b, bool certain) const noexcept {
         if (skips(at_a, at_b)) return false;
         if (!certain) {
-            return in_contact(a_.corners(at_a), b_.corners(at_b), options_.contact, counts_);
+            return in_contact(a_.corners(at_a), b_.corners(at_b), options_.overlap, counts_);
         }
         if (counts_ != nullptr) ++counts_->by_kernel;
         return true;

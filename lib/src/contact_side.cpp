@@ -41,9 +41,9 @@ unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
 
 ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece) noexcept
     : model_(&model),
-      triangles_(part_of_piece(model.model->piece_triangles(), *model.model, piece,
+      triangles_(part_of_piece(model.model->pieces().triangles, *model.model, piece,
                                &format::Piece::first_triangle)),
-      contained_((model.model->pieces()[piece].flags & format::piece_contained) != 0),
+      contained_((model.model->pieces().pieces[piece].flags & format::piece_contained) != 0),
       hull_(feature_hull(*model.model, piece)) {
     place();
 }
@@ -66,7 +66,7 @@ void ContactSide::place() noexcept {
 
 ConvexPoints ContactSide::points_of(std::uint32_t triangle) const noexcept {
     ConvexPoints points = hull_.points;
-    points.corners = model_->model->triangles()[triangle].vertex;
+    points.corners = model_->model->mesh().triangles[triangle].vertex;
     points.count = 3;
     return points;
 }
@@ -74,7 +74,7 @@ ConvexPoints ContactSide::points_of(std::uint32_t triangle) const noexcept {
 std::optional<PieceFeature> ContactSide::find_feature(const VertexSet& set) const noexcept {
     if (set.count == 0 || set.count > 3) return std::nullopt;
     for (const std::uint32_t t : triangles_) {
-        const format::Triangle& triangle = model_->model->triangles()[t];
+        const format::Triangle& triangle = model_->model->mesh().triangles[t];
         unsigned has = 0;
         for (std::size_t i = 0; i < set.count; ++i) {
             has += corner_of(triangle, set.vertex[i]) < 3 ? 1U : 0U;
@@ -143,7 +143,7 @@ PieceFeature ContactSide::feature_along(const Double3& direction,
 /// each edge of theirs that has it.
 template <class Visit>
 void ContactSide::each_around(const PieceFeature& feature, Visit&& visit) const noexcept {
-    const format::Triangle& own = model_->model->triangles()[feature.triangle];
+    const format::Triangle& own = model_->model->mesh().triangles[feature.triangle];
     const std::uint32_t from = own.vertex[feature.corner];
     const std::uint32_t to = own.vertex[(feature.corner + 1) % 3];
     for (const std::uint32_t t : triangles_) {
@@ -151,7 +151,7 @@ void ContactSide::each_around(const PieceFeature& feature, Visit&& visit) const 
             if (t == feature.triangle) visit(t, 0U);
             continue;
         }
-        const format::Triangle& triangle = model_->model->triangles()[t];
+        const format::Triangle& triangle = model_->model->mesh().triangles[t];
         const unsigned k = corner_of(triangle, from);
         if (k == 3) continue;
         const unsigned previous = (k + 2) % 3;
@@ -180,10 +180,10 @@ bool ContactSide::is_seen_from_behind(const PieceFeature& feature,
 
 /// Whether another triangle of the piece has the edge: then the hull says how normals stand.
 bool ContactSide::is_inner(std::uint32_t triangle, unsigned edge) const noexcept {
-    const auto& vertex = model_->model->triangles()[triangle].vertex;
+    const auto& vertex = model_->model->mesh().triangles[triangle].vertex;
     const std::uint32_t from = vertex[edge], to = vertex[(edge + 1) % 3];
     return std::any_of(triangles_.begin(), triangles_.end(), [&](std::uint32_t t) {
-        const format::Triangle& other = model_->model->triangles()[t];
+        const format::Triangle& other = model_->model->mesh().triangles[t];
         return t != triangle && corner_of(other, from) < 3 && corner_of(other, to) < 3;
     });
 }
@@ -193,7 +193,7 @@ std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feat
                                                         double least) const noexcept {
     std::optional<Lean> most;
     each_around(feature, [&](std::uint32_t t, unsigned edges) {
-        const std::uint8_t bits = model_->model->edge_convexity()[t];
+        const std::uint8_t bits = model_->model->mesh().edge_convexity[t];
         const Corners at = model_->corners(t);
         const Double3 front = unit_normal(at);
         const bool from_front = is_contained() || dot(front, direction) >= 0;
@@ -230,8 +230,8 @@ std::optional<Double3> ContactSide::upright(const PieceFeature& feature,
 
 ContactFeature ContactSide::in_source(const PieceFeature& feature) const noexcept {
     const Model& model = *model_->model;
-    const std::uint32_t vertex = model.triangles()[feature.triangle].vertex[feature.corner];
-    const auto source = model.source_vertex();
+    const std::uint32_t vertex = model.mesh().triangles[feature.triangle].vertex[feature.corner];
+    const auto source = model.source().vertex;
     const bool is_edge = feature.kind == FeatureKind::edge;
     return {feature.kind, static_cast<std::uint8_t>(is_edge ? feature.corner : 0),
             source_number(model, feature.triangle), source.empty() ? vertex : source[vertex]};

@@ -107,8 +107,8 @@ public:
 private:
     void gather(const std::optional<std::uint64_t>& last) noexcept {
         gathered_.begin_after(last);
-        const std::span<const std::uint32_t> piece_a = moved_a_.model->triangle_piece();
-        const std::span<const std::uint32_t> piece_b = moved_b_.model->triangle_piece();
+        const std::span<const std::uint32_t> piece_a = moved_a_.model->pieces().of_triangle;
+        const std::span<const std::uint32_t> piece_b = moved_b_.model->pieces().of_triangle;
         const auto visit = [&](const NearTriangles& near) {
             const std::uint64_t key = std::uint64_t{piece_a[near.a]} << 32 | piece_b[near.b];
             if (gathered_.takes(key)) gathered_.add({key, near.a, near.b, touch(near)});
@@ -119,7 +119,7 @@ private:
     }
     [[nodiscard]] bool touch(const NearTriangles& near) const noexcept {
         if (near.touch != Touch::unknown) return near.touch == Touch::yes;
-        return in_contact(moved_a_.corners(near.a), moved_b_.corners(near.b), Contact::closed,
+        return in_contact(moved_a_.corners(near.a), moved_b_.corners(near.b), Overlap::closed,
                           workspace_.storage().counts);
     }
 
@@ -142,13 +142,13 @@ bool for_each_piece_contact(const Model& a, const Model& b, const Placement& pla
 }  // namespace
 
 std::size_t contacts(const Model& a, const Model& b, const Placement& placement, double tolerance,
-                     Workspace& workspace, std::span<PieceContact> contacts,
+                     Workspace& workspace, std::span<Contact> contacts,
                      const ContactOptions& options) noexcept {
     const format::FloatEnvironment environment;
     require(a, b, Ask::contacts | ask_of(options.structure));
     std::size_t count = 0;
     for_each_piece_contact(a, b, placement, tolerance, workspace, options,
-                           [&](const PieceContact& contact) {
+                           [&](const Contact& contact) {
                                if (count < contacts.size()) contacts[count] = contact;
                                ++count;
                                return true;
@@ -162,7 +162,7 @@ bool visit_contacts(const Model& a, const Model& b, const Placement& placement, 
     format::FloatEnvironment environment;
     require(a, b, Ask::contacts | ask_of(options.structure));
     return for_each_piece_contact(a, b, placement, tolerance, workspace, options,
-                                  [&](const PieceContact& contact) {
+                                  [&](const Contact& contact) {
                                       return environment.outside([&] { return visit(contact); });
                                   });
 }

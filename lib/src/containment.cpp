@@ -113,9 +113,9 @@ Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
 bool may_be_inside(const MovedModel& model, const Double3& q) noexcept {
     const MovedBoxes boxes(model);
     const Model& m = *model.model;
-    Box3 all = boxes.box(m.nodes()[0], 0);
-    for (std::uint32_t i = 1; i < m.shape().used_boxes(m.shape().levels - 1, 0); ++i) {
-        const Box3 box = boxes.box(m.nodes()[0], i);
+    Box3 all = boxes.box(m.bvh().nodes[0], 0);
+    for (std::uint32_t i = 1; i < m.bvh().shape.used_boxes(m.bvh().shape.levels - 1, 0); ++i) {
+        const Box3 box = boxes.box(m.bvh().nodes[0], i);
         all.lower = {std::min(all.lower.x, box.lower.x), std::min(all.lower.y, box.lower.y),
                      std::min(all.lower.z, box.lower.z)};
         all.upper = {std::max(all.upper.x, box.upper.x), std::max(all.upper.y, box.upper.y),
@@ -138,14 +138,15 @@ Inclusion open_inclusion(const MovedModel& model, const Double3& q) noexcept {
 Inclusion inclusion(const MovedModel& model, const Double3& q,
                     Workspace::Storage& scratch) noexcept {
     if (model.model->triangle_count() == 0 || !may_be_inside(model, q)) return {};
-    return model.model->is_closed() ? exact_inclusion(model, q, scratch) : open_inclusion(model, q);
+    return model.model->is_balanced() ? exact_inclusion(model, q, scratch)
+                                      : open_inclusion(model, q);
 }
 
 /// Whether a component of `inner` lies inside `outer`.
 Containment find_inside(const MovedModel& inner, const MovedModel& outer,
                         Workspace::Storage& scratch, bool a_inside_b) noexcept {
     Containment result;
-    for (const format::Component& component : inner.model->components()) {
+    for (const format::Component& component : inner.model->record().components) {
         const Inclusion found = inclusion(outer, inner.position(component.vertex), scratch);
         if (found.on_surface || found.answer == Answer::no) continue;
         if (found.answer == Answer::yes) return {Answer::yes, found.winding, a_inside_b};
@@ -170,7 +171,7 @@ Containment find_containment(const Model& a, const Model& b, const Placement& pl
     return a_in_b;
 }
 
-Inclusion includes(const Model& model, const Double3& p, Workspace& workspace) noexcept {
+Inclusion points_inside(const Model& model, const Double3& p, Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
     require(model, Ask::inside);
     return inclusion({model, nullptr}, p, workspace.storage());

@@ -35,8 +35,8 @@ public:
                 CellSearch search) noexcept
         : index_(octree_index(a)),
           search_(search),
-          grid_(*a.octree_grid()),
-          references_(a.octree_references()),
+          grid_(*a.octree().grid),
+          references_(a.octree().references),
           a_from_b_(placement.a_is_moved() ? relative_pose(placement.pose_a(), placement.pose_b())
                                            : placement.pose_b()),
           b_(b, &a_from_b_) {}

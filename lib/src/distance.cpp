@@ -11,7 +11,7 @@ std::optional<Distance> distance(const Model& a, const Model& b, const Placement
                                  Workspace& workspace, const DistanceOptions& options,
                                  PairCache* cache) noexcept {
     const format::FloatEnvironment environment;
-    require(a, b, options.as == As::solid ? Ask::distance | Ask::solid : Ask::distance);
+    require(a, b, options.body == Body::solid ? Ask::distance | Ask::solid : Ask::distance);
     return distance_by<TriangleTrees>(a, b, placement, workspace, options, cache);
 }
 

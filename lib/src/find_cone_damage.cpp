@@ -26,11 +26,11 @@ public:
     ConeCheck(std::span<const std::byte> file, const Model& model)
         : file_(file),
           model_(model),
-          tree_(*model.tetra_tree()),
-          nodes_(model.tetra_nodes()),
-          references_(model.tetra_references()),
-          boxes_(model.tetra_boxes()),
-          oriented_(model.tetra_oriented()),
+          tree_(*model.tetra_tree().tree),
+          nodes_(model.tetra_tree().nodes),
+          references_(model.tetra_tree().references),
+          boxes_(model.tetra_tree().boxes),
+          oriented_(model.tetra_tree().oriented),
           frame_(model),
           moved_(model, nullptr),
           scale_(std::ldexp(1.0, model.header().frame_exponent)),
@@ -209,7 +209,7 @@ private:
 
 std::optional<format::Damage> find_cone_damage(std::span<const std::byte> file,
                                                const Model& model) {
-    if (model.tetra_tree() == nullptr) return std::nullopt;
+    if (model.tetra_tree().tree == nullptr) return std::nullopt;
     return ConeCheck(file, model).find_damage();
 }
 

@@ -20,15 +20,16 @@ using format::HullFacet;
 using Found = std::optional<format::Damage>;
 
 std::vector<Double3> vertices_of(const Model& model) {
-    std::vector<Double3> vertices(model.positions_f64().begin(), model.positions_f64().end());
-    for (const Float3& p : model.positions_f32()) vertices.push_back({p.x, p.y, p.z});
+    std::vector<Double3> vertices(model.mesh().positions_f64.begin(),
+                                  model.mesh().positions_f64.end());
+    for (const Float3& p : model.mesh().positions_f32) vertices.push_back({p.x, p.y, p.z});
     return vertices;
 }
 
 /// Which vertex stands for a number of the imported file.
 std::vector<std::array<std::uint32_t, 2>> by_source(const Model& model) {
     std::vector<std::array<std::uint32_t, 2>> pairs;
-    const auto source = model.source_vertex();
+    const auto source = model.source().vertex;
     for (std::uint32_t v = 0; v < source.size(); ++v) pairs.push_back({source[v], v});
     std::sort(pairs.begin(), pairs.end());
     return pairs;
@@ -71,7 +72,7 @@ public:
         : file_(file), model_(model), vertices_(vertices_of(model)), by_source_(by_source(model)) {}
 
     [[nodiscard]] Found find_falsehood(std::uint32_t number) const {
-        const Hull& hull = model_.hulls()[number];
+        const Hull& hull = model_.hulls().hulls[number];
         const ConvexPoints points = convex_points(model_, number);
         if (const Found damage = find_strange_point(hull, points)) return damage;
         if (const Found damage = find_bad_edge(hull, points)) return damage;
@@ -85,8 +86,8 @@ public:
         if (!first) return std::nullopt;
         std::vector<ConvexPoints> parts;
         std::vector<Bounds> bounds;
-        for (std::uint32_t i = *first; i < model_.hulls().size(); ++i) {
-            if (model_.hulls()[i].point_count == 0) continue;
+        for (std::uint32_t i = *first; i < model_.hulls().hulls.size(); ++i) {
+            if (model_.hulls().hulls[i].point_count == 0) continue;
             parts.push_back(convex_points(model_, i));
             bounds.push_back(bounds_of(parts.back()));
         }
@@ -137,7 +138,7 @@ private:
     }
 
     [[nodiscard]] std::span<const HullFacet> facets(const Hull& hull) const {
-        return model_.hull_facets().subspan(hull.first_facet, hull.facet_count);
+        return model_.hulls().facets.subspan(hull.first_facet, hull.facet_count);
     }
 
     /// A point of an exact hull that is not the vertex it names.
@@ -145,7 +146,7 @@ private:
         if ((hull.flags & format::hull_exact) == 0 || by_source_.empty()) return std::nullopt;
         for (std::uint32_t p = 0; p < hull.point_count; ++p) {
             const std::size_t place = std::size_t{hull.first_block} * format::kHullLanes + p;
-            const std::uint32_t source = model_.hull_vertices()[place];
+            const std::uint32_t source = model_.hulls().vertices[place];
             const auto at = std::lower_bound(by_source_.begin(), by_source_.end(),
                                              std::array<std::uint32_t, 2>{source, 0});
             const bool named = at != by_source_.end() && (*at)[0] == source &&
@@ -216,7 +217,7 @@ private:
         const std::vector<Double3> inside = contained(hull, points);
         for (std::uint32_t g = 0; g < hull.group_count; ++g) {
             const std::uint32_t first =
-                model_.hull_groups()[std::size_t{hull.first_group} + g].first_facet;
+                model_.hulls().groups[std::size_t{hull.first_group} + g].first_facet;
             const auto& point = facets(hull)[first].point;
             const Double3 a = hull_point(points, point[0]), b = hull_point(points, point[1]),
                           c = hull_point(points, point[2]);
@@ -245,9 +246,9 @@ private:
 
 std::optional<format::Damage> find_hull_falsehood(std::span<const std::byte> file,
                                                   const Model& model) {
-    if (model.hulls().empty() || !model.serves(Ask::hulls)) return std::nullopt;
+    if (model.hulls().hulls.empty() || !model.serves(Ask::hulls)) return std::nullopt;
     const HullCheck check(file, model);
-    for (std::uint32_t i = 0; i < model.hulls().size(); ++i) {
+    for (std::uint32_t i = 0; i < model.hulls().hulls.size(); ++i) {
         if (const Found damage = check.find_falsehood(i)) return damage;
     }
     return check.find_left_out();

@@ -35,16 +35,16 @@ public:
     static constexpr SectionId kReferences = SectionId::octree_references;
     static constexpr SectionId kBoxes = SectionId::octree_boxes;
 
-    explicit OctreeCells(const Model& model) : grid_(*model.octree_grid()), model_(model) {}
+    explicit OctreeCells(const Model& model) : grid_(*model.octree().grid), model_(model) {}
 
     [[nodiscard]] std::span<const Node> nodes() const {
-        return model_.octree_nodes();
+        return model_.octree().nodes;
     }
     [[nodiscard]] std::span<const std::uint32_t> references() const {
-        return model_.octree_references();
+        return model_.octree().references;
     }
     [[nodiscard]] std::span<const format::CellBox> boxes() const {
-        return model_.octree_boxes();
+        return model_.octree().boxes;
     }
     [[nodiscard]] Box3 root() const {
         return octree_box(grid_, {0, 0, 0}, 0);
@@ -82,16 +82,16 @@ public:
     explicit AdaptiveOctreeCells(const Model& model) : model_(model) {}
 
     [[nodiscard]] std::span<const Node> nodes() const {
-        return model_.adaptive_octree_nodes();
+        return model_.adaptive_octree().nodes;
     }
     [[nodiscard]] std::span<const std::uint32_t> references() const {
-        return model_.adaptive_octree_references();
+        return model_.adaptive_octree().references;
     }
     [[nodiscard]] std::span<const format::CellBox> boxes() const {
-        return model_.adaptive_octree_boxes();
+        return model_.adaptive_octree().boxes;
     }
     [[nodiscard]] Box3 root() const {
-        return {model_.adaptive_octree()->lower, model_.adaptive_octree()->upper};
+        return {model_.adaptive_octree().tree->lower, model_.adaptive_octree().tree->upper};
     }
     [[nodiscard]] bool is_inside(const Double3& p) const {
         return overlap(root(), {p, p});
@@ -236,9 +236,9 @@ private:
 Found find_lost_node(std::span<const std::byte> file, const Model& model, SectionId id,
                      std::span<const std::uint32_t> table,
                      std::uint64_t (*slot_of)(std::uint64_t, std::uint32_t) noexcept) {
-    const std::uint32_t bits = model.octree_grid()->slot_bits;
+    const std::uint32_t bits = model.octree().grid->slot_bits;
     const auto next = table.subspan(std::size_t{1} << bits);
-    const auto nodes = model.octree_nodes();
+    const auto nodes = model.octree().nodes;
     for (std::uint32_t i = 0; i < nodes.size(); ++i) {
         const std::uint64_t slot = slot_of(nodes[i].key, bits);
         std::uint32_t at = table[slot];
@@ -254,19 +254,19 @@ std::optional<format::Damage> find_list_damage(std::span<const std::byte> file,
                                                const Model& model) {
     const format::FloatEnvironment environment;
     if (const Found damage = find_cone_damage(file, model)) return damage;
-    if (model.adaptive_octree() != nullptr) {
+    if (model.adaptive_octree().tree != nullptr) {
         if (const Found damage = ListCheck<AdaptiveOctreeCells>(file, model).find_damage()) {
             return damage;
         }
     }
-    if (model.octree_grid() == nullptr) return std::nullopt;
+    if (model.octree().grid == nullptr) return std::nullopt;
     if (const Found damage = ListCheck<OctreeCells>(file, model).find_damage()) return damage;
-    if (model.octree_modulus_table().empty()) return std::nullopt;
+    if (model.octree().modulus_table.empty()) return std::nullopt;
     if (const Found damage = find_lost_node(file, model, SectionId::octree_modulus_table,
-                                            model.octree_modulus_table(), &format::modulus_slot)) {
+                                            model.octree().modulus_table, &format::modulus_slot)) {
         return damage;
     }
-    return find_lost_node(file, model, SectionId::octree_mixed_table, model.octree_mixed_table(),
+    return find_lost_node(file, model, SectionId::octree_mixed_table, model.octree().mixed_table,
                           &format::mixed_slot);
 }
 

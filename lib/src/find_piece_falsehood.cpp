@@ -27,13 +27,13 @@ ConvexPoints points_in(std::span<const HullBlock> blocks, std::size_t count) {
 std::vector<Double3> corners_below(const Model& model, std::uint32_t level, std::uint32_t node) {
     const std::uint64_t wide = std::uint64_t{1} << (3 * (level + 1));
     const std::uint64_t last =
-        std::min<std::uint64_t>((node + 1) * wide, model.piece_leaves().size());
+        std::min<std::uint64_t>((node + 1) * wide, model.pieces().leaves.size());
     const MovedModel still(model, nullptr);
     std::vector<Double3> corners;
     for (std::uint64_t i = node * wide; i < last; ++i) {
-        const format::PieceLeaf& leaf = model.piece_leaves()[i];
+        const format::PieceLeaf& leaf = model.pieces().leaves[i];
         for (std::uint32_t k = 0; k < leaf.count; ++k) {
-            const Corners c = still.corners(model.piece_triangles()[leaf.first_triangle + k]);
+            const Corners c = still.corners(model.pieces().triangles[leaf.first_triangle + k]);
             corners.insert(corners.end(), c.begin(), c.end());
         }
     }
@@ -64,9 +64,9 @@ bool is_true(const PieceNodeHull& hull, const std::vector<Double3>& corners) {
 std::optional<format::Damage> find_piece_falsehood(std::span<const std::byte> file,
                                                    const Model& model) {
     constexpr auto kHulls = format::SectionId::piece_node_hulls;
-    const auto hulls = model.piece_node_hulls();
+    const auto hulls = model.pieces().node_hulls;
     const auto shape =
-        format::piece_tree_shape(static_cast<std::uint32_t>(model.piece_leaves().size()));
+        format::piece_tree_shape(static_cast<std::uint32_t>(model.pieces().leaves.size()));
     for (std::uint32_t level = 0; level < shape.levels; ++level) {
         for (std::uint32_t node = 0; node < shape.count[level]; ++node) {
             const std::uint32_t number = shape.first[level] + node;

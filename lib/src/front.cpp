@@ -63,8 +63,8 @@ Front::Front(PairFront& kept, const Model& a, const Model& b, const PlacedBoxes&
       trees_(trees),
       scratch_(scratch),
       models_{a.header().content_hash, b.header().content_hash},
-      a_{trees.a, leaves.placement().a, placed.scale_a, a.piece_node_hulls(), a.header()},
-      b_{trees.b, leaves.placement().b, placed.scale_b, b.piece_node_hulls(), b.header()},
+      a_{trees.a, leaves.placement().a, placed.scale_a, a.pieces().node_hulls, a.header()},
+      b_{trees.b, leaves.placement().b, placed.scale_b, b.pieces().node_hulls, b.header()},
       way_(way),
       slack_(kSlack * double{placed.placement.slack}) {}
 

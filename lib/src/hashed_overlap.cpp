@@ -62,7 +62,7 @@ kernels::BoxPairs spread_to_rows(unsigned of_b) noexcept {
 class PairPlanes {
 public:
     PairPlanes(const Model& a, const PlacedBoxes& placed) noexcept {
-        const format::OctreeGrid& grid = *a.octree_grid();
+        const format::OctreeGrid& grid = *a.octree().grid;
         const Double3& o = a.header().frame_origin;
         const std::array<double, 3> from = {grid.origin.x - o.x, grid.origin.y - o.y,
                                             grid.origin.z - o.z};
@@ -115,11 +115,11 @@ public:
         : search_(question.search),
           tree_a_(question.a),
           tree_b_(question.b),
-          parts_(octree_index(question.a), question.a.octree_references(), question.through.search),
+          parts_(octree_index(question.a), question.a.octree().references, question.through.search),
           planes_(question.a, placed),
           placed_(placed),
           cell_placement_(placed.placement),
-          boxes_of_a_(question.a.octree_boxes().data()),
+          boxes_of_a_(question.a.octree().boxes.data()),
           scratch_(question.workspace.storage()),
           contacts_(contacts),
           kernel_(kernels::active()) {
@@ -435,10 +435,10 @@ Placement swapped(const Placement& placement) noexcept {
 }
 
 bool has_hashed_octree(const Model& model) noexcept {
-    return model.octree_grid() != nullptr && !model.octree_nodes().empty() &&
-           !model.octree_leaf_codes().empty() && !model.octree_leaf_nodes().empty() &&
-           !model.octree_top().empty() && !model.octree_modulus_table().empty() &&
-           !model.octree_mixed_table().empty();
+    return model.octree().grid != nullptr && !model.octree().nodes.empty() &&
+           !model.octree().leaf_codes.empty() && !model.octree().leaf_nodes.empty() &&
+           !model.octree().top.empty() && !model.octree().modulus_table.empty() &&
+           !model.octree().mixed_table.empty();
 }
 
 /// Boxes of B among the cells of A.

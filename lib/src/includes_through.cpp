@@ -139,17 +139,17 @@ std::span<const std::uint32_t> listed(std::span<const std::uint32_t> references,
 
 /// The leaf that holds the cone of a key of the deepest level, or null.
 const format::TetraNode* find_leaf(const Model& model, std::uint32_t key) noexcept {
-    const format::TetraTree& tree = *model.tetra_tree();
+    const format::TetraTree& tree = *model.tetra_tree().tree;
     const std::uint32_t top_key = key >> (2 * (tree.level - tree.top_level));
-    const std::uint32_t entry = model.tetra_top()[top_key - (8U << (2 * tree.top_level))];
+    const std::uint32_t entry = model.tetra_tree().top[top_key - (8U << (2 * tree.top_level))];
     if (entry == 0) return nullptr;
-    const format::TetraNode* node = &model.tetra_nodes()[entry - 1];
+    const format::TetraNode* node = &model.tetra_tree().nodes[entry - 1];
     for (std::uint32_t level = tetra_level(node->key);
          (node->flags & format::tetra_inner) != 0 && level < tree.level; ++level) {
         const std::uint32_t child = (key >> (2 * (tree.level - level - 1))) & 3;
         const std::uint32_t mask = node->flags & format::tetra_children;
         if ((mask >> child & 1) == 0) return nullptr;
-        node = &model.tetra_nodes()[node->first + lanes_before(mask, child)];
+        node = &model.tetra_tree().nodes[node->first + lanes_before(mask, child)];
     }
     return node;
 }
@@ -162,7 +162,7 @@ const format::TetraNode* find_leaf(const Model& model, std::uint32_t key) noexce
 /// no list.
 bool is_beyond(const format::TetraNode& leaf, const Model& model, const Double3& q) noexcept {
     constexpr double kRootOfThree = 1.7320508075688772;
-    const Double3& c = model.tetra_tree()->centre;
+    const Double3& c = model.tetra_tree().tree->centre;
     const auto apart = [&](double a, double b) {
         return scaled(std::fabs(a - b), model.header().frame_exponent);
     };
@@ -171,18 +171,18 @@ bool is_beyond(const format::TetraNode& leaf, const Model& model, const Double3&
 }
 
 Inclusion through_tetra_tree(const Model& model, const Double3& q, QueryCounts* counts) noexcept {
-    const format::TetraTree& tree = *model.tetra_tree();
+    const format::TetraTree& tree = *model.tetra_tree().tree;
     const bool at_centre = q == tree.centre;
     Crossings crossings(model, at_centre ? before_along_x(q, reach_of(model)) : tree.centre, q,
                         counts);
-    for (const std::uint32_t t : model.tetra_references().first(tree.centre_count)) {
+    for (const std::uint32_t t : model.tetra_tree().references.first(tree.centre_count)) {
         if (!crossings.add(t & ~format::kSharedReference)) return crossings.inclusion();
     }
     const std::uint32_t least = 8U << (2 * tree.level);
     const std::uint32_t key = at_centre ? least : tetra_key(tree.centre, q, tree.level);
     const format::TetraNode* leaf = find_leaf(model, key);
     if (leaf == nullptr || is_beyond(*leaf, model, q)) return crossings.inclusion();
-    for (const std::uint32_t t : listed(model.tetra_references(), *leaf)) {
+    for (const std::uint32_t t : listed(model.tetra_tree().references, *leaf)) {
         if (!crossings.add(t & ~format::kSharedReference)) break;
     }
     return crossings.inclusion();
@@ -241,15 +241,15 @@ struct FoundCell {
 /// The leaf that holds a finest cell, or the largest cell there that no leaf overlaps:
 /// those before and behind along the z curve are the nearest.
 FoundCell find_cell(const Model& model, std::uint64_t code) noexcept {
-    const auto codes = model.octree_leaf_codes();
-    const auto top = model.octree_top();
-    const std::uint64_t cell = code >> (3 * (format::kOctreeBits - model.octree_grid()->top_level));
+    const auto codes = model.octree().leaf_codes;
+    const auto top = model.octree().top;
+    const std::uint64_t cell = code >> (3 * (format::kOctreeBits - model.octree().grid->top_level));
     const auto behind =
         std::upper_bound(codes.begin() + top[cell], codes.begin() + top[cell + 1], code);
     std::uint32_t empty = 0;
     if (behind != codes.begin()) {
         const auto index = static_cast<std::size_t>(behind - codes.begin()) - 1;
-        const format::OctreeNode& leaf = model.octree_nodes()[model.octree_leaf_nodes()[index]];
+        const format::OctreeNode& leaf = model.octree().nodes[model.octree().leaf_nodes[index]];
         const std::uint32_t level = std::min(level_of(leaf.key), format::kOctreeBits);
         if (code - codes[index] < cells_below(level)) return {&leaf, level};
         empty = level_between(code, codes[index]);
@@ -259,7 +259,7 @@ FoundCell find_cell(const Model& model, std::uint64_t code) noexcept {
 }
 
 Inclusion through_keys(const Model& model, const Double3& q, QueryCounts* counts) noexcept {
-    const format::OctreeGrid& grid = *model.octree_grid();
+    const format::OctreeGrid& grid = *model.octree().grid;
     if (!holds(octree_box(grid, {0, 0, 0}, 0), q)) return {};
     Crossings crossings(model, before_along_x(q, reach_of(model)), q, counts);
     CellPlace place = octree_cell(grid, q);
@@ -271,7 +271,7 @@ Inclusion through_keys(const Model& model, const Double3& q, QueryCounts* counts
         if (cell.leaf == nullptr) continue;
         const Piece piece = {octree_plane(grid.origin.x, grid.step, first),
                              octree_plane(grid.origin.x, grid.step, place[0])};
-        if (!crossings.add(listed(model.octree_references(), *cell.leaf), piece)) break;
+        if (!crossings.add(listed(model.octree().references, *cell.leaf), piece)) break;
     }
     return crossings.inclusion();
 }
@@ -282,7 +282,8 @@ Inclusion includes_through(Structure structure, const Model& model, const Double
                            Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
     require(model, Ask::inside | ask_of(structure));
-    if (!model.is_closed() || model.triangle_count() == 0) return includes(model, p, workspace);
+    if (!model.is_balanced() || model.triangle_count() == 0)
+        return points_inside(model, p, workspace);
     QueryCounts* counts = workspace.storage().counts;
     switch (structure) {
         case Structure::tetra_tree:
@@ -298,7 +299,7 @@ Inclusion includes_through(Structure structure, const Model& model, const Double
         case Structure::pieces:  // nothing is asked of one model through them
             break;
     }
-    return includes(model, p, workspace);
+    return points_inside(model, p, workspace);
 }
 
 }  // namespace cdprep

@@ -52,12 +52,12 @@ public:
     LeafBatch(const Model& a, const Model& b, const PlacedBoxes& placed,
               Workspace::Storage& scratch) noexcept
         : scratch_(scratch),
-          leaves_a_(a.leaves().data()),
-          leaves_b_(b.leaves().data()),
+          leaves_a_(a.bvh().leaves.data()),
+          leaves_b_(b.bvh().leaves.data()),
           last_a_(a.triangle_count()),
           last_b_(b.triangle_count()),
-          source_a_(a.source_triangle().data()),
-          source_b_(b.source_triangle().data()),
+          source_a_(a.source().triangle.data()),
+          source_b_(b.source().triangle.data()),
           placement_(place_leaves(a, b, placed)) {
         scratch_.leaf_scratch.begin();
     }

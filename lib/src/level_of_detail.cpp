@@ -31,8 +31,8 @@ constexpr double kRoot3 = 1.7320508075688773;
 class Facets {
 public:
     Facets(const Model& model, std::uint32_t level) noexcept
-        : nodes_(model.tetra_nodes()),
-          level_(std::min(level, model.tetra_tree()->level)),
+        : nodes_(model.tetra_tree().nodes),
+          level_(std::min(level, model.tetra_tree().tree->level)),
           frame_unit_(std::ldexp(1.0, -model.header().frame_exponent)) {}
 
     [[nodiscard]] std::uint32_t level() const noexcept {
@@ -78,7 +78,7 @@ private:
 class Core {
 public:
     Core(const Model& model, const Pose& pose, const Facets& facets) noexcept
-        : model_(model), tree_(*model.tetra_tree()), pose_(pose), facets_(facets) {
+        : model_(model), tree_(*model.tetra_tree().tree), pose_(pose), facets_(facets) {
         const Double3& c = tree_.centre;
         const Double3& t = pose.translation();
         size_ = std::max({std::fabs(c.x), std::fabs(c.y), std::fabs(c.z)}) +
@@ -88,7 +88,7 @@ public:
 
     /// Whether there is such an inside.
     [[nodiscard]] bool is_certain() const noexcept {
-        return model_.is_closed() && (tree_.flags & format::tetra_centre_inside) != 0 &&
+        return model_.is_balanced() && (tree_.flags & format::tetra_centre_inside) != 0 &&
                tree_.centre_count == 0;
     }
 
@@ -185,7 +185,7 @@ bool may_meet(const Model& a, const Model& b, const Placement& placement, std::u
     const PlacedBoxes placed = place_boxes(a, b, placement);
     if (placed.apart) return false;
     // A triangle at a centre is below no facet.
-    if (a.tetra_tree()->centre_count > 0 || b.tetra_tree()->centre_count > 0) return true;
+    if (a.tetra_tree().tree->centre_count > 0 || b.tetra_tree().tree->centre_count > 0) return true;
     const TetraTreeCells in_a(a, {level, true});
     const TetraTreeCells in_b(b, {level, true});
     if (in_a.is_empty() || in_b.is_empty()) return false;

@@ -82,12 +82,12 @@ public:
         : lists_a_(lists_a),
           lists_b_(lists_b),
           placed_(placed),
-          nodes_a_(a.nodes().data() + a.shape().first[0]),
-          nodes_b_(b.nodes().data() + b.shape().first[0]),
+          nodes_a_(a.bvh().nodes.data() + a.bvh().shape.first[0]),
+          nodes_b_(b.bvh().nodes.data() + b.bvh().shape.first[0]),
           met_(met) {
-        if (!a.oriented_nodes().empty() && !b.oriented_nodes().empty()) {
-            oriented_a_ = a.oriented_nodes().data() + a.shape().first[0];
-            oriented_b_ = b.oriented_nodes().data() + b.shape().first[0];
+        if (!a.bvh().oriented.empty() && !b.bvh().oriented.empty()) {
+            oriented_a_ = a.bvh().oriented.data() + a.bvh().shape.first[0];
+            oriented_b_ = b.bvh().oriented.data() + b.bvh().shape.first[0];
         }
         lists_a_.begin(a);
         lists_b_.begin(b);

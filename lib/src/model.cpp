@@ -21,74 +21,25 @@ struct Model::State {
     const format::FileHeader* header = nullptr;
     SectionSet sections;
     SectionSet in_file;  ///< also those that were not asked for
-    format::BvhShape shape;
-    std::span<const Float3> positions_f32;
-    std::span<const Double3> positions_f64;
-    std::span<const format::Triangle> triangles;
-    std::span<const std::uint32_t> source_triangle;
-    std::span<const std::uint32_t> source_vertex;
-    std::span<const std::uint32_t> source_face;
-    std::span<const format::BvhNode> nodes;
-    std::span<const format::BvhLeaf> leaves;
-    std::span<const format::OrientedNode> oriented_nodes;
-    std::span<const format::SweptNode> swept_nodes;
-    std::span<const std::uint64_t> degenerate_bits;
-    std::span<const format::Component> components;
-    std::span<const format::Bounds> bounds;
-    std::span<const format::MassProperties> mass_properties;
-    std::span<const format::Instance> instances;
-    std::span<const format::NamedRun> group_runs;
-    std::span<const format::NamedRun> material_runs;
-    std::span<const char> instance_names;
-    std::span<const char> group_names;
-    std::span<const char> material_names;
-    std::span<const char> provenance;
-    std::span<const format::Verdict> verdicts;
-    std::span<const char> findings;
-    std::span<const std::uint32_t> repaired_from;
-    std::span<const format::OctreeGrid> octree_grid;
-    std::span<const format::AdaptiveOctree> adaptive_octree;
-    std::span<const format::TetraTree> tetra_tree;
-    std::span<const format::OctreeNode> octree_nodes;
-    std::span<const std::uint32_t> octree_references;
-    std::span<const std::uint64_t> octree_leaf_codes;
-    std::span<const std::uint32_t> octree_leaf_nodes;
-    std::span<const std::uint32_t> octree_top;
-    std::span<const std::uint32_t> octree_modulus_table;
-    std::span<const std::uint32_t> octree_mixed_table;
-    std::span<const format::AdaptiveOctreeNode> adaptive_octree_nodes;
-    std::span<const std::uint32_t> adaptive_octree_references;
-    std::span<const format::CellBox> octree_boxes;
-    std::span<const format::CellBox> adaptive_octree_boxes;
-    std::span<const format::TetraNode> tetra_nodes;
-    std::span<const std::uint32_t> tetra_references;
-    std::span<const std::uint32_t> tetra_top;
-    std::span<const format::BvhNode> tetra_boxes;
-    std::span<const format::OrientedNode> tetra_oriented;
-    std::span<const format::Hull> hulls;
-    std::span<const format::HullBlock> hull_blocks;
-    std::span<const std::uint32_t> hull_vertices;
-    std::span<const format::HullFacet> hull_facets;
-    std::span<const format::HullGroup> hull_groups;
-    std::span<const std::uint32_t> hull_neighbours;
-    std::span<const std::uint32_t> hull_starts;
-    std::span<const format::Piece> pieces;
-    std::span<const std::uint32_t> piece_triangles;
-    std::span<const std::uint32_t> piece_vertices;
-    std::span<const format::PieceFacet> piece_facets;
-    std::span<const format::BvhNode> piece_nodes;
-    std::span<const format::SweptNode> piece_swept;
-    std::span<const format::PieceLeaf> piece_leaves;
-    std::span<const format::PieceNodeHull> piece_node_hulls;
-    std::span<const format::PieceAdjacency> piece_adjacency;
-    std::span<const std::uint8_t> edge_convexity;
-    std::span<const std::uint32_t> triangle_piece;
+    MeshView mesh;
+    SourceView source;
+    BvhView bvh;
+    OctreeView octree;
+    AdaptiveOctreeView adaptive_octree;
+    TetraTreeView tetra_tree;
+    HullView hulls;
+    PieceView pieces;
+    RecordView record;
+    std::string_view instance_names;
+    std::string_view group_names;
+    std::string_view material_names;
 
     void find_sections(SectionSet wanted);
 
-    /// A model without triangles has no leaves, and none that lose anything.
+    /// A model without triangles has no leaves, and none that lose anything. Reads the header,
+    /// which a RuntimeModel changes.
     [[nodiscard]] bool has_exact_leaves() const noexcept {
-        return (header->flags & format::model_exact_leaves) != 0 && !leaves.empty();
+        return (header->flags & format::model_exact_leaves) != 0 && !bvh.leaves.empty();
     }
 
 private:
@@ -104,84 +55,91 @@ private:
         span = {reinterpret_cast<const T*>(file.data() + entry->offset),
                 static_cast<std::size_t>(entry->count)};
     }
+    /// The same for a section of at most one element.
+    template <class T>
+    void view(SectionId id, SectionSet wanted, const T*& element) {
+        std::span<const T> span;
+        view(id, wanted, span);
+        if (!span.empty()) element = span.data();
+    }
+    /// The same for text.
+    void view(SectionId id, SectionSet wanted, std::string_view& text) {
+        std::span<const char> span;
+        view(id, wanted, span);
+        text = {span.data(), span.size()};
+    }
 };
 
 void Model::State::find_sections(SectionSet wanted) {
     header = reinterpret_cast<const format::FileHeader*>(file.data());
-    shape = format::bvh_shape(header->triangle_count);
-    view(SectionId::positions_f32, wanted, positions_f32);
-    view(SectionId::positions_f64, wanted, positions_f64);
-    view(SectionId::triangles, wanted, triangles);
-    view(SectionId::source_triangle, wanted, source_triangle);
-    view(SectionId::source_vertex, wanted, source_vertex);
-    view(SectionId::source_face, wanted, source_face);
-    view(SectionId::bvh_nodes, wanted, nodes);
-    view(SectionId::bvh_leaves, wanted, leaves);
-    view(SectionId::oriented_nodes, wanted, oriented_nodes);
-    view(SectionId::swept_nodes, wanted, swept_nodes);
-    view(SectionId::degenerate_bits, wanted, degenerate_bits);
-    view(SectionId::components, wanted, components);
-    view(SectionId::bounds, wanted, bounds);
-    view(SectionId::mass_properties, wanted, mass_properties);
-    view(SectionId::instances, wanted, instances);
+    bvh.shape = format::bvh_shape(header->triangle_count);
+    view(SectionId::positions_f32, wanted, mesh.positions_f32);
+    view(SectionId::positions_f64, wanted, mesh.positions_f64);
+    view(SectionId::triangles, wanted, mesh.triangles);
+    view(SectionId::source_triangle, wanted, source.triangle);
+    view(SectionId::source_vertex, wanted, source.vertex);
+    view(SectionId::source_face, wanted, source.face);
+    view(SectionId::bvh_nodes, wanted, bvh.nodes);
+    view(SectionId::bvh_leaves, wanted, bvh.leaves);
+    view(SectionId::oriented_nodes, wanted, bvh.oriented);
+    view(SectionId::swept_nodes, wanted, bvh.swept);
+    view(SectionId::degenerate_bits, wanted, mesh.degenerate_bits);
+    view(SectionId::components, wanted, record.components);
+    view(SectionId::bounds, wanted, record.bounds);
+    view(SectionId::mass_properties, wanted, record.mass);
+    view(SectionId::instances, wanted, source.instances);
     view(SectionId::instance_names, wanted, instance_names);
-    view(SectionId::group_runs, wanted, group_runs);
+    view(SectionId::group_runs, wanted, source.group_runs);
     view(SectionId::group_names, wanted, group_names);
-    view(SectionId::material_runs, wanted, material_runs);
+    view(SectionId::material_runs, wanted, source.material_runs);
     view(SectionId::material_names, wanted, material_names);
-    view(SectionId::provenance, wanted, provenance);
-    view(SectionId::verdicts, wanted, verdicts);
-    view(SectionId::findings, wanted, findings);
-    view(SectionId::repaired_from, wanted, repaired_from);
-    view(SectionId::octree_grid, wanted, octree_grid);
-    view(SectionId::adaptive_octree, wanted, adaptive_octree);
-    view(SectionId::tetra_tree, wanted, tetra_tree);
-    view(SectionId::octree_nodes, wanted, octree_nodes);
-    view(SectionId::octree_references, wanted, octree_references);
-    view(SectionId::octree_leaf_codes, wanted, octree_leaf_codes);
-    view(SectionId::octree_leaf_nodes, wanted, octree_leaf_nodes);
-    view(SectionId::octree_top, wanted, octree_top);
-    view(SectionId::octree_modulus_table, wanted, octree_modulus_table);
-    view(SectionId::octree_mixed_table, wanted, octree_mixed_table);
-    view(SectionId::adaptive_octree_nodes, wanted, adaptive_octree_nodes);
-    view(SectionId::adaptive_octree_references, wanted, adaptive_octree_references);
-    view(SectionId::octree_boxes, wanted, octree_boxes);
-    view(SectionId::adaptive_octree_boxes, wanted, adaptive_octree_boxes);
-    view(SectionId::tetra_nodes, wanted, tetra_nodes);
-    view(SectionId::tetra_references, wanted, tetra_references);
-    view(SectionId::tetra_top, wanted, tetra_top);
-    view(SectionId::tetra_boxes, wanted, tetra_boxes);
-    view(SectionId::tetra_oriented, wanted, tetra_oriented);
-    view(SectionId::hulls, wanted, hulls);
-    view(SectionId::hull_blocks, wanted, hull_blocks);
-    view(SectionId::hull_vertices, wanted, hull_vertices);
-    view(SectionId::hull_facets, wanted, hull_facets);
-    view(SectionId::hull_groups, wanted, hull_groups);
-    view(SectionId::hull_neighbours, wanted, hull_neighbours);
-    view(SectionId::hull_starts, wanted, hull_starts);
-    view(SectionId::pieces, wanted, pieces);
-    view(SectionId::piece_triangles, wanted, piece_triangles);
-    view(SectionId::piece_vertices, wanted, piece_vertices);
-    view(SectionId::piece_facets, wanted, piece_facets);
-    view(SectionId::piece_nodes, wanted, piece_nodes);
-    view(SectionId::piece_swept, wanted, piece_swept);
-    view(SectionId::piece_leaves, wanted, piece_leaves);
-    view(SectionId::piece_node_hulls, wanted, piece_node_hulls);
-    view(SectionId::piece_adjacency, wanted, piece_adjacency);
-    view(SectionId::edge_convexity, wanted, edge_convexity);
-    view(SectionId::triangle_piece, wanted, triangle_piece);
+    view(SectionId::provenance, wanted, record.provenance);
+    view(SectionId::verdicts, wanted, record.verdicts);
+    view(SectionId::findings, wanted, record.findings);
+    view(SectionId::repaired_from, wanted, source.repaired_from);
+    view(SectionId::octree_grid, wanted, octree.grid);
+    view(SectionId::adaptive_octree, wanted, adaptive_octree.tree);
+    view(SectionId::tetra_tree, wanted, tetra_tree.tree);
+    view(SectionId::octree_nodes, wanted, octree.nodes);
+    view(SectionId::octree_references, wanted, octree.references);
+    view(SectionId::octree_leaf_codes, wanted, octree.leaf_codes);
+    view(SectionId::octree_leaf_nodes, wanted, octree.leaf_nodes);
+    view(SectionId::octree_top, wanted, octree.top);
+    view(SectionId::octree_modulus_table, wanted, octree.modulus_table);
+    view(SectionId::octree_mixed_table, wanted, octree.mixed_table);
+    view(SectionId::adaptive_octree_nodes, wanted, adaptive_octree.nodes);
+    view(SectionId::adaptive_octree_references, wanted, adaptive_octree.references);
+    view(SectionId::octree_boxes, wanted, octree.boxes);
+    view(SectionId::adaptive_octree_boxes, wanted, adaptive_octree.boxes);
+    view(SectionId::tetra_nodes, wanted, tetra_tree.nodes);
+    view(SectionId::tetra_references, wanted, tetra_tree.references);
+    view(SectionId::tetra_top, wanted, tetra_tree.top);
+    view(SectionId::tetra_boxes, wanted, tetra_tree.boxes);
+    view(SectionId::tetra_oriented, wanted, tetra_tree.oriented);
+    view(SectionId::hulls, wanted, hulls.hulls);
+    view(SectionId::hull_blocks, wanted, hulls.blocks);
+    view(SectionId::hull_vertices, wanted, hulls.vertices);
+    view(SectionId::hull_facets, wanted, hulls.facets);
+    view(SectionId::hull_groups, wanted, hulls.groups);
+    view(SectionId::hull_neighbours, wanted, hulls.neighbours);
+    view(SectionId::hull_starts, wanted, hulls.starts);
+    view(SectionId::pieces, wanted, pieces.pieces);
+    view(SectionId::piece_triangles, wanted, pieces.triangles);
+    view(SectionId::piece_vertices, wanted, pieces.vertices);
+    view(SectionId::piece_facets, wanted, pieces.facets);
+    view(SectionId::piece_nodes, wanted, pieces.nodes);
+    view(SectionId::piece_swept, wanted, pieces.swept);
+    view(SectionId::piece_leaves, wanted, pieces.leaves);
+    view(SectionId::piece_node_hulls, wanted, pieces.node_hulls);
+    view(SectionId::piece_adjacency, wanted, pieces.adjacency);
+    view(SectionId::edge_convexity, wanted, mesh.edge_convexity);
+    view(SectionId::triangle_piece, wanted, pieces.of_triangle);
 }
 
 namespace {
 
 Error damaged(std::string_view name, const format::Damage& damage) {
     return {ErrorCode::unreadable, damage_sentence(name, damage)};
-}
-
-/// The element of a section that has one, or null.
-template <class T>
-const T* only(std::span<const T> section) {
-    return section.empty() ? nullptr : section.data();
 }
 
 }  // namespace
@@ -276,12 +234,13 @@ std::optional<Refusal> Model::refusal(Ask asks) const {
     if (missing == Ask::nothing) {
         return Refusal{
             Reason::not_opened,
-            refusal_sentence(state_->name, refused, {state_->sections, exact_leaves, is_closed()},
+            refusal_sentence(state_->name, refused, {state_->sections, exact_leaves, is_balanced()},
                              Reason::not_opened)};
     }
-    return Refusal{Reason::not_baked, refusal_sentence(state_->name, missing,
-                                                       {state_->in_file, exact_leaves, is_closed()},
-                                                       Reason::not_baked)};
+    return Refusal{
+        Reason::not_baked,
+        refusal_sentence(state_->name, missing, {state_->in_file, exact_leaves, is_balanced()},
+                         Reason::not_baked)};
 }
 
 std::uint32_t Model::triangle_count() const noexcept {
@@ -296,197 +255,45 @@ const format::FileHeader& Model::header() const noexcept {
 SectionSet Model::sections() const noexcept {
     return state_->sections;
 }
-std::span<const Float3> Model::positions_f32() const noexcept {
-    return state_->positions_f32;
+const MeshView& Model::mesh() const noexcept {
+    return state_->mesh;
 }
-std::span<const Double3> Model::positions_f64() const noexcept {
-    return state_->positions_f64;
+const SourceView& Model::source() const noexcept {
+    return state_->source;
 }
-std::span<const format::Triangle> Model::triangles() const noexcept {
-    return state_->triangles;
+const BvhView& Model::bvh() const noexcept {
+    return state_->bvh;
 }
-std::span<const std::uint32_t> Model::source_triangle() const noexcept {
-    return state_->source_triangle;
+const OctreeView& Model::octree() const noexcept {
+    return state_->octree;
 }
-std::span<const std::uint32_t> Model::source_vertex() const noexcept {
-    return state_->source_vertex;
+const AdaptiveOctreeView& Model::adaptive_octree() const noexcept {
+    return state_->adaptive_octree;
 }
-std::span<const std::uint32_t> Model::source_face() const noexcept {
-    return state_->source_face;
+const TetraTreeView& Model::tetra_tree() const noexcept {
+    return state_->tetra_tree;
 }
-std::span<const format::BvhNode> Model::nodes() const noexcept {
-    return state_->nodes;
+const HullView& Model::hulls() const noexcept {
+    return state_->hulls;
 }
-std::span<const format::BvhLeaf> Model::leaves() const noexcept {
-    return state_->leaves;
+const PieceView& Model::pieces() const noexcept {
+    return state_->pieces;
+}
+const RecordView& Model::record() const noexcept {
+    return state_->record;
 }
 bool Model::has_exact_leaves() const noexcept {
     return state_->has_exact_leaves();
 }
-std::span<const format::OrientedNode> Model::oriented_nodes() const noexcept {
-    return state_->oriented_nodes;
-}
-std::span<const format::SweptNode> Model::swept_nodes() const noexcept {
-    return state_->swept_nodes;
-}
-std::span<const std::uint64_t> Model::degenerate_bits() const noexcept {
-    return state_->degenerate_bits;
-}
-std::span<const format::Component> Model::components() const noexcept {
-    return state_->components;
-}
-std::span<const format::Instance> Model::instances() const noexcept {
-    return state_->instances;
-}
-std::span<const format::NamedRun> Model::group_runs() const noexcept {
-    return state_->group_runs;
-}
-std::span<const format::NamedRun> Model::material_runs() const noexcept {
-    return state_->material_runs;
-}
-const format::Bounds* Model::bounds() const noexcept {
-    return only(state_->bounds);
-}
-const format::MassProperties* Model::mass_properties() const noexcept {
-    return only(state_->mass_properties);
-}
-std::string_view Model::provenance() const noexcept {
-    return {state_->provenance.data(), state_->provenance.size()};
-}
-std::string_view Model::findings() const noexcept {
-    return {state_->findings.data(), state_->findings.size()};
-}
-std::span<const std::uint32_t> Model::repaired_from() const noexcept {
-    return state_->repaired_from;
-}
-std::span<const format::Verdict> Model::verdicts() const noexcept {
-    return state_->verdicts;
-}
-const format::BvhShape& Model::shape() const noexcept {
-    return state_->shape;
-}
-bool Model::is_closed() const noexcept {
-    return (state_->header->flags & format::model_closed) != 0;
-}
-
-const format::OctreeGrid* Model::octree_grid() const noexcept {
-    return only(state_->octree_grid);
-}
-const format::AdaptiveOctree* Model::adaptive_octree() const noexcept {
-    return only(state_->adaptive_octree);
-}
-const format::TetraTree* Model::tetra_tree() const noexcept {
-    return only(state_->tetra_tree);
-}
-std::span<const format::OctreeNode> Model::octree_nodes() const noexcept {
-    return state_->octree_nodes;
-}
-std::span<const std::uint32_t> Model::octree_references() const noexcept {
-    return state_->octree_references;
-}
-std::span<const std::uint64_t> Model::octree_leaf_codes() const noexcept {
-    return state_->octree_leaf_codes;
-}
-std::span<const std::uint32_t> Model::octree_leaf_nodes() const noexcept {
-    return state_->octree_leaf_nodes;
-}
-std::span<const std::uint32_t> Model::octree_top() const noexcept {
-    return state_->octree_top;
-}
-std::span<const std::uint32_t> Model::octree_modulus_table() const noexcept {
-    return state_->octree_modulus_table;
-}
-std::span<const std::uint32_t> Model::octree_mixed_table() const noexcept {
-    return state_->octree_mixed_table;
-}
-std::span<const format::AdaptiveOctreeNode> Model::adaptive_octree_nodes() const noexcept {
-    return state_->adaptive_octree_nodes;
-}
-std::span<const std::uint32_t> Model::adaptive_octree_references() const noexcept {
-    return state_->adaptive_octree_references;
-}
-std::span<const format::CellBox> Model::octree_boxes() const noexcept {
-    return state_->octree_boxes;
-}
-std::span<const format::CellBox> Model::adaptive_octree_boxes() const noexcept {
-    return state_->adaptive_octree_boxes;
-}
-std::span<const format::TetraNode> Model::tetra_nodes() const noexcept {
-    return state_->tetra_nodes;
-}
-std::span<const std::uint32_t> Model::tetra_references() const noexcept {
-    return state_->tetra_references;
-}
-std::span<const std::uint32_t> Model::tetra_top() const noexcept {
-    return state_->tetra_top;
-}
-std::span<const format::BvhNode> Model::tetra_boxes() const noexcept {
-    return state_->tetra_boxes;
-}
-std::span<const format::OrientedNode> Model::tetra_oriented() const noexcept {
-    return state_->tetra_oriented;
-}
-std::span<const format::Hull> Model::hulls() const noexcept {
-    return state_->hulls;
-}
-std::span<const format::HullBlock> Model::hull_blocks() const noexcept {
-    return state_->hull_blocks;
-}
-std::span<const std::uint32_t> Model::hull_vertices() const noexcept {
-    return state_->hull_vertices;
-}
-std::span<const format::HullFacet> Model::hull_facets() const noexcept {
-    return state_->hull_facets;
-}
-std::span<const format::HullGroup> Model::hull_groups() const noexcept {
-    return state_->hull_groups;
-}
-std::span<const std::uint32_t> Model::hull_neighbours() const noexcept {
-    return state_->hull_neighbours;
-}
-std::span<const std::uint32_t> Model::hull_starts() const noexcept {
-    return state_->hull_starts;
-}
-std::span<const format::Piece> Model::pieces() const noexcept {
-    return state_->pieces;
-}
-std::span<const std::uint32_t> Model::piece_triangles() const noexcept {
-    return state_->piece_triangles;
-}
-std::span<const std::uint32_t> Model::piece_vertices() const noexcept {
-    return state_->piece_vertices;
-}
-std::span<const format::PieceFacet> Model::piece_facets() const noexcept {
-    return state_->piece_facets;
-}
-std::span<const format::BvhNode> Model::piece_nodes() const noexcept {
-    return state_->piece_nodes;
-}
-std::span<const format::SweptNode> Model::piece_swept() const noexcept {
-    return state_->piece_swept;
-}
-std::span<const format::PieceLeaf> Model::piece_leaves() const noexcept {
-    return state_->piece_leaves;
-}
-std::span<const format::PieceNodeHull> Model::piece_node_hulls() const noexcept {
-    return state_->piece_node_hulls;
-}
-std::span<const format::PieceAdjacency> Model::piece_adjacency() const noexcept {
-    return state_->piece_adjacency;
-}
-std::span<const std::uint8_t> Model::edge_convexity() const noexcept {
-    return state_->edge_convexity;
-}
-std::span<const std::uint32_t> Model::triangle_piece() const noexcept {
-    return state_->triangle_piece;
+bool Model::is_balanced() const noexcept {
+    return (state_->header->flags & format::model_balanced) != 0;
 }
 
 std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {
-    std::span<const char> text;
-    if (names == SectionId::instance_names) text = state_->instance_names;
-    if (names == SectionId::group_names) text = state_->group_names;
-    if (names == SectionId::material_names) text = state_->material_names;
-    std::string_view rest(text.data(), text.size());
+    std::string_view rest;
+    if (names == SectionId::instance_names) rest = state_->instance_names;
+    if (names == SectionId::group_names) rest = state_->group_names;
+    if (names == SectionId::material_names) rest = state_->material_names;
     for (std::uint32_t i = 0; !rest.empty(); ++i) {
         const std::size_t end = rest.find('\0');
         if (i == index) return rest.substr(0, end);

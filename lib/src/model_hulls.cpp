@@ -20,7 +20,7 @@ std::optional<std::uint32_t> find_hull(const Model& model, HullScope scope,
         return std::uint64_t{static_cast<std::uint32_t>(hull.scope)} << 32 | hull.number;
     };
     const std::uint64_t sought = std::uint64_t{static_cast<std::uint32_t>(scope)} << 32 | number;
-    const std::span<const Hull> hulls = model.hulls();
+    const std::span<const Hull> hulls = model.hulls().hulls;
     const auto found =
         std::lower_bound(hulls.begin(), hulls.end(), sought,
                          [&](const Hull& hull, std::uint64_t key) { return place(hull) < key; });
@@ -30,18 +30,18 @@ std::optional<std::uint32_t> find_hull(const Model& model, HullScope scope,
 
 ConvexPoints convex_points(const Model& model, std::uint32_t hull) noexcept {
     require(model, Ask::hulls);
-    assert(hull < model.hulls().size());
-    const Hull& found = model.hulls()[hull];
+    assert(hull < model.hulls().hulls.size());
+    const Hull& found = model.hulls().hulls[hull];
     ConvexPoints points;
     points.count = found.point_count;
-    points.blocks = model.hull_blocks().subspan(
+    points.blocks = model.hulls().blocks.subspan(
         found.first_block, (found.point_count + format::kHullLanes - 1) / format::kHullLanes);
     points.reach = found.reach;
     if (found.neighbour_count == 0) return points;
-    const auto words = model.hull_neighbours().subspan(found.first_neighbour);
+    const auto words = model.hulls().neighbours.subspan(found.first_neighbour);
     points.neighbour_begins = words.first(std::size_t{found.point_count} + 1);
     points.neighbours = words.subspan(std::size_t{found.point_count} + 1, found.neighbour_count);
-    points.starts = model.hull_starts().subspan(found.first_start, found.start_count);
+    points.starts = model.hulls().starts.subspan(found.first_start, found.start_count);
     return points;
 }
 

@@ -8,17 +8,17 @@
 namespace cdprep {
 
 FeatureHull feature_hull(const Model& model, std::uint32_t piece) noexcept {
-    assert(piece < model.pieces().size());
+    assert(piece < model.pieces().pieces.size());
     FeatureHull hull;
     hull.points.corners =
-        part_of_piece(model.piece_vertices(), model, piece, &format::Piece::first_vertex);
+        part_of_piece(model.pieces().vertices, model, piece, &format::Piece::first_vertex);
     hull.points.count = static_cast<std::uint32_t>(hull.points.corners.size());
-    hull.points.floats = model.positions_f32();
-    hull.points.doubles = model.positions_f64();
-    if (model.piece_adjacency().size() != model.piece_facets().size()) return hull;
-    hull.facets = part_of_piece(model.piece_facets(), model, piece, &format::Piece::first_facet);
+    hull.points.floats = model.mesh().positions_f32;
+    hull.points.doubles = model.mesh().positions_f64;
+    if (model.pieces().adjacency.size() != model.pieces().facets.size()) return hull;
+    hull.facets = part_of_piece(model.pieces().facets, model, piece, &format::Piece::first_facet);
     hull.adjacency =
-        part_of_piece(model.piece_adjacency(), model, piece, &format::Piece::first_facet);
+        part_of_piece(model.pieces().adjacency, model, piece, &format::Piece::first_facet);
     return hull;
 }
 

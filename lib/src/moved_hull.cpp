@@ -12,9 +12,10 @@
 //
 //   G = d' . (p - v) in double  is off by 4u of the products' sizes:       8.1 u S
 //   d' is off by 3u in each component, times |p - v| <= 2 X:               6.1 u S
-//   moved(p) and moved(v) are off by 4u of their products' sizes and T:    8.1 u S
+//   transform_point(p) and transform_point(v) are off by 4u of their products' sizes and T:    8.1
+//   u S
 //
-// so d . (moved(p) - moved(v)) differs from G by less than s = 24 u S.
+// so d . (transform_point(p) - transform_point(v)) differs from G by less than s = 24 u S.
 //
 // The corners of a convex polytope that are higher than any given height hang together
 // by its edges. So let M be a set of corners that hang together, among them v, such that

@@ -14,7 +14,7 @@
 namespace cdprep {
 
 /// A hull as one query sees it: where its points are after moving, each rounded by
-/// moved(). The answers are about those points.
+/// transform_point(). The answers are about those points.
 class MovedHull {
 public:
     MovedHull(const ConvexPoints& points, const Pose* pose) noexcept;

@@ -50,10 +50,10 @@ struct MovedModel {
     MovedModel(const Model& of, const Pose* by) noexcept
         : model(&of),
           pose(by),
-          exact_leaves_(of.has_exact_leaves() ? of.leaves().data() : nullptr),
-          triangles_(of.triangles().data()),
-          floats_(of.positions_f32().empty() ? nullptr : of.positions_f32().data()),
-          doubles_(of.positions_f64().data()) {}
+          exact_leaves_(of.has_exact_leaves() ? of.bvh().leaves.data() : nullptr),
+          triangles_(of.mesh().triangles.data()),
+          floats_(of.mesh().positions_f32.empty() ? nullptr : of.mesh().positions_f32.data()),
+          doubles_(of.mesh().positions_f64.data()) {}
 
     /// Corners of triangle `index` of the tree order. Exactly the points that
     /// the query answers for.

@@ -503,7 +503,7 @@ std::optional<Distance> distance_by(const Model& a, const Model& b, const Placem
                                     PairCache* cache, PairFront* front) noexcept {
     if (!(options.max_distance >= 0)) return std::nullopt;
     if constexpr (Trees::kHasHulls) {
-        if (front != nullptr && options.as == As::surface && is_of(*front, a, b)) {
+        if (front != nullptr && options.body == Body::surface && is_of(*front, a, b)) {
             const FrontDistance found =
                 distance_by_front<Trees>(a, b, placement, workspace, options, *cache, *front);
             if (found.answered) return found.distance;
@@ -517,7 +517,7 @@ std::optional<Distance> distance_by(const Model& a, const Model& b, const Placem
             return touching(a, b, placement, *at);
         }
     }
-    if (options.as == As::solid &&
+    if (options.body == Body::solid &&
         find_containment(a, b, placement, workspace).answer == Answer::yes) {
         return inside<Trees>(a, b, placement, workspace, cache, front);
     }

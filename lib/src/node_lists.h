@@ -52,9 +52,9 @@ class NodeLists {
 public:
     /// For other models, or another tree of them.
     void begin(const Model& model) noexcept {
-        const format::BvhShape& shape = model.shape();
+        const format::BvhShape& shape = model.bvh().shape;
         shape_ = &shape;
-        boxes_ = shape.levels > 1 ? model.nodes().data() + shape.first[1] : nullptr;
+        boxes_ = shape.levels > 1 ? model.bvh().nodes.data() + shape.first[1] : nullptr;
         ++question_;
     }
 

@@ -73,11 +73,11 @@ std::uint64_t bytes_of(std::span<const Elements>... tables) noexcept {
 
 OctreeFigures octree_figures(const Model& model) noexcept {
     return figures_of<OctreeNode>(
-        {model.triangle_count(), model.octree_nodes(), model.octree_references(),
-         model.octree_grid() == nullptr ? 0 : sizeof(format::OctreeGrid),
-         bytes_of(model.octree_leaf_codes(), model.octree_leaf_nodes(), model.octree_top(),
-                  model.octree_modulus_table(), model.octree_mixed_table()),
-         bytes_of(model.octree_boxes())});
+        {model.triangle_count(), model.octree().nodes, model.octree().references,
+         model.octree().grid == nullptr ? 0 : sizeof(format::OctreeGrid),
+         bytes_of(model.octree().leaf_codes, model.octree().leaf_nodes, model.octree().top,
+                  model.octree().modulus_table, model.octree().mixed_table),
+         bytes_of(model.octree().boxes)});
 }
 
 OctreeFigures octree_figures(const build::Octree& octree, std::uint64_t triangle_count) noexcept {
@@ -91,9 +91,9 @@ OctreeFigures octree_figures(const build::Octree& octree, std::uint64_t triangle
 
 OctreeFigures adaptive_octree_figures(const Model& model) noexcept {
     return figures_of<AdaptiveOctreeNode>(
-        {model.triangle_count(), model.adaptive_octree_nodes(), model.adaptive_octree_references(),
-         model.adaptive_octree() == nullptr ? 0 : sizeof(format::AdaptiveOctree), 0,
-         bytes_of(model.adaptive_octree_boxes())});
+        {model.triangle_count(), model.adaptive_octree().nodes, model.adaptive_octree().references,
+         model.adaptive_octree().tree == nullptr ? 0 : sizeof(format::AdaptiveOctree), 0,
+         bytes_of(model.adaptive_octree().boxes)});
 }
 
 OctreeFigures adaptive_octree_figures(const build::AdaptiveOctree& octree,

@@ -4,16 +4,16 @@
 namespace cdprep {
 
 OctreeIndex octree_index(const Model& model) noexcept {
-    const auto nodes = model.octree_nodes();
-    return {.top_level = model.octree_grid()->top_level,
-            .slot_bits = model.octree_grid()->slot_bits,
+    const auto nodes = model.octree().nodes;
+    return {.top_level = model.octree().grid->top_level,
+            .slot_bits = model.octree().grid->slot_bits,
             .deepest = nodes.empty() ? 0 : level_of(nodes.back().key),
             .nodes = nodes,
-            .leaf_codes = model.octree_leaf_codes(),
-            .leaf_nodes = model.octree_leaf_nodes(),
-            .top = model.octree_top(),
-            .modulus_table = model.octree_modulus_table(),
-            .mixed_table = model.octree_mixed_table()};
+            .leaf_codes = model.octree().leaf_codes,
+            .leaf_nodes = model.octree().leaf_nodes,
+            .top = model.octree().top,
+            .modulus_table = model.octree().modulus_table,
+            .mixed_table = model.octree().mixed_table};
 }
 
 OctreeIndex octree_index(const build::Octree& octree) noexcept {

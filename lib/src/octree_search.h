@@ -32,7 +32,7 @@ struct OctreeIndex {
     std::span<const std::uint32_t> mixed_table;
 };
 
-/// The index of a model that has octree_grid(), or of a builder's octree; empty without nodes.
+/// The index of a model that has octree().grid, or of a builder's octree; empty without nodes.
 [[nodiscard]] OctreeIndex octree_index(const Model& model) noexcept;
 [[nodiscard]] OctreeIndex octree_index(const build::Octree& octree) noexcept;
 

@@ -23,12 +23,12 @@ public:
     };
 
     explicit OctreeTree(const Model& model) noexcept
-        : grid_(model.octree_grid()),
-          nodes_(model.octree_nodes().data()),
-          references_(model.octree_references()),
+        : grid_(model.octree().grid),
+          nodes_(model.octree().nodes.data()),
+          references_(model.octree().references),
           frame_(model),
-          boxes_(model.octree_boxes().data()),
-          is_empty_(grid_ == nullptr || model.octree_nodes().empty()) {}
+          boxes_(model.octree().boxes.data()),
+          is_empty_(grid_ == nullptr || model.octree().nodes.empty()) {}
 
     [[nodiscard]] bool is_empty() const noexcept {
         return is_empty_;

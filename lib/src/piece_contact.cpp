@@ -22,7 +22,7 @@ bool any_contact_of_pieces(const Model& a, const Model& b, const Placement& plac
     if (cache == nullptr) {
         return find_contact_by<PieceTrees>(a, b, placement, workspace, options).has_value();
     }
-    if (a.piece_leaves().empty() || b.piece_leaves().empty()) return false;
+    if (a.pieces().leaves.empty() || b.pieces().leaves.empty()) return false;
     return any_contact(a, b, placement, workspace, options, &cache->pair);
 }
 

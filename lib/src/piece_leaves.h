@@ -23,17 +23,17 @@ namespace cdprep {
 class PieceLeaves {
 public:
     explicit PieceLeaves(const Model& model) noexcept
-        : leaves_(model.piece_leaves().data()),
-          triangles_(model.piece_triangles().data()),
-          exact_(model.has_exact_leaves() ? model.leaves().data() : nullptr),
+        : leaves_(model.pieces().leaves.data()),
+          triangles_(model.pieces().triangles.data()),
+          exact_(model.has_exact_leaves() ? model.bvh().leaves.data() : nullptr),
           exponent_(model.header().frame_exponent),
-          count_(static_cast<std::uint32_t>(model.piece_leaves().size())) {}
+          count_(static_cast<std::uint32_t>(model.pieces().leaves.size())) {}
 
     [[nodiscard]] Tree tree(const Model& model) const noexcept {
         Tree tree(model);
-        tree.nodes = model.piece_nodes().data();
+        tree.nodes = model.pieces().nodes.data();
         tree.oriented = nullptr;
-        tree.swept = model.piece_swept().data();
+        tree.swept = model.pieces().swept.data();
         tree.swept_kind = format::SweptKind::rectangle;
         tree.shape = format::piece_tree_shape(count_);
         if (count_ == 0) tree.triangles = 0;

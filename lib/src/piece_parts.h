@@ -15,7 +15,7 @@ template <class T>
 std::span<const T> part_of_piece(std::span<const T> section, const Model& model,
                                  std::uint32_t piece,
                                  std::uint32_t format::Piece::*first) noexcept {
-    const std::span<const format::Piece> pieces = model.pieces();
+    const std::span<const format::Piece> pieces = model.pieces().pieces;
     const std::size_t next = std::size_t{piece} + 1;
     const std::size_t begin = pieces[piece].*first;
     const std::size_t end =

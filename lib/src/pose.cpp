@@ -116,7 +116,7 @@ Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept 
     return relative;
 }
 
-Double3 moved(const Pose& pose, const Double3& p) noexcept {
+Double3 transform_point(const Pose& pose, const Double3& p) noexcept {
     const format::FloatEnvironment environment;
     return moved_point(pose, p);
 }
@@ -202,7 +202,7 @@ Result<Pose> composed_pose(const Pose& a_from_b, const Pose& b_from_c) {
                 (a[3 * i] * b[j] + a[3 * i + 1] * b[3 + j]) + a[3 * i + 2] * b[6 + j];
         }
     }
-    return rigid_pose(product, moved(a_from_b, b_from_c.translation()));
+    return rigid_pose(product, transform_point(a_from_b, b_from_c.translation()));
 }
 
 Result<Pose> inverse_pose(const Pose& a_from_b) {

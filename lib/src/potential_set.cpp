@@ -32,7 +32,7 @@ struct OrientedBox {
 };
 
 OrientedBox box_of(const Model& model) noexcept {
-    if (const format::Bounds* bounds = model.bounds()) {
+    if (const format::Bounds* bounds = model.record().bounds) {
         const Double3& half = bounds->half_extent;
         return {bounds->axis, bounds->oriented_centre, {half.x, half.y, half.z}};
     }
@@ -65,9 +65,9 @@ PotentialSet::PotentialSet(const Model& a, const Model& b, const Placement& plac
         slab.node_offset = scaled(dot(normal, o) + slab.offset, frame.frame_exponent);
         slab.node_limit = scaled(slab.limit, frame.frame_exponent);
     }
-    if (b.bounds() != nullptr) {
+    if (b.record().bounds != nullptr) {
         is_empty_ = std::any_of(slab_.begin(), slab_.end(),
-                                [&](const Slab& slab) { return clips(slab, *b.bounds()); });
+                                [&](const Slab& slab) { return clips(slab, *b.record().bounds); });
     }
 }
 

@@ -51,8 +51,8 @@ double longest_way(const PairCache& cache, const Pose& now) noexcept {
 /// The box around all of a model: that of its root's boxes.
 void note_box(const Model& model, PairCache& cache) noexcept {
     const format::FileHeader& head = model.header();
-    const format::BvhNode& root = model.nodes()[0];
-    const std::uint32_t boxes = model.shape().used_boxes(model.shape().levels - 1, 0);
+    const format::BvhNode& root = model.bvh().nodes[0];
+    const std::uint32_t boxes = model.bvh().shape.used_boxes(model.bvh().shape.levels - 1, 0);
     std::array<double, 3> middle{};
     std::array<double, 3> half{};
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -103,12 +103,14 @@ void count_layers(const Parts& parts, const CornersOf& corners_of, TetraFigures&
 
 TetraFigures tetra_figures(const Model& model) {
     const format::FloatEnvironment environment;
-    const Parts parts = {model.tetra_tree(),       model.triangle_count(), model.tetra_nodes(),
-                         model.tetra_references(), model.tetra_top(),      model.tetra_boxes(),
-                         model.tetra_oriented()};
+    const Parts parts = {model.tetra_tree().tree,    model.triangle_count(),
+                         model.tetra_tree().nodes,   model.tetra_tree().references,
+                         model.tetra_tree().top,     model.tetra_tree().boxes,
+                         model.tetra_tree().oriented};
     TetraFigures figures = figures_of(parts);
-    const bool has_positions = !model.positions_f32().empty() || !model.positions_f64().empty();
-    if (!model.triangles().empty() && has_positions) {
+    const bool has_positions =
+        !model.mesh().positions_f32.empty() || !model.mesh().positions_f64.empty();
+    if (!model.mesh().triangles.empty() && has_positions) {
         const MovedModel still(model, nullptr);
         count_layers(
             parts, [&](std::uint32_t i) { return still.corners(i); }, figures);

@@ -119,18 +119,18 @@ void bound_oriented(const Vector& centre, const SixCorners& corners, const Gener
 
 TetraTreeCells::TetraTreeCells(const Model& model, const TetraDetail& detail) noexcept
     : detail_(detail),
-      tree_(model.tetra_tree()),
-      nodes_(model.tetra_nodes().data()),
-      boxes_(detail.solid ? nullptr : model.tetra_boxes().data()),
-      oriented_(model.tetra_oriented().data()),
-      references_(model.tetra_references()),
+      tree_(model.tetra_tree().tree),
+      nodes_(model.tetra_tree().nodes.data()),
+      boxes_(detail.solid ? nullptr : model.tetra_tree().boxes.data()),
+      oriented_(model.tetra_tree().oriented.data()),
+      references_(model.tetra_tree().references),
       centre_{} {
     if (tree_ == nullptr) return;
     const FrameOf frame(model);
     centre_ = {frame.frame(0, tree_->centre.x), frame.frame(1, tree_->centre.y),
                frame.frame(2, tree_->centre.z)};
-    for (const format::TetraNode& node :
-         model.tetra_nodes().first(std::min(model.tetra_nodes().size(), std::size_t{8}))) {
+    for (const format::TetraNode& node : model.tetra_tree().nodes.first(
+             std::min(model.tetra_tree().nodes.size(), std::size_t{8}))) {
         octants_ += node.key < 16 ? 1 : 0;
     }
 }

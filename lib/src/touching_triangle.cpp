@@ -15,9 +15,9 @@ namespace {
 
 /// A triangle among the boxes of a model, in frame units. A box may touch it when its
 /// own box does and its plane does.
-class TriangleShape {
+class TriangleAmongBoxes {
 public:
-    TriangleShape(const MovedModel& model, const LooseTriangle& triangle) noexcept
+    TriangleAmongBoxes(const MovedModel& model, const TriangleShape& triangle) noexcept
         : corners_(triangle.corner), around_(box_around(triangle.corner)) {
         const ShapeFrame frame(model, std::max(ShapeFrame::largest(around_.lower),
                                                ShapeFrame::largest(around_.upper)));
@@ -81,24 +81,24 @@ private:
 
 }  // namespace
 
-bool touches(const Model& model, const LooseTriangle& triangle, Workspace& workspace,
+bool touches(const Model& model, const TriangleShape& triangle, Workspace& workspace,
              const TouchOptions& options) noexcept {
-    return any_touching<TriangleShape>(model, triangle, workspace, options);
+    return any_touching<TriangleAmongBoxes>(model, triangle, workspace, options);
 }
 
-std::size_t touching_triangles(const Model& model, const LooseTriangle& triangle,
+std::size_t touching_triangles(const Model& model, const TriangleShape& triangle,
                                Workspace& workspace, std::span<std::uint32_t> triangles,
                                const TouchOptions& options) noexcept {
-    return all_touching<TriangleShape>(model, triangle, workspace, triangles, options);
+    return all_touching<TriangleAmongBoxes>(model, triangle, workspace, triangles, options);
 }
 
-bool visit_touching_triangles(const Model& model, const LooseTriangle& triangle,
+bool visit_touching_triangles(const Model& model, const TriangleShape& triangle,
                               Workspace& workspace, TriangleVisitor visit,
                               const TouchOptions& options) noexcept {
-    return visit_touching<TriangleShape>(model, triangle, workspace, visit, options);
+    return visit_touching<TriangleAmongBoxes>(model, triangle, workspace, visit, options);
 }
 
-std::optional<ShapeDistance> distance_to(const Model& model, const LooseTriangle& triangle,
+std::optional<ShapeDistance> distance_to(const Model& model, const TriangleShape& triangle,
                                          Workspace& workspace,
                                          const ShapeDistanceOptions& options) noexcept {
     const format::FloatEnvironment environment;
@@ -106,11 +106,11 @@ std::optional<ShapeDistance> distance_to(const Model& model, const LooseTriangle
     if (!(options.max_distance >= 0)) return std::nullopt;
     const MovedModel moved = placed(model, options.world_from_model);
     std::optional<ShapeDistance> found;
-    for_each_touching<TriangleShape>(model, triangle, workspace, {options.world_from_model},
-                                     [&](std::uint32_t i) {
-                                         found = touching_at(moved, triangle.corner, i);
-                                         return false;
-                                     });
+    for_each_touching<TriangleAmongBoxes>(model, triangle, workspace, {options.world_from_model},
+                                          [&](std::uint32_t i) {
+                                              found = touching_at(moved, triangle.corner, i);
+                                              return false;
+                                          });
     if (found) return found;
     return nearest_to_shape(moved, triangle.corner, options.max_distance, workspace.storage());
 }

@@ -63,7 +63,7 @@ private:
         }
         const Corners a = moved_a_.corners(at_a);
         const Corners b = moved_b_.corners(at_b);
-        if (!are_apart && in_contact(a, b, Contact::closed, scratch_.counts)) return Touch::yes;
+        if (!are_apart && in_contact(a, b, Overlap::closed, scratch_.counts)) return Touch::yes;
         if (scratch_.counts != nullptr) ++scratch_.counts->measured;
         return is_within_exactly(a, b, tolerance_) ? std::optional(Touch::no) : std::nullopt;
     }

@@ -57,11 +57,11 @@ struct Tree {
     std::uint32_t triangles;
 
     explicit Tree(const Model& model) noexcept
-        : nodes(model.nodes().data()),
-          oriented(model.oriented_nodes().data()),
-          swept(model.swept_nodes().data()),
+        : nodes(model.bvh().nodes.data()),
+          oriented(model.bvh().oriented.data()),
+          swept(model.bvh().swept.data()),
           swept_kind(format::swept_kind(model.header().flags)),
-          shape(model.shape()),
+          shape(model.bvh().shape),
           triangles(model.triangle_count()) {}
 };
 

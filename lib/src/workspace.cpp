@@ -32,7 +32,7 @@ std::size_t Workspace::alignment() noexcept {
     return alignof(Storage);
 }
 
-std::optional<Workspace> Workspace::in(std::span<std::byte> memory) noexcept {
+std::optional<Workspace> Workspace::in_memory(std::span<std::byte> memory) noexcept {
     const auto address = reinterpret_cast<std::uintptr_t>(memory.data());
     if (memory.size() < size() || address % alignment() != 0) return std::nullopt;
     return Workspace(

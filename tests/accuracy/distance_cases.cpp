@@ -22,7 +22,7 @@ double largest_of(const MeshVariant& variant) {
     const Placement& placement = variant.placement;
     const auto take = [&](const TestMesh& mesh, const Pose& pose) {
         for (const Double3& p : mesh.positions) {
-            const Double3 q = moved(pose, p);
+            const Double3 q = transform_point(pose, p);
             largest = std::max({largest, std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
         }
     };
@@ -69,8 +69,8 @@ public:
                 [&] { return is_within_through(pieces, a, b, placement, length, workspace_); });
         });
         if (hard_.is_nested) {
-            const auto solid =
-                in_mode([&] { return distance(a, b, placement, workspace_, {.as = As::solid}); });
+            const auto solid = in_mode(
+                [&] { return distance(a, b, placement, workspace_, {.body = Body::solid}); });
             of(bvh).expect(solid && solid->lower == 0 && solid->upper == 0, told());
         }
         if (turn % 2 == 0) ask_c_face(asked_a, asked_b);

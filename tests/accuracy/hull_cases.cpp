@@ -239,7 +239,7 @@ private:
         Tally& tally = of("bvh");
         tally.expect(in_mode([&] {
                          return collide(model_a.model, model_b.model, variant_->placement,
-                                        workspace_, {.as = As::solid});
+                                        workspace_, {.body = Body::solid});
                      }).hit == meet(),
                      told());
         if (meet()) return;

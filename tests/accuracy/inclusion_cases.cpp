@@ -53,7 +53,8 @@ public:
             for (const auto& [structure, name] : kThrough) {
                 const bool is_bvh = structure == Structure::bvh;
                 const Inclusion found =
-                    is_bvh ? in_mode([&] { return includes(asked.model(), point.at, workspace_); })
+                    is_bvh ? in_mode(
+                                 [&] { return points_inside(asked.model(), point.at, workspace_); })
                            : in_mode([&] {
                                  return includes_through(structure, asked.model(), point.at,
                                                          workspace_);

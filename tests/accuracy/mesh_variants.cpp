@@ -19,7 +19,7 @@ std::vector<std::uint32_t> any_order(std::size_t count, std::mt19937& random) {
 /// Vertices as a pose moves them, by the formula of the contract.
 TestMesh placed(TestMesh mesh, const Pose& pose, bool is_moved) {
     if (!is_moved) return mesh;
-    for (Double3& p : mesh.positions) p = moved(pose, p);
+    for (Double3& p : mesh.positions) p = transform_point(pose, p);
     return mesh;
 }
 

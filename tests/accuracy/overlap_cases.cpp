@@ -91,7 +91,7 @@ private:
             });
         };
         expect_pairs(name, overlapping(truth.closed, {}), truth.closed);
-        expect_pairs(name, overlapping(truth.proper, {.contact = Contact::proper}), truth.proper);
+        expect_pairs(name, overlapping(truth.proper, {.overlap = Overlap::proper}), truth.proper);
         PairCache cache;
         for (int i = 0; i < 2; ++i) {
             expect(name, in_mode([&] {
@@ -99,8 +99,8 @@ private:
                          }).hit == !truth.closed.empty());
         }
         if (truth.is_nested) {
-            const Collision solid =
-                in_mode([&] { return collide(a, b, placement, workspace_, {.as = As::solid}); });
+            const Collision solid = in_mode(
+                [&] { return collide(a, b, placement, workspace_, {.body = Body::solid}); });
             expect(name, solid.hit && solid.containment.answer == Answer::yes);
         }
     }
@@ -161,7 +161,7 @@ private:
                                                             variant_->placement, workspace_);
                              }) == !truth.closed.empty());
             expect_through(strategy, options, truth.closed);
-            expect_through(strategy, options, truth.proper, {.contact = Contact::proper});
+            expect_through(strategy, options, truth.proper, {.overlap = Overlap::proper});
             if (turn % 3 != 0) continue;
             options.leaf_test = LeafTest::feito_torres;
             expect_through(strategy, options, truth.closed);

@@ -144,7 +144,7 @@ public:
                 std::memcpy(changed.span().data() + at, &value, sizeof value);
                 reseal(changed.span());
                 const auto opened = Model::open(std::as_const(changed).span());
-                if (opened && opened.value().leaves().size() > 0) {
+                if (opened && opened.value().bvh().leaves.size() > 0) {
                     (void)overlapping_triangles(opened.value(), opened.value(),
                                                 Placement::b_moves(Pose()), workspace, pairs);
                 }

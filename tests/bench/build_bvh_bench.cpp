@@ -46,12 +46,13 @@ SourceMesh source_mesh(const fs::path& path) {
     if (!opened) stop(opened.error().message);
     const Model& model = opened.value();
     SourceMesh mesh;
-    std::vector<Double3> points(model.positions_f64().begin(), model.positions_f64().end());
-    for (const Float3& p : model.positions_f32()) points.push_back({p.x, p.y, p.z});
+    std::vector<Double3> points(model.mesh().positions_f64.begin(),
+                                model.mesh().positions_f64.end());
+    for (const Float3& p : model.mesh().positions_f32) points.push_back({p.x, p.y, p.z});
     // Vertices stand in the order of their source's numbers.
     std::vector<std::uint32_t> by_source(points.size());
     for (std::uint32_t i = 0; i < by_source.size(); ++i) by_source[i] = i;
-    const auto source = model.source_vertex();
+    const auto source = model.source().vertex;
     std::sort(by_source.begin(), by_source.end(),
               [&](std::uint32_t a, std::uint32_t b) { return source[a] < source[b]; });
     std::vector<std::uint32_t> new_number(points.size());
@@ -59,11 +60,11 @@ SourceMesh source_mesh(const fs::path& path) {
         new_number[by_source[i]] = i;
         mesh.positions.push_back(points[by_source[i]]);
     }
-    mesh.triangles.resize(model.triangles().size());
+    mesh.triangles.resize(model.mesh().triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        format::Triangle triangle = model.triangles()[i];
+        format::Triangle triangle = model.mesh().triangles[i];
         for (std::uint32_t& vertex : triangle.vertex) vertex = new_number[vertex];
-        mesh.triangles[model.source_triangle()[i]] = triangle;
+        mesh.triangles[model.source().triangle[i]] = triangle;
     }
     return mesh;
 }

@@ -194,7 +194,7 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
         const Model b = open_or_stop(bakes / (pair.substr(dash + 1) + ".cdp.h5"));
         const std::vector<Pose> poses = read_poses(poses_folder / (pair + ".pose"));
         compare(Structure::bvh, pair, a, b, poses, rounds, ratios);
-        if (!a.piece_nodes().empty() && !b.piece_nodes().empty()) {
+        if (!a.pieces().nodes.empty() && !b.pieces().nodes.empty()) {
             compare(Structure::pieces, pair, a, b, poses, rounds, ratios);
         }
     }

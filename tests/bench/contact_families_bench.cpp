@@ -50,10 +50,10 @@ Pose shift(double x, double y, double z) {
 TestMesh snapped(const Model& model, double step) {
     TestMesh mesh;
     const auto near = [step](double x) { return step * std::nearbyint(x / step); };
-    for (const format::Float3& p : model.positions_f32()) {
+    for (const format::Float3& p : model.mesh().positions_f32) {
         mesh.positions.push_back({near(p.x), near(p.y), near(p.z)});
     }
-    for (const Triangle& t : model.triangles()) {
+    for (const Triangle& t : model.mesh().triangles) {
         const auto at = [&](std::size_t i) { return mesh.positions[t.vertex[i]]; };
         if (!is_degenerate({at(0), at(1), at(2)})) mesh.triangles.push_back(t);
     }

@@ -103,7 +103,7 @@ private:
     const Model& b_;
     Structure structure_;
     Workspace workspace_;
-    std::vector<PieceContact> contacts_;
+    std::vector<Contact> contacts_;
 };
 
 #ifdef CDPREP_HAVE_FCL
@@ -136,7 +136,7 @@ class BulletPieces {
 public:
     BulletPieces(const Model& model, Manifold manifold) : shape_(true) {
         shape_.setMargin(0);
-        for (std::uint32_t i = 0; i < model.pieces().size(); ++i) {
+        for (std::uint32_t i = 0; i < model.pieces().pieces.size(); ++i) {
             auto hull = std::make_unique<btConvexHullShape>();
             const ConvexPoints points = feature_hull(model, i).points;
             for (std::uint32_t k = 0; k < points.count; ++k) {
@@ -314,7 +314,7 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
         if (dash == std::string::npos) stop("'" + pair + "' is not two names with a dash between");
         const Model a = open_or_stop(bakes / (pair.substr(0, dash) + ".cdp.h5"));
         const Model b = open_or_stop(bakes / (pair.substr(dash + 1) + ".cdp.h5"));
-        if (a.triangle_piece().empty() || b.triangle_piece().empty()) {
+        if (a.pieces().of_triangle.empty() || b.pieces().of_triangle.empty()) {
             stop(pair + " was baked without --effects contacts");
         }
         std::vector<std::unique_ptr<Contender>> contenders;

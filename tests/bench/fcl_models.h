@@ -14,10 +14,10 @@ namespace cdprep {
 template <class Volume>
 fcl::BVHModel<Volume> fcl_model(const Model& model) {
     std::vector<fcl::Vector3d> points;
-    for (const format::Float3& p : model.positions_f32()) points.emplace_back(p.x, p.y, p.z);
-    for (const format::Double3& p : model.positions_f64()) points.emplace_back(p.x, p.y, p.z);
+    for (const format::Float3& p : model.mesh().positions_f32) points.emplace_back(p.x, p.y, p.z);
+    for (const format::Double3& p : model.mesh().positions_f64) points.emplace_back(p.x, p.y, p.z);
     std::vector<fcl::Triangle> triangles;
-    for (const format::Triangle& t : model.triangles()) {
+    for (const format::Triangle& t : model.mesh().triangles) {
         triangles.emplace_back(t.vertex[0], t.vertex[1], t.vertex[2]);
     }
     fcl::BVHModel<Volume> made;

@@ -43,8 +43,8 @@ std::optional<double> ask_ring(const std::string& question, const Model& ring, W
     const Sphere sphere = {{0.9, 0.3, 0.1}, 0.3};
     const Capsule capsule = {{0.9, 0.3, 0.1}, {0.2, 0.1, 0.5}, 0.1};
     const Capsule above = {{0.9, 0.3, 0.9}, {0.2, 0.1, 0.8}, 0.1};
-    const LooseTriangle triangle = {{{{0.9, 0.3, 0.1}, {0.2, 0.1, 0.5}, {0.8, 0.9, 0.2}}}};
-    const LooseTriangle nearby = {{{{0.9, 0.3, 0.9}, {0.2, 0.1, 0.8}, {0.8, 0.9, 0.7}}}};
+    const TriangleShape triangle = {{{{0.9, 0.3, 0.1}, {0.2, 0.1, 0.5}, {0.8, 0.9, 0.2}}}};
+    const TriangleShape nearby = {{{{0.9, 0.3, 0.9}, {0.2, 0.1, 0.8}, {0.8, 0.9, 0.7}}}};
     const auto all = [&](const auto& shape, const TouchOptions& options = {}) {
         return static_cast<double>(touching_triangles(ring, shape, workspace, triangles, options));
     };

@@ -168,7 +168,7 @@ struct Placed {
     Double3 farthest(const Double3& direction) {
         const Double3 local = turned_back(pose, direction);
         near = support == Support::climb ? climb(hull, local, near) : scan(hull, local);
-        return moved(pose, hull.point(near));
+        return transform_point(pose, hull.point(near));
     }
 };
 
@@ -371,8 +371,9 @@ std::vector<Double3> ellipsoid(std::size_t count, std::mt19937& random) {
 
 std::vector<Double3> points_of(const std::filesystem::path& path) {
     const Model model = open_or_stop(path);
-    std::vector<Double3> points(model.positions_f64().begin(), model.positions_f64().end());
-    for (const format::Float3& p : model.positions_f32()) points.push_back({p.x, p.y, p.z});
+    std::vector<Double3> points(model.mesh().positions_f64.begin(),
+                                model.mesh().positions_f64.end());
+    for (const format::Float3& p : model.mesh().positions_f32) points.push_back({p.x, p.y, p.z});
     std::mt19937 random(3);
     std::shuffle(points.begin(), points.end(), random);  // grows fast, so that most lie inside
     return points;
@@ -413,7 +414,7 @@ Walk walk_from(const SmallHull& a, const SmallHull& b, double gap, double diagon
     const ConvexPoints hull_a = a.view(), hull_b = b.view();
     const Double3 top = hull_a.point(scan(hull_a, way));
     const Double3 back = {-way.x, -way.y, -way.z};
-    const Double3 low = moved(pose, hull_b.point(scan(hull_b, turned_back(pose, back))));
+    const Double3 low = transform_point(pose, hull_b.point(scan(hull_b, turned_back(pose, back))));
     // Apart along `way` by the gap at most: so the distance is about that.
     const double shift = dot(way, top) - dot(way, low) + gap;
     Double3 at = {shift * way.x, shift * way.y, shift * way.z};

@@ -209,7 +209,7 @@ void write_missed(const std::filesystem::path& path, const Missed& missed, const
     write_corners(file, " \"triangle_a\": ", in_a, ",\n");
     write_corners(file, " \"triangle_b\": ", in_b, ",\n \"corner_cells\": [\n");
     const OctreeIndex index = octree_index(a);
-    const format::OctreeGrid& grid = *a.octree_grid();
+    const format::OctreeGrid& grid = *a.octree().grid;
     for (std::size_t i = 0; i < 3; ++i) {
         // The leaf where there is one; an empty cell is shown as deep as the tree goes.
         const CellPlace cell = octree_cell(grid, in_b[i]);
@@ -225,7 +225,7 @@ void write_missed(const std::filesystem::path& path, const Missed& missed, const
     bool any = false;
     for (const std::uint32_t node : index.leaf_nodes) {
         const auto listed =
-            a.octree_references().subspan(index.nodes[node].first, index.nodes[node].count);
+            a.octree().references.subspan(index.nodes[node].first, index.nodes[node].count);
         const bool lists = std::any_of(listed.begin(), listed.end(), [&](std::uint32_t r) {
             return (r & ~format::kSharedReference) == missed.at_a;
         });

@@ -230,11 +230,11 @@ void compare(const std::string& pair, const std::vector<std::unique_ptr<Contende
 
 /// Of the sections that collisions, overlaps and distances read.
 double bytes_per_triangle(const Model& model) {
-    std::size_t bytes = model.nodes().size_bytes() + model.oriented_nodes().size_bytes() +
-                        model.leaves().size_bytes() + model.source_triangle().size_bytes();
+    std::size_t bytes = model.bvh().nodes.size_bytes() + model.bvh().oriented.size_bytes() +
+                        model.bvh().leaves.size_bytes() + model.source().triangle.size_bytes();
     if (!model.has_exact_leaves()) {
-        bytes += model.triangles().size_bytes() + model.positions_f32().size_bytes() +
-                 model.positions_f64().size_bytes();
+        bytes += model.mesh().triangles.size_bytes() + model.mesh().positions_f32.size_bytes() +
+                 model.mesh().positions_f64.size_bytes();
     }
     return static_cast<double>(bytes) / model.triangle_count();
 }
@@ -253,7 +253,7 @@ void run(const std::filesystem::path& bakes, const std::filesystem::path& poses_
         const std::vector<Pose> poses = read_poses(poses_folder / (pair + ".pose"));
         std::vector<std::unique_ptr<Contender>> contenders;
         contenders.push_back(std::make_unique<Ours>(a, b, Structure::bvh));
-        if (!a.piece_nodes().empty() && !b.piece_nodes().empty()) {
+        if (!a.pieces().nodes.empty() && !b.pieces().nodes.empty()) {
             contenders.push_back(std::make_unique<Ours>(a, b, Structure::pieces));
         }
 #ifdef CDPREP_HAVE_FCL

@@ -99,9 +99,9 @@ std::vector<Case> read_cases(const std::filesystem::path& path) {
 /// Corners and triangles as libraries take them.
 struct Mesh {
     explicit Mesh(const Model& model) {
-        for (const Float3& p : model.positions_f32()) points.push_back({p.x, p.y, p.z});
-        for (const Double3& p : model.positions_f64()) points.push_back(p);
-        for (const format::Triangle& t : model.triangles()) triangles.push_back(t.vertex);
+        for (const Float3& p : model.mesh().positions_f32) points.push_back({p.x, p.y, p.z});
+        for (const Double3& p : model.mesh().positions_f64) points.push_back(p);
+        for (const format::Triangle& t : model.mesh().triangles) triangles.push_back(t.vertex);
     }
 
     std::vector<Double3> points;
@@ -464,9 +464,9 @@ private:
     void place(const Pose& pose) {
         corners_.clear();
         for (const auto& t : mesh_.triangles) {
-            corners_.push_back(
-                Contact::rounded({moved(pose, mesh_.points[t[0]]), moved(pose, mesh_.points[t[1]]),
-                                  moved(pose, mesh_.points[t[2]])}));
+            corners_.push_back(Contact::rounded({transform_point(pose, mesh_.points[t[0]]),
+                                                 transform_point(pose, mesh_.points[t[1]]),
+                                                 transform_point(pose, mesh_.points[t[2]])}));
         }
     }
     void commit() {

@@ -48,15 +48,15 @@ constexpr std::uint32_t kMostTriangles = 4096;  ///< keeps one input below a sec
 
 bool can_answer(const Model& model) {
     return model.triangle_count() <= kMostTriangles &&
-           model.triangles().size() == model.triangle_count() &&
-           model.nodes().size() == model.shape().node_count &&
-           (model.triangle_count() == 0 || !model.positions_f32().empty() ||
-            !model.positions_f64().empty());
+           model.mesh().triangles.size() == model.triangle_count() &&
+           model.bvh().nodes.size() == model.bvh().shape.node_count &&
+           (model.triangle_count() == 0 || !model.mesh().positions_f32.empty() ||
+            !model.mesh().positions_f64.empty());
 }
 
 /// What questions about two models need besides.
 bool can_answer_pairs(const Model& model) {
-    return model.leaves().size() == model.shape().leaf_count;
+    return model.bvh().leaves.size() == model.bvh().shape.leaf_count;
 }
 
 void ask_pair(const Model& model, Workspace& workspace) {
@@ -65,7 +65,7 @@ void ask_pair(const Model& model, Workspace& workspace) {
     for (const Placement& placement :
          {Placement::b_moves(Pose()), Placement::world(turned, Pose())}) {
         (void)overlapping_triangles(model, model, placement, workspace, pairs);
-        (void)collide(model, model, placement, workspace, {.as = As::solid});
+        (void)collide(model, model, placement, workspace, {.body = Body::solid});
         (void)distance(model, model, placement, workspace);
         (void)is_within(model, model, placement, 0.125, workspace);
         (void)triangles_within(model, model, placement, 0.0625, workspace, pairs);
@@ -132,7 +132,7 @@ void ask_structures(const Model& model, Workspace& workspace) {
 void ask_hulls(const Model& model) {
     constexpr std::size_t kMostHulls = 3;
     constexpr std::uint32_t kMostPoints = 512;
-    const auto hulls = model.hulls().first(std::min(model.hulls().size(), kMostHulls));
+    const auto hulls = model.hulls().hulls.first(std::min(model.hulls().hulls.size(), kMostHulls));
     const Placement turned =
         Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {0.25, 0, 0}).value());
     const Placement apart =
@@ -158,7 +158,7 @@ void ask_hulls(const Model& model) {
 template <class T>
 std::span<const T> part(const Model& model, std::span<const T> all,
                         std::uint32_t format::Piece::*first, std::size_t i) {
-    const auto pieces = model.pieces();
+    const auto pieces = model.pieces().pieces;
     const std::size_t end = i + 1 < pieces.size() ? pieces[i + 1].*first : all.size();
     return all.subspan(pieces[i].*first, end - pieces[i].*first);
 }
@@ -167,17 +167,17 @@ std::span<const T> part(const Model& model, std::span<const T> all,
 void ask_pieces(const Model& model) {
     using format::Piece;
     const auto vertex = [&](std::uint32_t v) {
-        if (!model.positions_f64().empty()) return model.positions_f64()[v].x;
-        return double{model.positions_f32()[v].x};
+        if (!model.mesh().positions_f64.empty()) return model.mesh().positions_f64[v].x;
+        return double{model.mesh().positions_f32[v].x};
     };
     [[maybe_unused]] static volatile double sink = 0;
-    for (std::size_t i = 0; i < model.pieces().size(); ++i) {
+    for (std::size_t i = 0; i < model.pieces().pieces.size(); ++i) {
         for (const std::uint32_t t :
-             part(model, model.piece_triangles(), &Piece::first_triangle, i)) {
-            for (const auto v : model.triangles()[t].vertex) sink = vertex(v);
+             part(model, model.pieces().triangles, &Piece::first_triangle, i)) {
+            for (const auto v : model.mesh().triangles[t].vertex) sink = vertex(v);
         }
-        const auto vertices = part(model, model.piece_vertices(), &Piece::first_vertex, i);
-        for (const auto& facet : part(model, model.piece_facets(), &Piece::first_facet, i)) {
+        const auto vertices = part(model, model.pieces().vertices, &Piece::first_vertex, i);
+        for (const auto& facet : part(model, model.pieces().facets, &Piece::first_facet, i)) {
             for (const std::uint32_t corner : facet.corner) sink = vertex(vertices[corner]);
         }
     }
@@ -220,7 +220,7 @@ void ask_contacts(const Model& model, Workspace& workspace) {
     for (const Placement& placement : piece_placements()) {
         for (const Manifold manifold : {Manifold::none, Manifold::four}) {
             std::size_t count = 0;
-            const auto visit = [&](const PieceContact&) { return ++count < kMostContacts; };
+            const auto visit = [&](const Contact&) { return ++count < kMostContacts; };
             visit_contacts(model, model, placement, 0.0625, workspace, visit,
                            {.manifold = manifold});
         }
@@ -233,17 +233,17 @@ void ask_features(const Model& model) {
     using format::Piece;
     constexpr std::size_t kMostHulls = 6;
     constexpr std::uint32_t kMostPoints = 128;
-    if (model.piece_adjacency().size() != model.piece_facets().size()) return;
+    if (model.pieces().adjacency.size() != model.pieces().facets.size()) return;
     std::vector<FeatureHull> hulls;
-    for (std::size_t i = 0; i < std::min(model.pieces().size(), kMostHulls); ++i) {
+    for (std::size_t i = 0; i < std::min(model.pieces().pieces.size(), kMostHulls); ++i) {
         ConvexPoints points;
-        points.corners = part(model, model.piece_vertices(), &Piece::first_vertex, i);
+        points.corners = part(model, model.pieces().vertices, &Piece::first_vertex, i);
         points.count = static_cast<std::uint32_t>(points.corners.size());
-        points.floats = model.positions_f32();
-        points.doubles = model.positions_f64();
+        points.floats = model.mesh().positions_f32;
+        points.doubles = model.mesh().positions_f64;
         if (points.count > kMostPoints) continue;
-        hulls.push_back({points, part(model, model.piece_facets(), &Piece::first_facet, i),
-                         part(model, model.piece_adjacency(), &Piece::first_facet, i)});
+        hulls.push_back({points, part(model, model.pieces().facets, &Piece::first_facet, i),
+                         part(model, model.pieces().adjacency, &Piece::first_facet, i)});
     }
     FeatureCache cache = {true, {FeatureKind::face, FeatureKind::edge}, {0xffffffffU, 0}};
     for (const FeatureHull& a : hulls) {
@@ -272,7 +272,7 @@ void ask(const Model& model) {
     (void)cast_ray(model, {{0.5, 0.25, -3}, {0.125, 0, 1}}, workspace);
     ask_shapes(model, workspace);
     (void)closest_point(model, {0.25, 0.5, 2}, workspace);
-    (void)includes(model, {0.5, 0.5, 0.5}, workspace);
+    (void)points_inside(model, {0.5, 0.5, 0.5}, workspace);
     for (std::uint32_t i = 0; i < 4; ++i) (void)model.name(SectionId::group_names, i);
 }
 

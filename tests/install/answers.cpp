@@ -69,7 +69,7 @@ void print_points(Dice& dice) {
     end_line("relative_pose");
     for (int i = 0; i < 1000; ++i) {
         const Double3 p = dice.point();
-        print(moved(pose, p));
+        print(transform_point(pose, p));
         std::printf(" %u", direction_cell(p));
         end_line("moved");
     }
@@ -92,7 +92,7 @@ void print_pairs(const Model& a, const Model& b, const Placement& placement, Wor
         print(found->witness_a);
         print(found->witness_b);
     }
-    const Collision solid = collide(a, b, placement, workspace, {.as = As::solid});
+    const Collision solid = collide(a, b, placement, workspace, {.body = Body::solid});
     std::printf(" %d %zu", solid.hit ? 1 : 0,
                 triangles_within(a, b, placement, 0x1p-6, workspace, {}));
     end_line("pair");
@@ -120,7 +120,7 @@ void print_places(const Model& model, Dice& dice, Workspace& workspace) {
             print(hits[k].point);
             std::printf(" %d", k > 0 && hits[k - 1] < hits[k] ? 1 : 0);
         }
-        const Inclusion in = includes(model, at, workspace);
+        const Inclusion in = points_inside(model, at, workspace);
         std::printf(" %d", static_cast<int>(in.answer));
         const Sphere sphere = {at, 0.25};
         std::printf(" %zu", touching_triangles(model, sphere, workspace, {}));

@@ -228,7 +228,7 @@ template <class Oracle>
 int compare(const cdprep::Model& model, const BuilderInput& input, Oracle&& oracle,
             std::size_t count) {
     using cdprep::test::kStructures;
-    Points points(input, model.tetra_tree()->centre);
+    Points points(input, model.tetra_tree().tree->centre);
     cdprep::Workspace workspace;
     std::array<cdprep::QueryCounts, kStructures.size()> counts;
     std::size_t on_surface = 0, inside = 0;
@@ -275,7 +275,7 @@ int main(int argc, char** argv) {
     const std::string by = argv[1];
     const cdprep::test::OpenModel open = open_file(argv[2]);
     const std::size_t count = std::strtoull(argv[3], nullptr, 10);
-    if (!open.model.is_closed()) {
+    if (!open.model.is_balanced()) {
         std::fprintf(stderr, "%s is open\n", argv[2]);
         return 2;
     }

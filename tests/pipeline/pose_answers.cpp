@@ -72,7 +72,7 @@ public:
         std::copy_n(pairs_.begin(), answers.pairs.size(), answers.pairs.begin());
         answers.near.resize(triangles_within(a_, b_, placement, tolerance, workspace_, pairs_));
         std::copy_n(pairs_.begin(), answers.near.size(), answers.near.begin());
-        const Collision solid = collide(a_, b_, placement, workspace_, {.as = As::solid});
+        const Collision solid = collide(a_, b_, placement, workspace_, {.body = Body::solid});
         answers.numbers.push_back(solid.hit ? 1 : 0);
         answers.add(solid.containment.winding);
         answers.numbers.push_back(is_within(a_, b_, placement, tolerance, workspace_) ? 1 : 0);

@@ -17,7 +17,7 @@ inline Corners corners_of(const TestMesh& mesh, std::size_t index, const Pose* p
     Corners corners{};
     for (std::size_t i = 0; i < 3; ++i) {
         const Double3& p = mesh.positions[mesh.triangles[index].vertex[i]];
-        corners[i] = pose == nullptr ? p : moved(*pose, p);
+        corners[i] = pose == nullptr ? p : transform_point(*pose, p);
     }
     return corners;
 }

@@ -136,7 +136,7 @@ void add_balls(Cases& all, bool full) {
     HardHulls fine = {"G10 fine balls 1e-9 apart", ball, ball,
                       Placement::b_moves(pose_of(kStill, {shift, 0, 0}))};
     // Every x of B is rounded by itself; the nearest is that of its foremost point.
-    fine.gap = moved(fine.placement.pose_b(), {-top, 0, 0}).x - top;
+    fine.gap = transform_point(fine.placement.pose_b(), {-top, 0, 0}).x - top;
     fine.is_large = true;
     all.push_back(std::move(fine));
 
@@ -144,7 +144,7 @@ void add_balls(Cases& all, bool full) {
     for (const double x : {129.0, 130.0, std::nextafter(130.0, 200.0), 131.0}) {
         HardHulls hard = {"G13 ties along an axis, " + std::to_string(x), ties, ties,
                           Placement::b_moves(pose_of(kStill, {x, 0, 0}))};
-        if (x > 130) hard.gap = moved(hard.placement.pose_b(), {-65, 0, 0}).x - 65;
+        if (x > 130) hard.gap = transform_point(hard.placement.pose_b(), {-65, 0, 0}).x - 65;
         if (x == 130) hard.depth = 0;
         hard.is_large = true;
         all.push_back(std::move(hard));

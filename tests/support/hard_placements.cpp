@@ -177,7 +177,7 @@ std::vector<HardPlacement> hard_placements_of(const TestMesh& armadillo, const T
     all.push_back(
         {"the same, both poses at 1e6", armadillo, horse, Placement::world(far, far_b), kPairs});
     TestMesh moved_horse = horse;
-    for (Double3& p : moved_horse.positions) p = moved(far_b, p);
+    for (Double3& p : moved_horse.positions) p = transform_point(far_b, p);
     all.push_back({"the same, vertices at 1e6", moved_by(armadillo, 1, {1e6, 1e6, 1e6}),
                    moved_horse, still(), kPairs});
     return all;

@@ -51,7 +51,7 @@ inline Points grid_points(std::mt19937& random) {
 
 inline Points moved_points(const Points& points, const Pose& pose) {
     Points result;
-    for (const Double3& p : points) result.push_back(moved(pose, p));
+    for (const Double3& p : points) result.push_back(transform_point(pose, p));
     return result;
 }
 

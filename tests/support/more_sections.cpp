@@ -33,9 +33,9 @@ AlignedBytes on_pages(const AlignedBytes& file) {
 
 BuilderInput builder_input(const Model& model) {
     BuilderInput input;
-    for (const Float3& p : model.positions_f32()) input.positions.push_back({p.x, p.y, p.z});
-    for (const Double3& p : model.positions_f64()) input.positions.push_back(p);
-    input.triangles.assign(model.triangles().begin(), model.triangles().end());
+    for (const Float3& p : model.mesh().positions_f32) input.positions.push_back({p.x, p.y, p.z});
+    for (const Double3& p : model.mesh().positions_f64) input.positions.push_back(p);
+    input.triangles.assign(model.mesh().triangles.begin(), model.mesh().triangles.end());
     return input;
 }
 

@@ -15,7 +15,7 @@ inline void expect_same(const ContactFeature& x, const ContactFeature& y) {
 }
 
 /// To the last bit.
-inline void expect_same(const PieceContact& x, const PieceContact& y) {
+inline void expect_same(const Contact& x, const Contact& y) {
     EXPECT_EQ(x.piece_a, y.piece_a);
     EXPECT_EQ(x.piece_b, y.piece_b);
     expect_same(x.feature_a, y.feature_a);

@@ -85,8 +85,8 @@ void add_triangle(Sections& made, const std::vector<Double3>& at, const Triangle
 
 /// Where the facets of a piece begin, or those of the last one end.
 std::size_t first_facet(const Model& model, std::size_t i) {
-    const auto pieces = model.pieces();
-    return i < pieces.size() ? pieces[i].first_facet : model.piece_facets().size();
+    const auto pieces = model.pieces().pieces;
+    return i < pieces.size() ? pieces[i].first_facet : model.pieces().facets.size();
 }
 
 /// The facets beyond the edges of one hull's facets.
@@ -147,9 +147,9 @@ AlignedBytes with_one_piece(const AlignedBytes& file) {
 AlignedBytes with_contacts(const AlignedBytes& file) {
     const Model model = Model::open(file.span()).value();
     std::vector<format::PieceAdjacency> adjacency;
-    for (std::size_t i = 0; i < model.pieces().size(); ++i) {
+    for (std::size_t i = 0; i < model.pieces().pieces.size(); ++i) {
         const std::size_t begin = first_facet(model, i);
-        add_adjacency(model.piece_facets().subspan(begin, first_facet(model, i + 1) - begin),
+        add_adjacency(model.pieces().facets.subspan(begin, first_facet(model, i + 1) - begin),
                       adjacency);
     }
     std::vector<std::uint8_t> convexity(model.triangle_count());
@@ -157,15 +157,16 @@ AlignedBytes with_contacts(const AlignedBytes& file) {
         convexity[t] = static_cast<std::uint8_t>(t * 37 % 64);
     }
     std::vector<std::uint32_t> piece_of(model.triangle_count());
-    for (std::uint32_t i = 0; i < model.pieces().size(); ++i) {
-        const bool is_last = i + 1 == model.pieces().size();
-        const std::size_t end = is_last ? piece_of.size() : model.pieces()[i + 1].first_triangle;
-        for (std::size_t t = model.pieces()[i].first_triangle; t < end; ++t) {
-            piece_of[model.piece_triangles()[t]] = i;
+    for (std::uint32_t i = 0; i < model.pieces().pieces.size(); ++i) {
+        const bool is_last = i + 1 == model.pieces().pieces.size();
+        const std::size_t end =
+            is_last ? piece_of.size() : model.pieces().pieces[i + 1].first_triangle;
+        for (std::size_t t = model.pieces().pieces[i].first_triangle; t < end; ++t) {
+            piece_of[model.pieces().triangles[t]] = i;
         }
     }
     std::vector<TinySection> sections =
-        piece_tree_sections(model, model.pieces(), model.piece_triangles());
+        piece_tree_sections(model, model.pieces().pieces, model.pieces().triangles);
     sections.push_back(as_section<format::PieceAdjacency>(SectionId::piece_adjacency, adjacency));
     sections.push_back(as_section<std::uint8_t>(SectionId::edge_convexity, convexity));
     sections.push_back(as_section<std::uint32_t>(SectionId::triangle_piece, piece_of));

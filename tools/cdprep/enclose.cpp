@@ -148,7 +148,7 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     report.diagonal = mesh.positions.empty() ? 0 : box.diagonal();
     const mesh::Topology topology = mesh::find_topology(mesh);
     for (const format::Component& component : topology.components) {
-        if ((component.flags & format::component_closed) == 0) ++report.open_components;
+        if ((component.flags & format::component_balanced) == 0) ++report.open_components;
     }
     if (options.output.empty()) return report;
     progress.show(0, name + ": write");

@@ -114,10 +114,10 @@ public:
         : model_(model),
           parallel_for_(parallel_for),
           mesh_(study::mesh_of(model)),
-          has_source_(!model.source_triangle().empty()) {}
+          has_source_(!model.source().triangle.empty()) {}
 
     Found find() {
-        if (model_.triangle_count() > 0 && model_.triangles().empty()) return std::nullopt;
+        if (model_.triangle_count() > 0 && model_.mesh().triangles.empty()) return std::nullopt;
         if (model_.vertex_count() > 0 && mesh_.positions.empty()) return std::nullopt;
         topology_ = mesh::find_topology(mesh_);
         error_ = convex::find_mass_error(mesh_);
@@ -132,7 +132,7 @@ private:
     /// The other flags say how sections are to be read, and are checked with those.
     [[nodiscard]] Found find_false_flag() const {
         const std::uint32_t flags = model_.header().flags;
-        if (Found found = differ(flag_field("closed"), (flags & format::model_closed) != 0,
+        if (Found found = differ(flag_field("closed"), (flags & format::model_balanced) != 0,
                                  topology_.closed)) {
             return found;
         }
@@ -166,7 +166,7 @@ private:
     /// Vertices are in the order of their first use.
     [[nodiscard]] Found find_vertex_out_of_order() const {
         std::uint32_t next = 0;
-        const auto triangles = model_.triangles();
+        const auto triangles = model_.mesh().triangles;
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             for (const std::uint32_t vertex : triangles[i].vertex) {
                 if (vertex > next)
@@ -181,9 +181,9 @@ private:
     [[nodiscard]] Found find_false_degenerate() const {
         mesh::Mesh ordered;
         ordered.positions = mesh_.positions;
-        ordered.triangles.assign(model_.triangles().begin(), model_.triangles().end());
+        ordered.triangles.assign(model_.mesh().triangles.begin(), model_.mesh().triangles.end());
         const std::vector<std::uint64_t> expected = mesh::find_degenerate(ordered, parallel_for_);
-        const auto found = model_.degenerate_bits();
+        const auto found = model_.mesh().degenerate_bits;
         for (std::size_t i = 0; i < std::max(found.size(), expected.size()); ++i) {
             const std::uint64_t is = i < found.size() ? found[i] : 0;
             const std::uint64_t must_be = i < expected.size() ? expected[i] : 0;
@@ -198,8 +198,8 @@ private:
     }
 
     [[nodiscard]] Found find_false_bounds() const {
-        if (model_.bounds() == nullptr) return std::nullopt;
-        const format::Bounds& found = *model_.bounds();
+        if (model_.record().bounds == nullptr) return std::nullopt;
+        const format::Bounds& found = *model_.record().bounds;
         const format::Bounds expected = convex::find_bounds(mesh_);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto differs = [&](const char* field, const Double3& is, const Double3& must_be) {
@@ -276,7 +276,7 @@ private:
 
     [[nodiscard]] Found find_false_components() const {
         if (!model_.sections().contains(SectionId::components)) return std::nullopt;
-        const auto found = model_.components();
+        const auto found = model_.record().components;
         const std::vector<format::Component>& expected = topology_.components;
         if (Found fact = differ<std::size_t>("section components, number of elements", found.size(),
                                              expected.size())) {
@@ -322,12 +322,12 @@ private:
     }
 
     [[nodiscard]] Found find_false_mass() const {
-        if (model_.mass_properties() == nullptr) return std::nullopt;
+        if (model_.record().mass == nullptr) return std::nullopt;
         if (!topology_.closed) {
             return FalseFact{"section mass_properties, number of elements", "1",
                              "0, as the mesh is not closed"};
         }
-        const format::MassProperties& found = *model_.mass_properties();
+        const format::MassProperties& found = *model_.record().mass;
         const auto field = [](const char* name) {
             return field_of(SectionId::mass_properties, 0, name);
         };
@@ -360,7 +360,8 @@ private:
 
     [[nodiscard]] Found find_false_verdicts() const {
         if (!model_.sections().contains(SectionId::verdicts)) return std::nullopt;
-        std::vector<format::Verdict> found(model_.verdicts().begin(), model_.verdicts().end());
+        std::vector<format::Verdict> found(model_.record().verdicts.begin(),
+                                           model_.record().verdicts.end());
         std::vector<format::Verdict> expected =
             mesh::find_defects(soup_of(mesh_), {.max_places = 0, .parallel_for = parallel_for_})
                 .verdicts;

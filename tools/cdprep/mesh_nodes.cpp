@@ -35,7 +35,7 @@ std::vector<bool> find_closed(const mesh::Mesh& mesh, const std::vector<std::uin
     std::vector<bool> is_closed(count, true);
     for (std::size_t i = 0; i < parted.triangles.size(); ++i) {
         const std::uint32_t component = numbers.of_vertex[parted.triangles[i].vertex[0]];
-        if ((components[component].flags & format::component_closed) == 0) {
+        if ((components[component].flags & format::component_balanced) == 0) {
             is_closed[group_of[i]] = false;
         }
     }

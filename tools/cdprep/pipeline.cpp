@@ -137,7 +137,7 @@ format::FileHeader facts_of(const mesh::TriangleSoup& soup, const mesh::Mesh& me
     format::FileHeader facts{};
     facts.vertex_count = static_cast<std::uint32_t>(mesh.positions.size());
     facts.triangle_count = static_cast<std::uint32_t>(mesh.triangles.size());
-    if (found.topology.closed) facts.flags |= format::model_closed;
+    if (found.topology.closed) facts.flags |= format::model_balanced;
     if (found.bvh.exact_leaves) facts.flags |= format::model_exact_leaves;
     if (options.normalize) facts.flags |= format::model_normalized;
     facts.flags |= format::swept_flags(found.bvh.swept_kind);
@@ -381,7 +381,7 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     report.components = arrays.component_count();
     report.merged_vertices = welded.report.merged_vertices;
     report.degenerate_triangles = arrays.degenerate_count();
-    report.closed = (facts.flags & format::model_closed) != 0;
+    report.closed = (facts.flags & format::model_balanced) != 0;
     report.repaired = options.repair;
     report.promises = report::promise_words(found.defects.defects.verdicts[0]);
     report.warnings = count_warnings(found.defects);

@@ -28,11 +28,11 @@ struct Arguments {
 
 constexpr std::array kServing = {Structure::bvh, Structure::pieces};
 
-std::vector<PieceContact> find_contacts(const Model& a, const Model& b, const Placement& placement,
-                                        const Arguments& arguments, Structure through,
-                                        Workspace& workspace) {
-    std::vector<PieceContact> found;
-    const auto keep = [&](const PieceContact& contact) {
+std::vector<Contact> find_contacts(const Model& a, const Model& b, const Placement& placement,
+                                   const Arguments& arguments, Structure through,
+                                   Workspace& workspace) {
+    std::vector<Contact> found;
+    const auto keep = [&](const Contact& contact) {
         found.push_back(contact);
         return true;
     };
@@ -57,7 +57,7 @@ Exit run(const Arguments& arguments) {
     Workspace workspace;
     report::Answers answers(std::cout, parse_answer_format(arguments.format));
     for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
-        const std::vector<PieceContact> found = find_contacts(
+        const std::vector<Contact> found = find_contacts(
             a.value(), b.value(), placements.value()[i], arguments, through, workspace);
         answers.add(report::ContactsAnswer{i, found});
     }

@@ -24,8 +24,9 @@ struct Arguments {
 };
 
 std::vector<Double3> positions_of(const Model& model) {
-    std::vector<Double3> positions(model.positions_f64().begin(), model.positions_f64().end());
-    for (const Float3& p : model.positions_f32()) positions.push_back({p.x, p.y, p.z});
+    std::vector<Double3> positions(model.mesh().positions_f64.begin(),
+                                   model.mesh().positions_f64.end());
+    for (const Float3& p : model.mesh().positions_f32) positions.push_back({p.x, p.y, p.z});
     return positions;
 }
 
@@ -38,7 +39,8 @@ Result<Done> write_coloured(const std::filesystem::path& path, const Model& mode
     std::vector<std::uint8_t> shade_of(model.triangle_count());
     for (const std::uint32_t triangle : inaccessible) shade_of[triangle] = 1;
     return write::write_coloured_mesh(
-        path, {positions, model.triangles(), model.positions_f64().empty()}, shades, shade_of);
+        path, {positions, model.mesh().triangles, model.mesh().positions_f64.empty()}, shades,
+        shade_of);
 }
 
 Exit run(const Arguments& arguments) {
@@ -48,17 +50,17 @@ Exit run(const Arguments& arguments) {
     const std::vector<Double3> positions = positions_of(model);
     mesh::Inaccessible found;
     // A model without triangles has no cones.
-    if (model.tetra_tree() != nullptr) {
+    if (model.tetra_tree().tree != nullptr) {
         const Threads threads(arguments.threads);
-        found = mesh::find_inaccessible(model.tetra_tree()->centre, positions, model.triangles(),
-                                        threads.parallel_for());
+        found = mesh::find_inaccessible(model.tetra_tree().tree->centre, positions,
+                                        model.mesh().triangles, threads.parallel_for());
     }
     if (!arguments.coloured.empty()) {
         const Result<Done> written =
             write_coloured(arguments.coloured, model, positions, found.triangles);
         if (!written) return fail("query", written.error());
     }
-    for (std::uint32_t& triangle : found.triangles) triangle = model.source_triangle()[triangle];
+    for (std::uint32_t& triangle : found.triangles) triangle = model.source().triangle[triangle];
     std::sort(found.triangles.begin(), found.triangles.end());
     report::InaccessibleAnswer answer{
         found.triangles.size(), found.edge_on, model.triangle_count(), {}};

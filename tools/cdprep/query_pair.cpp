@@ -98,9 +98,9 @@ public:
     Asker(const Arguments& arguments, const StructureOptions& through, const Model& a,
           const Model& b)
         : arguments_(arguments), through_(through), a_(a), b_(b), errors_(arguments.errors) {
-        options_.as = arguments.as == "solid" ? As::solid : As::surface;
-        errors_.as = options_.as;
-        options_.contact = arguments.contact == "proper" ? Contact::proper : Contact::closed;
+        options_.body = arguments.as == "solid" ? Body::solid : Body::surface;
+        errors_.body = options_.body;
+        options_.overlap = arguments.contact == "proper" ? Overlap::proper : Overlap::closed;
         options_.degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
         if (arguments.counts) workspace_.count_into(&counts_);
     }
@@ -177,11 +177,11 @@ private:
             } else if (!arguments_.count) {
                 answer.pairs = std::span(pairs_).first(count);
             }
-            if (options_.as == As::surface) return answer;
+            if (options_.body == Body::surface) return answer;
         }
         const Collision collision = find_collision(placement);
         answer.hit = collision.hit;
-        if (options_.as == As::solid) answer.containment = collision.containment;
+        if (options_.body == Body::solid) answer.containment = collision.containment;
         return answer;
     }
 
@@ -193,8 +193,8 @@ private:
         }
         Collision collision;
         collision.hit = any_overlap_through(through_, a_, b_, placement, workspace_,
-                                            {options_.contact, options_.degenerate}, &cache_);
-        if (collision.hit || options_.as == As::surface) return collision;
+                                            {options_.overlap, options_.degenerate}, &cache_);
+        if (collision.hit || options_.body == Body::surface) return collision;
         collision.containment = find_containment(a_, b_, placement, workspace_);
         collision.hit = collision.containment.answer == Answer::yes;
         return collision;
@@ -220,7 +220,7 @@ private:
     }
 
     std::size_t find_pairs(const Placement& placement) {
-        const OverlapOptions options = {options_.contact, options_.degenerate};
+        const OverlapOptions options = {options_.overlap, options_.degenerate};
         return keep_pairs([&](std::span<TrianglePair> room) {
             return overlapping_triangles_through(through_, a_, b_, placement, workspace_, room,
                                                  options);
@@ -247,7 +247,7 @@ private:
             return true;
         };
         visit_crossing_segments(a_, b_, placement, workspace_, keep,
-                                {options_.contact, options_.degenerate});
+                                {options_.overlap, options_.degenerate});
         std::sort(crossings_.begin(), crossings_.end(),
                   [](const Crossing& x, const Crossing& y) { return x.pair < y.pair; });
         return crossings_.size();

@@ -107,9 +107,9 @@ std::vector<std::uint32_t> find_owners(const PieceArrays& pieces) {
 
 mesh::Mesh mesh_of(const Model& model) {
     mesh::Mesh mesh;
-    mesh.positions.assign(model.positions_f64().begin(), model.positions_f64().end());
-    for (const Float3& p : model.positions_f32()) mesh.positions.push_back({p.x, p.y, p.z});
-    mesh.triangles.assign(model.triangles().begin(), model.triangles().end());
+    mesh.positions.assign(model.mesh().positions_f64.begin(), model.mesh().positions_f64.end());
+    for (const Float3& p : model.mesh().positions_f32) mesh.positions.push_back({p.x, p.y, p.z});
+    mesh.triangles.assign(model.mesh().triangles.begin(), model.mesh().triangles.end());
     return mesh;
 }
 
@@ -123,7 +123,7 @@ ContactArrays make_contact_arrays(const mesh::Mesh& mesh, const PieceArrays& pie
 
 std::optional<format::Damage> find_convexity_falsehood(std::span<const std::byte> file,
                                                        const Model& model) {
-    const std::span<const std::uint8_t> stored = model.edge_convexity();
+    const std::span<const std::uint8_t> stored = model.mesh().edge_convexity;
     if (stored.empty()) return std::nullopt;
     const std::vector<std::uint8_t> found = find_convexity(mesh_of(model), serial_for);
     const auto [at, right] = std::mismatch(stored.begin(), stored.end(), found.begin());

@@ -101,11 +101,11 @@ using Lines = std::vector<Row>;
 class CoverCheck {
 public:
     explicit CoverCheck(const Model& model, std::uint32_t first) : model_(model) {
-        for (std::uint32_t i = first; i < model.hulls().size(); ++i) {
-            const format::Hull& hull = model.hulls()[i];
+        for (std::uint32_t i = first; i < model.hulls().hulls.size(); ++i) {
+            const format::Hull& hull = model.hulls().hulls[i];
             if (hull.dimension < 2) continue;
             Part part{convex_points(model, i),
-                      model.hull_facets().subspan(hull.first_facet, hull.facet_count),
+                      model.hulls().facets.subspan(hull.first_facet, hull.facet_count),
                       hull.dimension,
                       {}};
             for (std::uint32_t p = 0; p < part.points.count; ++p) {
@@ -146,8 +146,8 @@ public:
 
 private:
     [[nodiscard]] Double3 position(std::uint32_t vertex) const {
-        if (!model_.positions_f64().empty()) return model_.positions_f64()[vertex];
-        const Float3& p = model_.positions_f32()[vertex];
+        if (!model_.mesh().positions_f64.empty()) return model_.mesh().positions_f64[vertex];
+        const Float3& p = model_.mesh().positions_f32[vertex];
         return {p.x, p.y, p.z};
     }
 
@@ -257,8 +257,8 @@ std::optional<format::Damage> find_cover_falsehood(std::span<const std::byte> fi
     const auto first = find_hull(model, format::HullScope::part);
     if (!first) return std::nullopt;
     CoverCheck check(model, *first);
-    for (std::uint32_t i = 0; i < model.triangles().size(); ++i) {
-        if (check.is_covered(model.triangles()[i])) continue;
+    for (std::uint32_t i = 0; i < model.mesh().triangles.size(); ++i) {
+        if (check.is_covered(model.mesh().triangles[i])) continue;
         return wrong_fact(file, format::SectionId::hulls, *first, i, 0);
     }
     return std::nullopt;

@@ -24,7 +24,7 @@ std::vector<std::uint32_t> find_hosts(const mesh::Mesh& mesh,
     std::vector<bool> closed(components.count);
     for (std::uint32_t i = 0; i < components.count; ++i) {
         host[i] = i;
-        closed[i] = (facts[i].flags & format::component_closed) != 0;
+        closed[i] = (facts[i].flags & format::component_balanced) != 0;
     }
     for (const mesh::Nested& nested : mesh::find_nested(mesh, components, closed)) {
         const double outer = facts[nested.outer].signed_volume;
@@ -46,7 +46,7 @@ Solid::Solid(const mesh::Mesh& mesh, Reference reference, ParallelFor parallel_f
     for (std::uint32_t i = 0; i < components.count; ++i) {
         if (host[i] != i) continue;
         body[i] = body_count_++;
-        const bool closed = (facts[i].flags & format::component_closed) != 0;
+        const bool closed = (facts[i].flags & format::component_balanced) != 0;
         closed_.push_back(closed && reference == Reference::solid);
         encloses_ = encloses_ || closed_.back();
     }

@@ -251,7 +251,7 @@ std::string as_json(const ContactFeature& feature) {
     return text + "}";
 }
 
-std::string as_json(const PieceContact& contact) {
+std::string as_json(const Contact& contact) {
     std::string text =
         "{\"piece_a\": " + number(contact.piece_a) + ", \"piece_b\": " + number(contact.piece_b) +
         ", \"lower\": " + number(contact.lower) + ", \"upper\": " + number(contact.upper) +
@@ -298,7 +298,7 @@ std::string as_text(const ContactFeature& feature) {
 std::string as_text(const ContactsAnswer& answer) {
     std::string text =
         "pose " + number(answer.pose) + ": " + number(answer.contacts.size()) + " contacts";
-    for (const PieceContact& contact : answer.contacts) {
+    for (const Contact& contact : answer.contacts) {
         text += "\n  pieces " + number(contact.piece_a) + " and " + number(contact.piece_b) +
                 ": distance " + number(contact.lower) + " to " + number(contact.upper) +
                 ", normal " + place(contact.normal, " ") + ", " + as_text(contact.feature_a) +

@@ -65,7 +65,7 @@ struct WithinAnswer {
 /// How two models touch in one pose.
 struct ContactsAnswer {
     std::size_t pose = 0;
-    std::span<const PieceContact> contacts;
+    std::span<const Contact> contacts;
 };
 
 /// Whether point number `point` is inside.

@@ -25,7 +25,7 @@ bool is_exact(const Hull& hull) {
 
 nlohmann::ordered_json baked_hulls_json(const Model& model) {
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
-    for (const Hull& hull : model.hulls()) {
+    for (const Hull& hull : model.hulls().hulls) {
         json.push_back({{"around", scope_name(hull.scope)},
                         {"number", hull.number},
                         {"dimension", hull.dimension},
@@ -40,7 +40,7 @@ nlohmann::ordered_json baked_hulls_json(const Model& model) {
 
 std::string baked_hulls_text(const Model& model, std::size_t most_lines) {
     std::string text;
-    const auto hulls = model.hulls();
+    const auto hulls = model.hulls().hulls;
     for (const Hull& hull : hulls.first(std::min(most_lines, hulls.size()))) {
         text += std::string("  ") + scope_name(hull.scope);
         if (hull.scope != HullScope::whole) text.append(1, ' ').append(std::to_string(hull.number));

@@ -19,7 +19,7 @@ std::uint64_t byte_count(const format::SectionEntry& entry) {
 }
 
 const char* precision(const Model& model) {
-    return model.positions_f64().empty() ? "f32" : "f64";
+    return model.mesh().positions_f64.empty() ? "f32" : "f64";
 }
 
 const char* up_axis(const Model& model) {
@@ -41,15 +41,15 @@ bool is_normalized(const Model& model) {
 
 /// The provenance as JSON, or as text where it is not.
 nlohmann::ordered_json provenance(const Model& model) {
-    auto parsed = nlohmann::ordered_json::parse(model.provenance(), nullptr, false);
-    if (parsed.is_discarded()) return std::string(model.provenance());
+    auto parsed = nlohmann::ordered_json::parse(model.record().provenance, nullptr, false);
+    if (parsed.is_discarded()) return std::string(model.record().provenance);
     return parsed;
 }
 
 /// What was found, with the numbers of each rule; nothing where the file has none, or
 /// no JSON.
 nlohmann::ordered_json findings(const Model& model) {
-    auto parsed = nlohmann::ordered_json::parse(model.findings(), nullptr, false);
+    auto parsed = nlohmann::ordered_json::parse(model.record().findings, nullptr, false);
     return parsed.is_object() ? parsed : nlohmann::ordered_json();
 }
 
@@ -81,11 +81,11 @@ std::string served_text(const Model& model) {
 }
 
 std::string mesh_text(const Model& model) {
-    if (model.verdicts().empty()) return {};
-    const format::Verdict& verdict = model.verdicts()[0];
+    if (model.record().verdicts.empty()) return {};
+    const format::Verdict& verdict = model.record().verdicts[0];
     std::string text = "mesh: " + verdict_text(verdict) + "\n";
     text += "promises: " + promises_text(verdict) + "\n";
-    if (!model.repaired_from().empty()) {
+    if (!model.source().repaired_from.empty()) {
         text += "repaired: source numbers are those of the repaired mesh\n";
     }
     return text + findings_text(model);
@@ -98,13 +98,13 @@ std::string info_text(const std::string& file, const Model& model,
     std::string text = file + ": format " + std::to_string(model.header().version) + ", " +
                        std::to_string(model.triangle_count()) + " triangles, " +
                        std::to_string(model.vertex_count()) + " vertices, " +
-                       std::to_string(model.components().size()) + " components\n";
+                       std::to_string(model.record().components.size()) + " components\n";
     text += std::string("surface questions: exact; positions ") + precision(model) + "\n";
     if (model.triangle_count() == 0) {
         text += "solid questions: nothing is inside, there are no triangles\n";
     } else {
-        text += model.is_closed() ? "solid questions: exact, the mesh is closed\n"
-                                  : "solid questions: unknown, the mesh is open\n";
+        text += model.is_balanced() ? "solid questions: exact, the mesh is closed\n"
+                                    : "solid questions: unknown, the mesh is open\n";
     }
     text +=
         std::string("questions about pairs: bounded by ") + bounds_name(bounds_of(model)) + "\n";
@@ -113,7 +113,7 @@ std::string info_text(const std::string& file, const Model& model,
     if (const std::string others = structures_text(structure_reports(model)); !others.empty()) {
         text += "structures:\n" + others;
     }
-    if (!model.hulls().empty()) {
+    if (!model.hulls().hulls.empty()) {
         constexpr std::size_t kMostLines = 10;
         text += "hulls:\n" + baked_hulls_text(model, kMostLines);
     }
@@ -136,25 +136,26 @@ std::string info_json(const std::string& file, const Model& model,
         {"bytes", model.header().file_size},
         {"triangles", model.triangle_count()},
         {"vertices", model.vertex_count()},
-        {"components", model.components().size()},
+        {"components", model.record().components.size()},
         {"precision", precision(model)},
-        {"closed", model.is_closed()},
+        {"closed", model.is_balanced()},
         {"normalized", is_normalized(model)},
         {"metres_per_unit", model.header().metres_per_unit},
         {"up_axis", up_axis(model)},
         {"bounds", bounds_name(bounds_of(model))},
         {"serves", served_names(model)},
-        {"guarantees", {{"surface", "exact"}, {"solid", model.is_closed() ? "exact" : "unknown"}}},
+        {"guarantees",
+         {{"surface", "exact"}, {"solid", model.is_balanced() ? "exact" : "unknown"}}},
     };
-    if (!model.verdicts().empty()) {
-        json["facts"] = fact_words(model.verdicts()[0]);
-        json["promises"] = promise_words(model.verdicts()[0]);
+    if (!model.record().verdicts.empty()) {
+        json["facts"] = fact_words(model.record().verdicts[0]);
+        json["promises"] = promise_words(model.record().verdicts[0]);
     }
     if (const auto found = findings(model); !found.is_null()) json["found"] = found;
     if (const auto others = structure_reports(model); !others.empty()) {
         json["structures"] = structures_json(others);
     }
-    if (!model.hulls().empty()) json["hulls"] = baked_hulls_json(model);
+    if (!model.hulls().hulls.empty()) json["hulls"] = baked_hulls_json(model);
     json["sections"] = nlohmann::ordered_json::array();
     for (const format::SectionEntry& entry : sections) {
         json["sections"].push_back({{"name", format::section_name(entry.id)},

@@ -105,7 +105,7 @@ StructureReport report_of(const format::TetraTree& tree, const TetraFigures& fig
 
 std::vector<StructureReport> structure_reports(const Model& model) {
     std::vector<StructureReport> reports;
-    if (const format::OctreeGrid* grid = model.octree_grid()) {
+    if (const format::OctreeGrid* grid = model.octree().grid) {
         const OctreeFigures figures = octree_figures(model);
         const bool has_boxes = model.sections().contains(format::SectionId::octree_boxes);
         reports.push_back(report_of(Structure::octree, *grid, figures, has_boxes));
@@ -113,12 +113,12 @@ std::vector<StructureReport> structure_reports(const Model& model) {
             reports.push_back(report_of(Structure::hashed_octree, *grid, figures, has_boxes));
         }
     }
-    if (const format::AdaptiveOctree* tree = model.adaptive_octree()) {
+    if (const format::AdaptiveOctree* tree = model.adaptive_octree().tree) {
         reports.push_back(
             report_of(*tree, adaptive_octree_figures(model),
                       model.sections().contains(format::SectionId::adaptive_octree_boxes)));
     }
-    if (const format::TetraTree* tree = model.tetra_tree()) {
+    if (const format::TetraTree* tree = model.tetra_tree().tree) {
         reports.push_back(report_of(*tree, tetra_figures(model)));
     }
     return reports;

@@ -106,7 +106,7 @@ private:
 StudiedModel describe(const mesh::Mesh& mesh, const MemoryModel& model) {
     const BoundingBox box = aligned_box(mesh);
     return {mesh.triangles.size(), mesh.positions.size(),
-            2 * std::hypot(box.half.x, box.half.y, box.half.z), model.model.is_closed(),
+            2 * std::hypot(box.half.x, box.half.y, box.half.z), model.model.is_balanced(),
             mesh.single_precision};
 }
 

@@ -193,14 +193,14 @@ BoundingDop bounding_dop(const mesh::Mesh& mesh) {
 
 bool may_touch(const BoundingSphere& a, const BoundingSphere& b, const Pose& a_from_b) noexcept {
     const double slack = slack_of(a.centre, a.radius, b.centre, b.radius, a_from_b);
-    const Double3 d = minus(moved(a_from_b, b.centre), a.centre);
+    const Double3 d = minus(transform_point(a_from_b, b.centre), a.centre);
     const double reaches = a.radius + b.radius + slack;
     return dot(d, d) <= reaches * reaches;
 }
 
 bool may_touch_aligned(const BoundingBox& a, const BoundingBox& b, const Pose& a_from_b) noexcept {
     const double slack = slack_of(a.centre, length(a.half), b.centre, length(b.half), a_from_b);
-    const Double3 d = minus(moved(a_from_b, b.centre), a.centre);
+    const Double3 d = minus(transform_point(a_from_b, b.centre), a.centre);
     const auto& r = a_from_b.rotation();
     const auto row = [&](std::size_t i) {
         return std::fabs(r[i]) * b.half.x + std::fabs(r[i + 1]) * b.half.y +
@@ -212,7 +212,7 @@ bool may_touch_aligned(const BoundingBox& a, const BoundingBox& b, const Pose& a
 
 bool may_touch(const BoundingBox& a, const BoundingBox& b, const Pose& a_from_b) noexcept {
     const double slack = slack_of(a.centre, length(a.half), b.centre, length(b.half), a_from_b);
-    const Double3 d = minus(moved(a_from_b, b.centre), a.centre);
+    const Double3 d = minus(transform_point(a_from_b, b.centre), a.centre);
     const std::array<Double3, 3> axes = {turned(a_from_b, b.axis[0]), turned(a_from_b, b.axis[1]),
                                          turned(a_from_b, b.axis[2])};
     // An axis of length up to 1 parts them when their shadows on it lie apart.
@@ -238,7 +238,7 @@ bool may_touch(const BoundingDop& a, const BoundingDop& b, const Pose& a_from_b)
     if (a.corners.empty() || b.corners.empty()) return false;
     // Directions are up to two long.
     const double slack = 2 * slack_of(a.centre, size_of(a), b.centre, size_of(b), a_from_b);
-    const Double3 d = minus(moved(a_from_b, b.centre), a.centre);
+    const Double3 d = minus(transform_point(a_from_b, b.centre), a.centre);
     const auto& r = a_from_b.rotation();
     for (std::size_t i = 0; i < BoundingDop::kDirections; ++i) {
         const Double3& along = kDopDirections[i];

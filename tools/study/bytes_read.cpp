@@ -9,13 +9,13 @@ namespace {
 /// Of a node with the bounds that questions prefer to its boxes; both kinds are as large.
 double node_bytes(const Model& model) noexcept {
     static_assert(sizeof(format::OrientedNode) == sizeof(format::SweptNode));
-    const bool has_tight = !model.oriented_nodes().empty() || !model.swept_nodes().empty();
+    const bool has_tight = !model.bvh().oriented.empty() || !model.bvh().swept.empty();
     return sizeof(format::BvhNode) + (has_tight ? sizeof(format::OrientedNode) : 0);
 }
 
 double triangle_bytes(const Model& model) noexcept {
     const std::size_t corner =
-        model.positions_f64().empty() ? sizeof(format::Float3) : sizeof(format::Double3);
+        model.mesh().positions_f64.empty() ? sizeof(format::Float3) : sizeof(format::Double3);
     return static_cast<double>(sizeof(format::Triangle) + 3 * corner);
 }
 

@@ -23,10 +23,10 @@ using Walk = std::vector<Pose>;
 /// B's middle goes straight on and B turns about it.
 Walk walk_from(const Climb& climb, const StudyPose& start, std::size_t frames,
                SeededRandom& random) {
-    const format::Bounds& box = *climb.b.model.bounds();
+    const format::Bounds& box = *climb.b.model.record().bounds;
     const Double3 middle = {0.5 * (box.lower.x + box.upper.x), 0.5 * (box.lower.y + box.upper.y),
                             0.5 * (box.lower.z + box.upper.z)};
-    const Double3 at = moved(start.a_from_b, middle);
+    const Double3 at = transform_point(start.a_from_b, middle);
     const Double3 along = random.direction();
     const Double3 axis = random.direction();
     const auto& [w, x, y, z] = start.quaternion;
@@ -40,7 +40,7 @@ Walk walk_from(const Climb& climb, const StudyPose& start, std::size_t frames,
             c * w - v.x * x - v.y * y - v.z * z, c * x + v.x * w + v.y * z - v.z * y,
             c * y - v.x * z + v.y * w + v.z * x, c * z + v.x * y - v.y * x + v.z * w};
         const Pose turn = Pose::from_quaternion(q[0], q[1], q[2], q[3], {0, 0, 0}).value();
-        const Double3 off = moved(turn, middle);
+        const Double3 off = transform_point(turn, middle);
         const double gone = kStep * climb.set.diagonal * static_cast<double>(i);
         walk.push_back(
             Pose::from_quaternion(q[0], q[1], q[2], q[3],

@@ -144,10 +144,10 @@ std::string probe_contacts(const Strategy& strategy, const Probed& probed) {
     StrategyPair pair(strategy, probed.box, probed.box);
     constexpr double kGap = 0.0625;
     const Placement apart = moved_by(1 + kGap, 0.25, 0.25);
-    std::array<PieceContact, 8> room{};
+    std::array<Contact, 8> room{};
     const std::size_t count = pair.contacts(apart, 2 * kGap, room);
     if (count == 0) return "faces within the tolerance have no contact";
-    const PieceContact& first = room[0];
+    const Contact& first = room[0];
     if (std::fabs(first.normal.x - 1) > 1e-9) return "the normal of facing faces is askew";
     if (first.lower > kGap || first.upper < kGap) return "the distance of a contact is wrong";
     if (first.feature_a.triangle >= 12) return "a contact names no triangle";

@@ -227,17 +227,18 @@ std::uint64_t bytes_of(const MemoryModel& model, format::SectionSet sections) no
 
 mesh::Mesh mesh_of(const Model& model) {
     mesh::Mesh mesh;
-    mesh.single_precision = model.positions_f64().empty();
-    mesh.positions.assign(model.positions_f64().begin(), model.positions_f64().end());
-    for (const format::Float3& p : model.positions_f32()) mesh.positions.push_back({p.x, p.y, p.z});
-    mesh.source_vertex.assign(model.source_vertex().begin(), model.source_vertex().end());
+    mesh.single_precision = model.mesh().positions_f64.empty();
+    mesh.positions.assign(model.mesh().positions_f64.begin(), model.mesh().positions_f64.end());
+    for (const format::Float3& p : model.mesh().positions_f32)
+        mesh.positions.push_back({p.x, p.y, p.z});
+    mesh.source_vertex.assign(model.source().vertex.begin(), model.source().vertex.end());
     if (mesh.source_vertex.empty()) {
         for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) mesh.source_vertex.push_back(i);
     }
-    mesh.triangles.resize(model.triangles().size());
+    mesh.triangles.resize(model.mesh().triangles.size());
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-        const std::size_t source = model.source_triangle().empty() ? i : model.source_triangle()[i];
-        mesh.triangles[source] = model.triangles()[i];
+        const std::size_t source = model.source().triangle.empty() ? i : model.source().triangle[i];
+        mesh.triangles[source] = model.mesh().triangles[i];
     }
     return mesh;
 }

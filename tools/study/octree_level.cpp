@@ -55,7 +55,7 @@ public:
     }
 
     [[nodiscard]] bool may_meet(const Cube& a, const Cube& b) const {
-        const Double3 at = moved(pose_, b.centre);
+        const Double3 at = transform_point(pose_, b.centre);
         const std::array<double, 3> d = {at.x - a.centre.x, at.y - a.centre.y, at.z - a.centre.z};
         const auto& r = pose_.rotation();
         for (std::size_t i = 0; i < 3; ++i) {

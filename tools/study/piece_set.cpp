@@ -83,7 +83,7 @@ bool pieces_touch(const PieceSet& a, const PieceSet& b, const Pose& a_from_b,
                   std::vector<Double3>& moved_centres, std::uint64_t* read) {
     moved_centres.clear();
     for (const BoundingSphere& sphere : b.around) {
-        moved_centres.push_back(moved(a_from_b, sphere.centre));
+        moved_centres.push_back(transform_point(a_from_b, sphere.centre));
     }
     const Placement placement = Placement::b_moves(a_from_b);
     const double shift = size_of(a_from_b.translation());

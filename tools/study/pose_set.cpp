@@ -43,8 +43,8 @@ struct Extent {
 };
 
 Extent extent_of(const Model& model) {
-    if (model.bounds() == nullptr || model.triangle_count() == 0) return {};
-    const format::Bounds& box = *model.bounds();
+    if (model.record().bounds == nullptr || model.triangle_count() == 0) return {};
+    const format::Bounds& box = *model.record().bounds;
     const auto middle = [](double low, double high) { return low + 0.5 * (high - low); };
     return {{middle(box.lower.x, box.upper.x), middle(box.lower.y, box.upper.y),
              middle(box.lower.z, box.upper.z)},
@@ -80,7 +80,7 @@ public:
                    pair.of_a.middle.y + 0.5 * half.y * random.between(-1, 1),
                    pair.of_a.middle.z + 0.5 * half.z * random.between(-1, 1)};
         const Pose turn = turned({0, 0, 0});
-        offset_ = moved(turn, pair.of_b.middle);
+        offset_ = transform_point(turn, pair.of_b.middle);
     }
 
     [[nodiscard]] Pose at(double s) const {
@@ -165,7 +165,7 @@ StudyPose ask(const Pair& pair, const Pose& pose, double in, Workspace& workspac
     StudyPose asked;
     asked.a_from_b = pose;
     const Placement placement = Placement::b_moves(pose);
-    const Collision solid = collide(pair.a, pair.b, placement, workspace, {.as = As::solid});
+    const Collision solid = collide(pair.a, pair.b, placement, workspace, {.body = Body::solid});
     const std::optional<Distance> apart = distance(pair.a, pair.b, placement, workspace);
     asked.hit = apart->upper == 0;
     asked.solid = solid.hit ? Answer::yes : solid.containment.answer;

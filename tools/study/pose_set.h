@@ -34,7 +34,7 @@ inline constexpr std::array<const char*, kStrata> kStratumNames = {"deep", "shal
                                                                    "near", "far"};
 
 /// A pose, and what is true in it: answers of the library at level E1, so of exact
-/// arithmetic on B's vertices as moved().
+/// arithmetic on B's vertices as transform_point().
 struct StudyPose {
     Pose a_from_b;
     std::array<double, 4> quaternion{};  ///< that the rotation was made of: w, x, y, z

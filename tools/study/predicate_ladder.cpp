@@ -33,7 +33,7 @@ std::vector<Candidate> find_candidates(const Climb& climb) {
     std::vector<std::uint32_t> place_a(climb.a.model.triangle_count());
     std::vector<std::uint32_t> place_b(climb.b.model.triangle_count());
     const auto note_places = [](const Model& model, std::vector<std::uint32_t>& place) {
-        for (std::uint32_t i = 0; i < place.size(); ++i) place[model.source_triangle()[i]] = i;
+        for (std::uint32_t i = 0; i < place.size(); ++i) place[model.source().triangle[i]] = i;
     };
     note_places(climb.a.model, place_a);
     note_places(climb.b.model, place_b);

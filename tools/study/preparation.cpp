@@ -81,11 +81,11 @@ PieceFigures measure_pieces(const ModelForms& forms, const PreparationOptions& o
     const MemoryModel& form = forms.plain;
     PieceFigures figures;
     figures.seconds_all = form.seconds.pieces + form.seconds.piece_tree;
-    figures.pieces = form.model.pieces().size();
-    for (const format::Piece& piece : form.model.pieces()) {
+    figures.pieces = form.model.pieces().pieces.size();
+    for (const format::Piece& piece : form.model.pieces().pieces) {
         if ((piece.flags & format::piece_contained) != 0) ++figures.contained;
     }
-    for (const format::PieceFacet& facet : form.model.piece_facets()) {
+    for (const format::PieceFacet& facet : form.model.pieces().facets) {
         if ((facet.flags & format::facet_virtual) != 0) ++figures.virtual_faces;
     }
     figures.bytes = bytes_of(form, kPieces);

@@ -131,7 +131,7 @@ Pruning prune(const Model& a, const Model& b, const Pose& a_from_b, CellSearch s
     std::ranges::set_difference(all, found, std::back_inserter(missed));
     const QueryCounts literal = asked.counts(Structure::hashed_octree_literal);
     const QueryCounts repaired = asked.counts(Structure::hashed_octree);
-    const Box box = {a.bounds()->lower, a.bounds()->upper};
+    const Box box = {a.record().bounds->lower, a.record().bounds->upper};
     return {.pairs = as_double(all.size()),
             .found = as_double(found.size()),
             .cs_a = distinct(all, &TrianglePair::a),

@@ -16,8 +16,8 @@ constexpr double kUnit = 0x1p-53;
 
 /// Sum of the greatest |x|, |y| and |z| of the model's box.
 double reach_of(const Model& model) noexcept {
-    if (model.bounds() == nullptr) return 0;
-    const format::Bounds& box = *model.bounds();
+    if (model.record().bounds == nullptr) return 0;
+    const format::Bounds& box = *model.record().bounds;
     return std::max(std::fabs(box.lower.x), std::fabs(box.upper.x)) +
            std::max(std::fabs(box.lower.y), std::fabs(box.upper.y)) +
            std::max(std::fabs(box.lower.z), std::fabs(box.upper.z));
@@ -57,8 +57,8 @@ bool pierces_any(const Corners& edges, const Corners& t, double shift) noexcept 
 }  // namespace
 
 double rounding_of_pose(const Model& b, const Pose& a_from_b) noexcept {
-    // The entries of R are off by 8 units, moved() adds 5 more of |R||v| + |t|, whose entries
-    // are at most 1 in size: 13, and room for the second order.
+    // The entries of R are off by 8 units, transform_point() adds 5 more of |R||v| + |t|, whose
+    // entries are at most 1 in size: 13, and room for the second order.
     return 16 * kUnit * (reach_of(b) + largest_of(a_from_b.translation()));
 }
 

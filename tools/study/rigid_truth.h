@@ -7,12 +7,12 @@
 
 namespace cdprep::study {
 
-/// Returns how far moved() puts a vertex of `b` at most from where the exact rotation by the
-/// quaternion that `a_from_b` was made of puts it, along an axis, model units.
+/// Returns how far transform_point() puts a vertex of `b` at most from where the exact rotation by
+/// the quaternion that `a_from_b` was made of puts it, along an axis, model units.
 [[nodiscard]] double rounding_of_pose(const Model& b, const Pose& a_from_b) noexcept;
 
-/// Whether it is proved that surfaces which are at least `gap` apart as moved() (level E1)
-/// are apart after the exact rotation (level E3) too.
+/// Whether it is proved that surfaces which are at least `gap` apart as transform_point() (level
+/// E1) are apart after the exact rotation (level E3) too.
 [[nodiscard]] bool is_apart_when_rigid(const Model& b, const Pose& a_from_b, double gap) noexcept;
 
 /// Whether some edge of one surface goes through some triangle of the other by so much that

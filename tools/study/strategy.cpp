@@ -96,7 +96,7 @@ bool StrategyPair::is_within(const Placement& placement, double tolerance) {
 }
 
 std::size_t StrategyPair::contacts(const Placement& placement, double tolerance,
-                                   std::span<PieceContact> room) {
+                                   std::span<Contact> room) {
     return cdprep::contacts(a_, b_, placement, tolerance, workspace_, room);
 }
 

@@ -65,7 +65,7 @@ public:
     [[nodiscard]] bool is_within(const Placement& placement, double tolerance);
     /// How many contacts there are; those that have room are written.
     [[nodiscard]] std::size_t contacts(const Placement& placement, double tolerance,
-                                       std::span<PieceContact> room = {});
+                                       std::span<Contact> room = {});
 
     /// From now on counts what questions do; null ends that.
     void count_into(QueryCounts* counts) noexcept {

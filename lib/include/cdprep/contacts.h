@@ -28,7 +28,7 @@ struct ManifoldPoint {
     double distance;  ///< from on_a to on_b along the normal, rounded; negative: overlap
 };
 
-/// Bits of PieceContact::flags.
+/// Bits of Contact::flags.
 enum ContactFlags : std::uint32_t {
     /// The hulls of the two pieces have a common point: the distance is 0 or negative, the
     /// shortest way apart.
@@ -46,8 +46,8 @@ inline constexpr std::size_t kMostManifoldPoints = 4;
 
 /// How two convex pieces of two surfaces touch, or nearly do. Points and the normal are in the
 /// frame that the placement moves both models to.
-struct PieceContact {
-    std::uint32_t piece_a;  ///< in Model::pieces()
+struct Contact {
+    std::uint32_t piece_a;  ///< in Model::pieces().pieces
     std::uint32_t piece_b;
     ContactFeature feature_a;
     ContactFeature feature_b;
@@ -103,10 +103,10 @@ struct ContactOptions {
 /// manifold (tests/bench/results, contacts.csv). Never allocates.
 [[nodiscard]] std::size_t contacts(const Model& a, const Model& b, const Placement& placement,
                                    double tolerance, Workspace& workspace,
-                                   std::span<PieceContact> contacts,
+                                   std::span<Contact> contacts,
                                    const ContactOptions& options = {}) noexcept;
 
-using ContactVisitor = Visitor<PieceContact>;
+using ContactVisitor = Visitor<Contact>;
 
 /// Calls `visit` with every contact that contacts() finds, each once and in their order. Returns
 /// false when `visit` ended the search.

@@ -48,7 +48,7 @@ struct Inclusion {
 
 /// Returns whether `p` (model units, finite) is inside `model`. Same exactness
 /// and costs as find_containment(). Needs Ask::inside.
-[[nodiscard]] Inclusion includes(const Model& model, const Double3& p,
-                                 Workspace& workspace) noexcept;
+[[nodiscard]] Inclusion points_inside(const Model& model, const Double3& p,
+                                      Workspace& workspace) noexcept;
 
 }  // namespace cdprep

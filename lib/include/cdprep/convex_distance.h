@@ -17,7 +17,7 @@ namespace cdprep {
 // without rounding where double proves nothing.
 //
 // All are about the hulls of the points as `placement` moves them (level E1): each point
-// is rounded once by moved(), and from then on nothing is. The hulls are solid: one
+// is rounded once by transform_point(), and from then on nothing is. The hulls are solid: one
 // inside the other touches it. A hull without points touches nothing.
 //
 // None allocates. Each step costs O(sqrt(n)) where the hull has neighbours, O(n) where it

@@ -20,8 +20,8 @@ struct DistanceOptions {
     double absolute_error = 0;  ///< or by this, model units
     /// Beyond, nothing is of interest; inclusive.
     double max_distance = std::numeric_limits<double>::infinity();
-    /// As::solid: a model proved inside the other is 0 from it (find_containment()).
-    As as = As::surface;
+    /// Body::solid: a model proved inside the other is 0 from it (find_containment()).
+    Body body = Body::surface;
 };
 
 /// The distance of two surfaces, and where it is taken.
@@ -38,10 +38,10 @@ struct Distance {
 /// `max_distance` or a model is empty.
 ///
 /// Surfaces that touch are 0 apart, exactly, with a common point as witness; so
-/// are none else, but with As::solid models of which one is proved inside the other:
+/// are none else, but with Body::solid models of which one is proved inside the other:
 /// their witnesses are still the surfaces' nearest points. Of pairs of triangles with equal `upper`
 /// the one with the lowest numbers answers; of pairs that are equally near in exact numbers, whose
-/// `upper` may differ in the last bits, any may, and always the same. With As::surface a small
+/// `upper` may differ in the last bits, any may, and always the same. With Body::surface a small
 /// model inside a large one is as far away as its walls are.
 ///
 /// The interval holds the distance between the vertices as `placement` moves them
@@ -49,7 +49,7 @@ struct Distance {
 /// 1e-15 of the largest coordinate wide (triangle_distance_laws_test); with them
 /// at most that wide or as permitted.
 ///
-/// Needs Ask::distance of both models; As::solid also Ask::solid. Never allocates. Costs
+/// Needs Ask::distance of both models; Body::solid also Ask::solid. Never allocates. Costs
 /// O(log n) for compact surfaces; every triangle in the worst case, such as concentric spheres.
 /// `cache` may be null.
 [[nodiscard]] std::optional<Distance> distance(const Model& a, const Model& b,

@@ -10,20 +10,14 @@
 #include <string>
 #include <string_view>
 
+#include "cdprep/advanced/model_views.h"
 #include "cdprep/ask.h"
-#include "cdprep/format/bvh_shape.h"
-#include "cdprep/format/hulls.h"
-#include "cdprep/format/octree.h"
-#include "cdprep/format/pieces.h"
+#include "cdprep/format/file_header.h"
 #include "cdprep/format/section_set.h"
-#include "cdprep/format/tetra_tree.h"
-#include "cdprep/format/verdict.h"
 #include "cdprep/result.h"
 
 namespace cdprep {
 
-using format::Double3;
-using format::Float3;
 using format::SectionId;
 using format::SectionSet;
 
@@ -141,98 +135,27 @@ public:
     /// Returns why not all of `asks` can be asked, or nothing when serves() is true. Allocates.
     [[nodiscard]] std::optional<Refusal> refusal(Ask asks) const;
 
-    /// Raw spans, tree order where FORMAT.md says so; empty when the section is
-    /// absent or was not asked for. Exactly one of the two positions is present.
-    [[nodiscard]] std::span<const Float3> positions_f32() const noexcept;        ///< model units
-    [[nodiscard]] std::span<const Double3> positions_f64() const noexcept;       ///< model units
-    [[nodiscard]] std::span<const format::Triangle> triangles() const noexcept;  ///< tree order
-    [[nodiscard]] std::span<const std::uint32_t> source_triangle() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> source_vertex() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> source_face() const noexcept;
-    /// By source triangle, what it was in the file before `bake --repair` mended it, or
-    /// format::kMadeByRepair; empty when nothing was repaired, and numbers are the file's.
-    [[nodiscard]] std::span<const std::uint32_t> repaired_from() const noexcept;
-    [[nodiscard]] std::span<const format::BvhNode> nodes() const noexcept;  ///< root first
-    [[nodiscard]] std::span<const format::BvhLeaf> leaves() const noexcept;
-    /// True when leaves() are there and hold model coordinates without loss.
-    [[nodiscard]] bool has_exact_leaves() const noexcept;
-    /// Same numbers as nodes(); empty when the model was baked without.
-    [[nodiscard]] std::span<const format::OrientedNode> oriented_nodes() const noexcept;
-    /// Likewise; format::swept_kind(header().flags) says what they are.
-    [[nodiscard]] std::span<const format::SweptNode> swept_nodes() const noexcept;
-    [[nodiscard]] std::span<const std::uint64_t> degenerate_bits() const noexcept;
-    [[nodiscard]] std::span<const format::Component> components() const noexcept;
-    /// What was found of the whole mesh when it was baked, then of each component, in the
-    /// order of their lowest source triangle, and so what answers mean on it.
-    [[nodiscard]] std::span<const format::Verdict> verdicts() const noexcept;
-    [[nodiscard]] std::span<const format::Instance> instances() const noexcept;
-    [[nodiscard]] std::span<const format::NamedRun> group_runs() const noexcept;
-    [[nodiscard]] std::span<const format::NamedRun> material_runs() const noexcept;
-    [[nodiscard]] const format::Bounds* bounds() const noexcept;                   ///< or null
-    [[nodiscard]] const format::MassProperties* mass_properties() const noexcept;  ///< or null
-    [[nodiscard]] std::string_view provenance() const noexcept;  ///< canonical JSON
-    /// JSON: what was found wrong with the mesh, and what was mended; or empty.
-    [[nodiscard]] std::string_view findings() const noexcept;
-
-    /// The octree, its hash tables and its sorted leaves (format/octree.h); empty when baked
-    /// without.
-    [[nodiscard]] const format::OctreeGrid* octree_grid() const noexcept;  ///< or null
-    [[nodiscard]] std::span<const format::OctreeNode> octree_nodes() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> octree_references() const noexcept;
-    [[nodiscard]] std::span<const std::uint64_t> octree_leaf_codes() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> octree_leaf_nodes() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> octree_top() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> octree_modulus_table() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> octree_mixed_table() const noexcept;
-    /// The octree with split points of its own (format/octree.h).
-    [[nodiscard]] const format::AdaptiveOctree* adaptive_octree() const noexcept;  ///< or null
-    [[nodiscard]] std::span<const format::AdaptiveOctreeNode> adaptive_octree_nodes()
-        const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> adaptive_octree_references() const noexcept;
-    /// Per node of either tree; empty where the file has none.
-    [[nodiscard]] std::span<const format::CellBox> octree_boxes() const noexcept;
-    [[nodiscard]] std::span<const format::CellBox> adaptive_octree_boxes() const noexcept;
-    /// The tetra-tree (format/tetra_tree.h).
-    [[nodiscard]] const format::TetraTree* tetra_tree() const noexcept;  ///< or null
-    [[nodiscard]] std::span<const format::TetraNode> tetra_nodes() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> tetra_references() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> tetra_top() const noexcept;
-    [[nodiscard]] std::span<const format::BvhNode> tetra_boxes() const noexcept;
-    [[nodiscard]] std::span<const format::OrientedNode> tetra_oriented() const noexcept;
-    /// Convex hulls (format/hulls.h; model_hulls.h finds their way about).
-    [[nodiscard]] std::span<const format::Hull> hulls() const noexcept;
-    [[nodiscard]] std::span<const format::HullBlock> hull_blocks() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> hull_vertices() const noexcept;
-    [[nodiscard]] std::span<const format::HullFacet> hull_facets() const noexcept;
-    [[nodiscard]] std::span<const format::HullGroup> hull_groups() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> hull_neighbours() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> hull_starts() const noexcept;
-    /// Convex pieces of the surface and their hulls (format/pieces.h); empty when baked without.
-    [[nodiscard]] std::span<const format::Piece> pieces() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> piece_triangles() const noexcept;
-    [[nodiscard]] std::span<const std::uint32_t> piece_vertices() const noexcept;
-    [[nodiscard]] std::span<const format::PieceFacet> piece_facets() const noexcept;
-    /// The hierarchy over pieces, root first (format/pieces.h); empty when baked without.
-    [[nodiscard]] std::span<const format::BvhNode> piece_nodes() const noexcept;
-    [[nodiscard]] std::span<const format::SweptNode> piece_swept() const noexcept;
-    [[nodiscard]] std::span<const format::PieceLeaf> piece_leaves() const noexcept;
-    [[nodiscard]] std::span<const format::PieceNodeHull> piece_node_hulls() const noexcept;
-    [[nodiscard]] std::span<const format::PieceAdjacency> piece_adjacency() const noexcept;
-    /// Per triangle, tree order: format::edge_convexity() reads it; empty when baked without.
-    [[nodiscard]] std::span<const std::uint8_t> edge_convexity() const noexcept;
-    /// The piece of each triangle, tree order; empty when baked without.
-    [[nodiscard]] std::span<const std::uint32_t> triangle_piece() const noexcept;
+    /// Views of the sections (advanced/model_views.h): for tools, and for questions that the
+    /// library does not answer. O(1).
+    [[nodiscard]] const MeshView& mesh() const noexcept;
+    [[nodiscard]] const SourceView& source() const noexcept;
+    [[nodiscard]] const BvhView& bvh() const noexcept;
+    [[nodiscard]] const OctreeView& octree() const noexcept;
+    [[nodiscard]] const AdaptiveOctreeView& adaptive_octree() const noexcept;
+    [[nodiscard]] const TetraTreeView& tetra_tree() const noexcept;
+    [[nodiscard]] const HullView& hulls() const noexcept;
+    [[nodiscard]] const PieceView& pieces() const noexcept;
+    [[nodiscard]] const RecordView& record() const noexcept;
 
     /// Name number `index` of instance_names, group_names or material_names;
     /// empty when there is none. O(index).
     [[nodiscard]] std::string_view name(SectionId names, std::uint32_t index) const noexcept;
 
-    /// Shape of the hierarchy, computed once at opening.
-    [[nodiscard]] const format::BvhShape& shape() const noexcept;
-
-    /// True when the oriented uses of every edge cancel: solid questions have
-    /// exact answers.
-    [[nodiscard]] bool is_closed() const noexcept;
+    /// True when bvh().leaves is not empty and holds model coordinates without loss.
+    [[nodiscard]] bool has_exact_leaves() const noexcept;
+    /// True when the directed uses of every edge cancel. Winding numbers then exist, and questions
+    /// about solids have exact answers.
+    [[nodiscard]] bool is_balanced() const noexcept;
 
 private:
     struct State;

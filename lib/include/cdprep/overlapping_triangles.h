@@ -22,7 +22,7 @@ struct TrianglePair {
 };
 
 /// What counts as an overlap of two triangles.
-enum class Contact : std::uint8_t {
+enum class Overlap : std::uint8_t {
     closed,  ///< any common point: touching counts
     proper,  ///< the triangles cross, or share area in one plane
 };
@@ -34,7 +34,7 @@ enum class Degenerate : std::uint8_t {
 };
 
 struct OverlapOptions {
-    Contact contact = Contact::closed;
+    Overlap overlap = Overlap::closed;
     Degenerate degenerate = Degenerate::keep;
 };
 

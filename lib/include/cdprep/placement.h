@@ -7,7 +7,7 @@ namespace cdprep {
 
 /// How two models stand to each other, and which vertices move.
 ///
-/// A query moves every vertex that moves once, by moved(), and then answers
+/// A query moves every vertex that moves once, by transform_point(), and then answers
 /// exactly for the resulting doubles. So it matters who moves: rounding shifts
 /// the moved vertices by up to 5 u (|R||v| + |t|) per axis, u = 2^-53.
 class Placement {

@@ -95,6 +95,6 @@ inline constexpr double kGreatestPoseTolerance = 0.25;
 /// contraction. This is *the* formula: an exact query answers for the points
 /// that it returns (level E1 of exactness). Neither the compiler's options nor the
 /// floating-point environment of the caller change it.
-[[nodiscard]] Double3 moved(const Pose& pose, const Double3& p) noexcept;
+[[nodiscard]] Double3 transform_point(const Pose& pose, const Double3& p) noexcept;
 
 }  // namespace cdprep

@@ -63,6 +63,27 @@ public:
         return std::move(*std::get_if<0>(&state_));
     }
 
+    /// The same as value(). Requires ok().
+    [[nodiscard]] T& operator*() & {
+        return value();
+    }
+    /// Requires ok().
+    [[nodiscard]] const T& operator*() const& {
+        return value();
+    }
+    /// Requires ok().
+    [[nodiscard]] T operator*() && {
+        return std::move(*this).value();
+    }
+    /// Requires ok().
+    [[nodiscard]] T* operator->() {
+        return &value();
+    }
+    /// Requires ok().
+    [[nodiscard]] const T* operator->() const {
+        return &value();
+    }
+
     /// Requires !ok().
     [[nodiscard]] const Error& error() const {
         assert(!ok());

@@ -14,10 +14,10 @@ namespace cdprep {
 ///
 /// Each shape is closed and solid: touching counts, and so does a triangle that lies
 /// inside. The model is its surface: a shape deep within a closed model touches
-/// nothing; includes() answers for a point of it.
+/// nothing; points_inside() answers for a point of it.
 struct TouchOptions {
     /// Where the model stands: the shape's coordinates are the world's. Every vertex is
-    /// moved once, by moved(), and the answer is exact for the resulting doubles (level
+    /// moved once, by transform_point(), and the answer is exact for the resulting doubles (level
     /// E1); the identity moves nothing. Where the shape is what moves and the answer is
     /// to be exact for the vertices as stored, give the shape in model coordinates.
     Pose world_from_model = {};

@@ -18,7 +18,7 @@ struct WithinOptions {
 /// Returns how many there are and stores the first of them, in the order of (a, b), in
 /// `pairs`, as overlapping_triangles() does: a span that is too short is filled with
 /// the smallest pairs, an empty one counts. A tolerance of 0 gives the pairs of
-/// overlapping_triangles() with Contact::closed, an infinite one all pairs; a negative
+/// overlapping_triangles() with Overlap::closed, an infinite one all pairs; a negative
 /// one or NaN gives none, and an empty model has none.
 ///
 /// Exact for the vertices as `placement` moves them (Pose, level E1), the same on every

@@ -21,7 +21,7 @@ public:
 
     /// A workspace in the caller's memory, which outlives it; allocates nothing.
     /// Nothing when the memory is smaller than size() or not aligned to alignment().
-    [[nodiscard]] static std::optional<Workspace> in(std::span<std::byte> memory) noexcept;
+    [[nodiscard]] static std::optional<Workspace> in_memory(std::span<std::byte> memory) noexcept;
     [[nodiscard]] static std::size_t size() noexcept;       ///< bytes
     [[nodiscard]] static std::size_t alignment() noexcept;  ///< bytes, a power of two
 

@@ -115,7 +115,7 @@ private:
     }
 
     static TestMesh placed(TestMesh mesh, const Pose& pose) {
-        for (Double3& p : mesh.positions) p = moved(pose, p);
+        for (Double3& p : mesh.positions) p = transform_point(pose, p);
         return mesh;
     }
 

@@ -40,7 +40,7 @@ void ask_about_shapes(const Model& m, const Pose& turn, Workspace& workspace) {
     std::array<std::uint32_t, 100> numbers{};
     std::array<RayHit, 10> hits{};
     const Capsule capsule = {{0, 0, 0.5}, {0.1, 0, -1}, 0.1};
-    const LooseTriangle triangle = {{{{0, 0, 0.5}, {0.1, 0, -1}, {1, 0, 0}}}};
+    const TriangleShape triangle = {{{{0, 0, 0.5}, {0.1, 0, -1}, {1, 0, 0}}}};
     const auto ask = [&](const auto& shape) {
         for (const TouchOptions& options : {TouchOptions{}, TouchOptions{turn, Degenerate::keep}}) {
             static_cast<void>(touches(m, shape, workspace, options));
@@ -100,7 +100,7 @@ TEST(AbsurdBoxes, EveryQuestionEnds) {
               Placement::world(random_pose(random, 9), Pose())}) {
             const std::size_t all = m.triangle_count() * std::size_t{m.triangle_count()};
             EXPECT_LE(overlapping_triangles(m, m, placement, workspace, pairs), all);
-            static_cast<void>(collide(m, m, placement, workspace, {.as = As::solid}));
+            static_cast<void>(collide(m, m, placement, workspace, {.body = Body::solid}));
             static_cast<void>(distance(m, m, placement, workspace));
             static_cast<void>(is_within(m, m, placement, 0.5, workspace));
             EXPECT_LE(triangles_within(m, m, placement, 0.125, workspace, pairs), all);
@@ -109,7 +109,7 @@ TEST(AbsurdBoxes, EveryQuestionEnds) {
         }
         static_cast<void>(cast_ray(m, {{0, 0, 5}, {0.1, 0, -1}}, workspace));
         static_cast<void>(closest_point(m, {0, 0, 5}, workspace));
-        static_cast<void>(includes(m, {0, 0, 0}, workspace));
+        static_cast<void>(points_inside(m, {0, 0, 0}, workspace));
         ask_about_shapes(m, random_pose(random, 1), workspace);
     }
 }

@@ -163,7 +163,7 @@ TEST(Allocations, NoQuestionAllocates) {
     std::size_t hits = 0, misses = 0;
     const std::size_t before = allocations;
     for (const Placement& placement : placements) {
-        const bool hit = collide(a, b, placement, workspace, {.as = As::solid}).hit;
+        const bool hit = collide(a, b, placement, workspace, {.body = Body::solid}).hit;
         (hit ? hits : misses) += 1;
         static_cast<void>(overlapping_triangles(a, b, placement, workspace, pairs));
         static_cast<void>(
@@ -193,7 +193,7 @@ TEST(Allocations, NoQuestionAllocates) {
     overlapping_triangles_all(jobs, workspaces, run, overlaps);
     mark_overlapping_triangles_all(jobs, workspaces, run, marked);
     for (const double x : {0.0, 0.5, 1.0, 7.0}) {
-        static_cast<void>(includes(a, {x, 0.1, 0.2}, workspace));
+        static_cast<void>(points_inside(a, {x, 0.1, 0.2}, workspace));
         static_cast<void>(closest_point(a, {x, 0.1, 0.2}, workspace));
         const Ray ray = {{x, 0.1, 5}, {0.1, 0, -1}};
         static_cast<void>(cast_ray(b, ray, workspace));
@@ -203,7 +203,7 @@ TEST(Allocations, NoQuestionAllocates) {
         visit_ray_hits(b, ray, workspace, visit_ray);
         for (const Model* model : {&a, &b}) {
             const Capsule capsule = {{x, 0, 0}, {x, 0.5, 0}, 0.25};
-            const LooseTriangle triangle = {{{{x, 0, 0}, {x, 0.5, 0}, {x, 0, 2}}}};
+            const TriangleShape triangle = {{{{x, 0, 0}, {x, 0.5, 0}, {x, 0, 2}}}};
             ask_touching(*model, Box{{x, 0, -1}, {x + 1, 0.5, 1}}, workspace, triangles);
             ask_touching(*model, Sphere{{x, 0, 0}, 1}, workspace, triangles);  // tangent at 0
             ask_touching(*model, capsule, workspace, triangles);
@@ -320,9 +320,9 @@ TEST(Allocations, NoContactAllocates) {
         open_tiny(with_contacts(with_pieces(bake_tiny(ring.positions, ring.triangles))));
     const std::vector<Placement> placements = some_placements();
     Workspace workspace;
-    std::vector<PieceContact> room(20);
+    std::vector<Contact> room(20);
     std::size_t found = 0, most = 0, overlapping = 0;
-    const auto visit = [&](const PieceContact& contact) {
+    const auto visit = [&](const Contact& contact) {
         ++found;
         overlapping += contact.flags & contact_overlap;
         return true;
@@ -351,10 +351,10 @@ TEST(Allocations, NoClosestFeatureAllocates) {
         open_tiny(with_contacts(with_one_piece(bake_tiny(ball.positions, ball.triangles))));
     const Model& model = open.model;
     ConvexPoints points;
-    points.count = static_cast<std::uint32_t>(model.piece_vertices().size());
-    points.corners = model.piece_vertices();
-    points.floats = model.positions_f32();
-    const FeatureHull hull = {points, model.piece_facets(), model.piece_adjacency()};
+    points.count = static_cast<std::uint32_t>(model.pieces().vertices.size());
+    points.corners = model.pieces().vertices;
+    points.floats = model.mesh().positions_f32;
+    const FeatureHull hull = {points, model.pieces().facets, model.pieces().adjacency};
     FeatureCache cache;
     int apart = 0;
     const std::size_t before = allocations;

@@ -44,14 +44,14 @@ TEST_P(Batch, CollideAndWithinAnswerAsAlone) {
     for (int again = 0; again < 2; ++again) {
         std::vector<Collision> collisions(made.jobs.size());
         const auto near = std::make_unique<bool[]>(made.jobs.size());
-        collide_all(made.jobs, workspaces, run_threads, collisions, {.as = As::solid});
+        collide_all(made.jobs, workspaces, run_threads, collisions, {.body = Body::solid});
         is_within_all(made.jobs, 0.5, workspaces, run_threads,
                       std::span(near.get(), made.jobs.size()));
         hits = 0;
         for (std::size_t i = 0; i < made.jobs.size(); ++i) {
             const PairJob& job = made.jobs[i];
             const Collision alone =
-                collide(*job.a, *job.b, job.placement, workspace, {.as = As::solid});
+                collide(*job.a, *job.b, job.placement, workspace, {.body = Body::solid});
             ASSERT_EQ(collisions[i].hit, alone.hit) << i;
             ASSERT_EQ(collisions[i].containment.answer, alone.containment.answer) << i;
             ASSERT_EQ(near[i], is_within(*job.a, *job.b, job.placement, 0.5, workspace)) << i;

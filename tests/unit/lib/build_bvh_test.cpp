@@ -177,7 +177,7 @@ TEST(BuildBvh, SweptSpheresPassTheDeepCheck) {
 TEST(BuildBvh, SweptSpheresOfATurnedSheetAreTight) {
     TestMesh sheet = grid_sheet(4, 16);  // 128 triangles: two levels
     const Pose pose = Pose::from_quaternion(1, 2, 3, 4, {0, 0, 0}).value();
-    for (Double3& p : sheet.positions) p = moved(pose, p);
+    for (Double3& p : sheet.positions) p = transform_point(pose, p);
     const auto root_with = [&](build::BvhBounds bounds) {
         return build_bvh(sheet.positions, sheet.triangles, {.bounds = bounds});
     };
@@ -212,7 +212,7 @@ TEST(BuildBvh, LeavesAreExactWhereAllCoordinatesAreFloats) {
 TEST(BuildBvh, OrientedBoxesOfATurnedSheetAreThin) {
     TestMesh sheet = grid_sheet(20, 30);
     const Pose pose = Pose::from_quaternion(1, 2, 3, 4, {0, 0, 0}).value();
-    for (Double3& p : sheet.positions) p = moved(pose, p);
+    for (Double3& p : sheet.positions) p = transform_point(pose, p);
     const Bvh bvh = build_bvh(sheet.positions, sheet.triangles);
     ASSERT_FALSE(bvh.oriented_nodes.empty());
     for (const format::OrientedNode& node : bvh.oriented_nodes) {

@@ -61,7 +61,7 @@ TEST(BuildModel, EveryMeshBecomesAModelInWhichNothingIsWrong) {
 TEST(BuildModel, ClosedAreMeshesWhoseEdgesCancel) {
     const auto is_closed = [](const TestMesh& mesh) {
         const auto arrays = build_model(mesh.positions, mesh.triangles);
-        return (arrays.value().facts.flags & format::model_closed) != 0;
+        return (arrays.value().facts.flags & format::model_balanced) != 0;
     };
     EXPECT_TRUE(is_closed(test::unit_cube()));
     EXPECT_TRUE(is_closed(test::torus(1, 0.4, 24, 12)));

@@ -169,9 +169,9 @@ TEST(Workspace, MayLiveInTheCallersMemory) {
     ASSERT_TRUE(model);
     AlignedBytes memory(Workspace::size());
     ASSERT_EQ(reinterpret_cast<std::uintptr_t>(memory.span().data()) % Workspace::alignment(), 0u);
-    EXPECT_FALSE(Workspace::in(memory.span().first(Workspace::size() - 1)));
-    EXPECT_FALSE(Workspace::in(memory.span().subspan(1)));
-    auto workspace = Workspace::in(memory.span());
+    EXPECT_FALSE(Workspace::in_memory(memory.span().first(Workspace::size() - 1)));
+    EXPECT_FALSE(Workspace::in_memory(memory.span().subspan(1)));
+    auto workspace = Workspace::in_memory(memory.span());
     ASSERT_TRUE(workspace);
     const Placement still = Placement::b_moves(Pose());
     EXPECT_TRUE(collide(model.value(), model.value(), still, *workspace).hit);

@@ -20,10 +20,10 @@ constexpr format::SectionSet kWanted = {
     SectionId::triangle_piece, SectionId::piece_adjacency, SectionId::edge_convexity,
     SectionId::source_vertex};
 
-std::vector<PieceContact> all_contacts(const Model& a, const Model& b, const Placement& placement,
-                                       Workspace& workspace) {
-    std::vector<PieceContact> found;
-    const auto keep = [&](const PieceContact& contact) {
+std::vector<Contact> all_contacts(const Model& a, const Model& b, const Placement& placement,
+                                  Workspace& workspace) {
+    std::vector<Contact> found;
+    const auto keep = [&](const Contact& contact) {
         found.push_back(contact);
         return true;
     };

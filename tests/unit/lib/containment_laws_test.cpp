@@ -50,12 +50,12 @@ TEST(IncludesLaws, AgreesWithExactRays) {
             const TestMesh mesh = moved_by(tetrahedra(random, 5 + 5 * round, 4), scale, {0, 0, 0});
             const OpenModel model = open_tiny(mesh, {.double_precision = true});
             const std::vector<Corners> surface = surface_of(mesh);
-            ASSERT_TRUE(model.model.is_closed());
+            ASSERT_TRUE(model.model.is_balanced());
             for (int i = 0; i < 25; ++i) {
                 const int x = half(random), y = half(random), z = half(random);
                 const Double3 q{scale * x / 2, scale * y / 2, scale * z / 2};
                 const std::optional<int> truth = exact_winding(surface, q);
-                const Inclusion found = includes(model.model, q, workspace);
+                const Inclusion found = points_inside(model.model, q, workspace);
                 ASSERT_EQ(found.on_surface, !truth) << kSeed << ' ' << exponent << ' ' << round;
                 ASSERT_EQ(found.winding, truth.value_or(0)) << exponent << ' ' << round;
                 ASSERT_EQ(found.answer, !truth || *truth != 0 ? Answer::yes : Answer::no);
@@ -74,7 +74,7 @@ bool contained_by_definition(const TestMesh& inner, const Pose* pose,
                              const std::vector<Corners>& outer) {
     for (std::size_t first = 0; first < inner.positions.size(); first += 4) {
         const Double3 p = inner.positions[first];
-        const auto found = exact_winding(outer, pose == nullptr ? p : moved(*pose, p));
+        const auto found = exact_winding(outer, pose == nullptr ? p : transform_point(*pose, p));
         if (found && *found != 0) return true;
     }
     return false;

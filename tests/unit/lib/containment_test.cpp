@@ -18,7 +18,7 @@ namespace {
 Inclusion where(const TestMesh& mesh, const Double3& p) {
     const OpenModel model = open_tiny(mesh, {.double_precision = true});
     Workspace workspace;
-    return includes(model.model, p, workspace);
+    return points_inside(model.model, p, workspace);
 }
 
 // P02, P03: by hand, a cube's inside, with rays along its diagonals and edges.
@@ -29,7 +29,7 @@ TEST(Containment, HalfIntegerProbesOfACube) {
         for (int j = -4; j <= 4; ++j) {
             for (int k = -4; k <= 4; ++k) {
                 const Inclusion found =
-                    includes(model.model, {i * 0.75, j * 0.75, k * 0.75}, workspace);
+                    points_inside(model.model, {i * 0.75, j * 0.75, k * 0.75}, workspace);
                 const int farthest = std::max({std::abs(i), std::abs(j), std::abs(k)});
                 ASSERT_EQ(found.answer == Answer::yes, farthest * 0.75 <= 2)
                     << i << " " << j << " " << k;
@@ -141,7 +141,7 @@ Collision solid(const TestMesh& a, const TestMesh& b, const Placement& placement
     const OpenModel model_a = open_tiny(a, {.double_precision = true});
     const OpenModel model_b = open_tiny(b, {.double_precision = true});
     Workspace workspace;
-    return collide(model_a.model, model_b.model, placement, workspace, {.as = As::solid});
+    return collide(model_a.model, model_b.model, placement, workspace, {.body = Body::solid});
 }
 
 // By construction: a small cube inside a large one, under every placement.

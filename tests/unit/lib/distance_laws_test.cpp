@@ -26,7 +26,7 @@ double largest_coordinate(const TestMesh& a, const TestMesh& b, const Placement&
                            : mesh == &a ? placement.pose_a()
                                         : placement.pose_b();
         for (const Double3& p : mesh->positions) {
-            const Double3 q = moved(pose, p);
+            const Double3 q = transform_point(pose, p);
             largest = std::max({largest, std::fabs(q.x), std::fabs(q.y), std::fabs(q.z)});
         }
     }
@@ -290,14 +290,14 @@ TEST(DistanceLaws, ASolidInsideAnotherIsNotApart) {
         const auto surfaces = distance(a, b, still, workspace);
         EXPECT_NEAR(surfaces->lower, 1, 1e-12);
         const auto solids =
-            distance(a, b, still, workspace, {.max_distance = 0.5, .as = As::solid});
+            distance(a, b, still, workspace, {.max_distance = 0.5, .body = Body::solid});
         ASSERT_TRUE(solids);
         EXPECT_EQ(solids->lower, 0);
         EXPECT_EQ(solids->upper, 0);
         EXPECT_EQ(solids->witness_a, surfaces->witness_a);
         const Placement aside =
             Placement::b_moves(Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, 7, 0, 0}).value());
-        EXPECT_GT(distance(a, b, aside, workspace, {.as = As::solid})->lower, 1);
+        EXPECT_GT(distance(a, b, aside, workspace, {.body = Body::solid})->lower, 1);
     }
 }
 

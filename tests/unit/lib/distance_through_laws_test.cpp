@@ -324,7 +324,7 @@ TEST(DistanceThroughLaws, ASolidInsideAnotherIsNotApart) {
     PieceCache cache;
     pair.expect_same_answers(still, &cache);
     const auto solids = distance_through(kPieces, pair.a.model, pair.b.model, still, pair.workspace,
-                                         {.max_distance = 0.5, .as = As::solid}, &cache);
+                                         {.max_distance = 0.5, .body = Body::solid}, &cache);
     ASSERT_TRUE(solids);
     EXPECT_EQ(solids->upper, 0);
 }

@@ -138,7 +138,7 @@ public:
         add(found.hit);
         add(found.containment);
     }
-    void add(const PieceContact& c) {
+    void add(const Contact& c) {
         add(c.piece_a);
         add(c.piece_b);
         add(c.point_a);
@@ -268,7 +268,7 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
             expect_same_in_every_mode(s.name + ": " + name, question);
         };
         each("collide", [&](Asked& out) {
-            out.bytes.add(collide(a, b, s.placement, workspace, {.as = As::solid}));
+            out.bytes.add(collide(a, b, s.placement, workspace, {.body = Body::solid}));
             PairCache cache;
             out.bytes.add(collide(a, b, s.placement, workspace, {}, &cache));
             out.bytes.add(collide(a, b, s.placement, workspace, {}, &cache));
@@ -302,7 +302,7 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
         each("distance", [&](Asked& out) {
             out.bytes.add(distance(a, b, s.placement, workspace));
             out.bytes.add(distance(a, b, s.placement, workspace, {.relative_error = 0.1}));
-            out.bytes.add(distance(a, b, s.placement, workspace, {.as = As::solid}));
+            out.bytes.add(distance(a, b, s.placement, workspace, {.body = Body::solid}));
         });
         each("is_within", [&](Asked& out) {
             out.bytes.add(is_within(a, b, s.placement, near, workspace));
@@ -388,7 +388,7 @@ TEST(FloatModes, ChangeNoAnswerAboutOneModel) {
         const Double3 along = {p[1].x * 0.5, -p[1].x, p[1].x};
         each("includes", [&](Asked& out) {
             for (const Double3& at : p) {
-                out.bytes.add(includes(model, at, workspace));
+                out.bytes.add(points_inside(model, at, workspace));
                 for (const Structure structure : kStructures) {
                     out.bytes.add(includes_through(structure, model, at, workspace));
                 }
@@ -421,7 +421,7 @@ TEST(FloatModes, ChangeNoAnswerAboutOneModel) {
             const Box box = {p[0], p[1]};
             const Sphere sphere = {p[1], radius};
             const Capsule capsule = {p[0], p[1], radius};
-            const LooseTriangle triangle = {{p[0], p[1], p[2]}};
+            const TriangleShape triangle = {{p[0], p[1], p[2]}};
             for (const TouchOptions& options : {TouchOptions{}, turned}) {
                 ask_touching(model, box, options, workspace, out);
                 ask_touching(model, sphere, options, workspace, out);
@@ -499,11 +499,11 @@ TEST(FloatModes, ChangeNoContact) {
             Placement::b_moves(Pose::from_quaternion(5, 1, 2, 3, shift).value());
         const double near = 0.0625 * scale;
         Workspace workspace;
-        std::vector<PieceContact> room(20);
+        std::vector<Contact> room(20);
         const ContactOptions options = {.manifold = Manifold::four};
         const std::string at = "contacts at 2^" + std::to_string(std::ilogb(scale));
         expect_same_in_every_mode(at, [&](Asked& out) {
-            const auto visit = [&](const PieceContact& contact) {
+            const auto visit = [&](const Contact& contact) {
                 out.see();
                 out.bytes.add(contact);
                 return true;
@@ -587,8 +587,8 @@ TEST(FloatModes, ChangeNoPose) {
         out.bytes.add(a);
         out.bytes.add(b);
         out.bytes.add(both);
-        out.bytes.add(moved(both, {0.1, 0.3, 0x1p-30}));
-        out.bytes.add(moved(Pose(), {small, -small, small}));
+        out.bytes.add(transform_point(both, {0.1, 0.3, 0x1p-30}));
+        out.bytes.add(transform_point(Pose(), {small, -small, small}));
         std::array<double, 12> rows{};
         std::copy_n(a.rotation().begin(), 9, rows.begin());
         out.bytes.add(Pose::from_rows(rows).ok());

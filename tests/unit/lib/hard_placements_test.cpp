@@ -102,7 +102,7 @@ void expect_answer(const HardPair& pair) {
     const OpenModel a = open_tiny(p.a, {.double_precision = true});
     const OpenModel b = open_tiny(p.b, {.double_precision = true});
     Workspace workspace;
-    const OverlapOptions proper = {.contact = Contact::proper};
+    const OverlapOptions proper = {.overlap = Overlap::proper};
     ASSERT_EQ(overlapping_triangles(a.model, b.model, p.placement, workspace, {}, proper),
               pair.proper ? 1U : 0U)
         << p.name;

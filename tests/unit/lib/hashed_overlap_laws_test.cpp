@@ -117,8 +117,8 @@ TEST(HashedOverlapLaws, AgreesWithTheHierarchyWhateverBoundsTheFileHas) {
             open_with_octree(b, {.level = 5, .threshold = 30}, {.bounds = bounds});
         for (int round = 0; round < 12; ++round) {
             const Placement placement = Placement::b_moves(random_pose(random, 1.5));
-            for (const Contact contact : {Contact::closed, Contact::proper}) {
-                const OverlapOptions options = {.contact = contact, .degenerate = Degenerate::skip};
+            for (const Overlap overlap : {Overlap::closed, Overlap::proper}) {
+                const OverlapOptions options = {.overlap = overlap, .degenerate = Degenerate::skip};
                 const auto expected =
                     all_pairs(model_a.model, model_b.model, placement, workspace, options);
                 expect_pairs(model_a.model, model_b.model, placement, workspace, expected, options);

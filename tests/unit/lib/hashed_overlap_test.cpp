@@ -101,7 +101,7 @@ TEST(HashedOverlap, TrianglesOnCellPlanesAreFoundOnce) {
     const TestMesh sheet = grid_sheet(8, 8);
     for (const std::uint32_t level : {1U, 3U, 6U}) {
         const TwoModels models(sheet, sheet, {.level = level, .threshold = 1});
-        const format::OctreeGrid& grid = *models.a.model.octree_grid();
+        const format::OctreeGrid& grid = *models.a.model.octree().grid;
         const double plane = octree_plane(grid.origin.x, grid.step, 1U << 20);
         std::vector<Placement> placements = {kAsTheyAre};
         for (const Double3& shift : {Double3{0.5, 0, 0}, Double3{plane - 4, plane - 4, 0},

@@ -111,7 +111,7 @@ std::vector<double> windings(const TestMesh& mesh, const std::vector<Double3>& p
     Workspace workspace;
     std::vector<double> all;
     for (const Double3& q : points) {
-        const Inclusion truth = includes(open.model, q, workspace);
+        const Inclusion truth = points_inside(open.model, q, workspace);
         expect_everywhere(open.model, q, truth, "beside the hierarchy");
         all.push_back(truth.on_surface ? std::numeric_limits<double>::infinity() : truth.winding);
     }
@@ -235,7 +235,7 @@ TEST(IncludesThroughLaws, LargeModelsAgreeWithTheHierarchy) {
                 const Double3& v = mesh.positions[random() % mesh.positions.size()];
                 if (i % 4 == 0) q = v;
                 if (i % 4 == 1) q = {q.x, v.y, v.z};
-                const Inclusion truth = includes(open.model, q, workspace);
+                const Inclusion truth = points_inside(open.model, q, workspace);
                 expect_everywhere(open.model, q, truth,
                                   "seed " + std::to_string(kSeed) + ", times " +
                                       std::to_string(scale) + ", level " + std::to_string(level) +
@@ -259,7 +259,7 @@ TEST(IncludesThroughLaws, PointsNextToTheCentreAreAnsweredExactly) {
         const TestMesh mesh = tetrahedra(random, 6, 2);
         const OpenModel open = open_with_every_structure(mesh, {.level = 1U + round % 5U});
         const std::vector<Corners> surface = surface_of(mesh);
-        const Double3 c = open.model.tetra_tree()->centre;
+        const Double3 c = open.model.tetra_tree().tree->centre;
         for (int i = 0; i < 27; ++i) {
             const auto beside = [](double x, int step) {
                 return step == 0 ? x : std::nextafter(x, step == 1 ? 9.0 : -9.0);

@@ -25,9 +25,9 @@ public:
     [[nodiscard]] const Model& model() const {
         return open_.model;
     }
-    /// The answer of includes(), which all structures must share.
+    /// The answer of points_inside(), which all structures must share.
     Inclusion at(const Double3& p) {
-        const Inclusion expected = includes(open_.model, p, workspace_);
+        const Inclusion expected = points_inside(open_.model, p, workspace_);
         for (const Structure structure : kStructures) {
             const Inclusion found = includes_through(structure, open_.model, p, workspace_);
             EXPECT_EQ(found.answer, expected.answer) << name_of(structure);
@@ -55,7 +55,7 @@ private:
 TEST(IncludesThrough, HalfIntegerProbesOfACube) {
     for (const std::uint32_t level : {0U, 1U, 3U, 6U}) {
         Asked cube(cube_at(-2, 2), {.level = level});
-        ASSERT_EQ(cube.model().tetra_tree()->centre, (Double3{0, 0, 0}));
+        ASSERT_EQ(cube.model().tetra_tree().tree->centre, (Double3{0, 0, 0}));
         for (int i = 0; i < 729; ++i) {
             const Double3 p{i % 9 * 0.5 - 2, i / 9 % 9 * 0.5 - 2, i / 81 * 0.5 - 2};
             const double farthest = std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
@@ -112,7 +112,7 @@ TEST(IncludesThrough, AFoldedVertexIsCountedOnce) {
     const TestMesh folded = folded_corner();
     Asked asked(folded);
     for (const double z : {-0.5, -0.25, -1.0}) EXPECT_EQ(asked.at({0, 0, z}).winding, 1) << z;
-    const Double3 c = asked.model().tetra_tree()->centre;
+    const Double3 c = asked.model().tetra_tree().tree->centre;
     for (const Double3& v : folded.positions) {
         for (const double part : {0.25, 0.5, 0.75, 1.0, 1.25}) {
             asked.at(
@@ -186,10 +186,10 @@ TEST(IncludesThrough, AFlatModelHoldsItsPointsAlone) {
         for (Double3& p : sheet.positions) p = turned(p, turn);
         for (const std::uint32_t level : {0U, 2U, 5U}) {
             Asked flat(sheet, {.level = level});
-            ASSERT_TRUE(flat.model().is_closed());
+            ASSERT_TRUE(flat.model().is_balanced());
             EXPECT_TRUE(flat.at(turned({1, 1, 0}, turn)).on_surface);
             EXPECT_TRUE(flat.at(turned({4, 0.25, 0}, turn)).on_surface);
-            EXPECT_TRUE(flat.at(flat.model().tetra_tree()->centre).on_surface);
+            EXPECT_TRUE(flat.at(flat.model().tetra_tree().tree->centre).on_surface);
             EXPECT_EQ(flat.at(turned({1, 1, 0.5}, turn)).answer, Answer::no);
             EXPECT_EQ(flat.at(turned({4.5, 3, 0}, turn)).answer, Answer::no);
             EXPECT_EQ(flat.at(turned({-1, 0, 0}, turn)).answer, Answer::no);

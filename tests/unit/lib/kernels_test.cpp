@@ -394,8 +394,8 @@ using Leaf = std::array<float, 78>;
 Corners corners_of(const Leaf& leaf, std::size_t lane, const Pose& pose) {
     Corners corners{};
     for (std::size_t i = 0; i < 3; ++i) {
-        corners[i] =
-            moved(pose, {leaf[24 * i + lane], leaf[24 * i + 8 + lane], leaf[24 * i + 16 + lane]});
+        corners[i] = transform_point(
+            pose, {leaf[24 * i + lane], leaf[24 * i + 8 + lane], leaf[24 * i + 16 + lane]});
     }
     return corners;
 }
@@ -752,7 +752,7 @@ std::array<Corners, 2> middle_of(const SweptNode& node, std::size_t box, const P
                    first * double{node[56 + box]} * double{node[32 + 8 * i + box]} +
                    second * double{node[88 + box]} * double{node[64 + 8 * i + box]};
         }
-        return moved(pose, {p[0], p[1], p[2]});
+        return transform_point(pose, {p[0], p[1], p[2]});
     };
     const Corners first = {corner(-1, -1), corner(1, -1), corner(1, 1)};
     const Corners second = {corner(-1, -1), corner(1, 1), corner(-1, 1)};
@@ -928,7 +928,7 @@ TEST(Kernels, TheFarthestPointIsTheSameForEveryTable) {
             ties += value == height ? 1 : 0;
             if (value > height) plain = i;
             height = std::max(height, value);
-            const Double3 q = moved(pose, p);
+            const Double3 q = transform_point(pose, p);
             const double x = (q.x - from.origin[0]) * n[0], y = (q.y - from.origin[1]) * n[1];
             const double z = (q.z - from.origin[2]) * n[2];
             const double far = (x + y) + z;

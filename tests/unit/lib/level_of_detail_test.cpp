@@ -72,7 +72,7 @@ TEST(LevelOfDetail, NeverContradictsTheSolids) {
         const Pose pose = turned_and_apart(random, gap(random));
         const Placement placement = Placement::b_moves(pose);
         CollideOptions options;
-        options.as = As::solid;
+        options.body = Body::solid;
         const bool hit = collide(a.model, b.model, placement, workspace, options).hit;
         Answer before = Answer::unknown;
         for (std::uint32_t level = 0; level <= 4; ++level) {

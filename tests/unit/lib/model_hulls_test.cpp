@@ -28,7 +28,7 @@ OpenModel with_hulls_of(const TestMesh& mesh) {
 // By hand: the file has the hull of the whole and of component 0, and no others.
 TEST(FindHull, AnswersByScopeAndNumber) {
     const OpenModel ball = with_hulls_of(icosphere(2));
-    ASSERT_EQ(ball.model.hulls().size(), 2U);
+    ASSERT_EQ(ball.model.hulls().hulls.size(), 2U);
     EXPECT_EQ(find_hull(ball.model, HullScope::whole), 0U);
     EXPECT_EQ(find_hull(ball.model, HullScope::component, 0), 1U);
     EXPECT_FALSE(find_hull(ball.model, HullScope::whole, 1));
@@ -87,7 +87,7 @@ TEST(TinyBaker, MakesHullsAndPiecesThatAreTrue) {
     for (const TestMesh& mesh : {unit_cube(), icosphere(2)}) {
         const AlignedBytes file = with_one_piece(baked(mesh));
         EXPECT_FALSE(format::find_deep_damage(file.span()));
-        EXPECT_EQ(open_tiny(AlignedBytes(file.span())).model.pieces().size(), 1U);
+        EXPECT_EQ(open_tiny(AlignedBytes(file.span())).model.pieces().pieces.size(), 1U);
     }
 }
 

@@ -33,11 +33,11 @@ TEST(Model, OpensFromAPathAsFromMemory) {
     for (const auto& opened : {Model::open(path), Model::open_trusted(path)}) {
         ASSERT_TRUE(opened) << opened.error().message;
         EXPECT_EQ(opened.value().triangle_count(), 12u);
-        EXPECT_EQ(opened.value().positions_f32().size(), 8u);
-        EXPECT_TRUE(opened.value().positions_f64().empty());
-        EXPECT_TRUE(opened.value().is_closed());
-        EXPECT_EQ(opened.value().components().size(), 1u);
-        EXPECT_EQ(opened.value().mass_properties(), nullptr);
+        EXPECT_EQ(opened.value().mesh().positions_f32.size(), 8u);
+        EXPECT_TRUE(opened.value().mesh().positions_f64.empty());
+        EXPECT_TRUE(opened.value().is_balanced());
+        EXPECT_EQ(opened.value().record().components.size(), 1u);
+        EXPECT_EQ(opened.value().record().mass, nullptr);
     }
 }
 
@@ -162,15 +162,15 @@ TEST(Model, ShowsWhatWasFoundWhenItWasBaked) {
                          {SectionId::findings, {letters.begin(), letters.end()}}});
     const auto opened = Model::open(file.span());
     ASSERT_TRUE(opened) << opened.error().message;
-    ASSERT_EQ(opened.value().verdicts().size(), 1u);
-    EXPECT_EQ(opened.value().verdicts()[0].promises, stored.promises);
-    EXPECT_EQ(opened.value().verdicts()[0].volume, 1.0);
-    EXPECT_EQ(opened.value().findings(), text);
+    ASSERT_EQ(opened.value().record().verdicts.size(), 1u);
+    EXPECT_EQ(opened.value().record().verdicts[0].promises, stored.promises);
+    EXPECT_EQ(opened.value().record().verdicts[0].volume, 1.0);
+    EXPECT_EQ(opened.value().record().findings, text);
     const AlignedBytes without = baked_cube();
     const auto none = Model::open(without.span());
     ASSERT_TRUE(none) << none.error().message;
-    EXPECT_TRUE(none.value().verdicts().empty());
-    EXPECT_TRUE(none.value().findings().empty());
+    EXPECT_TRUE(none.value().record().verdicts.empty());
+    EXPECT_TRUE(none.value().record().findings.empty());
 }
 
 TEST(Model, SaysWhatIsWrongWithAFile) {
@@ -203,9 +203,9 @@ TEST(Model, MisalignedMemoryIsRefused) {
 
 TEST(Model, MovingKeepsTheSpans) {
     OpenModel first = open_tiny(unit_cube());
-    const auto* triangles = first.model.triangles().data();
+    const auto* triangles = first.model.mesh().triangles.data();
     const Model second = std::move(first.model);
-    EXPECT_EQ(second.triangles().data(), triangles);
+    EXPECT_EQ(second.mesh().triangles.data(), triangles);
 }
 
 TEST(Model, NamesBeyondTheLastAreEmpty) {
@@ -232,7 +232,7 @@ TEST(Model, OpenAndQueryTouchOnlyTheSectionsAskedFor) {
     EXPECT_GE(pages.guarded(), 5);
     const auto opened = Model::open(pages.bytes(), wanted);
     ASSERT_TRUE(opened) << opened.error().message;
-    EXPECT_TRUE(opened.value().source_triangle().empty());
+    EXPECT_TRUE(opened.value().source().triangle.empty());
     EXPECT_EQ(opened.value().sections(), wanted);
     Workspace workspace;
     EXPECT_TRUE(collide(opened.value(), opened.value(), Placement::b_moves(Pose()), workspace).hit);

@@ -44,7 +44,7 @@ void add_triangles(const OctreeParts& parts, const OctreePart& part, const CellP
 /// The same by the definition: of leaves whose cell is in the cell, or that hold it.
 std::set<std::uint32_t> listed_in(const Model& model, std::uint64_t code, std::uint32_t level) {
     std::set<std::uint32_t> triangles;
-    for (const format::OctreeNode& node : model.octree_nodes()) {
+    for (const format::OctreeNode& node : model.octree().nodes) {
         if ((node.count & format::kInnerNode) != 0) continue;
         const std::uint64_t own = format::code_of(node.key);
         const std::uint64_t size = format::cells_below(format::level_of(node.key));
@@ -52,7 +52,7 @@ std::set<std::uint32_t> listed_in(const Model& model, std::uint64_t code, std::u
         const bool holds = code >= own && code < own + size;
         if (!below && !holds) continue;
         for (std::uint32_t i = 0; i < node.count; ++i) {
-            triangles.insert(model.octree_references()[node.first + i] & ~format::kSharedReference);
+            triangles.insert(model.octree().references[node.first + i] & ~format::kSharedReference);
         }
     }
     return triangles;
@@ -81,7 +81,7 @@ TEST(OctreeParts, EveryCellHasThePartOfTheDefinition) {
             const CellPlace first = octree_place(key_at(code, level));
             for (const CellSearch search :
                  {CellSearch::sorted, CellSearch::modulus, CellSearch::mixed}) {
-                const OctreeParts parts(index, model.octree_references(), search);
+                const OctreeParts parts(index, model.octree().references, search);
                 std::set<std::uint32_t> triangles;
                 add_triangles(parts, parts.at(code, level), first, level, triangles);
                 ASSERT_TRUE(triangles == expected)

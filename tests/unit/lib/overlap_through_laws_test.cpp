@@ -255,12 +255,12 @@ TEST(OverlapThroughLaws, OptionsMeanWhatTheyMeanForTheHierarchy) {
         const OpenModel a = open_all(coarse_grid_soup(random(), 50, 2), {.level = 2});
         const OpenModel b = open_all(coarse_grid_soup(random(), 50, 2), {.level = 1});
         const Placement placement = Placement::b_moves(Pose());
-        for (const Contact contact : {Contact::closed, Contact::proper}) {
+        for (const Overlap overlap : {Overlap::closed, Overlap::proper}) {
             for (const Degenerate degenerate : {Degenerate::keep, Degenerate::skip}) {
-                const OverlapOptions options = {contact, degenerate};
+                const OverlapOptions options = {overlap, degenerate};
                 const Pairs expected = all_pairs(a.model, b.model, placement, workspace, options);
                 expect_pairs(expected, a.model, b.model, placement, workspace, options);
-                (contact == Contact::closed && degenerate == Degenerate::keep ? closed : others) +=
+                (overlap == Overlap::closed && degenerate == Degenerate::keep ? closed : others) +=
                     expected.size();
             }
         }

@@ -33,13 +33,13 @@ TEST(OverlappingTriangles, TouchingFacesCount) {
 // run alike there, so each half face lies on one half of the other.
 TEST(OverlappingTriangles, ProperLeavesOutWhatOnlyTouches) {
     const auto pairs =
-        ask(unit_cube(), unit_cube(), shifted(1, 0, 0), {.contact = Contact::proper});
+        ask(unit_cube(), unit_cube(), shifted(1, 0, 0), {.overlap = Overlap::proper});
     for (const TrianglePair& pair : pairs) {
         EXPECT_TRUE(pair.a >= 10 && (pair.b == 8 || pair.b == 9)) << pair.a << " " << pair.b;
     }
     EXPECT_EQ(pairs.size(), 2u);
     EXPECT_TRUE(
-        ask(unit_cube(), unit_cube(), shifted(1, 1, 0), {.contact = Contact::proper}).empty());
+        ask(unit_cube(), unit_cube(), shifted(1, 1, 0), {.overlap = Overlap::proper}).empty());
 }
 
 // A law: the pairs come in rising order, and a short span gets the first of them.
@@ -72,7 +72,7 @@ TEST(OverlappingTriangles, NestedShellsStayApart) {
     Workspace workspace;
     EXPECT_EQ(overlapping_triangles(outside.model, inside.model, shifted(0, 0, 0), workspace, {}),
               0u);
-    const CollideOptions solid = {.as = As::solid};
+    const CollideOptions solid = {.body = Body::solid};
     EXPECT_TRUE(collide(outside.model, inside.model, shifted(0, 0, 0), workspace, solid).hit);
 }
 

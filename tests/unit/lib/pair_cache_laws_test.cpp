@@ -66,9 +66,9 @@ struct Walker {
     /// Asks one of all questions with the cache and without.
     void ask(unsigned question, const Placement& placement, PairCache& cache) {
         CollideOptions options;
-        if (question % 3 == 1) options.contact = Contact::proper;
+        if (question % 3 == 1) options.overlap = Overlap::proper;
         if (question % 5 == 1) options.degenerate = Degenerate::skip;
-        if (question % 7 == 1) options.as = As::solid;
+        if (question % 7 == 1) options.body = Body::solid;
         switch (question % 6) {
             case 0: {
                 expect_same(distance(a, b, placement, workspace),
@@ -83,7 +83,7 @@ struct Walker {
             }
             case 2:
             case 3: {
-                expect_same_pairs(placement, {options.contact, options.degenerate}, cache);
+                expect_same_pairs(placement, {options.overlap, options.degenerate}, cache);
                 break;
             }
             default: {

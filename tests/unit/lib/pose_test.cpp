@@ -36,11 +36,11 @@ TEST(Pose, KeepsTheNumbersItWasMadeOf) {
     EXPECT_EQ(pose.value().rotation(), (std::array<double, 9>{0, -1, 0, 1, 0, 0, 0, 0, 1}));
     EXPECT_EQ(pose.value().translation(), (Double3{4, 5, 6}));
     // A quarter turn about z: x goes to y.
-    EXPECT_EQ(moved(pose.value(), {1, 2, 3}), (Double3{2, 6, 9}));
+    EXPECT_EQ(transform_point(pose.value(), {1, 2, 3}), (Double3{2, 6, 9}));
 }
 
 TEST(Pose, TheDefaultMovesNothing) {
-    EXPECT_EQ(moved(Pose(), {0.1, -2e300, 3e-300}), (Double3{0.1, -2e300, 3e-300}));
+    EXPECT_EQ(transform_point(Pose(), {0.1, -2e300, 3e-300}), (Double3{0.1, -2e300, 3e-300}));
 }
 
 TEST(Pose, NamesTheNumberThatIsNotFinite) {
@@ -145,7 +145,7 @@ TEST(RelativePose, OfAPoseToItselfIsTheIdentityUpToRounding) {
 TEST(RelativePose, TakesPointsOfBIntoTheFrameOfA) {
     const Pose a = Pose::from_rows({0, -1, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0}).value();
     const Pose b = Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 5}).value();
-    EXPECT_EQ(moved(relative_pose(a, b), {2, 3, 4}), (Double3{3, -1, 9}));
+    EXPECT_EQ(transform_point(relative_pose(a, b), {2, 3, 4}), (Double3{3, -1, 9}));
 }
 
 TEST(Placement, SaysWhoMoves) {
@@ -303,11 +303,12 @@ TEST(ComposedPose, MovesAsBothDoAndItsInverseBack) {
     const auto both = composed_pose(a, b);
     const auto back = inverse_pose(a);
     ASSERT_TRUE(both && back);
-    const Double3 at = moved(both.value(), p), twice = moved(a, moved(b, p));
+    const Double3 at = transform_point(both.value(), p),
+                  twice = transform_point(a, transform_point(b, p));
     EXPECT_NEAR(at.x, twice.x, 1e-14);
     EXPECT_NEAR(at.y, twice.y, 1e-14);
     EXPECT_NEAR(at.z, twice.z, 1e-14);
-    const Double3 same = moved(back.value(), moved(a, p));
+    const Double3 same = transform_point(back.value(), transform_point(a, p));
     EXPECT_NEAR(same.x, p.x, 1e-14);
     EXPECT_NEAR(same.y, p.y, 1e-14);
     EXPECT_NEAR(same.z, p.z, 1e-14);

@@ -138,7 +138,7 @@ TEST(RefitBvh, TheCostTellsWhenTheOrderIsSpoilt) {
     const double built = surface_cost(bvh);
     const Pose turn = Pose::from_quaternion(1, 2, 3, 4, {5, 6, 7}).value();
     TestMesh turned = sphere;
-    for (Double3& p : turned.positions) p = moved(turn, p);
+    for (Double3& p : turned.positions) p = transform_point(turn, p);
     EXPECT_LT(refit_bvh(bvh, turned.positions, turned.triangles), 1.3 * built);
     TestMesh mixed = sphere;
     std::shuffle(mixed.positions.begin(), mixed.positions.end(), std::mt19937(6));

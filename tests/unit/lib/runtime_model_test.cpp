@@ -124,9 +124,9 @@ void expect_same_answers(const Model& moving, const Model& fresh, const Model& o
     std::ranges::sort(pairs);
     std::ranges::sort(expected);
     EXPECT_EQ(pairs, expected);
-    for (const As as : {As::surface, As::solid}) {
-        const Collision one = collide(moving, other, placement, workspace, {.as = as});
-        const Collision two = collide(fresh, other, placement, workspace, {.as = as});
+    for (const Body as : {Body::surface, Body::solid}) {
+        const Collision one = collide(moving, other, placement, workspace, {.body = as});
+        const Collision two = collide(fresh, other, placement, workspace, {.body = as});
         EXPECT_EQ(one.hit, two.hit);
         EXPECT_EQ(one.containment.answer, two.containment.answer);
         EXPECT_EQ(one.containment.winding, two.containment.winding);
@@ -160,8 +160,8 @@ void expect_same_points(const Model& moving, const Model& fresh, std::uint32_t s
         ASSERT_TRUE(near && nearest);
         EXPECT_LE(near->lower, nearest->upper);
         EXPECT_LE(nearest->lower, near->upper);
-        const Inclusion inside = includes(moving, at, workspace);
-        const Inclusion expected_inside = includes(fresh, at, workspace);
+        const Inclusion inside = points_inside(moving, at, workspace);
+        const Inclusion expected_inside = points_inside(fresh, at, workspace);
         EXPECT_EQ(inside.answer, expected_inside.answer);
         EXPECT_EQ(inside.on_surface, expected_inside.on_surface);
     }
@@ -218,8 +218,8 @@ TEST(RuntimeModel, ABakedModelIsABaseToo) {
     const OpenModel baked =
         open_tiny(ball, {.double_precision = true, .bounds = build::BvhBounds::oriented_and_swept});
     Running moving = run(baked.model);
-    EXPECT_TRUE(moving.model().oriented_nodes().empty());
-    EXPECT_TRUE(moving.model().swept_nodes().empty());
+    EXPECT_TRUE(moving.model().bvh().oriented.empty());
+    EXPECT_TRUE(moving.model().bvh().swept.empty());
     EXPECT_EQ(moving.object.position_count(), ball.positions.size());
     const TestMesh shape = sheared(ball, -0.4);
     ASSERT_TRUE(moving.object.refit(shape.positions));

@@ -36,12 +36,12 @@ double largest(const TestMesh& mesh, const Pose& pose, const Corners& shape) {
         size = std::max({size, std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
     };
     for (const Double3& p : shape) take(p);
-    for (const Double3& p : mesh.positions) take(moved(pose, p));
+    for (const Double3& p : mesh.positions) take(transform_point(pose, p));
     return size;
 }
 
 /// Interval, its width, witness, triangle and limit.
-void expect_truth(const TestMesh& mesh, const Model& model, const LooseTriangle& shape,
+void expect_truth(const TestMesh& mesh, const Model& model, const TriangleShape& shape,
                   const Pose& pose, Workspace& workspace) {
     const ExactRational truth = nearest(mesh, pose, shape.corner);
     const auto found = distance_to(model, shape, workspace, {pose});
@@ -65,7 +65,7 @@ void expect_truth(const TestMesh& mesh, const Model& model, const LooseTriangle&
 }
 
 /// The same for a capsule around the first edge: less by its radius, or 0.
-void expect_truth_around_edge(const TestMesh& mesh, const Model& model, const LooseTriangle& shape,
+void expect_truth_around_edge(const TestMesh& mesh, const Model& model, const TriangleShape& shape,
                               double radius, const Pose& pose, Workspace& workspace) {
     const Corners segment = {shape.corner[0], shape.corner[1], shape.corner[1]};
     const ExactRational truth = nearest(mesh, pose, segment);
@@ -93,7 +93,7 @@ TEST(ShapeDistanceLaws, TheIntervalHoldsTheExactDistance) {
         const OpenModel model = open_tiny(mesh, {.double_precision = true});
         std::uniform_real_distribution<double> place(-4, 4);
         for (int i = 0; i < 6 && !HasFatalFailure(); ++i) {
-            LooseTriangle shape{};
+            TriangleShape shape{};
             for (Double3& p : shape.corner) {
                 const double x = place(random), y = place(random), z = place(random);
                 p = round % 2 == 0 ? Double3{x, y, z}

@@ -76,7 +76,7 @@ TEST(SplitOverlap, EveryOptionAndPlacementIsKept) {
         for (const Placement& placement :
              {Placement::b_moves(p), Placement::a_moves(p), Placement::world(p, q)}) {
             for (const OverlapOptions& options :
-                 {OverlapOptions{}, OverlapOptions{Contact::proper, Degenerate::skip}}) {
+                 {OverlapOptions{}, OverlapOptions{Overlap::proper, Degenerate::skip}}) {
                 const auto expected = all_pairs(a.model, b.model, placement, workspace, options);
                 std::vector<TrianglePair> pairs;
                 const std::size_t count = split(a.model, b.model, placement, 4, run_threads, pairs,

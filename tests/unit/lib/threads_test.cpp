@@ -54,7 +54,7 @@ void ask_about_shapes(const Model& a, const Double3& at, Workspace& workspace, A
     const Box box = {{at.x - 0.5, at.y - 0.5, at.z}, {at.x, at.y, at.z + 0.5}};
     const Sphere sphere = {at, 0.5};
     const Capsule capsule = {at, {0, 0, at.z}, 0.25};
-    const LooseTriangle triangle = {{at, {at.x, 0, 0}, {0, at.y, 1}}};
+    const TriangleShape triangle = {{at, {at.x, 0, 0}, {0, at.y, 1}}};
     answers.touching = {all_touching(a, box, workspace), all_touching(a, sphere, workspace),
                         all_touching(a, capsule, workspace), all_touching(a, triangle, workspace)};
     answers.touched = {touches(a, box, workspace), touches(a, sphere, workspace),
@@ -67,7 +67,7 @@ void ask_about_shapes(const Model& a, const Double3& at, Workspace& workspace, A
 Answers ask(const Model& a, const Model& b, const Placement& placement, Workspace& workspace) {
     Answers answers;
     answers.pairs = all_pairs(a, b, placement, workspace);
-    answers.hit = collide(a, b, placement, workspace, {.as = As::solid}).hit;
+    answers.hit = collide(a, b, placement, workspace, {.body = Body::solid}).hit;
     answers.within = is_within(a, b, placement, 0.25, workspace);
     const auto found = distance(a, b, placement, workspace);
     answers.lower = found->lower;
@@ -148,7 +148,7 @@ std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placem
         case 0:
             return collide(a, b, placement, workspace).hit ? 1 : 0;
         case 1: {
-            const Collision found = collide(a, b, placement, workspace, {.as = As::solid});
+            const Collision found = collide(a, b, placement, workspace, {.body = Body::solid});
             return folded(found.hit ? 1 : 0, found.containment.winding);
         }
         case 2:
@@ -203,7 +203,7 @@ std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placem
             return sum;
         }
         default: {
-            const Inclusion found = includes(a, from, workspace);
+            const Inclusion found = points_inside(a, from, workspace);
             return folded(found.on_surface ? 1 : 0, found.winding);
         }
     }

@@ -38,7 +38,7 @@ bool truly_touches(const Capsule& capsule, const Corners& t) {
     return exact_squared_distance({capsule.from, capsule.to, capsule.to}, t) <=
            square(capsule.radius);
 }
-bool truly_touches(const LooseTriangle& triangle, const Corners& t) {
+bool truly_touches(const TriangleShape& triangle, const Corners& t) {
     return triangles_touch_by_segments(triangle.corner, t);
 }
 
@@ -125,7 +125,7 @@ struct Draw {
         const Double3 m = point(), to = point();
         return {m, random() % 6 == 0 ? m : to, size()};
     }
-    [[nodiscard]] LooseTriangle triangle() const {
+    [[nodiscard]] TriangleShape triangle() const {
         const Double3 a = point(), b = point(), c = point();
         return {{a, random() % 6 == 0 ? a : b, c}};
     }
@@ -258,7 +258,7 @@ TEST(TouchingLaws, WildSizesLoseNothing) {
         ask(draw.triangle());
         // A sphere through a corner, from anywhere: as near to it as double can tell.
         Sphere through = draw.sphere();
-        const Double3 corner = moved(options.world_from_model, mesh.positions[0]);
+        const Double3 corner = transform_point(options.world_from_model, mesh.positions[0]);
         through.radius = std::hypot(corner.x - through.centre.x, corner.y - through.centre.y,
                                     corner.z - through.centre.z);
         ask(through);

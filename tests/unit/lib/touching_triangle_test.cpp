@@ -18,7 +18,7 @@ TestMesh one_triangle() {
 }
 
 bool hits(const Double3& a, const Double3& b, const Double3& c) {
-    return !touched(one_triangle(), LooseTriangle{{{a, b, c}}}).empty();
+    return !touched(one_triangle(), TriangleShape{{{a, b, c}}}).empty();
 }
 
 // By hand: crossing, an edge in common, a corner in common, in one plane, just beside.
@@ -38,14 +38,14 @@ TEST(TouchingTriangle, WithoutAreaItIsASegmentOrAPoint) {
     EXPECT_FALSE(hits({3, 3, -1}, {3, 3, 1}, {3, 3, 0.5}));
     EXPECT_TRUE(hits({2, 2, 0}, {2, 2, 0}, {2, 2, 0}));
     EXPECT_FALSE(hits({2, 2, 1}, {2, 2, 1}, {2, 2, 1}));
-    EXPECT_TRUE(touched({}, LooseTriangle{}).empty());
+    EXPECT_TRUE(touched({}, TriangleShape{}).empty());
 }
 
 // By hand: one above the sheet, nearest to the lowest number of several.
 TEST(TouchingTriangle, DistanceTakesTheLowestOfTheNearest) {
     const OpenModel model = open_tiny(copies_of_one_triangle(20));
     Workspace workspace;
-    const LooseTriangle far = {{{{90, 0, 0}, {91, 0, 0}, {90, 1, 5}}}};
+    const TriangleShape far = {{{{90, 0, 0}, {91, 0, 0}, {90, 1, 5}}}};
     const auto found = distance_to(model.model, far, workspace);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->triangle, 0u);

@@ -17,7 +17,7 @@ TEST(BytesRead, AreCountedByWhatIsRead) {
     const MemoryModel plain =
         make_memory_model(cube, {.bounds = build::BvhBounds::aligned}).value();
     const MemoryModel tight = make_memory_model(cube).value();
-    const double corner = plain.model.positions_f64().empty() ? 12 : 24;
+    const double corner = plain.model.mesh().positions_f64.empty() ? 12 : 24;
     const auto of = [&](const QueryCounts& counts) {
         return bytes_read(counts, plain.model, tight.model);
     };

@@ -21,11 +21,11 @@
 namespace cdprep::test {
 namespace {
 
-std::vector<PieceContact> all_contacts(const Model& a, const Model& b, const Placement& placement,
-                                       double tolerance, Structure structure = Structure::bvh) {
+std::vector<Contact> all_contacts(const Model& a, const Model& b, const Placement& placement,
+                                  double tolerance, Structure structure = Structure::bvh) {
     Workspace workspace;
     const ContactOptions options = {.manifold = Manifold::four, .structure = structure};
-    std::vector<PieceContact> found(contacts(a, b, placement, tolerance, workspace, {}, options));
+    std::vector<Contact> found(contacts(a, b, placement, tolerance, workspace, {}, options));
     (void)contacts(a, b, placement, tolerance, workspace, found, options);
     return found;
 }
@@ -50,7 +50,7 @@ std::map<std::uint64_t, ExactRational> truth(const Model& a, const Model& b,
             const Corners at_b = of_b.corners(j);
             if (!overlap(wide, box_of(at_b)) || !is_near(at_a, at_b, tolerance)) continue;
             const std::uint64_t key =
-                std::uint64_t{a.triangle_piece()[i]} << 32 | b.triangle_piece()[j];
+                std::uint64_t{a.pieces().of_triangle[i]} << 32 | b.pieces().of_triangle[j];
             const ExactRational squared = exact_squared_distance(at_a, at_b);
             const auto [at, is_new] = result.emplace(key, squared);
             if (!is_new && squared < at->second) at->second = squared;
@@ -60,7 +60,7 @@ std::map<std::uint64_t, ExactRational> truth(const Model& a, const Model& b,
 }
 
 /// True when all that is said of a contact holds, by the pieces' triangles and hulls.
-void check(const PieceContact& contact, const ExactRational& squared, const MovedModel& of_a,
+void check(const Contact& contact, const ExactRational& squared, const MovedModel& of_a,
            const MovedModel& of_b, const Placement& placement) {
     const ContactSide a(of_a, contact.piece_a), b(of_b, contact.piece_b);
     EXPECT_LE(contact.lower, contact.upper);
@@ -115,7 +115,7 @@ void compare(const Model& a, const Model& b, const Placement& placement, double 
     for (std::size_t i = 0; i < found.size(); ++i) expect_same(found[i], through[i]);
     const MovedModel of_a = moved_a(a, placement), of_b = moved_b(b, placement);
     auto at = expected.begin();
-    for (const PieceContact& contact : found) {
+    for (const Contact& contact : found) {
         ASSERT_EQ(at->first, std::uint64_t{contact.piece_a} << 32 | contact.piece_b);
         check(contact, at->second, of_a, of_b, placement);
         ++at;
@@ -190,7 +190,7 @@ TEST(ContactsLaws, AModelOnItselfAnswersAsAllPairsOfTriangles) {
             compare(model.model, model.model, Placement::b_moves(Pose()), 0, seen);
             compare(model.model, model.model, Placement::b_moves(Pose()), 0.01, seen);
             if (HasFatalFailure()) return;
-            EXPECT_GE(seen.contacts - before, 2 * model.model.pieces().size());
+            EXPECT_GE(seen.contacts - before, 2 * model.model.pieces().pieces.size());
         }
     }
     EXPECT_GT(seen.overlaps, seen.contacts / 10);
@@ -207,12 +207,12 @@ TEST(ContactsLaws, SwappingMirrorsTheAnswer) {
         auto found = all_contacts(ring.model, cube.model, Placement::b_moves(pose), 0.05);
         auto back = all_contacts(cube.model, ring.model, Placement::a_moves(pose), 0.05);
         ASSERT_EQ(found.size(), back.size());
-        const auto by_ring = [](const PieceContact& x, const PieceContact& y) {
+        const auto by_ring = [](const Contact& x, const Contact& y) {
             return x.piece_b < y.piece_b;
         };
         std::stable_sort(back.begin(), back.end(), by_ring);
         for (std::size_t k = 0; k < found.size(); ++k) {
-            const PieceContact &one = found[k], &other = back[k];
+            const Contact &one = found[k], &other = back[k];
             ASSERT_EQ(one.piece_a, other.piece_b);
             ASSERT_EQ(one.piece_b, other.piece_a);
             EXPECT_EQ(one.flags & contact_overlap, other.flags & contact_overlap);
@@ -229,7 +229,7 @@ TEST(ContactsLaws, SwappingMirrorsTheAnswer) {
 TEST(ContactsLaws, NothingIsAllocated) {
     const OpenModel ring = open_with_pieces(torus(1, 0.4, 10, 8));
     Workspace workspace;
-    std::vector<PieceContact> found(1000);
+    std::vector<Contact> found(1000);
     const Placement placement =
         Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {0.5, 0.25, 0.125}).value());
     const std::size_t before = used;

@@ -19,17 +19,17 @@ Placement shifted(const Double3& by) {
         Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, by.x, by.y, by.z}).value());
 }
 
-std::vector<PieceContact> all_contacts(const Model& a, const Model& b, const Placement& placement,
-                                       double tolerance, Manifold manifold = Manifold::four) {
+std::vector<Contact> all_contacts(const Model& a, const Model& b, const Placement& placement,
+                                  double tolerance, Manifold manifold = Manifold::four) {
     Workspace workspace;
-    std::vector<PieceContact> found(contacts(a, b, placement, tolerance, workspace, {}));
+    std::vector<Contact> found(contacts(a, b, placement, tolerance, workspace, {}));
     EXPECT_EQ(contacts(a, b, placement, tolerance, workspace, found, {.manifold = manifold}),
               found.size());
     return found;
 }
 
-std::vector<PieceContact> all_contacts(const OpenModel& a, const OpenModel& b,
-                                       const Placement& placement, double tolerance) {
+std::vector<Contact> all_contacts(const OpenModel& a, const OpenModel& b,
+                                  const Placement& placement, double tolerance) {
     return all_contacts(a.model, b.model, placement, tolerance);
 }
 
@@ -63,7 +63,7 @@ TEST(Contacts, CubeOnCubeHasFourPoints) {
         SCOPED_TRACE(gap);
         const auto found = all_contacts(cube, cube, shifted({0.25, 0.5, 1 + gap}), 0.1);
         ASSERT_EQ(found.size(), 1U);
-        const PieceContact& contact = found[0];
+        const Contact& contact = found[0];
         EXPECT_EQ(contact.flags, gap > 0 ? 0U : +contact_overlap);
         EXPECT_LE(contact.lower, gap);
         EXPECT_GE(contact.upper, gap);
@@ -145,10 +145,10 @@ TEST(Contacts, AVertexOverAFaceAnswersAsThat) {
 // inside the L answer nothing.
 TEST(Contacts, ACubeInANotchTouchesBothArms) {
     const OpenModel arms = open_with_pieces(l_with_a_seam()), cube = open_with_pieces(unit_cube());
-    ASSERT_GT(arms.model.pieces().size(), 1U);
+    ASSERT_GT(arms.model.pieces().pieces.size(), 1U);
     const auto found = all_contacts(arms, cube, shifted({1.0625, 1.125, 0}), 0.25);
     bool has_x = false, has_y = false;
-    for (const PieceContact& contact : found) {
+    for (const Contact& contact : found) {
         EXPECT_GT(contact.lower, 0.06);
         EXPECT_LE(contact.upper, 0.25);
         const bool is_x = std::fabs(contact.normal.x - 1) < 1e-12;
@@ -165,7 +165,7 @@ TEST(Contacts, ACubeInANotchTouchesBothArms) {
 TEST(Contacts, SpheresAnswerAtTheirPoles) {
     const TestMesh mesh = icosphere(3);
     const OpenModel sphere = open_with_pieces(mesh);
-    ASSERT_EQ(sphere.model.pieces().size(), 1U);
+    ASSERT_EQ(sphere.model.pieces().pieces.size(), 1U);
     const Double3 pole = mesh.positions[0];
     const double radius = std::sqrt(pole.x * pole.x + pole.y * pole.y + pole.z * pole.z);
     const double way = 2 + 0.125 / radius;
@@ -220,7 +220,7 @@ TEST(Contacts, AFlatFloorOnlyPushesUp) {
             const Double3 at = {1.5 + 0.0517 * step, 1.6 + 0.0311 * step, height};
             const auto found = all_contacts(floor, cube, shifted(at), 0.125);
             ASSERT_GT(found.size(), 1U);
-            for (const PieceContact& contact : found) {
+            for (const Contact& contact : found) {
                 expect_near(contact.normal, {0, 0, 1}, 1e-9);
                 const bool is_corrected = (contact.flags & contact_internal_edge) != 0;
                 ++(is_corrected ? corrected : plain);
@@ -249,7 +249,7 @@ TEST(Contacts, AValleyPushesAlongItsFaces) {
         const double x = 2.6 + 0.0137 * step;
         const double height = 0.75 * (std::fabs(x - 3) + 0.25) + 0.015 * (step % 7) - 0.05;
         const Double3 at = {x, 1.5 + 0.031 * step, height};
-        for (const PieceContact& contact : all_contacts(floor, cube, shifted(at), 0.1)) {
+        for (const Contact& contact : all_contacts(floor, cube, shifted(at), 0.1)) {
             EXPECT_NEAR(contact.normal.z, 0.8, 1e-9);
             EXPECT_NEAR(std::fabs(contact.normal.x), 0.6, 1e-9);
             ++seen;
@@ -271,7 +271,7 @@ TEST(Contacts, CubesThatTouchExactlyAreNeitherApartNorDeep) {
             const Double3 at = {way.x * scale, way.y * scale, way.z * scale};
             const auto found = all_contacts(cube, cube, shifted(at), 0x1p-30);
             ASSERT_EQ(found.size(), 1U);
-            const PieceContact& contact = found[0];
+            const Contact& contact = found[0];
             EXPECT_EQ((contact.flags & contact_overlap) != 0, step <= 0);
             EXPECT_EQ(contact.flags & contact_internal_edge, 0U);
             EXPECT_LE(contact.lower, contact.upper);
@@ -343,7 +343,7 @@ TEST(Contacts, AFloorPushesATiltedBoxUp) {
         const Pose turn = Pose::from_quaternion(w, x, y, z, {}).value();
         double lowest = 0;
         for (const Double3& p : cube.positions) {
-            lowest = std::min(lowest, moved(turn, {p.x - 0.5, p.y - 0.5, p.z - 0.5}).z);
+            lowest = std::min(lowest, transform_point(turn, {p.x - 0.5, p.y - 0.5, p.z - 0.5}).z);
         }
         for (const double height : {0.03125, 0.0, -0.03125}) {
             for (int step = 0; step < 24; ++step) {
@@ -354,7 +354,7 @@ TEST(Contacts, AFloorPushesATiltedBoxUp) {
                     SCOPED_TRACE(std::to_string(height) + ", step " + std::to_string(step));
                     const auto found = all_contacts(floor->model, box.model, placement, 0.0625);
                     ASSERT_GE(found.size(), 1U);
-                    for (const PieceContact& contact : found) {
+                    for (const Contact& contact : found) {
                         expect_near(contact.normal, {0, 0, 1}, 1e-9);
                         corrected += (contact.flags & contact_internal_edge) != 0 ? 1 : 0;
                         ++seen;
@@ -373,7 +373,7 @@ TEST(Contacts, AFloorPushesATiltedBoxUp) {
 // face. A wall that a corner of the box has come near to in the solid does not.
 TEST(Contacts, TheSeamsOfASolidDoNotPushSideways) {
     const OpenModel arms = open_with_pieces(l_with_a_seam());
-    ASSERT_GT(arms.model.pieces().size(), 1U);
+    ASSERT_GT(arms.model.pieces().pieces.size(), 1U);
     const OpenModel box = open_with_pieces(moved_by(unit_cube(), 0.5, {-0.25, -0.25, 0}));
     std::size_t seen = 0, across = 0, behind = 0;
     for (const double height : {0.03125, 0.0, -0.03125, -0.125}) {
@@ -387,7 +387,7 @@ TEST(Contacts, TheSeamsOfASolidDoNotPushSideways) {
                 const auto found =
                     all_contacts(arms.model, box.model, Placement::b_moves(on_top), 0.0625);
                 across += found.size() > 1 ? 1 : 0;
-                for (const PieceContact& contact : found) {
+                for (const Contact& contact : found) {
                     if ((contact.flags & contact_from_behind) != 0) {
                         EXPECT_LT(height, 0);  // else nothing is in the solid
                         ++behind;
@@ -409,20 +409,20 @@ TEST(Contacts, TheSeamsOfASolidDoNotPushSideways) {
 TEST(Contacts, ManyPairsComeOnceAndInOrder) {
     const OpenModel a = open_with_pieces(grid_sheet(7, 7), PiecesOf::triangles);
     const OpenModel b = open_with_pieces(grid_sheet(5, 9), PiecesOf::triangles);
-    const std::size_t expected = a.model.pieces().size() * b.model.pieces().size();
+    const std::size_t expected = a.model.pieces().pieces.size() * b.model.pieces().pieces.size();
     ASSERT_GT(expected, 8000U);
     Workspace workspace;
-    std::vector<PieceContact> found(expected + 1);
+    std::vector<Contact> found(expected + 1);
     ASSERT_EQ(contacts(a.model, b.model, shifted({0, 0, 1}), 20, workspace, found), expected);
     for (std::size_t i = 0; i < expected; ++i) {
-        ASSERT_EQ(found[i].piece_a, i / b.model.pieces().size());
-        ASSERT_EQ(found[i].piece_b, i % b.model.pieces().size());
+        ASSERT_EQ(found[i].piece_a, i / b.model.pieces().pieces.size());
+        ASSERT_EQ(found[i].piece_b, i % b.model.pieces().pieces.size());
     }
-    std::vector<PieceContact> few(3);
+    std::vector<Contact> few(3);
     EXPECT_EQ(contacts(a.model, b.model, shifted({0, 0, 1}), 20, workspace, few), expected);
     EXPECT_EQ(few[2].piece_b, 2U);
     std::size_t visited = 0;
-    const auto visit = [&](const PieceContact& contact) {
+    const auto visit = [&](const Contact& contact) {
         EXPECT_EQ(contact.piece_b, visited);
         return ++visited < 5;
     };

@@ -127,12 +127,12 @@ TEST(FalseFact, IsNotFoundInWhatBakeWrites) {
 // A sheet has a border, and two solids have none.
 TEST(FalseFact, IsAForgedFlag) {
     const AlignedBytes sheet = baked(test::grid_sheet(3, 2));
-    const auto closed = false_fact(with_flags(sheet, format::model_closed));
+    const auto closed = false_fact(with_flags(sheet, format::model_balanced));
     ASSERT_TRUE(closed);
     EXPECT_EQ(closed->field, "the user block, field flags, flag closed");
     EXPECT_EQ(closed->found + closed->expected, "10");
     const AlignedBytes solids = baked(two_solids());
-    const auto open = false_fact(with_flags(solids, format::model_closed));
+    const auto open = false_fact(with_flags(solids, format::model_balanced));
     ASSERT_TRUE(open);
     EXPECT_EQ(open->found + open->expected, "01");
     // Two solids are longer than a model of diagonal 1.
@@ -329,7 +329,7 @@ TEST(FalseFact, IsAVertexOutOfOrder) {
 TEST(FalseFact, IsToldByInfoInOneSentence) {
     const test::ScratchFolder folder;
     const AlignedBytes sheet = baked(test::grid_sheet(3, 2));
-    const AlignedBytes forged = with_flags(sheet, format::model_closed);
+    const AlignedBytes forged = with_flags(sheet, format::model_balanced);
     const std::string path = folder.write("sheet.cdp.h5", forged.span()).string();
     CLI::App app;
     Exit exit = Exit::success;

@@ -58,7 +58,7 @@ double aligned_volume(const Bounds& bounds) {
 }
 
 test::TestMesh turned(test::TestMesh mesh, const Pose& pose) {
-    for (Double3& p : mesh.positions) p = moved(pose, p);
+    for (Double3& p : mesh.positions) p = transform_point(pose, p);
     return mesh;
 }
 

@@ -52,14 +52,14 @@ HullSections with_parts(const test::TestMesh& mesh, std::size_t parts, std::uint
 
 std::uint32_t part_count(const Model& model) {
     const auto first = find_hull(model, format::HullScope::part);
-    return first ? static_cast<std::uint32_t>(model.hulls().size()) - *first : 0;
+    return first ? static_cast<std::uint32_t>(model.hulls().hulls.size()) - *first : 0;
 }
 
 bool parts_meet(const Model& a, const Model& b, const Placement& placement) {
     const std::uint32_t first_a = *find_hull(a, format::HullScope::part);
     const std::uint32_t first_b = *find_hull(b, format::HullScope::part);
-    for (std::uint32_t i = first_a; i < a.hulls().size(); ++i) {
-        for (std::uint32_t k = first_b; k < b.hulls().size(); ++k) {
+    for (std::uint32_t i = first_a; i < a.hulls().hulls.size(); ++i) {
+        for (std::uint32_t k = first_b; k < b.hulls().hulls.size(); ++k) {
             if (convex_collide(convex_points(a, i), convex_points(b, k), placement)) return true;
         }
     }
@@ -84,7 +84,7 @@ TEST(HullParts, AreSoundAndHoldEveryVertex) {
         EXPECT_LE(part_count(model), 12U);
         EXPECT_EQ(find_hull(model, format::HullScope::part, 2), 3U);
         EXPECT_FALSE(find_hull(model, format::HullScope::part, 12));
-        for (const format::Hull& hull : model.hulls()) {
+        for (const format::Hull& hull : model.hulls().hulls) {
             EXPECT_TRUE(vertices == 0 || hull.point_count <= vertices);
             EXPECT_EQ((hull.flags & format::hull_exact) != 0,
                       vertices == 0 && hull.scope == format::HullScope::whole);
@@ -224,7 +224,7 @@ TEST(HullPartsLaws, MissNoTouch) {
     for (int round = 0; round < kRounds; ++round) {
         const Placement placement = Placement::b_moves(test::random_pose(random, 1.3));
         const bool solids_touch =
-            collide(a.model, b.model, placement, workspace, {.as = As::solid}).hit;
+            collide(a.model, b.model, placement, workspace, {.body = Body::solid}).hit;
         const bool parts_touch = parts_meet(a.model, b.model, placement);
         EXPECT_TRUE(parts_touch || !solids_touch) << round;
         touching += solids_touch ? 1 : 0;

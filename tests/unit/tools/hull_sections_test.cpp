@@ -87,12 +87,12 @@ TEST(HullSections, AreAroundTheWholeAndItsComponents) {
     const test::TestMesh one = test::unit_cube(), two = two_of(one, 3);
     const auto opened = test::open_tiny(baked(two, sections_of(two)));
     const Model& model = opened.model;
-    ASSERT_EQ(model.hulls().size(), 3U);
+    ASSERT_EQ(model.hulls().hulls.size(), 3U);
     EXPECT_EQ(find_hull(model, format::HullScope::whole), 0U);
     EXPECT_EQ(find_hull(model, format::HullScope::component, 1), 2U);
     EXPECT_FALSE(find_hull(model, format::HullScope::component, 2));
     EXPECT_FALSE(find_hull(model, format::HullScope::instance, 0));
-    EXPECT_EQ(model.hulls()[0].group_count, 6U);
+    EXPECT_EQ(model.hulls().hulls[0].group_count, 6U);
     EXPECT_EQ(sections_of(one).hulls.size(), 1U);
 }
 

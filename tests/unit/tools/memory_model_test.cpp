@@ -44,7 +44,7 @@ TEST(MemoryModel, AnswersAsAFileDoesThroughEveryPart) {
           Structure::tetra_tree, Structure::pieces}) {
         EXPECT_EQ(pairs_of(model, model, {.structure = structure}, placement), expected);
     }
-    EXPECT_TRUE(model.is_closed());
+    EXPECT_TRUE(model.is_balanced());
     EXPECT_TRUE(find_hull(model, format::HullScope::whole));
     EXPECT_EQ(bytes_of(made.value(), {SectionId::triangles}), mesh.triangles.size() * 12);
     EXPECT_EQ(bytes_of(made.value(), {SectionId::triangle_piece}), mesh.triangles.size() * 4);

@@ -20,7 +20,7 @@ Topology topology_of(const test::TestMesh& mesh) {
 }
 
 bool is_closed(const format::Component& component) {
-    return (component.flags & format::component_closed) != 0;
+    return (component.flags & format::component_balanced) != 0;
 }
 
 TEST(Topology, ACubeIsOneClosedComponentOfVolumeOne) {

@@ -48,10 +48,10 @@ struct SectionEntry {
 
 /// Bits of FileHeader::flags.
 enum ModelFlags : std::uint32_t {
-    model_closed = 1,        ///< the oriented uses of every edge cancel: winding numbers are exact
-    model_normalized = 2,    ///< baked with --normalize
-    model_exact_leaves = 4,  ///< bvh_leaves hold model coordinates without loss
-    model_swept_lines = 8,   ///< swept_nodes hold lines; without this and the next: points
+    model_balanced = 1,           ///< the directed uses of every edge cancel: winding numbers exist
+    model_normalized = 2,         ///< baked with --normalize
+    model_exact_leaves = 4,       ///< bvh_leaves hold model coordinates without loss
+    model_swept_lines = 8,        ///< swept_nodes hold lines; without this and the next: points
     model_swept_rectangles = 16,  ///< swept_nodes hold rectangles
 };
 

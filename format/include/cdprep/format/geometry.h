@@ -127,7 +127,7 @@ struct Component {
 
 /// Bits of Component::flags.
 enum ComponentFlags : std::uint32_t {
-    component_closed = 1,  ///< the oriented uses of every edge cancel
+    component_balanced = 1,  ///< the directed uses of every edge cancel
 };
 
 /// Volume integrals of a closed, oriented model of density one.
