@@ -108,6 +108,11 @@ public:
         add(baked(cube), CDPREP_ASK_RAY);
         add(baked(cube), CDPREP_ASK_CLOSEST | CDPREP_ASK_INSIDE);
     }
+    Models(const Models&) = delete;
+    Models& operator=(const Models&) = delete;
+    ~Models() {
+        for (cdprep_model* model : open_) cdprep_model_close(model);
+    }
     const cdprep_model* any(Draw& draw) const {
         if (draw.one_in(20)) return nullptr;
         return open_[draw.below(static_cast<std::uint32_t>(open_.size()))];

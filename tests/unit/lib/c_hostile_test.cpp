@@ -567,7 +567,10 @@ TEST_F(CHostile, NullsAreRefusedAndNamed) {
     EXPECT_EQ(cdprep_model_open(nullptr, nullptr, &model, &error), CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(cdprep_model_open("no such file", nullptr, &model, &error), CDPREP_UNREADABLE);
     EXPECT_NE(std::string(error.message).find("no such file"), std::string::npos);
-    EXPECT_EQ(cdprep_model_open_memory("short", 5, nullptr, &model, &error), CDPREP_BAD_ARGUMENT);
+    const AlignedBytes bytes(64);
+    const std::byte* const begin = bytes.span().data();
+    EXPECT_EQ(cdprep_model_open_memory(begin, 5, nullptr, &model, &error), CDPREP_UNREADABLE);
+    EXPECT_EQ(cdprep_model_open_memory(begin + 1, 5, nullptr, &model, &error), CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(model, nullptr);
     cdprep_model_close(nullptr);
     cdprep_workspace_end(nullptr);
@@ -645,6 +648,28 @@ TEST_F(CHostile, RandomCachesChangeNoAnswer) {
     }
     EXPECT_GT(hits, kRounds * 3 / 10);
     EXPECT_LT(hits, kRounds * 7 / 10);
+}
+
+// A cache that says that the cubes are 2 apart, with one bit changed: a gap of 2^512 among them.
+TEST_F(CHostile, ACacheWithAChangedBitIsANewOne) {
+    cdprep_pair far = pair(), near = pair();
+    far.pose_b.rows[9] = 3;
+    cdprep_cache proved{};
+    far.cache = &proved;
+    cdprep_nearest ignored;
+    for (int i = 0; i < 3; ++i) {
+        ASSERT_EQ(cdprep_distance(&far, nullptr, workspace_.get(), &ignored, nullptr), CDPREP_OK);
+    }
+    for (std::size_t word = 0; word < 32; ++word) {
+        for (std::size_t bit = 0; bit < 64; ++bit) {
+            cdprep_cache changed = proved;
+            changed.words[word] ^= std::uint64_t{1} << bit;
+            near.cache = &changed;
+            cdprep_collision found{};
+            ASSERT_EQ(cdprep_collide(&near, workspace_.get(), &found, nullptr), CDPREP_OK);
+            ASSERT_EQ(found.hit, std::uint32_t{CDPREP_YES}) << word << ", bit " << bit;
+        }
+    }
 }
 
 // What is left out of an older struct is at its default; below the first version it is no struct.
