@@ -15,7 +15,7 @@ endfunction()
 set(json "nlohmann")
 set(heavy "hdf5|H5|assimp|CGAL|Eigen|CLI|tbb|oneapi|${json}")
 
-forbid(format        "cdprep/[a-z_]+\\.h|${heavy}")
+forbid(format        "cdprep/((advanced|c|study)/)?[a-z_]+\\.h|${heavy}")
 forbid(lib           "mesh/|import/|write/|report/|convex/|study/|${heavy}|xxhash")
 forbid(samples       "mesh/|import/|write/|report/|convex/|study/|kernels|traverse|${heavy}")
 forbid(tools/import  "hdf5|H5|CGAL|CLI|tbb|write/|report/|study/|${json}")
