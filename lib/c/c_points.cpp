@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/c/points.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -8,6 +9,7 @@
 #include "c/c_pairs.h"
 #include "cdprep/cast_ray.h"
 #include "cdprep/closest_point.h"
+#include "cdprep/format/float_environment.h"
 #include "cdprep/includes_through.h"
 #include "share_out.h"
 
@@ -201,9 +203,35 @@ const InputType Input<cdprep_ray_query>::type = {"cdprep_ray_query", 0xcd500008U
                                                  sizeof(cdprep_ray_query), sizeof(cdprep_ray_query),
                                                  kRayFields};
 
+namespace {
+
+/// Refuses directions that are so short that t would be beyond the largest double: at most how far
+/// the model reaches from the ray's origin, in lengths of the direction.
+int check_lengths(Call& call, const cdprep_ray_query& query) noexcept {
+    const format::FloatEnvironment environment;
+    const format::FileHeader& header = query.model->model.header();
+    const Double3& o = header.frame_origin;
+    const double frame = std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(o.z)}) +
+                         std::ldexp(1.0, -header.frame_exponent);
+    for (std::size_t i = 0; i < query.count; ++i) {
+        const cdprep_ray& ray = query.rays[i];
+        const auto largest = [](const double* v) {
+            return std::max({std::fabs(v[0]), std::fabs(v[1]), std::fabs(v[2])});
+        };
+        const double most_t = 4 * (frame + largest(ray.origin)) / largest(ray.direction);
+        if (most_t <= std::numeric_limits<double>::max()) continue;
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, kQuery.of("rays", i),
+                           "has so short a direction that t would exceed the largest double.");
+    }
+    return CDPREP_OK;
+}
+
+}  // namespace
+
 /// Checks rays, and that the model serves them.
 int check_ray_query(Call& call, const cdprep_ray_query& query) {
     if (const int code = check_rays(call, query)) return code;
+    if (const int code = check_lengths(call, query)) return code;
     return check_serves(call, kQuery.of("model"), *query.model, Ask::ray);
 }
 

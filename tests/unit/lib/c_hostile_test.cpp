@@ -382,6 +382,11 @@ TEST_F(CHostile, RaysAreChecked) {
     backwards.max_t = -1;
     endless.max_t = kNan;
     EXPECT_EQ(ask(still).why, CDPREP_WHY_OUT_OF_RANGE);
+    cdprep_ray short_one = right;  // t would be 1 / 2^-1074, which no double holds
+    short_one.direction[0] = std::numeric_limits<double>::denorm_min();
+    EXPECT_EQ(ask(short_one).why, CDPREP_WHY_OUT_OF_RANGE);
+    short_one.direction[0] = 0x1p-1000;
+    EXPECT_EQ(ask(short_one).code, CDPREP_OK);
     EXPECT_EQ(ask(backwards).why, CDPREP_WHY_OUT_OF_RANGE);
     EXPECT_EQ(ask(endless).why, CDPREP_WHY_NOT_FINITE);
 }

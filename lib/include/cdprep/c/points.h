@@ -50,7 +50,7 @@ CDPREP_API int cdprep_points_inside(const cdprep_point_query* query, cdprep_work
 
 typedef struct cdprep_ray {
     double origin[3];    /* model coordinates */
-    double direction[3]; /* of any length but 0 */
+    double direction[3]; /* of any length but 0; so short that t overflows is refused */
     double max_t;        /* 0 or more, in lengths of the direction; INFINITY for all of it */
 } cdprep_ray;
 
