@@ -174,6 +174,24 @@ int side_of_line(const HalfLine& ray, const View& view, const Double3& p) {
     return (d[view.first] * w[view.second] - d[view.second] * w[view.first]).sign();
 }
 
+/// Where the line from o along d crosses that through a and b: the ratio of two areas, each of
+/// lengths near 1, so that neither overflows however large coordinates are.
+double crossing_parameter(const Double2& o, const Double2& d, const Double2& a, const Double2& b) {
+    const auto exponent = [](const Double2& v) {
+        const double size = std::max(std::fabs(v.x), std::fabs(v.y));
+        return size > 0 ? std::ilogb(size) : 0;
+    };
+    const auto scaled = [](const Double2& v, int e) {
+        return Double2{std::ldexp(v.x, -e), std::ldexp(v.y, -e)};
+    };
+    const Double2 edge = {b.x - a.x, b.y - a.y}, way = {a.x - o.x, a.y - o.y};
+    const int of_way = exponent(way), of_step = exponent(d);
+    const Double2 e = scaled(edge, exponent(edge)), w = scaled(way, of_way), s = scaled(d, of_step);
+    const double step = s.x * e.y - s.y * e.x;
+    const double to = w.x * e.y - w.y * e.x;
+    return step == 0 ? 0 : std::ldexp(to / step, of_way - of_step);
+}
+
 /// Where the half-line meets an edge in one plane, seen in a view that keeps it.
 void take_edge(const HalfLine& ray, const View& view, const Double3& u, const Double3& v,
                std::optional<double>& best) {
@@ -185,10 +203,7 @@ void take_edge(const HalfLine& ray, const View& view, const Double3& u, const Do
     const int side = orient2d(view(u), view(v), view(ray.origin));
     // Ahead when the origin is on the edge, or on the side that the ray comes from.
     if (side == -side_v) return;
-    const Double2 o = view(ray.origin), d = view(ray.step), a = view(u), b = view(v);
-    const double step = d.x * (b.y - a.y) - d.y * (b.x - a.x);
-    const double to = (a.x - o.x) * (b.y - a.y) - (a.y - o.y) * (b.x - a.x);
-    take(best, step == 0 ? 0 : to / step);
+    take(best, crossing_parameter(view(ray.origin), view(ray.step), view(u), view(v)));
 }
 
 /// The line lies in the triangle's plane, or meets a triangle without area.

@@ -395,5 +395,22 @@ TEST(CastRayLaws, NoRayEscapesAClosedSurface) {
     }
 }
 
+// By hand: a ray from an edge in the plane of a face of a cube that is 2^999 wide begins on it, and
+// one from 2^999 before it hits at 1. Areas of such lengths are beyond the largest double.
+TEST(CastRay, InThePlaneOfAHugeFaceTIsFinite) {
+    TestMesh cube = unit_cube();
+    for (Double3& p : cube.positions) p = {p.x * 0x1p999, p.y * 0x1p999, p.z * 0x1p999};
+    const OpenModel open = open_tiny(cube, {.double_precision = true});
+    Workspace workspace;
+    const auto on = cast_ray(open.model, {{0, 0, 1.6875}, {0, 3.375, 1.6875}}, workspace);
+    ASSERT_TRUE(on);
+    EXPECT_EQ(on->t, 0);
+    const Double3 before = {0, -0x1p999, 0x1p998}, along_y = {0, 0x1p999, 0};
+    const auto hit = cast_ray(open.model, {before, along_y}, workspace);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->t, 1);
+    EXPECT_EQ(hit->point, (Double3{0, 0, 0x1p998}));
+}
+
 }  // namespace
 }  // namespace cdprep::test
