@@ -30,9 +30,6 @@ struct Model::State {
     HullView hulls;
     PieceView pieces;
     RecordView record;
-    std::string_view instance_names;
-    std::string_view group_names;
-    std::string_view material_names;
 
     void find_sections(SectionSet wanted);
 
@@ -73,67 +70,18 @@ private:
 void Model::State::find_sections(SectionSet wanted) {
     header = reinterpret_cast<const format::FileHeader*>(file.data());
     bvh.shape = format::bvh_shape(header->triangle_count);
-    view(SectionId::positions_f32, wanted, mesh.positions_f32);
-    view(SectionId::positions_f64, wanted, mesh.positions_f64);
-    view(SectionId::triangles, wanted, mesh.triangles);
-    view(SectionId::source_triangle, wanted, source.triangle);
-    view(SectionId::source_vertex, wanted, source.vertex);
-    view(SectionId::source_face, wanted, source.face);
-    view(SectionId::bvh_nodes, wanted, bvh.nodes);
-    view(SectionId::bvh_leaves, wanted, bvh.leaves);
-    view(SectionId::oriented_nodes, wanted, bvh.oriented);
-    view(SectionId::swept_nodes, wanted, bvh.swept);
-    view(SectionId::degenerate_bits, wanted, mesh.degenerate_bits);
-    view(SectionId::components, wanted, record.components);
-    view(SectionId::bounds, wanted, record.bounds);
-    view(SectionId::mass_properties, wanted, record.mass);
-    view(SectionId::instances, wanted, source.instances);
-    view(SectionId::instance_names, wanted, instance_names);
-    view(SectionId::group_runs, wanted, source.group_runs);
-    view(SectionId::group_names, wanted, group_names);
-    view(SectionId::material_runs, wanted, source.material_runs);
-    view(SectionId::material_names, wanted, material_names);
-    view(SectionId::provenance, wanted, record.provenance);
-    view(SectionId::verdicts, wanted, record.verdicts);
-    view(SectionId::findings, wanted, record.findings);
-    view(SectionId::repaired_from, wanted, source.repaired_from);
-    view(SectionId::octree_grid, wanted, octree.grid);
-    view(SectionId::adaptive_octree, wanted, adaptive_octree.tree);
-    view(SectionId::tetra_tree, wanted, tetra_tree.tree);
-    view(SectionId::octree_nodes, wanted, octree.nodes);
-    view(SectionId::octree_references, wanted, octree.references);
-    view(SectionId::octree_leaf_codes, wanted, octree.leaf_codes);
-    view(SectionId::octree_leaf_nodes, wanted, octree.leaf_nodes);
-    view(SectionId::octree_top, wanted, octree.top);
-    view(SectionId::octree_modulus_table, wanted, octree.modulus_table);
-    view(SectionId::octree_mixed_table, wanted, octree.mixed_table);
-    view(SectionId::adaptive_octree_nodes, wanted, adaptive_octree.nodes);
-    view(SectionId::adaptive_octree_references, wanted, adaptive_octree.references);
-    view(SectionId::octree_boxes, wanted, octree.boxes);
-    view(SectionId::adaptive_octree_boxes, wanted, adaptive_octree.boxes);
-    view(SectionId::tetra_nodes, wanted, tetra_tree.nodes);
-    view(SectionId::tetra_references, wanted, tetra_tree.references);
-    view(SectionId::tetra_top, wanted, tetra_tree.top);
-    view(SectionId::tetra_boxes, wanted, tetra_tree.boxes);
-    view(SectionId::tetra_oriented, wanted, tetra_tree.oriented);
-    view(SectionId::hulls, wanted, hulls.hulls);
-    view(SectionId::hull_blocks, wanted, hulls.blocks);
-    view(SectionId::hull_vertices, wanted, hulls.vertices);
-    view(SectionId::hull_facets, wanted, hulls.facets);
-    view(SectionId::hull_groups, wanted, hulls.groups);
-    view(SectionId::hull_neighbours, wanted, hulls.neighbours);
-    view(SectionId::hull_starts, wanted, hulls.starts);
-    view(SectionId::pieces, wanted, pieces.pieces);
-    view(SectionId::piece_triangles, wanted, pieces.triangles);
-    view(SectionId::piece_vertices, wanted, pieces.vertices);
-    view(SectionId::piece_facets, wanted, pieces.facets);
-    view(SectionId::piece_nodes, wanted, pieces.nodes);
-    view(SectionId::piece_swept, wanted, pieces.swept);
-    view(SectionId::piece_leaves, wanted, pieces.leaves);
-    view(SectionId::piece_node_hulls, wanted, pieces.node_hulls);
-    view(SectionId::piece_adjacency, wanted, pieces.adjacency);
-    view(SectionId::edge_convexity, wanted, mesh.edge_convexity);
-    view(SectionId::triangle_piece, wanted, pieces.of_triangle);
+#define CDPREP_MESH_SECTION(member, name, ...) view(SectionId::name, wanted, mesh.member);
+#define CDPREP_SOURCE_SECTION(member, name, ...) view(SectionId::name, wanted, source.member);
+#define CDPREP_BVH_SECTION(member, name, ...) view(SectionId::name, wanted, bvh.member);
+#define CDPREP_OCTREE_SECTION(member, name, ...) view(SectionId::name, wanted, octree.member);
+#define CDPREP_ADAPTIVE_OCTREE_SECTION(member, name, ...) \
+    view(SectionId::name, wanted, adaptive_octree.member);
+#define CDPREP_TETRA_TREE_SECTION(member, name, ...) \
+    view(SectionId::name, wanted, tetra_tree.member);
+#define CDPREP_HULL_SECTION(member, name, ...) view(SectionId::name, wanted, hulls.member);
+#define CDPREP_PIECE_SECTION(member, name, ...) view(SectionId::name, wanted, pieces.member);
+#define CDPREP_RECORD_SECTION(member, name, ...) view(SectionId::name, wanted, record.member);
+#include "cdprep/format/section_table.inc"
 }
 
 namespace {
@@ -291,9 +239,9 @@ bool Model::is_balanced() const noexcept {
 
 std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {
     std::string_view rest;
-    if (names == SectionId::instance_names) rest = state_->instance_names;
-    if (names == SectionId::group_names) rest = state_->group_names;
-    if (names == SectionId::material_names) rest = state_->material_names;
+    if (names == SectionId::instance_names) rest = state_->source.instance_names;
+    if (names == SectionId::group_names) rest = state_->source.group_names;
+    if (names == SectionId::material_names) rest = state_->source.material_names;
     for (std::uint32_t i = 0; !rest.empty(); ++i) {
         const std::size_t end = rest.find('\0');
         if (i == index) return rest.substr(0, end);

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "cdprep/format/bvh_shape.h"
+#include "cdprep/format/elements.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/hulls.h"
 #include "cdprep/format/octree.h"
@@ -18,112 +19,101 @@ namespace cdprep {
 using format::Double3;
 using format::Float3;
 
-// Views of the sections of an open model, as Model returns them. A span is empty and a pointer is
-// null when the file lacks the section or it was not opened. Spans stay valid while the Model
-// lives. FORMAT.md describes the elements and says which arrays are in tree order, the order in
-// which the BVH stores triangles.
+// Views of the sections of an open model, as Model returns them: a member for each row of
+// section_table.inc, which describes it. A span is empty and a pointer is null when the file lacks
+// the section or it was not opened. Views stay valid while the Model lives. FORMAT.md describes the
+// elements and says which arrays are in tree order, the order in which the BVH stores triangles.
+
+/// What a view has for a section: a span of its elements, a pointer to the only one, or text.
+template <class Element>
+struct SectionViewOf {
+    using type = std::span<const Element>;
+};
+template <class Element>
+struct SectionViewOf<format::One<Element>> {
+    using type = const Element*;
+};
+template <>
+struct SectionViewOf<format::Text> {
+    using type = std::string_view;
+};
+template <class Element>
+using SectionView = typename SectionViewOf<Element>::type;
+
+// The rows name elements as cdprep::format does.
+namespace views {
+
+using namespace format;
 
 /// The triangles of a model. A file has one kind of positions; an opened model has it when its
 /// vertices were asked for.
 struct MeshView {
-    std::span<const Float3> positions_f32;           ///< model units
-    std::span<const Double3> positions_f64;          ///< model units
-    std::span<const format::Triangle> triangles;     ///< tree order
-    std::span<const std::uint64_t> degenerate_bits;  ///< a bit for each triangle, tree order
-    /// By triangle, tree order; format::edge_convexity() reads an element. Needs Ask::contacts.
-    std::span<const std::uint8_t> edge_convexity;
+#define CDPREP_MESH_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
+#include "cdprep/format/section_table.inc"
 };
 
 /// The way from numbers of a model to those of the imported file.
 struct SourceView {
-    std::span<const std::uint32_t> triangle;  ///< by triangle, tree order
-    std::span<const std::uint32_t> vertex;    ///< by vertex
-    std::span<const std::uint32_t> face;      ///< by source triangle; the polygon it is cut from
-    /// By source triangle: its number before `bake --repair`, or format::kMadeByRepair. Empty
-    /// when nothing was repaired; numbers are then the file's.
-    std::span<const std::uint32_t> repaired_from;
-    std::span<const format::Instance> instances;
-    std::span<const format::NamedRun> group_runs;
-    std::span<const format::NamedRun> material_runs;
+#define CDPREP_SOURCE_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
+#include "cdprep/format/section_table.inc"
 };
 
 /// The bounding volume hierarchy over all triangles.
 struct BvhView {
-    std::span<const format::BvhNode> nodes;  ///< root first
-    std::span<const format::BvhLeaf> leaves;
-    std::span<const format::OrientedNode> oriented;  ///< numbered as `nodes`
-    /// Numbered as `nodes`; format::swept_kind(header().flags) says which volumes they are.
-    std::span<const format::SweptNode> swept;
-    format::BvhShape shape;  ///< levels and counts; always set
+#define CDPREP_BVH_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
+#include "cdprep/format/section_table.inc"
+    BvhShape shape;  ///< levels and counts; always set
 };
 
 /// The octree of equal cells, its hash tables and its sorted leaves (format/octree.h).
 struct OctreeView {
-    const format::OctreeGrid* grid = nullptr;
-    std::span<const format::OctreeNode> nodes;
-    std::span<const std::uint32_t> references;
-    std::span<const std::uint64_t> leaf_codes;
-    std::span<const std::uint32_t> leaf_nodes;
-    std::span<const std::uint32_t> top;
-    std::span<const std::uint32_t> modulus_table;
-    std::span<const std::uint32_t> mixed_table;
-    std::span<const format::CellBox> boxes;  ///< by node
+#define CDPREP_OCTREE_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
+#include "cdprep/format/section_table.inc"
 };
 
 /// The octree whose nodes choose their split points (format/octree.h).
 struct AdaptiveOctreeView {
-    const format::AdaptiveOctree* tree = nullptr;
-    std::span<const format::AdaptiveOctreeNode> nodes;
-    std::span<const std::uint32_t> references;
-    std::span<const format::CellBox> boxes;  ///< by node
+#define CDPREP_ADAPTIVE_OCTREE_SECTION(member, name, id, Element, ...) \
+    SectionView<Element> member = {};
+#include "cdprep/format/section_table.inc"
 };
 
 /// The tetra-tree (format/tetra_tree.h).
 struct TetraTreeView {
-    const format::TetraTree* tree = nullptr;
-    std::span<const format::TetraNode> nodes;
-    std::span<const std::uint32_t> references;
-    std::span<const std::uint32_t> top;
-    std::span<const format::BvhNode> boxes;
-    std::span<const format::OrientedNode> oriented;
+#define CDPREP_TETRA_TREE_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
+#include "cdprep/format/section_table.inc"
 };
 
 /// Convex hulls of the whole, of components, instances and parts (format/hulls.h). find_hull()
 /// and convex_points() read them.
 struct HullView {
-    std::span<const format::Hull> hulls;
-    std::span<const format::HullBlock> blocks;
-    std::span<const std::uint32_t> vertices;
-    std::span<const format::HullFacet> facets;
-    std::span<const format::HullGroup> groups;
-    std::span<const std::uint32_t> neighbours;
-    std::span<const std::uint32_t> starts;
+#define CDPREP_HULL_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
+#include "cdprep/format/section_table.inc"
 };
 
 /// Convex pieces of the surface, their hulls, and the hierarchy over them (format/pieces.h).
 /// feature_hull() reads one.
 struct PieceView {
-    std::span<const format::Piece> pieces;
-    std::span<const std::uint32_t> triangles;
-    std::span<const std::uint32_t> vertices;
-    std::span<const format::PieceFacet> facets;
-    std::span<const format::PieceAdjacency> adjacency;
-    std::span<const format::BvhNode> nodes;  ///< root first
-    std::span<const format::SweptNode> swept;
-    std::span<const format::PieceLeaf> leaves;
-    std::span<const format::PieceNodeHull> node_hulls;
-    std::span<const std::uint32_t> of_triangle;  ///< the piece of each triangle, tree order
+#define CDPREP_PIECE_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
+#include "cdprep/format/section_table.inc"
 };
 
 /// The facts that the bake recorded about the mesh.
 struct RecordView {
-    /// Of the whole mesh, then of each component in the order of their lowest source triangle.
-    std::span<const format::Verdict> verdicts;
-    std::span<const format::Component> components;
-    const format::Bounds* bounds = nullptr;
-    const format::MassProperties* mass = nullptr;
-    std::string_view provenance;  ///< canonical JSON
-    std::string_view findings;    ///< JSON: the defects of the mesh, and the repairs
+#define CDPREP_RECORD_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
+#include "cdprep/format/section_table.inc"
 };
+
+}  // namespace views
+
+using views::AdaptiveOctreeView;
+using views::BvhView;
+using views::HullView;
+using views::MeshView;
+using views::OctreeView;
+using views::PieceView;
+using views::RecordView;
+using views::SourceView;
+using views::TetraTreeView;
 
 }  // namespace cdprep
