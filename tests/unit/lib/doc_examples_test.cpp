@@ -46,20 +46,18 @@ struct ReadmeAnswer {
 };
 
 std::optional<ReadmeAnswer> readme() {
-    auto arm = cdprep::Model::open("arm.cdp.h5");
-    auto part = cdprep::Model::open("part.cdp.h5");
+    auto arm = cdprep::Model::open("arm.cdp.h5", cdprep::Ask::overlap);
+    auto part = cdprep::Model::open("part.cdp.h5", cdprep::Ask::overlap);
     auto arm_from_part = cdprep::Pose::from_quaternion(1, 0, 0, 0, {0.1, 0, 0});
     if (!arm || !part || !arm_from_part) return std::nullopt;
 
     cdprep::Workspace workspace;
-    auto placement = cdprep::Placement::b_moves(arm_from_part.value());
-    bool hit = cdprep::collide(arm.value(), part.value(), placement, workspace).hit;
+    auto placement = cdprep::Placement::b_moves(*arm_from_part);
+    bool hit = cdprep::collide(*arm, *part, placement, workspace).hit;
 
-    std::vector<cdprep::TrianglePair> pairs(1000);
-    std::size_t count =
-        cdprep::overlapping_triangles(arm.value(), part.value(), placement, workspace, pairs);
-    pairs.resize(count);
-    return ReadmeAnswer{hit, pairs};
+    cdprep::TrianglePair pairs[1000];
+    std::size_t count = cdprep::overlapping_triangles(*arm, *part, placement, workspace, pairs);
+    return ReadmeAnswer{hit, {pairs, pairs + count}};
 }
 
 // Two unit cubes, one shifted by 0.1 along x: their sides share area.
