@@ -38,6 +38,7 @@ int nearest(Call& call, const std::array<double, 16>& matrix, std::uint32_t layo
         return code;
     }
     if (const int code = check_number(call, "tolerance", Holds::length, tolerance)) return code;
+    const format::FloatEnvironment environment;
     if (tolerance > kGreatestPoseTolerance) {
         return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"tolerance"},
                            "is %.17g; at most %g is allowed.", tolerance, kGreatestPoseTolerance);

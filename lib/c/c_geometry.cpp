@@ -150,7 +150,7 @@ std::uint32_t count_names(const Model& model, SectionId names) noexcept {
     return static_cast<std::uint32_t>(std::ranges::count(bytes, std::byte{0}));
 }
 
-/// A box around all triangles: as baked, or of the positions, or of the hierarchy's boxes.
+/// A box around all triangles: as baked, or else of the positions, where they are open.
 void store_box(const Model& model, cdprep_model_info& info) noexcept {
     if (model.record().bounds != nullptr) {
         store(model.record().bounds->lower, info.lower);

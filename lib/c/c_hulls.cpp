@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include "c/c_pairs.h"
 #include "cdprep/convex_penetration.h"
 #include "cdprep/model_hulls.h"
 #include "cdprep/model_pieces.h"
+#include "piece_parts.h"
 
 namespace cdprep::c {
 
@@ -244,17 +244,20 @@ cdprep_closest_features in_c(const AskedHulls& asked, const FeatureHull& a, cons
     return to;
 }
 
-/// Stores corners and facets of a piece's hull.
+/// Stores corners and facets of a piece's hull. Unlike questions about its features this does not
+/// need the adjacency of its facets.
 void write_piece(const Model& model, std::uint32_t piece, cdprep_mesh& mesh) noexcept {
     const FeatureHull hull = feature_hull(model, piece);
+    const auto facets =
+        part_of_piece(model.pieces().facets, model, piece, &format::Piece::first_facet);
     mesh.vertex_count = hull.points.count;
-    mesh.triangle_count = hull.facets.size();
+    mesh.triangle_count = facets.size();
     MeshWriter writer(mesh);
     for (std::uint32_t i = 0; i < hull.points.count && writer.has_room_for_vertex(); ++i) {
         writer.add_vertex(hull.points.point(i), source_vertex_of(model, hull.points.corners[i]));
     }
-    for (std::size_t i = 0; i < hull.facets.size() && writer.has_room_for_triangle(); ++i) {
-        writer.add_triangle(hull.facets[i].corner);
+    for (std::size_t i = 0; i < facets.size() && writer.has_room_for_triangle(); ++i) {
+        writer.add_triangle(facets[i].corner);
     }
 }
 
@@ -385,7 +388,7 @@ int cdprep_hulls_penetration(const cdprep_hull_pair* pair, const cdprep_distance
             if (const int code = cdprep::c::read_distance_options(call, options, given)) {
                 return code;
             }
-            if (std::isinf(given.max_distance)) return CDPREP_OK;
+            if (cdprep::c::is_infinite(given.max_distance)) return CDPREP_OK;
             return call.refuse(CDPREP_WHY_NO_MEANING, Name{"options"}.of("max_distance"),
                                "is %.17g, which this question cannot use; leave it at its default.",
                                given.max_distance);

@@ -2,6 +2,7 @@
 #include "c/c_model.h"
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -86,20 +87,37 @@ int make_model(Call& call, const Asked& asked, Model&& model, const Memory& byte
     return CDPREP_OK;
 }
 
-int open_bytes(Call& call, const Asked& asked, std::span<const std::byte> bytes, const Memory& copy,
-               cdprep_model** to) {
+int check_alignment(Call& call, std::span<const std::byte> bytes) noexcept {
+    const auto address = reinterpret_cast<std::uintptr_t>(bytes.data());
+    if (address % CDPREP_ALIGNMENT == 0) return CDPREP_OK;
+    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"bytes"},
+                       "does not start at a multiple of %d; CDPREP_COPY takes any address.",
+                       CDPREP_ALIGNMENT);
+}
+
+/// Opens the caller's bytes in place.
+int open_in_place(Call& call, const Asked& asked, std::span<const std::byte> bytes,
+                  cdprep_model** to) {
+    if (const int code = check_alignment(call, bytes)) return code;
     Result<Model> opened = Model::open(bytes, asked.open);
-    if (opened) return make_model(call, asked, std::move(opened).value(), copy, to);
-    release(copy);
-    return fail_opening(call, opened.error(), asked);
+    if (!opened) return fail_opening(call, opened.error(), asked);
+    return make_model(call, asked, std::move(opened).value(), {}, to);
+}
+
+/// Opens a copy, which the model takes over.
+int open_copied(Call& call, const Asked& asked, OwnedMemory& copy, cdprep_model** to) {
+    const Memory& memory = copy.get();
+    Result<Model> opened =
+        Model::open({static_cast<const std::byte*>(memory.start), memory.size}, asked.open);
+    if (!opened) return fail_opening(call, opened.error(), asked);
+    return make_model(call, asked, std::move(opened).value(), copy.take(), to);
 }
 
 int open_copy(Call& call, const Asked& asked, std::span<const std::byte> bytes, cdprep_model** to) {
-    Memory copy;
-    if (const int code = allocate(call, asked.allocator, bytes.size(), copy)) return code;
-    if (!bytes.empty()) std::memcpy(copy.start, bytes.data(), bytes.size());
-    return open_bytes(call, asked, {static_cast<const std::byte*>(copy.start), bytes.size()}, copy,
-                      to);
+    OwnedMemory copy;
+    if (const int code = copy.allocate(call, asked.allocator, bytes.size())) return code;
+    if (!bytes.empty()) std::memcpy(copy.get().start, bytes.data(), bytes.size());
+    return open_copied(call, asked, copy, to);
 }
 
 struct CloseFile {
@@ -116,22 +134,22 @@ int fail_reading(Call& call, const std::string& path, const char* why) {
 int open_copy(Call& call, const Asked& asked, const std::filesystem::path& path,
               cdprep_model** to) {
     const std::string name = path.string();
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) {
+    std::error_code failed;
+    if (!std::filesystem::is_regular_file(path, failed)) {
         return fail_reading(call, name, "is not there, or is not a regular file.");
     }
     const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(name.c_str(), "rb"));
     if (file == nullptr) return fail_reading(call, name, "cannot be opened.");
-    const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-    Memory copy;
-    if (const int code = allocate(call, asked.allocator, size, copy)) return code;
-    if (size > 0 && std::fread(copy.start, 1, size, file.get()) != size) {
-        release(copy);
+    const std::uintmax_t size = std::filesystem::file_size(path, failed);
+    if (failed) return fail_reading(call, name, "has no size that can be read.");
+    OwnedMemory copy;
+    if (const int code = copy.allocate(call, asked.allocator, size)) return code;
+    if (size > 0 && std::fread(copy.get().start, 1, size, file.get()) != size) {
         return fail_reading(call, name, "cannot be read to its end.");
     }
     Asked named = asked;
     named.open.name = name;
-    return open_bytes(call, named, {static_cast<const std::byte*>(copy.start), size}, copy, to);
+    return open_copied(call, named, copy, to);
 }
 
 int open_trusted(Call& call, const Asked& asked, const std::filesystem::path& path,
@@ -256,7 +274,7 @@ int cdprep_model_open_memory(const void* bytes, size_t size, const cdprep_open_o
         const std::span<const std::byte> file(static_cast<const std::byte*>(bytes), size);
         switch (asked.options.mode) {
             case CDPREP_MAP:
-                return cdprep::c::open_bytes(call, asked, file, {}, model);
+                return cdprep::c::open_in_place(call, asked, file, model);
             case CDPREP_COPY:
                 return cdprep::c::open_copy(call, asked, file, model);
             default:

@@ -74,6 +74,12 @@ int check_points(Call& call, const cdprep_point_query& query) noexcept {
     return CDPREP_OK;
 }
 
+/// The caller's floating-point environment may take a short direction for none.
+bool is_zero(const double (&direction)[3]) noexcept {
+    const format::FloatEnvironment environment;
+    return direction[0] == 0 && direction[1] == 0 && direction[2] == 0;
+}
+
 int check_ray(Call& call, const cdprep_ray& ray, std::size_t i) noexcept {
     const Name name = kQuery.of("rays", i);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -82,15 +88,27 @@ int check_ray(Call& call, const cdprep_ray& ray, std::size_t i) noexcept {
         }
     }
     if (const int code = check_numbers(call, name, Holds::limit, &ray.max_t, 1)) return code;
-    if (ray.direction[0] != 0 || ray.direction[1] != 0 || ray.direction[2] != 0) return CDPREP_OK;
+    if (!is_zero(ray.direction)) return CDPREP_OK;
     return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name, "has a direction of length 0.");
 }
 
-int check_rays(Call& call, const cdprep_ray_query& query) noexcept {
-    const Name rays = kQuery.of("rays");
-    if (const int code = check_array(call, rays, query.rays, query.count, sizeof(cdprep_ray))) {
-        return code;
+int check_ray_array(Call& call, const cdprep_ray_query& query) noexcept {
+    return check_array(call, kQuery.of("rays"), query.rays, query.count, sizeof(cdprep_ray));
+}
+
+/// Checks a list for each ray. Reads no list before the number of rays is known to be possible.
+int check_ray_lists(Call& call, const cdprep_ray_query& query,
+                    const cdprep_ray_hit_list* lists) noexcept {
+    if (const int code = check_ray_array(call, query)) return code;
+    for (std::size_t i = 0; i < query.count; ++i) {
+        if (const int code = check_list(call, {"lists", i}, lists[i])) return code;
     }
+    return CDPREP_OK;
+}
+static_assert(kMostAnswers<cdprep_ray> <= kMostAnswers<cdprep_ray_hit_list>);
+
+int check_rays(Call& call, const cdprep_ray_query& query) noexcept {
+    if (const int code = check_ray_array(call, query)) return code;
     for (std::size_t i = 0; i < query.count; ++i) {
         if (const int code = check_ray(call, query.rays[i], i)) return code;
     }
@@ -132,8 +150,8 @@ std::size_t count_of(const Query* query) noexcept {
 /// A question that is asked once for each point or ray: says that nothing is known, checks
 /// everything (`check(call, query)`), then calls `ask(answer, query, i, workspace)` on all lanes.
 template <class Query, class Answer, class Check, class Asker>
-int ask_each(const Query* query, cdprep_workspace* workspace, Answer* answers, cdprep_error* error,
-             Check&& check, Asker&& ask) noexcept {
+int ask_each(const Query* query, cdprep_workspace* workspace, Answer* answers,
+             const char* answers_name, cdprep_error* error, Check&& check, Asker&& ask) noexcept {
     const std::size_t count = count_of(query);
     if (answers != nullptr && count <= kMostAnswers<Answer>) {
         for (std::size_t i = 0; i < count; ++i) set_unknown(answers[i]);
@@ -144,7 +162,7 @@ int ask_each(const Query* query, cdprep_workspace* workspace, Answer* answers, c
         Query read;
         if (const int code = read_input(call, kQuery, query, read)) return code;
         if (read.count > 0) {
-            if (const int code = call.need(answers, {"answers"})) return code;
+            if (const int code = call.need(answers, {answers_name})) return code;
         }
         if (const int code = check(call, read)) return code;
         InUse use;
@@ -255,7 +273,7 @@ void cdprep_ray_query_init(cdprep_ray_query* query, size_t size) {
 int cdprep_points_closest(const cdprep_point_query* query, cdprep_workspace* workspace,
                           cdprep_closest_point* answers, cdprep_error* error) {
     return ask_each(
-        query, workspace, answers, error,
+        query, workspace, answers, "answers", error,
         [](Call& call, const cdprep_point_query& asked) -> int {
             if (const int code = cdprep::c::check_points(call, asked)) return code;
             if (asked.through != CDPREP_THROUGH_BVH) {
@@ -277,10 +295,10 @@ int cdprep_points_closest(const cdprep_point_query* query, cdprep_workspace* wor
 int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* workspace,
                          cdprep_point_state* answers, cdprep_error* error) {
     return ask_each(
-        query, workspace, answers, error,
+        query, workspace, answers, "answers", error,
         [](Call& call, const cdprep_point_query& asked) -> int {
             if (const int code = cdprep::c::check_points(call, asked)) return code;
-            if (!std::isinf(asked.max_distance)) {
+            if (!cdprep::c::is_infinite(asked.max_distance)) {
                 return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of("max_distance"),
                                    "is %.17g, which this question cannot use; leave it at its "
                                    "default.",
@@ -305,7 +323,7 @@ int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* work
 int cdprep_rays_cast(const cdprep_ray_query* query, cdprep_workspace* workspace,
                      cdprep_ray_hit* hits, cdprep_error* error) {
     return ask_each(
-        query, workspace, hits, error, check_ray_query,
+        query, workspace, hits, "hits", error, check_ray_query,
         [](cdprep_ray_hit& to, const cdprep_ray_query& asked, size_t i, Workspace& scratch) {
             const auto found = cast_ray(asked.model->model, cdprep::c::ray_of(asked, i), scratch,
                                         {asked.rays[i].max_t});
@@ -316,7 +334,7 @@ int cdprep_rays_cast(const cdprep_ray_query* query, cdprep_workspace* workspace,
 int cdprep_rays_any(const cdprep_ray_query* query, cdprep_workspace* workspace, uint32_t* hits,
                     cdprep_error* error) {
     return ask_each(
-        query, workspace, hits, error, check_ray_query,
+        query, workspace, hits, "hits", error, check_ray_query,
         [](uint32_t& to, const cdprep_ray_query& asked, size_t i, Workspace& scratch) {
             to = cdprep::c::word(ray_hits(asked.model->model, cdprep::c::ray_of(asked, i), scratch,
                                           {asked.rays[i].max_t}));
@@ -326,13 +344,9 @@ int cdprep_rays_any(const cdprep_ray_query* query, cdprep_workspace* workspace, 
 int cdprep_rays_all(const cdprep_ray_query* query, cdprep_workspace* workspace,
                     cdprep_ray_hit_list* lists, cdprep_error* error) {
     return ask_each(
-        query, workspace, lists, error,
+        query, workspace, lists, "lists", error,
         [&](Call& call, const cdprep_ray_query& asked) -> int {
-            for (size_t i = 0; i < asked.count; ++i) {
-                if (const int code = cdprep::c::check_list(call, {"answers", i}, lists[i])) {
-                    return code;
-                }
-            }
+            if (const int code = cdprep::c::check_ray_lists(call, asked, lists)) return code;
             return check_ray_query(call, asked);
         },
         [](cdprep_ray_hit_list& to, const cdprep_ray_query& asked, size_t i, Workspace& scratch) {
@@ -346,25 +360,27 @@ int cdprep_rays_all(const cdprep_ray_query* query, cdprep_workspace* workspace,
 
 int cdprep_rays_visit(const cdprep_ray_query* query, cdprep_workspace* workspace,
                       cdprep_ray_visitor visit, void* context, cdprep_error* error) {
-    uint32_t visited = 0;
-    return ask_each(
-        query, workspace, &visited, error,
-        [&](Call& call, const cdprep_ray_query& asked) -> int {
-            if (visit == nullptr) return call.need(nullptr, {"visit"});
-            if (asked.count != 1) {
-                return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of("count"),
-                                   "is %zu, but a visitor is not told of which ray a hit is; it "
-                                   "must be 1.",
-                                   asked.count);
-            }
-            return check_ray_query(call, asked);
-        },
-        [&](uint32_t& /*visited*/, const cdprep_ray_query& asked, size_t i, Workspace& scratch) {
-            const auto hand_on = [&](const cdprep::RayHit& found) {
-                const cdprep_ray_hit hit = cdprep::c::in_c(found);
-                return visit(context, &hit) != 0;
-            };
-            visit_ray_hits(asked.model->model, cdprep::c::ray_of(asked, i), scratch, hand_on,
-                           {asked.rays[i].max_t});
-        });
+    return cdprep::c::guarded(error, [&](Call& call) -> int {
+        if (const int code = call.need(query, kQuery)) return code;
+        if (const int code = call.need(workspace, {"workspace"})) return code;
+        if (visit == nullptr) return call.need(nullptr, {"visit"});
+        cdprep_ray_query asked;
+        if (const int code = read_input(call, kQuery, query, asked)) return code;
+        if (asked.count != 1) {
+            return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of("count"),
+                               "is %zu, but a visitor is not told of which ray a hit is; it must "
+                               "be 1.",
+                               asked.count);
+        }
+        if (const int code = check_ray_query(call, asked)) return code;
+        cdprep::c::InUse use;
+        if (const int code = use.begin(call, *workspace)) return code;
+        const auto hand_on = [&](const cdprep::RayHit& found) {
+            const cdprep_ray_hit hit = cdprep::c::in_c(found);
+            return visit(context, &hit) != 0;
+        };
+        visit_ray_hits(asked.model->model, cdprep::c::ray_of(asked, 0), workspace->lanes[0],
+                       hand_on, {asked.rays[0].max_t});
+        return CDPREP_OK;
+    });
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <array>
-#include <cmath>
 #include <limits>
 #include <type_traits>
 
 #include "c/c_pairs.h"
 #include "cdprep/c/points.h"
+#include "cdprep/format/float_environment.h"
 #include "cdprep/touching_box.h"
 #include "cdprep/touching_capsule.h"
 #include "cdprep/touching_sphere.h"
@@ -58,6 +58,7 @@ ShapeFields fields_of(std::uint32_t shape) noexcept {
 
 /// Limits may be infinite, but there is room between them.
 int check_box(Call& call, const cdprep_shape_query& query) noexcept {
+    const format::FloatEnvironment environment;
     for (std::size_t i = 0; i < 3; ++i) {
         for (const bool is_lower : {true, false}) {
             const double limit = is_lower ? query.a[i] : query.b[i];
@@ -136,7 +137,7 @@ void with_shape(const cdprep_shape_query& query, Asker&& ask) {
 }
 
 int check_touch(Call& call, const AskedShape& asked) noexcept {
-    return std::isinf(asked.query.max_distance) ? CDPREP_OK : refuse_meaning(call, "max_distance");
+    return is_infinite(asked.query.max_distance) ? CDPREP_OK : refuse_meaning(call, "max_distance");
 }
 
 int check_distance(Call& call, const AskedShape& asked) noexcept {

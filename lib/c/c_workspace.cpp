@@ -204,12 +204,12 @@ int cdprep_workspace_counts(cdprep_workspace* workspace, cdprep_counts* counts,
     if (counts != nullptr) *counts = {};
     if (const int code = call.need(workspace, {"workspace"})) return code;
     if (const int code = call.need(counts, {"counts"})) return code;
-    cdprep::c::InUse use;
-    if (const int code = use.begin(call, *workspace)) return code;
     if (workspace->counts.empty()) {
         return call.refuse(CDPREP_WHY_NO_MEANING, {"workspace"},
                            "was made without counting: set counting in its options.");
     }
+    cdprep::c::InUse use;
+    if (const int code = use.begin(call, *workspace)) return code;
     for (const cdprep::QueryCounts& lane : workspace->counts) {
         std::array<std::uint64_t, sizeof lane / sizeof(std::uint64_t)> numbers{};
         std::memcpy(numbers.data(), &lane, sizeof lane);

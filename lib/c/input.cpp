@@ -44,6 +44,7 @@ int refuse_number(Call& call, const Name& name, Holds holds, double number) noex
                                 : holds == Holds::length
                                     ? "0 or more, and at most 2^1000"
                                     : "0 or more, and at most 2^1000 or infinite";
+    const format::FloatEnvironment environment;
     const bool is_finite = std::isfinite(number) || (holds == Holds::limit && number > 0);
     return call.refuse(is_finite ? CDPREP_WHY_OUT_OF_RANGE : CDPREP_WHY_NOT_FINITE, name,
                        "is %.17g; it must be %s.", number, allowed);
@@ -116,6 +117,11 @@ int check_fields(Call& call, const Name& name, const InputType& type, const void
         }
     }
     return CDPREP_OK;
+}
+
+bool is_infinite(double number) noexcept {
+    const format::FloatEnvironment environment;
+    return std::isinf(number);
 }
 
 int check_numbers(Call& call, const Name& name, Holds holds, const double* numbers,

@@ -52,6 +52,9 @@ int check_fields(Call& call, const Name& name, const InputType& type, const void
 int check_numbers(Call& call, const Name& name, Holds holds, const double* numbers,
                   std::size_t count) noexcept;
 
+/// Whether a number is infinite, in any floating-point environment of the caller.
+[[nodiscard]] bool is_infinite(double number) noexcept;
+
 /// Checks a number that is an argument of its own.
 inline int check_number(Call& call, const char* name, Holds holds, double number) noexcept {
     return check_numbers(call, {name}, holds, &number, 1);

@@ -45,9 +45,18 @@ int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
     if (is_aligned(memory.start)) return CDPREP_OK;
     release(memory);
     memory.start = nullptr;
-    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"allocator"},
+    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, Name{"options"}.of("allocator"),
                        "returned memory that does not start at a multiple of %d.",
                        CDPREP_ALIGNMENT);
+}
+
+OwnedMemory::~OwnedMemory() {
+    release(memory_);
+}
+
+int OwnedMemory::allocate(Call& call, const cdprep_allocator& allocator,
+                          std::size_t size) noexcept {
+    return c::allocate(call, allocator, size, memory_);
 }
 
 void release(const Memory& memory) noexcept {

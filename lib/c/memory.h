@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 
 #include "c/call.h"
 
@@ -23,5 +24,26 @@ int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
              Memory& memory) noexcept;
 
 void release(const Memory& memory) noexcept;
+
+/// A block that is released unless somebody takes it over, also when an exception is thrown.
+class OwnedMemory {
+public:
+    OwnedMemory() noexcept = default;
+    OwnedMemory(const OwnedMemory&) = delete;
+    OwnedMemory& operator=(const OwnedMemory&) = delete;
+    ~OwnedMemory();
+
+    int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size) noexcept;
+    [[nodiscard]] const Memory& get() const noexcept {
+        return memory_;
+    }
+    /// Hands the block over.
+    [[nodiscard]] Memory take() noexcept {
+        return std::exchange(memory_, {});
+    }
+
+private:
+    Memory memory_;
+};
 
 }  // namespace cdprep::c

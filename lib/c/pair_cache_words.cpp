@@ -34,14 +34,19 @@ std::uint64_t seal_of(const cdprep_cache& words) noexcept {
 }  // namespace
 
 PairCacheWords::PairCacheWords(cdprep_cache* words) noexcept : words_(words) {
-    if (words == nullptr || words->words[kSeal] != seal_of(*words)) return;
-    std::memcpy(static_cast<void*>(&cache_), words, sizeof cache_);
+    if (words == nullptr) return;
+    cdprep_cache copy;  // what is verified is what is used, also where another thread writes
+    std::memcpy(&copy, words, sizeof copy);
+    if (copy.words[kSeal] != seal_of(copy)) return;
+    std::memcpy(static_cast<void*>(&cache_), &copy, sizeof cache_);
 }
 
 PairCacheWords::~PairCacheWords() {
     if (words_ == nullptr) return;
-    std::memcpy(words_, &cache_, sizeof cache_);
-    words_->words[kSeal] = seal_of(*words_);
+    cdprep_cache copy{};
+    std::memcpy(&copy, &cache_, sizeof cache_);
+    copy.words[kSeal] = seal_of(copy);
+    std::memcpy(words_, &copy, sizeof copy);
 }
 
 }  // namespace cdprep::c

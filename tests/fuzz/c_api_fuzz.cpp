@@ -462,6 +462,15 @@ private:
         given.value.rays = draw_.one_in(20) ? nullptr : rays.data();
         given.value.count = draw_.below(3);
         given.spoil(draw_);
+        const auto see = [](void* /*context*/, const cdprep_ray_hit* hit) {
+            MUST(hit->found == CDPREP_YES && std::isfinite(hit->t) && is_finite(hit->point));
+            return 1;
+        };
+        // A visitor has one ray and no room for answers, so that any count is safe.
+        Longer<cdprep_ray_query> visited = given;
+        if (draw_.one_in(2)) visited.value.count = draw_.one_in(4) ? SIZE_MAX : draw_.word();
+        (void)is_answered(cdprep_rays_visit(&visited.value, workspace(),
+                                            draw_.one_in(20) ? nullptr : +see, this, &error_));
         std::array<cdprep_ray_hit, 4> items{};
         std::array<cdprep_ray_hit, 2> hits{};
         std::array<std::uint32_t, 2> any{};
@@ -497,6 +506,9 @@ private:
         if (!is_answered(cdprep_touch(&q, workspace(), &touches, &error_)))
             MUST(touches == CDPREP_UNKNOWN);
         if (!is_answered(cdprep_touch_list(&q, workspace(), &list, &error_))) MUST(list.count == 0);
+        const auto see = [](void* /*context*/, std::uint32_t /*triangle*/) { return 1; };
+        (void)is_answered(
+            cdprep_touch_visit(&q, workspace(), draw_.one_in(20) ? nullptr : +see, this, &error_));
         if (!is_answered(cdprep_shape_distance(&q, workspace(), &nearest, &error_)))
             MUST(nearest.found == CDPREP_NO);
         MUST(is_finite(nearest));
@@ -594,6 +606,17 @@ private:
             pair(), workspace(), draw_.one_in(20) ? nullptr : ask_again, this, &error_));
         (void)is_answered(cdprep_pairs_within_visit(pair(), draw_.number(), workspace(), ask_again,
                                                     this, &error_));
+        const auto see_crossing = [](void* /*context*/, const cdprep_crossing* crossing) {
+            MUST(is_finite(crossing->ends[0]) && is_finite(crossing->ends[1]));
+            return 1;
+        };
+        (void)is_answered(cdprep_crossings_visit(pair(), workspace(), see_crossing, this, &error_));
+        const auto see_contact = [](void* /*context*/, const cdprep_contact* contact) {
+            MUST(is_finite(contact->normal) && std::isfinite(contact->upper));
+            return 1;
+        };
+        (void)is_answered(
+            cdprep_contacts_visit(pair(), nullptr, workspace(), see_contact, this, &error_));
     }
     void open() {
         Longer<cdprep_open_options> given{};

@@ -81,6 +81,20 @@ CAnswer told_list(Ask&& ask) {
     return answer;
 }
 
+/// A visitor that adds up what it is called with, which does not depend on the order.
+inline int add_to(void* sum, std::uint64_t value) {
+    *static_cast<std::uint64_t*>(sum) += value;
+    return 1;
+}
+
+template <class Ask>
+CAnswer told_sum(Ask&& ask) {
+    std::uint64_t sum = 0;
+    cdprep_error error;
+    const int code = ask(&sum, &error);
+    return told(code, error, sum == 0, sum);
+}
+
 template <std::uint32_t kBody, std::uint32_t kThrough>
 CAnswer collide(const CScene& scene) {
     cdprep_pair pair = pair_of(scene);
@@ -230,14 +244,22 @@ inline const std::vector<CQuestion>& c_questions() {
         {"overlaps visit", CDPREP_ASK_OVERLAP,
          [](const CScene& scene) {
              const cdprep_pair pair = pair_of(scene);
-             std::uint64_t sum = 0;
-             const auto add = [](void* to, const cdprep_overlap* overlap) {
-                 *static_cast<std::uint64_t*>(to) += 1000 + 100 * overlap->a + overlap->b;
-                 return 1;
-             };
-             cdprep_error error;
-             const int code = cdprep_overlaps_visit(&pair, scene.workspace, add, &sum, &error);
-             return told(code, error, sum == 0, sum);
+             return told_sum([&](std::uint64_t* sum, cdprep_error* error) {
+                 const auto add = [](void* to, const cdprep_overlap* overlap) {
+                     return add_to(to, 1000 + 100 * overlap->a + overlap->b);
+                 };
+                 return cdprep_overlaps_visit(&pair, scene.workspace, add, sum, error);
+             });
+         }},
+        {"crossings visit", CDPREP_ASK_OVERLAP,
+         [](const CScene& scene) {
+             const cdprep_pair pair = pair_of(scene);
+             return told_sum([&](std::uint64_t* sum, cdprep_error* error) {
+                 const auto add = [](void* to, const cdprep_crossing* crossing) {
+                     return add_to(to, 1000 + 100 * crossing->pair.a + crossing->pair.b);
+                 };
+                 return cdprep_crossings_visit(&pair, scene.workspace, add, sum, error);
+             });
          }},
         {"crossings", CDPREP_ASK_OVERLAP,
          [](const CScene& scene) {
@@ -268,6 +290,26 @@ inline const std::vector<CQuestion>& c_questions() {
                      return cdprep_pairs_within(&pair, 0.5, scene.workspace, list, error);
                  });
          }},
+        {"pairs within visit", CDPREP_ASK_WITHIN,
+         [](const CScene& scene) {
+             const cdprep_pair pair = pair_of(scene);
+             return told_sum([&](std::uint64_t* sum, cdprep_error* error) {
+                 const auto add = [](void* to, const cdprep_overlap* overlap) {
+                     return add_to(to, 1000 + 100 * overlap->a + overlap->b);
+                 };
+                 return cdprep_pairs_within_visit(&pair, 0.5, scene.workspace, add, sum, error);
+             });
+         }},
+        {"contacts visit", CDPREP_ASK_CONTACTS,
+         [](const CScene& scene) {
+             const cdprep_pair pair = pair_of(scene);
+             return told_sum([&](std::uint64_t* sum, cdprep_error* error) {
+                 const auto add = [](void* to, const cdprep_contact* contact) {
+                     return add_to(to, 1000 + 100 * contact->piece_a + contact->piece_b);
+                 };
+                 return cdprep_contacts_visit(&pair, nullptr, scene.workspace, add, sum, error);
+             });
+         }},
         {"contacts", CDPREP_ASK_CONTACTS,
          [](const CScene& scene) {
              const cdprep_pair pair = pair_of(scene);
@@ -282,6 +324,21 @@ inline const std::vector<CQuestion>& c_questions() {
          }},
         {"hulls", CDPREP_ASK_HULLS, hulls<CDPREP_HULL_WHOLE>},
         {"hulls of pieces", CDPREP_ASK_PIECES | CDPREP_ASK_CORNERS, hulls<CDPREP_HULL_PIECE>},
+        {"hull mesh of a piece", CDPREP_ASK_PIECES | CDPREP_ASK_CORNERS,
+         [](const CScene& scene) {
+             static double positions[3 * kRoom];
+             struct {
+                 std::size_t counts[2];
+                 std::uint32_t triangles[3 * kRoom];
+             } found{};
+             cdprep_mesh mesh = {positions, found.triangles, nullptr, kRoom, kRoom, 77, 77};
+             const cdprep_hull hull = {scene.a, CDPREP_HULL_PIECE, 0};
+             cdprep_error error;
+             const int code = cdprep_hull_mesh(&hull, &mesh, &error);
+             found.counts[0] = mesh.vertex_count;
+             found.counts[1] = mesh.triangle_count;
+             return told(code, error, mesh.triangle_count == 0, found);
+         }},
         {"hull features", CDPREP_ASK_CONTACTS,
          [](const CScene& scene) {
              cdprep_hull_pair pair;
@@ -339,6 +396,26 @@ inline const std::vector<CQuestion>& c_questions() {
                  [&](auto* list, cdprep_error* error) {
                      return cdprep_rays_all(&query, scene.workspace, list, error);
                  });
+         }},
+        {"rays visit", CDPREP_ASK_RAY,
+         [](const CScene& scene) {
+             const cdprep_ray_query query = rays_of(scene);
+             return told_sum([&](std::uint64_t* sum, cdprep_error* error) {
+                 const auto add = [](void* to, const cdprep_ray_hit* hit) {
+                     return add_to(to, 1000 + hit->triangle);
+                 };
+                 return cdprep_rays_visit(&query, scene.workspace, add, sum, error);
+             });
+         }},
+        {"touch visit", CDPREP_ASK_TOUCH,
+         [](const CScene& scene) {
+             const cdprep_shape_query query = shape_of(scene);
+             return told_sum([&](std::uint64_t* sum, cdprep_error* error) {
+                 const auto add = [](void* to, std::uint32_t triangle) {
+                     return add_to(to, 1000 + triangle);
+                 };
+                 return cdprep_touch_visit(&query, scene.workspace, add, sum, error);
+             });
          }},
         {"touch", CDPREP_ASK_TOUCH,
          [](const CScene& scene) {

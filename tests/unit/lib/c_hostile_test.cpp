@@ -7,6 +7,8 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <new>
@@ -19,15 +21,18 @@
 #include "support/c_models.h"
 #include "support/c_questions.h"
 #include "support/every_structure.h"
+#include "support/float_modes.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
+#include "support/scratch_folder.h"
 #include "support/tiny_baker.h"
 
 namespace {
 std::atomic<std::size_t> allocations = 0;
+std::atomic<std::size_t> allocations_allowed = SIZE_MAX;
 
 void* counted(std::size_t size) {
-    ++allocations;
+    if (++allocations > allocations_allowed) throw std::bad_alloc();
     if (void* memory = std::malloc(size)) return memory;
     throw std::bad_alloc();
 }
@@ -389,6 +394,141 @@ TEST_F(CHostile, RaysAreChecked) {
     EXPECT_EQ(ask(short_one).code, CDPREP_OK);
     EXPECT_EQ(ask(backwards).why, CDPREP_WHY_OUT_OF_RANGE);
     EXPECT_EQ(ask(endless).why, CDPREP_WHY_NOT_FINITE);
+}
+
+int count_hit(void* hits, const cdprep_ray_hit* /*hit*/) {
+    ++*static_cast<std::size_t*>(hits);
+    return 1;
+}
+
+// A visitor is given one ray: of two or more rays it could not tell which one a hit belongs to.
+TEST_F(CHostile, AVisitorOfRaysTakesOneRay) {
+    cdprep_ray_query query = detail::rays_of({model_.get(), nullptr, 0, nullptr});
+    std::size_t hits = 0;
+    cdprep_error error;
+    for (const std::size_t count : {std::size_t{0}, std::size_t{2}, std::size_t{1} << 20, SIZE_MAX,
+                                    SIZE_MAX / sizeof(cdprep_ray)}) {
+        query.count = count;
+        EXPECT_EQ(cdprep_rays_visit(&query, workspace_.get(), count_hit, &hits, &error),
+                  CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, CDPREP_WHY_NO_MEANING) << count;
+        EXPECT_STREQ(error.argument, "query.count");
+    }
+    EXPECT_EQ(hits, 0u);
+    query.count = 1;
+    EXPECT_EQ(cdprep_rays_visit(&query, workspace_.get(), nullptr, nullptr, &error),
+              CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "visit");
+    EXPECT_EQ(cdprep_rays_visit(&query, workspace_.get(), count_hit, &hits, nullptr), CDPREP_OK);
+    EXPECT_EQ(hits, 2u) << "the ray enters and leaves the cube, beside its diagonals";
+}
+
+// No list is read before the number of rays and the rays themselves are known to be there.
+TEST_F(CHostile, ListsOfRaysAreReadLast) {
+    cdprep_ray_query query = detail::rays_of({model_.get(), nullptr, 0, nullptr});
+    cdprep_ray_hit_list list = {nullptr, 1, 77};
+    cdprep_error error;
+    const auto refuse = [&] {
+        EXPECT_EQ(cdprep_rays_all(&query, workspace_.get(), &list, &error), CDPREP_BAD_ARGUMENT);
+        return std::string(error.argument);
+    };
+    EXPECT_EQ(refuse(), "lists[0].items");
+    EXPECT_EQ(list.count, 0u);
+    query.count = SIZE_MAX;
+    list.room = 0;
+    EXPECT_EQ(refuse(), "query.count");
+    EXPECT_EQ(error.why, CDPREP_WHY_OUT_OF_RANGE);
+    query.count = 1;
+    query.rays = nullptr;
+    list.room = 1;
+    EXPECT_EQ(refuse(), "query.rays");
+}
+
+// The names are those of the parameters in the headers.
+TEST_F(CHostile, RefusalsNameTheParameter) {
+    const cdprep_ray_query query = detail::rays_of({model_.get(), nullptr, 0, nullptr});
+    cdprep_error error;
+    EXPECT_EQ(cdprep_rays_cast(&query, workspace_.get(), nullptr, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "hits");
+    EXPECT_EQ(cdprep_rays_any(&query, workspace_.get(), nullptr, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "hits");
+    EXPECT_EQ(cdprep_rays_all(&query, workspace_.get(), nullptr, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "lists");
+    alignas(CDPREP_ALIGNMENT) static std::byte block[CDPREP_ALIGNMENT];
+    const cdprep_allocator misaligned = {
+        [](void* /*context*/, std::size_t /*size*/, std::size_t /*alignment*/) -> void* {
+            return block + 8;
+        },
+        [](void* /*context*/, void* /*memory*/, std::size_t /*size*/) {}, nullptr};
+    cdprep_workspace_options options;
+    cdprep_workspace_options_init(&options, sizeof options);
+    options.allocator = &misaligned;
+    cdprep_workspace* made = nullptr;
+    EXPECT_EQ(cdprep_workspace_make(&options, nullptr, 0, &made, &error), CDPREP_BAD_ARGUMENT);
+    EXPECT_STREQ(error.argument, "options.allocator");
+}
+
+// Bytes at a wrong address are no matter of what the file was baked for.
+TEST_F(CHostile, MisalignedBytesAreRefusedWhateverIsAsked) {
+    AlignedBytes moved(file_.size() + 1);
+    std::memcpy(moved.span().data() + 1, std::as_const(file_).span().data(), file_.size());
+    cdprep_open_options options;
+    cdprep_open_options_init(&options, sizeof options);
+    for (const std::uint32_t ask : {std::uint32_t{0}, std::uint32_t{CDPREP_ASK_COLLIDE}}) {
+        options.ask = ask;
+        options.mode = CDPREP_MAP;
+        const std::byte* const begin = std::as_const(moved).span().data() + 1;
+        cdprep_model* model = nullptr;
+        cdprep_error error;
+        EXPECT_EQ(cdprep_model_open_memory(begin, file_.size(), &options, &model, &error),
+                  CDPREP_BAD_ARGUMENT);
+        EXPECT_EQ(error.why, CDPREP_WHY_OUT_OF_RANGE);
+        EXPECT_STREQ(error.argument, "bytes");
+        options.mode = CDPREP_COPY;
+        EXPECT_EQ(cdprep_model_open_memory(begin, file_.size(), &options, &model, &error),
+                  CDPREP_OK);
+        cdprep_model_close(model);
+    }
+}
+
+// The expected refusals are those of the default environment. A trap would end the test.
+TEST_F(CHostile, RefusalsAreTheSameInEveryFloatingPointEnvironment) {
+    constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+    const double nan = kNan;
+    cdprep_pair wrong = pair();
+    std::memcpy(&wrong.pose_b.rows[10], &nan, sizeof nan);
+    cdprep_shape_query empty = detail::shape_of({model_.get(), nullptr, 0, nullptr});
+    empty.shape = CDPREP_BOX;
+    for (std::size_t i = 0; i < 3; ++i) empty.a[i] = kLeast;
+    for (std::size_t i = 0; i < 3; ++i) empty.b[i] = 0;
+    const cdprep_ray ray = {{0, 0, 0}, {kLeast, 0, 0}, kInfinity};
+    cdprep_ray_query short_ray = detail::rays_of({model_.get(), nullptr, 0, nullptr});
+    short_ray.rays = &ray;
+    const std::array<double, 16> identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    std::vector<std::string> expected;
+    for (const FloatMode& mode : float_modes()) {
+        std::array<cdprep_error, 5> errors;
+        (void)run_in(mode, [&] {
+            cdprep_collision found;
+            std::uint32_t touches = 0;
+            cdprep_nearest nearest;
+            cdprep_ray_hit hit;
+            cdprep_pose pose;
+            cdprep_collide(&wrong, workspace_.get(), &found, &errors[0]);
+            cdprep_touch(&empty, workspace_.get(), &touches, &errors[1]);
+            cdprep_rays_cast(&short_ray, workspace_.get(), &hit, &errors[2]);
+            cdprep_shape_distance(&empty, workspace_.get(), &nearest, &errors[3]);
+            cdprep_pose_nearest(identity.data(), CDPREP_ROWS, kLeast, &pose, &errors[4]);
+        });
+        std::vector<std::string> told;
+        for (const cdprep_error& error : errors) {
+            told.push_back(std::string(error.argument) + " " + error.message);
+        }
+        if (expected.empty()) expected = told;
+        EXPECT_EQ(told, expected) << mode.name;
+    }
+    EXPECT_TRUE(expected[1].starts_with("query.b[0] ")) << expected[1];
+    EXPECT_NE(expected[2].find("so short a direction"), std::string::npos) << expected[2];
 }
 
 TEST_F(CHostile, ShapesAreCheckedFieldByField) {
@@ -754,6 +894,42 @@ TEST_F(CHostile, AllocatorsGetBackWhatTheyGave) {
     EXPECT_EQ(blocks.taken, blocks.given);
 }
 
+// Opening a copy fails at each of the library's own allocations in turn.
+TEST_F(CHostile, FailedOpeningsGiveBackTheirCopy) {
+    Blocks blocks;
+    const cdprep_allocator allocator = {give, take_back, &blocks};
+    cdprep_open_options open;
+    cdprep_open_options_init(&open, sizeof open);
+    open.allocator = &allocator;
+    open.mode = CDPREP_COPY;
+    const ScratchFolder folder;
+    const std::filesystem::path path = folder.path() / "cube.cdprep";
+    {
+        std::ofstream file(path, std::ios::binary);
+        const auto bytes = std::as_const(file_).span();
+        file.write(reinterpret_cast<const char*>(bytes.data()),
+                   static_cast<std::streamsize>(bytes.size()));
+    }
+    const std::string name = path.string();
+    const std::span<const std::byte> bytes = std::as_const(file_).span();
+    for (const bool from_file : {false, true}) {
+        int code = CDPREP_OVER_BUDGET;
+        for (std::size_t allowed = 0; code != CDPREP_OK; ++allowed) {
+            ASSERT_LT(allowed, 1000u);
+            cdprep_model* model = nullptr;
+            allocations_allowed = allocations + allowed;
+            code = from_file ? cdprep_model_open(name.c_str(), &open, &model, nullptr)
+                             : cdprep_model_open_memory(bytes.data(), bytes.size(), &open, &model,
+                                                        nullptr);
+            allocations_allowed = SIZE_MAX;
+            EXPECT_EQ(model != nullptr, code == CDPREP_OK) << allowed;
+            cdprep_model_close(model);
+            EXPECT_EQ(blocks.taken, blocks.given) << allowed;
+        }
+        EXPECT_GT(blocks.given, 3u);
+    }
+}
+
 TEST_F(CHostile, NoQuestionAllocates) {
     for (const CQuestion& question : c_questions()) {
         const CScene scene = {model_.get(), model_.get(), 0.5, workspace_.get()};
@@ -822,6 +998,21 @@ TEST_F(CHostile, CountsAreThoseOfAllQuestions) {
     EXPECT_GT(once.n[CDPREP_COUNT_TRIANGLE_PAIRS], 0u);
     for (std::size_t i = 0; i < 32; ++i) EXPECT_EQ(twice.n[i], 2 * once.n[i]) << i;
     cdprep_workspace_end(counting);
+    struct Within {
+        cdprep_workspace* workspace;
+        int why;
+    } within = {workspace_.get(), 0};
+    const auto ask_for_counts = [](void* context, const cdprep_overlap* /*overlap*/) {
+        auto* const asked = static_cast<Within*>(context);
+        cdprep_counts counts;
+        cdprep_error refused;
+        (void)cdprep_workspace_counts(asked->workspace, &counts, &refused);
+        asked->why = refused.why;
+        return 0;
+    };
+    ASSERT_EQ(cdprep_overlaps_visit(&given, workspace_.get(), ask_for_counts, &within, nullptr),
+              CDPREP_OK);
+    EXPECT_EQ(within.why, CDPREP_WHY_NO_MEANING) << "of a workspace that is in use, too";
     cdprep_error error;
     EXPECT_EQ(cdprep_workspace_counts(workspace_.get(), &once, &error), CDPREP_BAD_ARGUMENT);
     EXPECT_EQ(error.why, CDPREP_WHY_NO_MEANING);
