@@ -24,7 +24,10 @@
  *   allowed for max_distance, max_t and the limits of boxes alone. No answer holds NaN, and
  *   none holds infinity.
  * - On failure answers say that nothing is known: counts and `found` are 0, `hit`, `inside` and
- *   the like are CDPREP_UNKNOWN. Room for lists may hold anything.
+ *   the like are CDPREP_UNKNOWN. Room for lists may hold anything. Answers are left as they were
+ *   where nothing tells how many there are: a query that is null or that its _init() did not
+ *   make, a count of more than memory holds. cdprep_pose_move() and cdprep_model_corners() too
+ *   leave their answers as they were.
  * - Lengths are in model units. Limits are inclusive. Numbers of triangles and vertices are
  *   those of the imported file.
  * - A list has room for some answers; `count` says how many there are. Too little room is no
@@ -118,7 +121,8 @@ CDPREP_API const char* cdprep_code_name(int code);
 
 /* The caller's memory functions. `allocate` returns null when there is no memory; `size` is not
  * 0 and `alignment` a power of two of at most CDPREP_ALIGNMENT. `release` gets the same size.
- * They are called only while a model or workspace is made or ended, by the calling thread. */
+ * They are called only while a model or workspace is made or ended, by the calling thread. They
+ * must not throw. */
 typedef struct cdprep_allocator {
     void* (*allocate)(void* context, size_t size, size_t alignment);
     void (*release)(void* context, void* memory, size_t size);
@@ -139,8 +143,8 @@ typedef struct cdprep_workspace_options {
     uint32_t lanes;
     uint32_t counting; /* CDPREP_NO; CDPREP_YES: count what questions do */
     /* Null. Else it calls task(work, 0) ... task(work, count - 1), once each, in any order, on any
-     * threads, and returns when all have returned. What it leaves out is done by the calling
-     * thread. */
+     * threads, and returns when all have returned. The calling thread runs the tasks that `run`
+     * did not. */
     void (*run)(void* context, size_t count, cdprep_task task, const void* work);
     void* context;                     /* handed to `run` */
     const cdprep_allocator* allocator; /* null: malloc(); read once */

@@ -25,7 +25,8 @@ typedef struct cdprep_contact_point {
 enum {
     CDPREP_CONTACT_OVERLAP = 1,       /* the hulls of the pieces have a common point */
     CDPREP_CONTACT_INTERNAL_EDGE = 2, /* near an edge inside a surface: the normal is a face's */
-    CDPREP_CONTACT_FROM_BEHIND = 4    /* near the inner side of a wall: it should not push */
+    /* the contact is on the inner side of a surface; ignore it for contact response */
+    CDPREP_CONTACT_FROM_BEHIND = 4
 };
 
 /* How two convex pieces touch, or nearly do. Points are in the frame that the models move to. */
@@ -53,7 +54,9 @@ typedef struct cdprep_contact_options {
     double tolerance;  /* 0: pieces at most so far apart are in contact */
     uint32_t manifold; /* 0; 4: contacts come with up to four points */
     uint32_t most;     /* 256: contacts of a list, the deepest */
-    uint64_t work;     /* 0: no bound; else: pairs of pieces that are looked at */
+    /* 0: no bound; else: contacts that are computed. The search for near triangles is not
+     * bounded. */
+    uint64_t work;
 } cdprep_contact_options;
 
 typedef int (*cdprep_contact_visitor)(void* context, const cdprep_contact* contact);
@@ -143,8 +146,8 @@ CDPREP_API int cdprep_hulls_within(const cdprep_hull_pair* pair, double toleranc
 typedef struct cdprep_penetration {
     uint32_t found;          /* CDPREP_NO: they have no common point; then the rest is 0 */
     uint32_t reserved;       /* 0 */
-    double lower, upper;     /* the length of the shortest way out lies between, model units */
-    double normal[3];        /* the way that B goes, of length 1 up to rounding */
+    double lower, upper;     /* the penetration depth lies between, model units */
+    double normal[3];        /* the direction in which B is moved, of length 1 up to rounding */
     double on_a[3], on_b[3]; /* what then touches */
 } cdprep_penetration;
 

@@ -36,7 +36,7 @@ enum {
 
 /* How a file gets into memory. */
 enum {
-    CDPREP_MAP = 0,  /* mapped and checked: opens fastest, and processes share the memory */
+    CDPREP_MAP = 0,  /* Memory-mapped and validated. Processes share the memory. */
     CDPREP_COPY = 1, /* read and checked: the file may be changed or removed afterwards */
     CDPREP_MAP_TRUSTED =
         2 /* mapped, only its header checked: a damaged file may crash a question */

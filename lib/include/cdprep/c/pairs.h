@@ -28,7 +28,7 @@ enum {
     CDPREP_CLOSED = 0, /* any common point: touching counts */
     CDPREP_PROPER = 1  /* they cross, or share area in one plane */
 };
-/* What becomes of triangles whose corners are collinear. */
+/* Handling of degenerate triangles (collinear corners). */
 enum {
     CDPREP_KEEP_DEGENERATE = 0, /* they answer as the segment or point that they are */
     CDPREP_SKIP_DEGENERATE = 1  /* they never answer */
@@ -44,9 +44,9 @@ enum {
     CDPREP_THROUGH_PIECES = 5 /* the hierarchy over convex pieces */
 };
 
-/* What earlier questions about one pair of models found: the next question starts there, and is
+/* The result of earlier queries on one pair of models. The next query starts from it, and is
  * faster where the models have moved little. All zero is a new one. Any content is safe: what a
- * question did not write itself counts as new. One for each pair of models and thread. */
+ * query did not write itself counts as new. One for each pair of models and thread. */
 typedef struct cdprep_cache {
     uint64_t words[32];
 } cdprep_cache;
@@ -189,7 +189,7 @@ typedef struct cdprep_distance_options {
     cdprep_head head;
     double relative_error; /* 0: upper may exceed lower by this share of lower */
     double absolute_error; /* 0: or by this, model units */
-    double max_distance;   /* infinity: what is farther apart counts as not found */
+    double max_distance;   /* distances above this are reported as not found; default: infinity */
 } cdprep_distance_options;
 
 CDPREP_API void cdprep_distance_options_init(cdprep_distance_options* options, size_t size);
@@ -235,8 +235,8 @@ CDPREP_API int cdprep_pairs_within_visit(const cdprep_pair* pair, double toleran
 /* `count` questions on the lanes of the workspace: the same answers as one by one, in the same
  * order. All pairs are checked first; where one is wrong none is asked, and error.argument says
  * which ("pairs[3].pose_b"). Pairs follow each other by the size in the head of the first. No two
- * share a cache. Handing a batch out pays from some ten questions. Each uses and needs what the
- * single question does. */
+ * share a cache. A batch is faster than single calls from about ten queries. Each uses and
+ * needs what the single question does. */
 CDPREP_API int cdprep_collide_many(const cdprep_pair* pairs, size_t count,
                                    cdprep_workspace* workspace, cdprep_collision* collisions,
                                    cdprep_error* error);

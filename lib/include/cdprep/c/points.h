@@ -78,9 +78,10 @@ typedef struct cdprep_ray_hit_list {
 typedef int (*cdprep_ray_visitor)(void* context, const cdprep_ray_hit* hit);
 
 /* The first hit of each ray; `hits` has room for `count`. Whether a ray hits a triangle is exact,
- * edges and vertices included: no ray slips between neighbours. Both sides count. A ray in the
- * plane of a triangle hits where it enters. t is rounded, and so is what it decides: which hit is
- * first where two are as good as equal, and what max_t leaves. Costs O(log n) each, for most.
+ * edges and vertices included: a ray cannot pass between two triangles that share an edge. Both
+ * sides count. A ray in the plane of a triangle hits where it enters. t is rounded. Two hits with
+ * nearly equal t may be reported in either order, and a hit near max_t may be accepted or
+ * rejected. Costs O(log n) each, for most.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_cast(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                 cdprep_ray_hit* hits, cdprep_error* error);
@@ -110,7 +111,8 @@ enum {
     CDPREP_TRIANGLE = 4 /* corners a, b, c */
 };
 
-/* A closed, solid shape, and where the model is. What the shape does not use is not read. */
+/* A closed, solid shape, and where the model is. Fields that the shape does not use are
+ * ignored. */
 typedef struct cdprep_shape_query {
     cdprep_head head;
     const cdprep_model* model;
