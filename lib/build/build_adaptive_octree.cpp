@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 
 #include "cdprep/build_octree.h"
 #include "cdprep/format/float_environment.h"
@@ -233,6 +234,7 @@ private:
         const Cell& cell = cells_[piece.cell];
         for (std::size_t i = piece.first; i < piece.last; ++i) {
             const unsigned mask = children_touched(cell, list_[i]);
+            assert(mask <= 0xff);
             masks_[i] = static_cast<std::uint8_t>(mask);
             for (std::size_t child = 0; child < kChildren; ++child) {
                 piece.children[child] += (mask >> child) & 1;
@@ -316,6 +318,7 @@ private:
             next_cells_.push_back({child_box(cell, child), {}, next, count, {}, {}, false});
             next += count;
         }
+        assert(mask != 0);
         node.count |= mask;
         result_.nodes.resize(result_.nodes.size() + static_cast<std::size_t>(std::popcount(mask)));
         return next;
@@ -338,6 +341,7 @@ private:
         if (!cells_[piece.cell].divided) return;
         for (std::size_t i = piece.first; i < piece.last; ++i) {
             const unsigned mask = masks_[i];
+            assert(mask != 0);  // what touches a cell touches a child
             const std::uint32_t shared = (mask & (mask - 1)) != 0 ? kSharedReference : 0;
             for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
                 const auto child = static_cast<std::size_t>(std::countr_zero(rest));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -41,6 +42,7 @@ std::optional<Error> find_fault(const Section& section) {
 }
 
 std::uint64_t aligned(std::uint64_t at, std::uint64_t alignment) {
+    assert(std::has_single_bit(alignment));
     return (at + alignment - 1) / alignment * alignment;
 }
 
@@ -98,6 +100,7 @@ std::optional<Error> find_fault(std::span<const std::byte> memory, std::uint64_t
 void fill(std::span<std::byte> image, const SectionTable& table) {
     std::uint64_t end = format::kUserBlockSize;
     const auto clear_up_to = [&](std::uint64_t begin) {
+        assert(end <= begin && begin <= image.size());
         std::memset(image.data() + end, 0, static_cast<std::size_t>(begin - end));
     };
     for (std::uint32_t i = 0; i < table.count; ++i) {

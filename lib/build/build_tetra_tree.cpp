@@ -2,6 +2,7 @@
 #include "cdprep/build_tetra_tree.h"
 
 #include <bit>
+#include <cassert>
 #include <limits>
 #include <memory>
 
@@ -68,6 +69,7 @@ std::uint32_t reference_of(std::uint32_t item) {
 
 /// The deepest cone above both.
 std::uint32_t common_cone(std::uint32_t a, std::uint32_t b) {
+    assert(a != 0 && b != 0);
     const int bits = std::min(std::bit_width(a), std::bit_width(b));
     a >>= std::bit_width(a) - bits;
     b >>= std::bit_width(b) - bits;
@@ -207,6 +209,7 @@ private:
     /// The cones of level `above` that something in the lists of level `level` lies in.
     static std::vector<Run> runs_of(const ConeLists& lists, std::uint32_t level,
                                     std::uint32_t above) {
+        assert(above <= level);
         std::vector<Run> runs;
         const std::uint32_t below = 2 * (level - above);
         for (std::uint32_t i = 0; i < format::tetra_cones(above); ++i) {
@@ -339,8 +342,10 @@ private:
             const std::uint32_t triangle = reference_of(level.items[i]);
             const std::uint32_t home = home_[triangle];
             const int below = std::bit_width(home) - width;
+            assert(below <= 0 || home >> below == key);
             const std::uint32_t mask = below > 0 ? 1U << (home >> (below - 2) & 3U)
                                                  : children.touched_by(triangle, home != 0);
+            assert(mask != 0 && mask <= 0xf);
             mask_[i] = static_cast<std::uint8_t>(mask);
             for (std::size_t child = 0; child < 4; ++child) {
                 piece.place[child] += mask >> child & 1U;
@@ -361,6 +366,7 @@ private:
             link_children(result_.nodes[runs[i].node], result_.nodes.size() + first_child,
                           std::span(level.runs).subspan(first_child));
         }
+        assert(piece == pieces.size());
         level.items = std::make_unique_for_overwrite<std::uint32_t[]>(level.count);
         for_pieces(pieces, [&](Piece& part) { move_piece(from, part, level); });
         return level;
@@ -381,6 +387,7 @@ private:
     }
 
     static void link_children(TetraNode& parent, std::size_t first, std::span<const Run> children) {
+        assert(!children.empty() && children.size() <= 4);
         parent.first = static_cast<std::uint32_t>(first);
         parent.count = static_cast<std::uint32_t>(children.size());
         for (const Run& child : children) parent.flags |= 1U << (child.key & 3U);
@@ -407,6 +414,7 @@ private:
         for (std::size_t i = nodes.size(); i-- > 0;) {
             TetraNode& node = nodes[i];
             if ((node.flags & format::tetra_inner) != 0) {
+                assert(node.first > i);  // children stand behind their parents
                 for (std::size_t k = node.first; k < node.first + node.count; ++k) {
                     reach[i].add(reach[k]);
                 }
@@ -474,6 +482,7 @@ private:
                                             std::size_t end) const {
         constexpr float kFar = std::numeric_limits<float>::infinity();
         std::array<std::uint32_t, kItemsPerTask> shared;
+        assert(end - begin <= shared.size());
         std::size_t shared_count = 0;
         Sizes all = {kFar, 0};
         for (std::size_t i = begin; i < end; ++i) {

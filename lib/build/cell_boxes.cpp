@@ -2,6 +2,7 @@
 #include "cell_boxes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "chunks.h"
@@ -26,6 +27,7 @@ constexpr Box3 kNothing = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
 /// Widens `box` by what two boxes, that touch, have in common.
 void add_common(const Box3& a, const Box3& b, Box3& box) {
+    assert(overlap(a, b));
     const auto add = [](double lower_a, double lower_b, double upper_a, double upper_b,
                         double& lower, double& upper) {
         lower = std::min(lower, std::max(lower_a, lower_b));
@@ -69,6 +71,7 @@ std::vector<Box3> cells_of(const AdaptiveOctree& octree) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const format::AdaptiveOctreeNode& node = octree.nodes[i];
         if ((node.count & kInnerNode) == 0) continue;
+        assert(node.first > i);  // children stand behind their parents
         std::size_t child = node.first;
         for (unsigned rest = node.count & 0xff; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
@@ -112,6 +115,7 @@ void bound(Tree& tree, const Listing& listing, const Frame& frame, ParallelFor p
         const auto& node = tree.nodes[i];
         if ((node.count & kInnerNode) == 0) continue;
         const auto children = static_cast<std::size_t>(std::popcount(node.count & 0xff));
+        assert(node.first > i && children > 0 && node.first + children <= tree.nodes.size());
         tree.boxes[i] = tree.boxes[node.first];
         for (std::size_t k = 1; k < children; ++k) {
             tree.boxes[i] = around(tree.boxes[i], tree.boxes[node.first + k]);

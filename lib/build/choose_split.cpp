@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 #include "frame_map.h"
 
@@ -43,6 +44,7 @@ bool leaves_one_whole(const CellContent& cell, std::size_t axis, double plane) {
 }
 
 double median_middle(const CellContent& cell, std::size_t axis, std::vector<double>& middles) {
+    assert(!cell.list.empty());
     const Reach all = reach_of(cell.box, axis);
     middles.clear();
     middles.reserve(cell.list.size());
@@ -117,6 +119,7 @@ struct HalfArea {
             side[i] = reach.upper - reach.lower;
         }
         const double longest = std::max({side[0], side[1], side[2]});
+        assert(longest > 0);
         for (double& length : side) length /= longest;
         across = side[1] * side[2];
         along = side[0] * (side[1] + side[2]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/parallel_for.h"
@@ -14,6 +15,7 @@ inline constexpr std::size_t kLeavesPerTask = kItemsPerTask / format::kBvhWidth;
 /// Runs body(first, last) over consecutive parts of [0, count), `size` items each.
 template <class Body>
 void for_chunks(std::size_t count, std::size_t size, ParallelFor parallel_for, const Body& body) {
+    assert(size > 0);
     parallel_for((count + size - 1) / size, [&](std::size_t chunk) {
         const std::size_t first = chunk * size;
         body(first, std::min(count, first + size));

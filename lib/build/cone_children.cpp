@@ -2,6 +2,7 @@
 #include "cone_children.h"
 
 #include <bit>
+#include <cassert>
 
 namespace cdprep::build {
 namespace {
@@ -50,6 +51,7 @@ ConeChildren::ConeChildren(const TetraInput& input, std::uint32_t key) noexcept
       bits_(key == kRootKey ? 3 : 2),
       below_(key == kRootKey ? 2 * input.level : 2 * (input.level - tetra_level(key) - 1)) {
     if (key == kRootKey) return;
+    assert(tetra_level(key) < input.level);
     middle_ = cone_faces(tetra_cone(key << 2 | kMiddle));
     for (std::size_t k = 0; k < 3; ++k) {
         const ConeFace& face = middle_.face[k];
@@ -135,6 +137,7 @@ std::uint32_t ConeChildren::touched_by(std::uint32_t triangle, bool in_octant) {
         possible = in_octant ? possible_by_places(at) : possible_by_values(input_.seen(triangle));
     }
     // It touches one of them.
+    assert(possible != 0);
     if ((possible & (possible - 1)) == 0) return possible;
     const std::uint32_t open = possible & ~sure;
     return open == 0 ? sure & possible : (sure & possible) | touched_among(triangle, open);

@@ -2,6 +2,7 @@
 #include "degenerate.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "cdprep/format/float_environment.h"
 #include "cdprep/mesh_arrays.h"
@@ -23,6 +24,7 @@ template <class Position>
 void mark(std::span<const Position> positions, std::span<const Triangle> triangles,
           std::span<std::uint64_t> words, ParallelFor parallel_for) {
     constexpr std::size_t kWordsPerTask = kItemsPerTask / kBits;
+    assert(words.size() == (triangles.size() + kBits - 1) / kBits);
     for_chunks(words.size(), kWordsPerTask, parallel_for, [&](std::size_t first, std::size_t last) {
         for (std::size_t word = first; word < last; ++word) {
             const std::size_t begin = word * kBits;

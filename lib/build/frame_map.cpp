@@ -2,6 +2,7 @@
 #include "frame_map.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <limits>
 
@@ -87,6 +88,7 @@ Extent extent_of(std::span<const Double3> positions, std::span<const Triangle> t
 
 Extent extent_of(std::span<const Double3> positions, std::span<const std::uint8_t> marks,
                  ParallelFor parallel_for) {
+    assert(marks.size() == positions.size());
     const auto part = [&](std::size_t first, std::size_t last) {
         PointBounds bounds;
         for (std::size_t i = first; i < last; ++i) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -11,6 +12,7 @@
 namespace cdprep::build {
 
 [[nodiscard]] inline double coordinate(const format::Double3& p, std::size_t axis) {
+    assert(axis < 3);
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 

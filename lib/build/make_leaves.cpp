@@ -2,6 +2,7 @@
 #include "make_leaves.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "chunks.h"
 #include "frame_map.h"
@@ -52,6 +53,7 @@ public:
     /// Writes one leaf and its box.
     void make(LeafCorners& corners, std::uint32_t count, BvhLeaf& leaf, BvhNode& node,
               std::size_t box) const {
+        assert(count > 0 && count <= kBvhWidth && box < kBvhWidth);
         leaf.count = count;
         leaf.reserved = 0;
         for (std::size_t axis = 0; axis < 3; ++axis) {

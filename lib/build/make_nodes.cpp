@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "make_nodes.h"
 
+#include <cassert>
+
 #include "chunks.h"
 #include "lanes.h"
 
@@ -23,6 +25,7 @@ void set_box_around(BvhNode& node, std::size_t box, const BvhNode& below) {
 }  // namespace
 
 void set_unused_boxes(BvhNode& node, std::size_t first) {
+    assert(first <= kBvhWidth);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         for (std::size_t box = first; box < kBvhWidth; ++box) {
             node.lower[axis][box] = 1;
@@ -33,6 +36,7 @@ void set_unused_boxes(BvhNode& node, std::size_t first) {
 
 void make_nodes(std::span<BvhNode> all, std::uint32_t triangle_count, ParallelFor parallel_for) {
     const BvhShape shape = format::bvh_shape(triangle_count);
+    assert(all.size() == shape.node_count);
     constexpr std::size_t kNodesPerTask = 256;
     for (std::uint32_t level = 1; level < shape.levels; ++level) {
         BvhNode* const nodes = &all[shape.first[level]];

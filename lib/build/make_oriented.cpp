@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -224,12 +225,14 @@ void set_box(OrientedNode& node, std::size_t box, const Vector& origin, const Ax
 
 /// Which of the first `used` lanes is the least.
 std::size_t least_of(const Floats& lanes, std::size_t used) {
+    assert(used > 0 && used <= lanes.size());
     std::size_t best = 0;
     for (std::size_t i = 1; i < used; ++i) best = lanes[i] < lanes[best] ? i : best;
     return best;
 }
 
 std::size_t greatest_of(const Floats& lanes, std::size_t used) {
+    assert(used > 0 && used <= lanes.size());
     std::size_t best = 0;
     for (std::size_t i = 1; i < used; ++i) best = lanes[best] < lanes[i] ? i : best;
     return best;
@@ -244,6 +247,7 @@ public:
 
     /// Fits all boxes of a node and of everything below it.
     Moments fit_subtree(std::uint32_t level, std::size_t index) const {
+        assert(level < shape_.levels && index < shape_.count[level]);
         if (level == 0) return fit_leaves(index);
         MomentLanes below;
         for (std::size_t box = 0; box < used_boxes(level, index); ++box) {
@@ -352,6 +356,7 @@ std::vector<Moments> fit_level(const Fitter& fitter, std::uint32_t level,
 }  // namespace
 
 void make_oriented(Bvh& bvh, ParallelFor parallel_for) {
+    assert(!bvh.order.empty());
     bvh.oriented_nodes.resize(bvh.nodes.size());
     const Fitter fitter(bvh);
     const std::uint32_t lowest = std::min(kTaskLevel, fitter.shape().levels - 1);

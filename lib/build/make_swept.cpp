@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -131,6 +132,7 @@ struct Fitter {
 /// (Badoiu and Clarkson 2003), the best of them kept. For one axis the box's middle is
 /// the answer.
 void Fitter::fit_ball(Fit& fit) const {
+    assert(sides <= 2);
     constexpr int kSteps = 12;
     Vector middle{};
     double least = kInfinity;
@@ -159,6 +161,7 @@ void Fitter::fit_ball(Fit& fit) const {
 /// The shortest side with which every corner is within the radius; what a corner lies
 /// beyond the sides before counts against it.
 void Fitter::fit_side(Fit& fit, std::size_t side) const {
+    assert(side < sides);
     double lower = kInfinity;
     double upper = -kInfinity;
     corners.for_each([&](const Vector& p) {
@@ -239,9 +242,11 @@ SweptKind kind_of(BvhBounds bounds) {
 }  // namespace
 
 void make_swept(Bvh& bvh, BvhBounds bounds, ParallelFor parallel_for) {
+    assert(bounds != BvhBounds::aligned && bounds != BvhBounds::oriented);
     const SweptKind kind = kind_of(bounds);
     const BvhShape shape = format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()));
     bvh.swept_kind = kind;
+    assert(bvh.oriented_nodes.size() == shape.node_count);
     bvh.swept_nodes.assign(shape.node_count, SweptNode{});
     std::size_t leaves_per_box = 1;
     for (std::uint32_t level = 0; level < shape.levels; ++level) {
@@ -255,6 +260,7 @@ void make_swept(Bvh& bvh, BvhBounds bounds, ParallelFor parallel_for) {
                 }
                 const std::size_t first = (i * kBvhWidth + box) * leaves_per_box;
                 const std::size_t last = std::min(bvh.leaves.size(), first + leaves_per_box);
+                assert(first < last);
                 set_sphere(bvh.swept_nodes[index], box, bvh.oriented_nodes[index],
                            Corners(bvh, first, last), kind, bvh.exact_leaves);
             }

@@ -2,6 +2,7 @@
 #include "octree_grid.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -22,6 +23,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The least number of kStepBits significant bits that is not below x > 0.
 double rounded_up(double x) {
+    assert(x > 0);
     int exponent = 0;
     const double fraction = std::frexp(x, &exponent);  // in [1/2, 1)
     const double up = std::ldexp(std::ceil(std::ldexp(fraction, kStepBits)), exponent - kStepBits);

@@ -2,6 +2,7 @@
 #include "octree_levels.h"
 
 #include <bit>
+#include <cassert>
 #include <cstring>
 #include <memory>
 
@@ -84,6 +85,7 @@ unsigned children_at(const Cell& cell, const Stand& at) noexcept {
 /// Of a set that is not empty. Processors without an instruction that counts bits are
 /// served too, and a call is made for it otherwise.
 bool is_single(unsigned set) noexcept {
+    assert(set != 0);
     return (set & (set - 1)) == 0;
 }
 
@@ -101,6 +103,7 @@ unsigned touched_among(const Input& input, const Triangle& t, const Cell& cell,
     const Corners corners = {input.positions[t.vertex[0]], input.positions[t.vertex[1]],
                              input.positions[t.vertex[2]]};
     const std::uint32_t half = cell.side / 2;
+    assert(std::has_single_bit(half) && children <= 0xff);
     const auto level = static_cast<std::uint32_t>(std::countl_zero(half)) + kOctreeBits - 31;
     unsigned touched = 0;
     for (unsigned left = children; left != 0; left &= left - 1) {
@@ -184,6 +187,7 @@ private:
     std::unique_ptr<std::uint8_t[]> children_;  ///< of each reference, a set
 
     void cut_segments(std::uint32_t threshold) {
+        assert(threshold > 0);
         std::uint64_t task_ends = 0;
         segments_.reserve(level_.nodes.size() + level_.reference_count / kItemsPerTask + 1);
         for (std::uint32_t i = 0; i < level_.nodes.size(); ++i) {
@@ -320,6 +324,7 @@ void append(const Level& level, std::vector<OctreeNode> nodes, Octree& octree) {
 
 void divide_octree(Octree& octree, std::span<const Double3> positions,
                    std::span<const Triangle> triangles, ParallelFor parallel_for) {
+    assert(!triangles.empty() && octree.nodes.empty());
     const auto stands = stands_of(octree.grid, positions, parallel_for);
     const Input input{octree.grid, positions, triangles, stands.get()};
     Level level = root_level(triangles.size(), parallel_for);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "octree_cells.h"
 
@@ -28,6 +29,7 @@ public:
     void add_below(std::uint32_t number) {
         const OctreeNode& node = octree_.nodes[number];
         if ((node.count & kInnerNode) == 0) {
+            assert(octree_.leaf_codes.empty() || octree_.leaf_codes.back() < code_of(node.key));
             octree_.leaf_codes.push_back(code_of(node.key));
             octree_.leaf_nodes.push_back(number);
             return;
@@ -63,6 +65,7 @@ std::vector<std::uint32_t> chained(const Octree& octree, const Slot& slot) {
     const std::size_t slots = std::size_t{1} << octree.grid.slot_bits;
     std::vector<std::uint32_t> table(slots + octree.nodes.size());
     for (std::size_t i = octree.nodes.size(); i-- > 0;) {
+        assert(slot(octree.nodes[i].key) < slots);
         std::uint32_t& first = table[slot(octree.nodes[i].key)];
         table[slots + i] = first;
         first = static_cast<std::uint32_t>(i + 1);

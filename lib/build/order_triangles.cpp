@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "order_triangles.h"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -92,11 +93,13 @@ void make_item(const Triangle& triangle, std::uint32_t number, std::span<const D
 std::size_t snap(std::size_t left, std::size_t count) {
     const std::size_t unit = subtree_size(count);
     const std::size_t most = (count - 1) / unit;
+    assert(most > 0);
     return unit * std::clamp<std::size_t>((left + unit / 2) / unit, 1, most);
 }
 
 template <class Counts>
 CutCounts counts_around(const Counts& count, std::size_t bin) {
+    assert(bin < count.size());
     CutCounts result;
     for (std::size_t i = 0; i < count.size(); ++i) {
         if (i < bin) result.before += count[i];
@@ -219,6 +222,7 @@ struct BestPolicy {
         /// What the cut with `left` items on the left costs, of all `count`; it falls
         /// into `bin`.
         [[nodiscard]] float cost(std::size_t left, std::size_t count, std::size_t bin) const {
+            assert(items_before[bin] <= left && left < items_before[bin + 1]);
             const auto in = static_cast<float>(items_before[bin + 1] - items_before[bin]);
             const float share = static_cast<float>(left - items_before[bin]) / in;
             const float left_area =
@@ -270,6 +274,7 @@ struct BestPolicy {
     static RunCut cut_between_runs(std::span<const Item> items, const Ranks& rank) {
         const std::size_t count = items.size();
         const std::size_t runs = (count + kBvhWidth - 1) / kBvhWidth;
+        assert(runs >= 2 && runs <= kBvhWidth);
         std::array<BoxLanes, kBvhWidth> run;
         run.fill(kEmpty);
         for (std::size_t i = 0; i < count; ++i) {
@@ -304,6 +309,7 @@ struct BestPolicy {
             best = cut;
             best_rank = rank;
         }
+        assert(best.left > 0);
         place_by_rank(items, best_rank, to);
         return best.left;
     }

@@ -2,6 +2,7 @@
 #include "oriented_axes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -29,6 +30,7 @@ struct Eigen {
 /// A Jacobi rotation that makes m[i][j] zero (Golub and Van Loan 8.5), without a
 /// branch: tan = 2 m_ij / (d +- sqrt(d^2 + 4 m_ij^2)), d = m_jj - m_ii.
 void turn(Eigen& e, std::size_t i, std::size_t j) {
+    assert(i < j && j < 3);
     const std::size_t other = 3 - i - j;
     Floats c;
     Floats s;
@@ -151,6 +153,7 @@ NodeAxes axes_of(const MomentLanes& moments) {
 
 void write_box(const Vector& origin, const Axes& axes, const Reach& reach, double slack,
                format::OrientedNode& node, std::size_t box) {
+    assert(slack >= 0 && box < kBvhWidth);
     std::array<double, 3> half{};
     double largest = 0;
     Vector centre = origin;

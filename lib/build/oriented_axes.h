@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 
 #include "cdprep/format/geometry.h"
@@ -42,6 +43,7 @@ struct MomentLanes {
     std::array<Doubles, 6> second{};
 
     void set(std::size_t lane, const Moments& moments) {
+        assert(lane < format::kBvhWidth);
         area[lane] = moments.area;
         for (std::size_t i = 0; i < 3; ++i) middle[i][lane] = moments.middle[i];
         for (std::size_t i = 0; i < 6; ++i) second[i][lane] = moments.second[i];

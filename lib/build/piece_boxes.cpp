@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 #include <utility>
 
@@ -42,6 +43,7 @@ std::vector<PieceLeaf> cut_into_leaves(const PiecesOf& surface) {
 
 /// Two opposite corners of the box around a leaf's triangles.
 std::array<Double3, 2> box_of(const PiecesOf& surface, const PieceLeaf& leaf) {
+    assert(leaf.count > 0 && leaf.count <= kBvhWidth);
     constexpr double kMost = std::numeric_limits<double>::infinity();
     Double3 lower = {kMost, kMost, kMost}, upper = {-kMost, -kMost, -kMost};
     for (std::uint32_t i = 0; i < leaf.count; ++i) {

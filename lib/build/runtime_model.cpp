@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -246,11 +247,13 @@ Result<double> RuntimeModel::refit_to(std::span<const Position> positions,
     const std::span<const std::uint32_t> source = model_.source().vertex;
     if constexpr (std::is_same_v<Position, Float3>) {
         if (!moving_.positions_f32.empty()) {
+            assert(source.size() == moving_.positions_f32.size());
             std::ranges::transform(source, moving_.positions_f32.begin(),
                                    [&](std::uint32_t vertex) { return used[vertex]; });
             return refit_over(model_.mesh().positions_f32, guarded);
         }
     }
+    assert(source.size() == moving_.positions_f64.size());
     std::ranges::transform(source, moving_.positions_f64.begin(),
                            [&](std::uint32_t vertex) { return as_double(used[vertex]); });
     return refit_over(model_.mesh().positions_f64, guarded);

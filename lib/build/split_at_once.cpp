@@ -2,6 +2,7 @@
 #include "split_at_once.h"
 
 #include <bit>
+#include <cassert>
 
 #include "cdprep/format/octree.h"
 #include "chunks.h"
@@ -51,6 +52,7 @@ private:
         void descend(std::uint32_t key, std::uint32_t triangle, bool in_octant,
                      std::vector<std::uint16_t>& cones) {
             const bool is_root = key == kRootKey;
+            assert(is_root || tetra_level(key) <= level_);
             if (!is_root && tetra_level(key) == level_) {
                 cones.push_back(static_cast<std::uint16_t>(key - format::tetra_cones(level_)));
                 return;
@@ -79,6 +81,7 @@ private:
             const int below = std::bit_width(home_[i]) - finest;
             if (below >= 0) {
                 const std::uint32_t cone = (home_[i] >> below) - cones_;
+                assert(cone < cones_);
                 cone_[i] = static_cast<std::uint16_t>(cone);
                 ++chunk.place[cone];
             } else {
@@ -94,6 +97,7 @@ private:
         several.push_back(0);
         descent.descend(home == 0 ? kRootKey : home, triangle, home != 0, several);
         const std::size_t count = several.size() - begin - 1;
+        assert(count <= cones_);
         several[begin] = static_cast<std::uint16_t>(count);
         cone_[triangle] = kSeveral;
         for (std::size_t i = begin + 1; i < several.size(); ++i) ++chunk.place[several[i]];
@@ -147,6 +151,7 @@ private:
 
 ConeLists split_at_once(const TetraInput& input, const std::uint32_t* home, std::uint32_t level,
                         ParallelFor parallel_for) {
+    assert(level <= kMostLevelAtOnce);
     return Splitter(input, home, level).split(parallel_for);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -72,6 +73,7 @@ struct Binning {
         return {bounds.lower[axis], width > 0x1p-100F ? most / width : 0};
     }
     [[nodiscard]] std::size_t bin(float middle) const {
+        assert(!(middle < least));
         return static_cast<std::size_t>(static_cast<std::int32_t>((middle - least) * scale));
     }
 };
@@ -102,6 +104,7 @@ void ranks_along(std::span<const Item> items, std::size_t axis, const MiddleBoun
     constexpr std::int32_t kSteps = 0x10000 / std::int32_t{kSmallSet};
     const Binning steps = Binning::of(bounds, axis, kSteps);
     Ranks key;
+    assert(items.size() <= kSmallSet);
     const std::size_t count = items.size();
     const std::size_t padded = (count + 7) / 8 * 8;
     for (std::size_t i = 0; i < count; ++i) {
@@ -137,7 +140,9 @@ public:
 
     /// Orders `items`; `spare` is as long. order[i] becomes the number of the i-th.
     SetSplitter(std::span<Item> items, std::span<Item> spare, std::span<std::uint32_t> order)
-        : arrays_{items, spare}, order_(order) {}
+        : arrays_{items, spare}, order_(order) {
+        assert(items.size() == order.size() && spare.size() == order.size());
+    }
 
     void split(ParallelFor parallel_for) {
         std::vector<Set> large;
@@ -181,6 +186,7 @@ private:
 
     /// Two at a time: neither waits for the other.
     static MiddleBounds bounds_of(std::span<const Item> items) {
+        assert(!items.empty());
         MiddleBounds even;
         MiddleBounds odd;
         for (std::size_t i = 0; i + 1 < items.size(); i += 2) {
@@ -215,6 +221,7 @@ private:
     /// Sorts the items of the cut's bin by side; first come those of the left.
     static void settle(std::span<Item> items, std::size_t left, std::size_t axis,
                        std::span<Item> scratch) {
+        assert(left <= items.size() && items.size() <= scratch.size());
         if (left == 0 || left == items.size()) return;
         struct Key {
             float middle;
@@ -240,6 +247,7 @@ private:
 
     static void settle(const Cut& cut, const CutCounts& counts, std::span<Item> from,
                        std::span<Item> to) {
+        assert(counts.before <= cut.left && cut.left <= counts.before + counts.in);
         settle(to.subspan(counts.before, counts.in), cut.left - counts.before, cut.axis,
                from.first(counts.in));
     }
@@ -263,6 +271,7 @@ private:
     void split_all(Set set) const {
         while (set.count > format::kBvhWidth) {
             const std::size_t left = cut_in_two(set);
+            assert(left > 0 && left < set.count && left % subtree_size(set.count) == 0);
             set.array = 1 - set.array;
             split_all({set.first, left, set.array});
             set.first += left;
@@ -274,6 +283,7 @@ private:
     /// Writes the numbers of one leaf, least first: each to as many places from the
     /// front as there are lesser ones.
     static void put_in_order(std::span<const Item> items, std::span<std::uint32_t> numbers) {
+        assert(items.size() <= format::kBvhWidth && items.size() == numbers.size());
         Lanes<std::int32_t, 8> number = all_lanes<std::int32_t, 8>(INT32_MAX);
         Lanes<std::int32_t, 8> lesser = {};
         for (std::size_t i = 0; i < items.size(); ++i) {
@@ -352,6 +362,7 @@ private:
         for (std::size_t i = 0; i < sets.size(); ++i) {
             cuts[i] = Policy::choose(bins[i], sets[i].count);
             counts[i] = Policy::counts(bins[i], cuts[i]);
+            assert(counts[i].all == sets[i].count);
             target[i] = {0, counts[i].before, counts[i].before + counts[i].in};
         }
         for (Piece& piece : pieces) {

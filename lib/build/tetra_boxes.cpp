@@ -2,6 +2,7 @@
 #include "tetra_boxes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -197,6 +198,7 @@ private:
     }
 
     void bound_leaf(std::size_t node) {
+        assert(is_leaf(node));
         aligned_[node] = reach_along(node, kAligned);
         Vector middle{};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -210,6 +212,7 @@ private:
     void gather_children(std::size_t node) {
         const TetraNode& at = tree_.nodes[node];
         Reach& reach = aligned_[node];
+        assert(at.first > node && at.count <= 4);
         reach = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
         MomentLanes below;
         for (std::size_t child = 0; child < at.count; ++child) {

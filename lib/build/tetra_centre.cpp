@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 
 #include "chunks.h"
 #include "frame_map.h"
@@ -83,6 +84,7 @@ TetraCentre tetra_centre(std::span<const Double3> positions, std::span<const Tri
     const Sum sum = sum_all(positions, used, extent, std::ldexp(1.0, exponent), parallel_for);
     std::array<double, 3> at{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
+        assert(sum.count > 0);
         const double mean = sum.distance[axis] / static_cast<double>(sum.count);
         double x = extent.lower[axis] + std::ldexp(mean, -exponent);
         if (extent.floats) x = static_cast<float>(x);

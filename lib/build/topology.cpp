@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -44,6 +45,7 @@ EdgeUses collect_edges(std::size_t vertex_count, std::span<const Triangle> trian
     edges.first.assign(vertex_count + 1, 0);
     for_each_edge(triangles, [&](std::uint32_t lower, EdgeUse) { ++edges.first[lower + 1]; });
     std::partial_sum(edges.first.begin(), edges.first.end(), edges.first.begin());
+    assert(edges.first.back() <= 3 * triangles.size());
     edges.use.resize(edges.first.back());
     std::vector<std::uint32_t> next(edges.first.begin(), edges.first.end() - 1);
     for_each_edge(triangles,
