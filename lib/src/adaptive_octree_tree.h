@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <span>
 
 #include "cell_bounds.h"
@@ -51,6 +52,7 @@ public:
         return below;
     }
     [[nodiscard]] bool is_leaf(const Cell& cell) const noexcept {
+        assert(cell.node != kAboveRoots);
         return (nodes_[cell.node].count & format::kInnerNode) == 0;
     }
     [[nodiscard]] unsigned leaf_lanes(const Cell& cell) const noexcept {
@@ -63,6 +65,7 @@ public:
         return leaves;
     }
     [[nodiscard]] std::span<const std::uint32_t> references(const Cell& cell) const noexcept {
+        assert(is_leaf(cell));
         return references_.subspan(nodes_[cell.node].first, nodes_[cell.node].count);
     }
     [[nodiscard]] static Box3 box(const Cell& cell) noexcept {
@@ -71,6 +74,7 @@ public:
     }
     /// Where the planes between the children are; not of the cell above the root.
     [[nodiscard]] Double3 split(const Cell& cell) const noexcept {
+        assert(cell.node != kAboveRoots);
         return nodes_[cell.node].split;
     }
     [[nodiscard]] static StoredBounds stored_bounds(const Cell& /*cell*/) noexcept {
@@ -109,6 +113,7 @@ private:
     }
     [[nodiscard]] std::uint32_t child_node(const Cell& cell, unsigned lane) const noexcept {
         const format::AdaptiveOctreeNode& node = nodes_[cell.node];
+        assert((node.count >> lane & 1) != 0);
         return node.first + lanes_before(node.count & 0xff, lane);
     }
 

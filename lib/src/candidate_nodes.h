@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <span>
 
@@ -57,6 +58,7 @@ public:
 
     /// For tests: how many have room, at least 2.
     void set_room(std::uint32_t room) noexcept {
+        assert(room >= 2 && room <= kRoom);
         room_ = room;
     }
 
@@ -68,6 +70,7 @@ private:
         return (node ^ node >> 10) % kSlots;
     }
     void insert(const CandidateNode& node) noexcept {
+        assert(count_ < room_ && index_[node.slot] == 0);
         nodes_[count_++] = node;
         index_[node.slot] = static_cast<std::uint16_t>(count_);
     }
@@ -76,6 +79,7 @@ private:
         count_ = 0;
     }
     void halve() noexcept {
+        assert(count_ >= 2);
         const auto by_number = [](const CandidateNode& a, const CandidateNode& b) {
             return a.node < b.node;
         };

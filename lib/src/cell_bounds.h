@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -89,6 +90,7 @@ struct DividedAxis {
 /// them.
 inline void bound_octants(std::size_t axis, const DividedAxis& planes,
                           format::BvhNode& boxes) noexcept {
+    assert(axis < 3);
     const std::array<float, 2> lower = {clipped(float_below(planes.lower)),
                                         clipped(float_below(planes.middle))};
     const std::array<float, 2> upper = {clipped(float_over(planes.middle)),
@@ -102,6 +104,7 @@ inline void bound_octants(std::size_t axis, const DividedAxis& planes,
 /// The stored boxes of children, which stand side by side from `first` on, to their lanes.
 inline void bound_by_boxes(const format::CellBox* first, unsigned lanes,
                            format::BvhNode& boxes) noexcept {
+    assert(lanes <= 0xff);
     for (; lanes != 0; lanes &= lanes - 1, ++first) {
         const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -124,6 +127,7 @@ inline constexpr std::uint32_t kAboveRoots = 0xffffffff;
 /// How many of eight bits are set. Without the instruction, which not every processor has,
 /// std::popcount() is a call.
 inline std::uint32_t bits_in(unsigned lanes) noexcept {
+    assert(lanes <= 0xff);
     lanes -= lanes >> 1 & 0x55;
     lanes = (lanes & 0x33) + (lanes >> 2 & 0x33);
     return (lanes + (lanes >> 4)) & 0xf;
@@ -131,11 +135,13 @@ inline std::uint32_t bits_in(unsigned lanes) noexcept {
 
 /// How many lanes below `lane` are in a bit set: the place of a child among its siblings.
 inline std::uint32_t lanes_before(unsigned lanes, unsigned lane) noexcept {
+    assert(lane < format::kBvhWidth);
     return bits_in(lanes & ((1U << lane) - 1));
 }
 
 /// All pairs of some lanes of A and some of B.
 inline kernels::BoxPairs lane_pairs(unsigned of_a, unsigned of_b) noexcept {
+    assert(of_a <= 0xff && of_b <= 0xff);
     kernels::BoxPairs pairs = 0;
     for (; of_b != 0; of_b &= of_b - 1) {
         pairs |= kernels::BoxPairs{of_a} << (8 * std::countr_zero(of_b));

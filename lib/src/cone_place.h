@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 
 #include "cone_faces.h"
@@ -23,6 +24,7 @@ inline constexpr std::uint32_t kOctantKeyBits = 4;  ///< a leading one, and the 
         const std::uint32_t rest = (1U << bit) - 1;
         // One of them at most is set.
         const std::uint32_t past = step[0] >> bit | step[1] >> bit << 1 | step[2] >> bit << 2;
+        assert(past < 8 && (past & (past - 1)) == 0);
         if (past != 0) {
             key = key << 2 | past >> 1;
             step = {step[0] & rest, step[1] & rest, step[2] & rest};
@@ -38,6 +40,7 @@ inline constexpr std::uint32_t kOctantKeyBits = 4;  ///< a leading one, and the 
 /// the point inside, off all its planes; 0 when that is not even sure of an octant. So
 /// a triangle whose corners lie in one cone, by this, touches no other of its level.
 [[nodiscard]] inline std::uint32_t inner_cone(const SeenPoint& p, std::uint32_t level) noexcept {
+    assert(level <= format::kMaxTetraLevel);
     // x / s is off by 7 u of itself: all differences and sums are of one sign. Times
     // 2^14 that is less than 2^-36.
     constexpr double kMargin = 0x1p-30;

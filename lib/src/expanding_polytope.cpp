@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -239,6 +240,7 @@ double ExpandingPolytope::lower_along(const Double3& d, const Face& face) const 
 }
 
 void ExpandingPolytope::add_face(std::uint8_t p, std::uint8_t q, std::uint8_t r) noexcept {
+    assert(faces_ < face_.size() && p != q && q != r && r != p);
     Face& face = face_[faces_++];
     face = {{p, q, r}, 0, {}, false};
     if (normal_of(corner_[p], corner_[q], corner_[r], face.direction)) {
@@ -259,6 +261,7 @@ void ExpandingPolytope::look_closely(Face& face) const noexcept {
 }
 
 void ExpandingPolytope::first_faces() noexcept {
+    assert(corners_ == 4);
     if (side_of(corner_[0], corner_[1], corner_[2], corner_[3]) < 0) {
         std::swap(corner_[0], corner_[1]);
     }
@@ -297,6 +300,7 @@ bool ExpandingPolytope::grow(const Difference& corner) noexcept {
                 return other.from == edge.to && other.to == edge.from;
             });
             if (back == end) {
+                assert(edges < edge_.size());
                 edge_[edges++] = edge;
             } else {
                 *back = edge_[--edges];
@@ -307,10 +311,12 @@ bool ExpandingPolytope::grow(const Difference& corner) noexcept {
     const auto added = static_cast<std::uint8_t>(corners_);
     corner_[corners_++] = corner;
     for (std::size_t i = 0; i < edges; ++i) add_face(edge_[i].from, edge_[i].to, added);
+    assert(faces_ >= 4 && faces_ <= 2 * corners_ - 4);  // closed, by Euler
     return true;
 }
 
 const ExpandingPolytope::Face& ExpandingPolytope::nearest_face() noexcept {
+    assert(faces_ > 0);
     for (;;) {
         Face& face =
             *std::min_element(face_.begin(), face_.begin() + static_cast<std::ptrdiff_t>(faces_),
@@ -322,6 +328,7 @@ const ExpandingPolytope::Face& ExpandingPolytope::nearest_face() noexcept {
 
 Penetration ExpandingPolytope::expand(const Difference* corner, std::size_t count,
                                       const PenetrationOptions& options) noexcept {
+    assert(count >= 1 && count <= 4);
     std::copy_n(corner, count, corner_.begin());
     corners_ = count;
     best_.upper = kInfinity;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 
@@ -17,6 +18,7 @@ struct Expansion {
     std::size_t size = 0;
 
     void append(double value) noexcept {
+        assert(value == 0 || size < Capacity);
         if (value != 0) component[size++] = value;
     }
     /// Sign of the exact sum: that of the largest component.
@@ -41,6 +43,7 @@ inline Exact2 two_sum(double a, double b) noexcept {
 
 /// For |a| >= |b| or a == 0.
 inline Exact2 fast_two_sum(double a, double b) noexcept {
+    assert(a == 0 || !(std::fabs(a) < std::fabs(b)));
     const double sum = a + b;
     return {sum, b - (sum - a)};
 }

@@ -2,6 +2,7 @@
 #include "gjk.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 // The lower bound trusts no step of the search. Whatever the direction d, the planes
@@ -121,6 +122,7 @@ void Search::start(const ConvexCache* cache) noexcept {
 }
 
 bool Search::add(const Difference& corner) noexcept {
+    assert(simplex_.count < 4);
     NearestSimplex next = simplex_;
     next.corner[next.count++] = corner;
     keep_nearest(next);
@@ -133,6 +135,7 @@ bool Search::add(const Difference& corner) noexcept {
 }
 
 void Search::prove(const Direction& d) noexcept {
+    assert(simplex_.count > 0);
     const Difference& from = simplex_.corner[0];
     const double of_a = a_.proven(-d.at, from.at_a, near_a_).bound;
     const double of_b = b_.proven(d.at, from.at_b, near_b_).bound;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -57,11 +58,13 @@ inline bool add_scaled(double value, double scale, double unscale, std::int64_t&
 }
 
 inline double power_of_two(int exponent) noexcept {
+    assert(exponent > -1023 && exponent < 1024);
     return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + 1023) << 52);
 }
 
 template <std::size_t N>
 ScaledAxis<N> scaled_axis(const std::array<double, N>& x, double from, int bits) noexcept {
+    assert(bits > 0 && bits <= 62);
     constexpr double kLeastToScale = 0x1p-900;  // of less, the scale is no double
     constexpr double kLift = 0x1p600;
     std::array<Exact2, N> difference;

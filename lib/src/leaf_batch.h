@@ -2,6 +2,7 @@
 #pragma once
 
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <span>
 
@@ -75,6 +76,7 @@ public:
         prefetch_sources(source_b_, leaf_b);
     }
     void add(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
+        assert(!full());
         prefetch_pair(leaf_a, leaf_b);
         set_pair(count_++, leaf_a, leaf_b);
     }
@@ -96,10 +98,12 @@ public:
         return {leaves_b_[in_b.leaf].corner[0][0].data(), in_b.leaf, used};
     }
     void add(const LeafView& in_a, const LeafView& in_b) noexcept {
+        assert(!full());
         scratch_.leaf_pairs[count_++] = pair_of(in_a, in_b);
     }
     /// The pairs that were added since the last flush; the last flush's until then.
     [[nodiscard]] const kernels::LeafPair& pair(std::size_t index) const noexcept {
+        assert(index < kernels::kLeafBatch);
         return scratch_.leaf_pairs[index];
     }
     [[nodiscard]] std::size_t size() const noexcept {
@@ -131,6 +135,8 @@ public:
         count_ = 0;
         for (std::size_t i = 0; i < contacts; ++i) {
             const kernels::TriangleContactLanes& contact = scratch_.leaf_scratch.found[i];
+            assert(contact.pair < kernels::kLeafBatch);
+            assert(contact.a < format::kBvhWidth && contact.b < format::kBvhWidth);
             const kernels::LeafPair& pair = scratch_.leaf_pairs[contact.pair];
             const std::uint32_t at_a = pair.number_a * format::kBvhWidth + contact.a;
             const std::uint32_t at_b = pair.number_b * format::kBvhWidth + contact.b;
@@ -151,6 +157,8 @@ public:
         count_ = 0;
         for (std::size_t i = 0; i < near; ++i) {
             const kernels::TriangleGap& gap = scratch_.leaf_scratch.gap[i];
+            assert(gap.pair < kernels::kLeafBatch);
+            assert(gap.a < format::kBvhWidth && gap.b < format::kBvhWidth);
             const kernels::LeafPair& pair = scratch_.leaf_pairs[gap.pair];
             const std::uint32_t at_a = pair.number_a * format::kBvhWidth + gap.a;
             const std::uint32_t at_b = pair.number_b * format::kBvhWidth + gap.b;
@@ -163,6 +171,7 @@ public:
     /// until the next call.
     std::span<kernels::TriangleGap> near_triangles(const LeafView& in_a, const LeafView& in_b,
                                                    const kernels::Reach& reach) noexcept {
+        assert(count_ == 0);  // the batch lends its first place
         scratch_.leaf_pairs[0] = pair_of(in_a, in_b);
         ++scratch_.leaf_batch;
         if (scratch_.counts != nullptr) count_batch(*scratch_.counts, 1);

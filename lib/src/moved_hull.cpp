@@ -2,6 +2,7 @@
 #include "moved_hull.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -169,6 +170,7 @@ kernels::FarthestPoint MovedHull::proven_by_all(const Double3& direction,
 
 kernels::FarthestPoint MovedHull::proven(const Double3& direction, const Double3& origin,
                                          std::uint32_t farthest) const noexcept {
+    assert(farthest < count());
     if (!can_climb()) return proven_by_all(direction, origin);
     const Double3 local = turned_back(direction);
     const Double3 top = hull_point(*points_, farthest);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 
 #include "cdprep/model.h"
@@ -58,6 +59,7 @@ struct MovedModel {
     /// Corners of triangle `index` of the tree order. Exactly the points that
     /// the query answers for.
     [[nodiscard]] Corners corners(std::uint32_t index) const noexcept {
+        assert(index < model->triangle_count());
         if (exact_leaves_ != nullptr) {
             const format::BvhLeaf& leaf = exact_leaves_[index / format::kBvhWidth];
             const std::uint32_t lane = index % format::kBvhWidth;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -84,6 +85,7 @@ public:
 private:
     /// In pair units, rounded up.
     [[nodiscard]] float in_pair_units(double limit) const noexcept {
+        assert(!(limit < 0));
         return float_reach(std::ldexp(limit, placed_.exponent));
     }
     /// Appends the children of a pair that are near enough; returns the new end.
@@ -151,6 +153,7 @@ std::size_t NearestSearch<Trees>::push_children(const Tree& a, const Tree& b,
         const std::uint64_t j = bit / format::kBvhWidth;
         // Also where absurd boxes gave no number: what sorts must be ordered.
         const float bound = gaps.value[j][i] > 0 ? gaps.value[j][i] : 0;
+        assert(end < scratch_.near.size());
         scratch_.near[end++] = {bound, base + (i << 32) + j};
     }
     return end;
@@ -200,6 +203,8 @@ public:
         return used_ + count <= pairs_.size();
     }
     void push(const NearPair& pair) noexcept {
+        assert(has_room_for(1));
+        assert(pair.bound >= 0);  // so its bits order as it does
         const std::uint64_t entry = entry_of(pair.bound, used_);
         pairs_[used_++] = pair.pair;
         if (entry > cut_) {
@@ -211,6 +216,7 @@ public:
     }
     /// The limit is how far the search will go; it shrinks.
     NearPair pop(float limit) noexcept {
+        assert(!empty());
         if (soon_count_ == 0) refill(limit);
         std::pop_heap(soon_.begin(), end_of_soon(), std::greater());
         const std::uint64_t entry = soon_[--soon_count_];
@@ -233,6 +239,7 @@ private:
     }
     /// Makes a heap of what waits up to twice the least bound, or the limit.
     void refill(float limit) noexcept {
+        assert(soon_count_ == 0 && later_count_ > 0);
         const auto waiting = later_.first(later_count_);
         const std::uint64_t least = *std::min_element(waiting.begin(), waiting.end());
         const float widest = 2 * bound_of(least);
@@ -370,6 +377,7 @@ public:
             search_.point(d.on_a, d.on_b);
         }
         if (count_ == contenders_.size()) settle();
+        assert(count_ < contenders_.size());
         contenders_[count_++] = {at, d};
         return limit();
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nearest_simplex.h"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -38,6 +39,7 @@ public:
 
 private:
     [[nodiscard]] const Double3& at(std::uint8_t i) const {
+        assert(i < simplex_.count);
         return simplex_.corner[i].at;
     }
     [[nodiscard]] Nearest measured(Nearest nearest) const {
@@ -132,6 +134,7 @@ Double3 across_segment(const Double3& p, const Double3& q) {
 }  // namespace
 
 void keep_nearest(NearestSimplex& simplex) noexcept {
+    assert(simplex.count >= 1 && simplex.count <= 4);
     const Search search(simplex);
     if (simplex.count == 1) simplex.weight[0] = 1;
     if (simplex.count == 2) keep(simplex, search.segment(0, 1));
@@ -169,6 +172,7 @@ Double3 weighted_sum(const NearestSimplex& simplex, Double3 Difference::*side) n
 }
 
 Double3 nearest_direction(const NearestSimplex& simplex) noexcept {
+    assert(simplex.count >= 1 && simplex.count <= 3);
     const Double3& p = simplex.corner[0].at;
     if (simplex.count == 1) return p;
     const Double3& q = simplex.corner[1].at;

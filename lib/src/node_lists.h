@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <span>
 
@@ -32,6 +33,7 @@ struct alignas(64) NodeBlock {
     std::uint32_t count;
 
     [[nodiscard]] unsigned lanes() const noexcept {
+        assert(count <= format::kBvhWidth);
         return (1U << count) - 1;
     }
 };
@@ -62,6 +64,7 @@ public:
     /// rise. Valid until the next call.
     [[nodiscard]] NodeList list(std::uint32_t node, std::uint32_t begin,
                                 std::span<const std::uint32_t> references) noexcept {
+        assert(shape_ != nullptr && begin < references.size());
         Slot& slot = slots_[(node + begin) % kSlots];
         const bool is_same = slot.question == question_ && slot.node == node && slot.begin == begin;
         if (!is_same || written_ - slot.written > kBlocks) {
@@ -112,6 +115,7 @@ private:
         const auto triangle = [&] { return references[at] & ~format::kSharedReference; };
         while (at < references.size() && block.count < format::kBvhWidth) {
             const std::uint32_t node = triangle() / kOfNode;
+            assert(node < shape_->count[0]);
             while (at < references.size() && triangle() / kOfNode == node) ++at;
             const std::uint32_t lane = block.count++;
             block.node[lane] = {node,
@@ -136,6 +140,7 @@ private:
     /// Sets lane `lane` to the box around a block.
     static void surround(const NodeBlock& block, format::BvhNode& around,
                          std::uint32_t lane) noexcept {
+        assert(block.count > 0 && block.count <= format::kBvhWidth && lane < format::kBvhWidth);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             float lower = block.boxes.lower[axis][0];
             float upper = block.boxes.upper[axis][0];
@@ -170,6 +175,7 @@ public:
         return slot.question == question_ && slot.a == a && slot.b == b;
     }
     void add(std::uint32_t a, std::uint32_t b) noexcept {
+        assert(question_ > 0);
         slots_[slot_of(a, b)] = {question_, a, b};
     }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 
@@ -49,7 +50,10 @@ inline CellPlace octree_cell(const format::OctreeGrid& grid, const Double3& p) n
 /// The closed box of a cell.
 inline Box3 octree_box(const format::OctreeGrid& grid, const CellPlace& first,
                        std::uint32_t level) noexcept {
+    assert(level <= format::kOctreeBits);
     const std::uint32_t steps = kOctreeSteps >> level;
+    assert(first[0] + steps <= kOctreeSteps && first[1] + steps <= kOctreeSteps &&
+           first[2] + steps <= kOctreeSteps);
     return {{octree_plane(grid.origin.x, grid.step, first[0]),
              octree_plane(grid.origin.y, grid.step, first[1]),
              octree_plane(grid.origin.z, grid.step, first[2])},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
+
 #include "curve.h"
 #include "octree_cells.h"
 
@@ -9,6 +11,7 @@ namespace cdprep {
 /// Where a finest cell stands along the z curve: format::code_of() the key of level
 /// kOctreeBits. The same on every machine; kernels::Curve says how.
 inline std::uint64_t octree_code(const CellPlace& cell) noexcept {
+    assert(cell[0] < kOctreeSteps && cell[1] < kOctreeSteps && cell[2] < kOctreeSteps);
     return kernels::active_curve().code(cell[0], cell[1], cell[2]);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <span>
 
@@ -37,6 +38,7 @@ public:
     /// The part of the cell of `level`, at most deepest(), that begins with the finest cell
     /// `code`: what is in it, or the leaf that holds it. There are nodes.
     [[nodiscard]] OctreePart at(std::uint64_t code, std::uint32_t level) const noexcept {
+        assert(!index_.nodes.empty() && level <= deepest());
         switch (search_) {
             case CellSearch::modulus:
                 return chained(index_.modulus_table, code, level, format::modulus_slot);
@@ -50,6 +52,7 @@ public:
 
     /// Whether a part that is not empty is one leaf.
     [[nodiscard]] bool is_single_leaf(const OctreePart& part) const noexcept {
+        assert(!part.empty());
         if (search_ == CellSearch::sorted) return part.last - part.first == 1;
         return is_leaf(index_.nodes[part.first]);
     }
@@ -57,10 +60,12 @@ public:
     /// The triangles of one leaf.
     [[nodiscard]] std::span<const std::uint32_t> references(const OctreePart& leaf) const noexcept {
         const format::OctreeNode& node = index_.nodes[node_of(leaf)];
+        assert(is_leaf(node));
         return references_.subspan(node.first, node.count);
     }
     /// The number of a part that is one node.
     [[nodiscard]] std::uint32_t node_of(const OctreePart& part) const noexcept {
+        assert(!part.empty() && is_node(part));
         return search_ == CellSearch::sorted ? index_.leaf_nodes[part.first] : part.first;
     }
 
@@ -89,6 +94,7 @@ public:
                                    std::uint32_t level) const noexcept {
         if (search_ != CellSearch::sorted) {
             const format::OctreeNode& node = index_.nodes[part.first];
+            assert(!is_leaf(node) && (node.count >> i & 1) != 0);
             const std::uint32_t at = node.first + lanes_before(node.count & 0xff, i);
             return {at, at + 1};
         }
@@ -102,6 +108,7 @@ public:
 private:
     [[nodiscard]] std::uint32_t leaves_up_to(std::uint32_t first, std::uint32_t last,
                                              std::uint64_t code) const noexcept {
+        assert(first <= last && last <= index_.leaf_codes.size());
         const std::uint64_t* codes = index_.leaf_codes.data();
         const std::uint64_t* end = std::upper_bound(codes + first, codes + last, code);
         return static_cast<std::uint32_t>(end - codes);

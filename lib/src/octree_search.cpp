@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "octree_search.h"
 
+#include <cassert>
+
 namespace cdprep {
 
 OctreeIndex octree_index(const Model& model) noexcept {
+    assert(model.octree().grid != nullptr);
     const auto nodes = model.octree().nodes;
     return {.top_level = model.octree().grid->top_level,
             .slot_bits = model.octree().grid->slot_bits,

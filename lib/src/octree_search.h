@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -38,6 +39,7 @@ struct OctreeIndex {
 
 /// The key of the cell of `level` in which the finest cell `code` lies.
 inline std::uint64_t key_at(std::uint64_t code, std::uint32_t level) noexcept {
+    assert(level <= format::kOctreeBits && code >> (3 * format::kOctreeBits) == 0);
     return (std::uint64_t{1} << (3 * level)) | (code >> (3 * (format::kOctreeBits - level)));
 }
 
@@ -48,8 +50,11 @@ inline bool is_leaf(const format::OctreeNode& node) noexcept {
 /// The node of a key among those chained from a slot on, or kNoNode. O(length of the chain).
 inline std::uint32_t find_chained(const OctreeIndex& index, std::span<const std::uint32_t> table,
                                   std::uint64_t slot, std::uint64_t key) noexcept {
+    assert(slot >> index.slot_bits == 0);
+    assert(table.size() == (std::size_t{1} << index.slot_bits) + index.nodes.size());
     const std::uint32_t* next = table.data() + (std::size_t{1} << index.slot_bits);
     for (std::uint32_t entry = table[slot]; entry != 0; entry = next[entry - 1]) {
+        assert(entry <= index.nodes.size());
         if (index.nodes[entry - 1].key == key) return entry - 1;
     }
     return kNoNode;
@@ -71,6 +76,7 @@ inline std::uint32_t find_node_in_order(const OctreeIndex& index, std::uint64_t 
 /// and it may end before.
 inline std::uint32_t find_sorted_leaf(const OctreeIndex& index, std::uint64_t code) noexcept {
     const std::uint64_t cell = code >> (3 * (format::kOctreeBits - index.top_level));
+    assert(cell + 1 < index.top.size());
     const std::uint64_t* const codes = index.leaf_codes.data();
     // With branches: those that the processor guesses wrong cost less than waiting, step by
     // step, for codes that are not in the caches (octree_top_bench).

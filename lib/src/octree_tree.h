@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <span>
 
 #include "cell_bounds.h"
@@ -48,6 +49,7 @@ public:
         return below;
     }
     [[nodiscard]] bool is_leaf(const Cell& cell) const noexcept {
+        assert(cell.node != kAboveRoots);
         return (nodes_[cell.node].count & format::kInnerNode) == 0;
     }
     /// Which of the children are leaves.
@@ -61,6 +63,7 @@ public:
         return leaves;
     }
     [[nodiscard]] std::span<const std::uint32_t> references(const Cell& cell) const noexcept {
+        assert(is_leaf(cell));
         return references_.subspan(nodes_[cell.node].first, nodes_[cell.node].count);
     }
     [[nodiscard]] Box3 box(const Cell& cell) const noexcept {
@@ -68,6 +71,7 @@ public:
     }
     /// Where the planes between the children are; not of the cell above the root.
     [[nodiscard]] Double3 split(const Cell& cell) const noexcept {
+        assert(cell.node != kAboveRoots);
         const std::uint32_t half = kOctreeSteps >> 1 >> cell.level;
         return {octree_plane(grid_->origin.x, grid_->step, cell.first[0] + half),
                 octree_plane(grid_->origin.y, grid_->step, cell.first[1] + half),
@@ -109,6 +113,7 @@ public:
 private:
     [[nodiscard]] std::uint32_t child_node(const Cell& cell, unsigned lane) const noexcept {
         const format::OctreeNode& node = nodes_[cell.node];
+        assert((node.count >> lane & 1) != 0);
         return node.first + lanes_before(node.count & 0xff, lane);
     }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "piece_contact.h"
 
+#include <cassert>
+
 #include "contact_pairs.h"
 
 namespace cdprep {
@@ -9,6 +11,7 @@ namespace cdprep {
 ConvexPoints hull_points(const format::PieceNodeHull& hull) noexcept {
     ConvexPoints points;
     const std::size_t blocks = (hull.count + format::kHullLanes - 1) / format::kHullLanes;
+    assert(hull.count > 0 && blocks <= hull.block.size());
     points.blocks = std::span(hull.block).first(blocks);
     points.count = hull.count;
     return points;

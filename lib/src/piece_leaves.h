@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +47,9 @@ public:
     bool each_view(std::uint32_t number, GatheredLeaves& gathered,
                    const Workspace::Storage& scratch, ViewOf&& view_of,
                    Test&& test) const noexcept {
+        assert(number < count_);
         const format::PieceLeaf& leaf = leaves_[number];
+        assert(leaf.count > 0 && leaf.count <= format::kBvhWidth);
         if (exact_ != nullptr) {
             if (const format::BvhLeaf* own = put_together(number, gathered, scratch)) {
                 const auto used = static_cast<std::uint8_t>((1U << leaf.count) - 1);
@@ -79,6 +82,7 @@ public:
     [[nodiscard]] std::uint32_t triangle(std::uint32_t named) const noexcept {
         const std::uint32_t number = named / format::kBvhWidth;
         if ((number & kOwn) == 0) return named;
+        assert((number & ~kOwn) < count_);
         return triangles_[leaves_[number & ~kOwn].first_triangle + named % format::kBvhWidth];
     }
 

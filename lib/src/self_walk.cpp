@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "box_placement.h"
 #include "leaf_batch.h"
@@ -43,6 +44,7 @@ public:
     void add(std::uint32_t leaf_a, std::uint32_t leaf_b) {
         const BvhLeaf* leaves = walk_.bvh_.leaves.data();
         prefetch(&leaves[leaf_b]);
+        assert(count_ < kernels::kLeafBatch);
         scratch_.leaf_pairs[count_++] = {leaves[leaf_a].corner[0][0].data(),
                                          leaves[leaf_b].corner[0][0].data(),
                                          leaf_a,
@@ -110,6 +112,7 @@ std::size_t SelfWalk::part_count() const noexcept {
 
 template <class Step>
 void SelfWalk::for_children(const NodePair& pair, Step&& step) const {
+    assert(pair.height > 0 && pair.a <= pair.b);
     const std::uint32_t level = pair.height - 1;
     const auto chosen = [&](std::uint32_t node) {
         return static_cast<std::uint8_t>((1U << shape_.used_boxes(level, node)) - 1);
@@ -152,6 +155,7 @@ void SelfWalk::descend(const NodePair& pair, Batch& batch) const {
 
 void SelfWalk::run(std::size_t part, Workspace::Storage& scratch,
                    const std::function<void(const SelfPair&)>& found) const {
+    assert(part < part_count());
     Batch batch(*this, scratch, found);
     const std::size_t first = starts_.size() * part / part_count();
     const std::size_t last = starts_.size() * (part + 1) / part_count();

@@ -14,7 +14,9 @@ namespace cdprep {
 class Shares {
 public:
     Shares(std::size_t count, std::size_t at_a_time) noexcept
-        : count_(count), at_a_time_(at_a_time) {}
+        : count_(count), at_a_time_(at_a_time) {
+        assert(at_a_time > 0);
+    }
 
     /// Calls `body(number)` for shares of this worker until none is left.
     template <class Body>
@@ -36,6 +38,7 @@ private:
 /// Calls `work(worker)` once for each worker, by the caller's threads.
 template <class Work>
 void run_workers(std::size_t workers, ParallelFor parallel_for, Work&& work) noexcept {
+    assert(workers > 0);
     if (workers == 1) {
         work(std::size_t{0});
     } else {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cstddef>
 #include <utility>
 
@@ -36,6 +37,7 @@ void pass(std::span<const From> from, std::span<To> to, int shift) noexcept {
 /// By digits, the lowest first, there and back until no bits are left.
 void sort_in_passes(std::span<std::uint32_t> numbers, std::span<std::uint64_t> scratch,
                     int bits) noexcept {
+    assert(numbers.size() <= scratch.size());
     const std::span<std::uint64_t> other = scratch.first(numbers.size());
     for (int shift = 0; shift < bits; shift += 16) {
         pass<std::uint32_t, std::uint64_t>(numbers, other, shift);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 #include <utility>
 
@@ -40,6 +41,7 @@ struct Digit {
 
 /// One stable counting pass.
 void sort_by_digit(std::span<const TrianglePair> from, TrianglePair* to, Digit digit) noexcept {
+    assert(digit.bits > 0 && digit.bits <= kMostDigitBits);
     Places place{};
     for (const TrianglePair& pair : from) ++place[digit(pair)];
     std::uint32_t next = 0;
@@ -67,6 +69,7 @@ void sort_by_a(std::span<TrianglePair> pairs, std::span<TrianglePair> other) noe
 /// As many as the scratch holds. A triangle seldom overlaps many: once the pairs stand
 /// by A's triangle, what is left are short runs.
 void sort_few(std::span<TrianglePair> pairs, SortScratch& scratch) noexcept {
+    assert(pairs.size() <= scratch.size());
     sort_by_a(pairs, std::span(scratch).first(pairs.size()));
     for (auto first = pairs.begin(); first != pairs.end();) {
         const auto last = std::find_if(

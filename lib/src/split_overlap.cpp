@@ -39,6 +39,7 @@ public:
         return size_;
     }
     [[nodiscard]] PendingPair operator[](std::size_t i) const noexcept {
+        assert(i < size_);
         return PendingPair::unpacked(places_[i]);
     }
 
@@ -160,6 +161,7 @@ void walk_shares(const Question& question, const Places& places, Shares& shares,
 
 void sort_shared(std::span<TrianglePair> pairs, std::span<Workspace> workspaces,
                  ParallelFor parallel_for) noexcept {
+    assert(!workspaces.empty());
     SortScratch& scratch = workspaces[0].storage().sort_scratch;
     if (pairs.size() <= scratch.size() || workspaces.size() == 1) {
         return sort_pairs(pairs, scratch);

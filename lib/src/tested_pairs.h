@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -35,6 +36,7 @@ public:
     /// pending was settled, or else never for these two.
     [[nodiscard]] Held hold(std::uint32_t leaf_a, std::uint32_t leaf_b,
                             std::uint64_t bits) noexcept {
+        assert(question_ > 0);
         const std::uint64_t key = key_of(leaf_a, leaf_b);
         const std::size_t bucket = bucket_of(key);
         std::size_t way = way_of(bucket, key);
@@ -63,6 +65,7 @@ public:
 
     /// For tests: how many buckets are used, one at least.
     void limit(std::size_t buckets) noexcept {
+        assert(buckets > 0 && buckets <= kBuckets);
         limit_ = buckets;
     }
 
@@ -75,6 +78,7 @@ private:
     static constexpr std::uint64_t kQuestions = 64;
 
     [[nodiscard]] std::uint64_t key_of(std::uint32_t leaf_a, std::uint32_t leaf_b) const noexcept {
+        assert(leaf_a >> kLeafBits == 0 && leaf_b >> kLeafBits == 0);
         return question_ << (2 * kLeafBits + 2) | std::uint64_t{leaf_a} << kLeafBits | leaf_b;
     }
     [[nodiscard]] std::size_t bucket_of(std::uint64_t key) const noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tetra_cones.h"
 
+#include <cassert>
 #include <optional>
 
 #include "cone_faces.h"
@@ -256,6 +257,7 @@ Generator twice(const Generator& a) noexcept {
 }  // namespace
 
 TetraCone tetra_cone(std::uint32_t key) noexcept {
+    assert(key >= 8 && tetra_level(key) <= format::kMaxTetraLevel);
     const std::uint32_t level = tetra_level(key);
     const std::uint32_t octant = key >> (2 * level);
     const auto axis_sign = [&](std::uint32_t axis) { return (octant >> axis & 1U) != 0 ? -1 : 1; };
@@ -294,6 +296,7 @@ ConeFaces cone_faces(const TetraCone& cone) noexcept {
         const Generator& b = cone.generator[(k + 1) % 3];
         const Generator& c = cone.generator[(k + 2) % 3];
         // Neighbours on the face's grid share one coordinate.
+        assert(b[0] == c[0] || b[1] == c[1] || b[2] == c[2]);
         std::size_t axis = 0;
         while (b[axis] != c[axis]) ++axis;
         const std::int32_t steps = std::abs(b[axis]);
@@ -304,6 +307,7 @@ ConeFaces cone_faces(const TetraCone& cone) noexcept {
 }
 
 std::uint32_t tetra_key(const Double3& centre, const Double3& p, std::uint32_t level) noexcept {
+    assert(level <= format::kMaxTetraLevel);
     const std::uint32_t key = inner_cone(seen_point(centre, p, 1), level);
     return key != 0 && tetra_level(key) == level ? key : exact_key(centre, p, level);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 
 #include "cell_bounds.h"
@@ -43,12 +44,14 @@ public:
     [[nodiscard]] unsigned lanes(const Cell& cell) const noexcept {
         if (cell.node == kAboveRoots) return (1U << octants_) - 1;
         const format::TetraNode& node = nodes_[cell.node];
+        assert((node.flags & format::tetra_inner) != 0 && node.count <= 4);
         return ((1U << node.count) - 1) << node.first % format::kTetraBoxStride;
     }
     [[nodiscard]] Cell child(const Cell& cell, unsigned lane) const noexcept {
         return {first_box(cell) * format::kTetraBoxStride + lane};
     }
     [[nodiscard]] bool is_leaf(const Cell& cell) const noexcept {
+        assert(cell.node != kAboveRoots);
         const format::TetraNode& node = nodes_[cell.node];
         return (node.flags & format::tetra_inner) == 0 || node.key >= first_key_of(detail_.level);
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "cdprep/structure.h"
@@ -71,6 +72,7 @@ public:
         SomeChildren<CellA> side_a = {a_.top(), a_.lanes(a_.top())};
         SomeChildren<CellB> side_b = {b_.top(), b_.lanes(b_.top())};
         for (;;) {
+            assert(depth < kMostSteps);
             Step& step = steps_[depth];
             open(side_a, side_b, step);
             if (!take_leaves(step, leaf)) return false;
@@ -80,6 +82,7 @@ public:
                 bit = first_of(steps_[--depth].pairs);
             }
             Step& top = steps_[depth];
+            assert((top.pairs >> bit & 1) != 0);
             choose(top, bit, side_a, side_b);
             top.pairs &= ~(kernels::BoxPairs{1} << bit);
             if (top.pairs != 0) ++depth;
@@ -136,6 +139,7 @@ private:
 
     void open(const SomeChildren<CellA>& side_a, const SomeChildren<CellB>& side_b,
               Step& step) noexcept {
+        assert(side_a.lanes <= 0xff && side_b.lanes <= 0xff);
         step.a = side_a.parent;
         step.b = side_b.parent;
         step.pairs = 0;

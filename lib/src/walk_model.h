@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <cstdint>
 
 #include "walk_pairs.h"
@@ -23,6 +24,7 @@ struct TriangleRun {
 };
 
 inline TriangleRun triangles_below(const Tree& tree, const TreePlace& place) noexcept {
+    assert(place.height <= tree.shape.levels);
     std::uint64_t size = format::kBvhWidth;
     for (std::uint32_t i = 0; i < place.height; ++i) size *= format::kBvhWidth;
     const std::uint64_t all = tree.triangles;
@@ -49,10 +51,12 @@ bool walk_nodes(const Model& model, Workspace::Storage& scratch, Judge&& judge, 
         }
         const TestedBoxes boxes = boxes_of(tree, place, true);
         const BoxVerdict verdict = judge(tree.nodes[boxes.node]);
+        assert(verdict.near <= 0xff && verdict.inside <= 0xff);
         for (unsigned bits = verdict.near & chosen(boxes); bits != 0; bits &= bits - 1) {
             const auto box = static_cast<std::uint32_t>(std::countr_zero(bits));
             const TreePlace below{boxes.first_below.height, boxes.first_below.index + box};
             if (((verdict.inside >> box) & 1) == 0) {
+                assert(depth < scratch.pending.size());
                 scratch.pending[depth++] = PendingPair{below, {0, 0}}.packed();
             } else if (!whole(triangles_below(tree, below))) {
                 return false;

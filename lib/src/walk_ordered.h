@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 
 #include "walk_pairs.h"
@@ -27,6 +28,7 @@ void walk_ordered(const Model& model, Workspace::Storage& scratch, double limit,
             continue;
         }
         const TestedBoxes boxes = boxes_of(tree, {top.height, top.index}, true);
+        assert(depth + (boxes.last - boxes.first) <= scratch.bounded.size());
         const auto first = scratch.bounded.begin() + static_cast<std::ptrdiff_t>(depth);
         auto last = first;
         for (std::uint32_t box = boxes.first; box < boxes.last; ++box) {

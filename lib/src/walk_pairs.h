@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -27,6 +28,8 @@ struct PendingPair {
     TreePlace b;
 
     [[nodiscard]] std::uint64_t packed() const noexcept {
+        assert(a.height < 16 && a.index < (1U << 28));
+        assert(b.height < 16 && b.index < (1U << 28));
         const std::uint64_t half_a = std::uint64_t{a.height} << 28 | a.index;
         const std::uint64_t half_b = std::uint64_t{b.height} << 28 | b.index;
         return half_a << 32 | half_b;
@@ -78,12 +81,15 @@ struct TestedBoxes {
 inline TestedBoxes boxes_of(const Tree& tree, const TreePlace& place, bool descend) noexcept {
     const format::BvhShape& shape = tree.shape;
     if (descend) {
+        assert(place.height > 0 && place.height <= shape.levels);
+        assert(place.index < shape.count[place.height - 1]);
         const std::uint32_t level = place.height - 1;
         return {shape.first[level] + place.index,
                 0,
                 shape.used_boxes(level, place.index),
                 {level, place.index * format::kBvhWidth}};
     }
+    assert(place.height < shape.levels);  // a root has no siblings
     const std::uint32_t box = place.index % format::kBvhWidth;
     const std::uint32_t parent = place.index / format::kBvhWidth;
     return {shape.first[place.height] + parent,
@@ -95,6 +101,7 @@ inline TestedBoxes boxes_of(const Tree& tree, const TreePlace& place, bool desce
 /// Half the sum of the edges of a place's box, in pair units.
 inline float box_size(const Tree& tree, const TreePlace& place, float scale) noexcept {
     const format::BvhShape& shape = tree.shape;
+    assert(place.height <= shape.levels);
     if (place.height == shape.levels) return 3 * scale;  // the root fills the frame
     const format::BvhNode& node =
         tree.nodes[shape.first[place.height] + place.index / format::kBvhWidth];
@@ -125,6 +132,7 @@ template <class Sizes>
 WaysDown choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
                         Sizes sizes) noexcept {
     constexpr float kSimilar = 2.5F;
+    assert(pair.a.height > 0 || pair.b.height > 0);
     const bool a_can = pair.a.height > 0;
     const bool b_can = pair.b.height > 0;
     if (pair.a.height == a.shape.levels || pair.b.height == b.shape.levels) {
@@ -162,6 +170,7 @@ inline void prefetch_children(const Tree& tree, const TreePlace& below, unsigned
     const std::uint32_t first = tree.shape.first[below.height - 1] + below.index;
     for (; bits != 0; bits &= bits - 1) {
         const std::uint32_t index = first + static_cast<std::uint32_t>(std::countr_zero(bits));
+        assert(index < tree.shape.node_count);
         prefetch(&tree.nodes[index]);
         if (tree.oriented != nullptr) {
             prefetch(&tree.oriented[index]);
@@ -211,6 +220,7 @@ inline kernels::BoundTests tests_for(const Tree& a, const Tree& b, Prefer prefer
 }
 
 inline std::uint8_t chosen(const TestedBoxes& side) noexcept {
+    assert(side.first < side.last && side.last <= format::kBvhWidth);
     return static_cast<std::uint8_t>((1U << side.last) - (1U << side.first));
 }
 
@@ -246,6 +256,7 @@ void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed,
 }
 
 inline unsigned first_of(kernels::BoxPairs pairs) noexcept {
+    assert(pairs != 0);
     return static_cast<unsigned>(std::countr_zero(pairs));
 }
 
@@ -276,6 +287,7 @@ template <Search kSearch, class Reach>
 bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& a, const Tree& b,
                      const PlacedBoxes& placed, Workspace::Storage& scratch,
                      Reach&& reach) noexcept {
+    assert(a.triangles > 0 && b.triangles > 0);
     if (is_down_at(start.packed(), floor)) return reach(start);
     const kernels::BoundTests tests = tests_for(a, b, Prefer::oriented);
     kernels::BoxDepths depths;
@@ -293,6 +305,7 @@ bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& 
         const WaysDown descent = choose_descent(a, b, pair, [&] {
             return SizePair{next.size_a, next.size_b};
         });
+        assert(depth < scratch.open_steps.size());
         OpenStep& step = scratch.open_steps[depth];
         if (scratch.counts != nullptr) count_step(a, b, pair, descent, *scratch.counts);
         open_step<kSearch>(a, b, placed, tests, pair, descent, step, depths);

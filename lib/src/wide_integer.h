@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -64,6 +65,7 @@ public:
     [[nodiscard]] static WideInteger from_double(double value,
                                                  int lowest = kLowestExponent) noexcept {
         static_assert(kLimbs >= kWideCoordinate);
+        assert(lowest <= lowest_bit(value));
         WideInteger result;
         result.take(wide_from_double(value, lowest, result.limb_.data()));
         return result;
@@ -107,6 +109,7 @@ public:
         return limb_.data();
     }
     void take(const WideSize& size) noexcept {
+        assert(size.size <= kLimbs);
         size_ = size.size;
         negative_ = size.negative;
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -59,6 +60,7 @@ struct OpenStep {
     kernels::BoxSizes sizes;
 
     [[nodiscard]] OpenedPair take(unsigned bit) noexcept {
+        assert(bit < 64 && (pairs >> bit & 1) != 0);
         const std::uint64_t i = bit % format::kBvhWidth;
         const std::uint64_t j = bit / format::kBvhWidth;
         pairs &= ~(kernels::BoxPairs{1} << bit);
