@@ -83,6 +83,17 @@ SectionList ModelArrays::sections(format::SectionSet wanted) const {
     return list;
 }
 
+namespace {
+
+/// The hook runs in the caller's environment, which the builders below would not see.
+BvhOptions guarded_options(const BvhOptions& options, const GuardedFor& guarded) {
+    BvhOptions inner = options;
+    inner.parallel_for = guarded;
+    return inner;
+}
+
+}  // namespace
+
 ModelArrays arrange_model(std::span<const Double3> positions, std::span<const Triangle> triangles,
                           Bvh bvh, Precision precision, ParallelFor parallel_for) {
     format::FloatEnvironment environment;
@@ -106,21 +117,25 @@ ModelArrays arrange_model(std::span<const Double3> positions, std::span<const Tr
 
 Result<ModelArrays> build_model(std::span<const Double3> positions,
                                 std::span<const Triangle> triangles, const BvhOptions& options) {
-    const format::FloatEnvironment environment;
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, options.parallel_for);
     if (const auto fault = find_fault(positions, triangles)) return *fault;
-    return arrange_model(positions, triangles, build_bvh(positions, triangles, options),
-                         Precision::double_precision, options.parallel_for);
+    return arrange_model(positions, triangles,
+                         build_bvh(positions, triangles, guarded_options(options, guarded)),
+                         Precision::double_precision, guarded);
 }
 
 Result<ModelArrays> build_model(std::span<const Float3> positions,
                                 std::span<const Triangle> triangles, const BvhOptions& options) {
-    const format::FloatEnvironment environment;
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, options.parallel_for);
     if (const auto fault = find_fault(positions, triangles)) return *fault;
     std::vector<Double3> doubles;
     doubles.reserve(positions.size());
     for (const Float3& p : positions) doubles.push_back(as_double(p));
-    return arrange_model(doubles, triangles, build_bvh(doubles, triangles, options),
-                         Precision::single_precision, options.parallel_for);
+    return arrange_model(doubles, triangles,
+                         build_bvh(doubles, triangles, guarded_options(options, guarded)),
+                         Precision::single_precision, guarded);
 }
 
 }  // namespace cdprep::build

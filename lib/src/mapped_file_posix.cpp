@@ -43,7 +43,7 @@ struct OpenFile {
     std::optional<Error> error;
 
     explicit OpenFile(const std::filesystem::path& path)
-        : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+        : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
         struct stat status {};
         if (descriptor.number() < 0) {
             error =

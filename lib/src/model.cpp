@@ -33,10 +33,12 @@ struct Model::State {
 
     void find_sections(SectionSet wanted);
 
-    /// A model without triangles has no leaves, and none that lose anything. Reads the header,
-    /// which a RuntimeModel changes.
+    /// A model without triangles has no leaves. Reads the header, which a RuntimeModel changes.
+    [[nodiscard]] bool is_exact() const noexcept {
+        return (header->flags & format::model_exact_leaves) != 0 && header->triangle_count > 0;
+    }
     [[nodiscard]] bool has_exact_leaves() const noexcept {
-        return (header->flags & format::model_exact_leaves) != 0 && !bvh.leaves.empty();
+        return is_exact() && !bvh.leaves.empty();
     }
 
 private:
@@ -93,7 +95,7 @@ Error damaged(std::string_view name, const format::Damage& damage) {
 }  // namespace
 
 Model::Model(std::unique_ptr<State> state) noexcept
-    : state_(std::move(state)), served_(served_by(state_->sections, state_->has_exact_leaves())) {}
+    : state_(std::move(state)), served_(served_by(state_->sections, state_->is_exact())) {}
 Model::Model(Model&& other) noexcept
     : state_(std::move(other.state_)), served_(std::exchange(other.served_, Ask::nothing)) {}
 Model& Model::operator=(Model&& other) noexcept {
@@ -176,7 +178,7 @@ std::optional<Refusal> Model::refusal(Ask asks) const {
     if (state_ == nullptr) {
         return Refusal{Reason::not_opened, "The model was moved away: it can be asked nothing."};
     }
-    const bool exact_leaves = (state_->header->flags & format::model_exact_leaves) != 0;
+    const bool exact_leaves = state_->is_exact();
     const Ask refused = without(asks, served_);
     const Ask missing = without(refused, served_by(state_->in_file, exact_leaves));
     if (missing == Ask::nothing) {

@@ -3,11 +3,13 @@
 
 #include <cassert>
 
+#include "core/require.h"
 #include "piece_parts.h"
 
 namespace cdprep {
 
 FeatureHull feature_hull(const Model& model, std::uint32_t piece) noexcept {
+    require(model, Ask::pieces);
     assert(piece < model.pieces().pieces.size());
     FeatureHull hull;
     hull.points.corners =

@@ -58,7 +58,8 @@ bool any_overlap_through(const StructureOptions& through, const Model& a, const 
                          const Placement& placement, Workspace& workspace,
                          const OverlapOptions& options, PieceCache* cache) noexcept {
     const format::FloatEnvironment environment;
-    require(a, b, Ask::overlap | ask_of(through.structure));
+    // No triangle is named, so their numbers are not needed.
+    require(a, b, Ask::collide | ask_of(through.structure));
     if (through.structure == Structure::bvh) {
         PairCache* pair = cache == nullptr ? nullptr : &cache->pair;
         return any_contact(a, b, placement, workspace, options, pair);

@@ -69,7 +69,9 @@ def main():
                                False),
                               (["overlap", *pair], False),
                               (["inside", baked["collide"], "--points", folder / "points"], True),
-                              (["inside", baked["ray"], "--points", folder / "points"], False),
+                              (["inside", baked["ray"], "--points", folder / "points"], True),
+                              (["inside", baked["response"], "--points", folder / "points"],
+                               False),
                               (["ray", baked["ray"], "--rays", folder / "rays"], True),
                               (["closest", baked["inside"], "--points", folder / "points"], False),
                               (["closest", baked["response"], "--points", folder / "points"],
@@ -86,6 +88,12 @@ def main():
     bake(program, folder / "sheet.off", "-o", everything, "--effects", "all")
     missing = (GEOMETRY - {"degenerate_bits"} | {"components", "source_triangle"}) - sections(program, everything)
     must(not missing, f"--effects all left {missing} out")
+    for arguments in (["overlap", everything, everything, "--as", "solid"],
+                      ["collide", everything, everything, "--structure", "octree"],
+                      ["collide", everything, everything, "--structure", "pieces"]):
+        done = run(program, "query", *arguments)
+        must(done.returncode == 0, f"query {arguments} exited {done.returncode}: {done.stderr}")
+
     for effects in ("colide", "collide,,overlap", "collide, overlap"):
         done = run(program, "bake", folder / "sheet.off", "-o", everything, "--effects", effects)
         must(done.returncode == 2 and "overlap" in done.stderr, f"{effects}: {done.stderr}")

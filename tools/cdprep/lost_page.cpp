@@ -144,8 +144,8 @@ void on_bus_error(int signal, siginfo_t* info, void* /*context*/) {
     line.add("cdprep: ");
     line.add(path.size > 0 ? without_deleted(path.text()) : "a file that was read");
     line.add(
-        ": was truncated, or could not be read any more, while it was in use; the output is not "
-        "complete. Restore the file, and run the command again.\n");
+        ": was truncated or became unreadable while in use. The output is incomplete. "
+        "Restore the file and run the command again.\n");
     line.write();
     ::_exit(static_cast<int>(Exit::unreadable));
 }

@@ -354,12 +354,13 @@ Exit run_hulls(const Arguments& arguments) {
 
 /// What both models must serve.
 Ask asks_of(const Arguments& arguments) {
-    const Ask solid = arguments.as == "solid" ? Ask::solid : Ask::nothing;
+    const bool is_solid = arguments.as == "solid";
+    const Ask solid = is_solid ? Ask::solid : Ask::nothing;
     switch (arguments.question) {
         case Question::collide:
             return Ask::collide | solid;
-        case Question::overlap:
-            return Ask::overlap;
+        case Question::overlap:  // whether solids overlap is what collide() answers
+            return is_solid ? Ask::overlap | Ask::collide | Ask::solid : Ask::overlap;
         case Question::distance:
             return Ask::distance | solid;
         default:

@@ -51,7 +51,7 @@ enum class Ask : std::uint32_t {
     return (a & b) == b;
 }
 
-/// What a question reads of the vertices.
+/// Vertex data that a query requires.
 enum class Vertices : std::uint8_t {
     none,
     corners,    ///< positions and triangles, or leaves that hold the corners without loss

@@ -23,7 +23,7 @@ namespace cdprep {
 
 /// Returns whether any two triangles overlap; stops at the first pair found. `cache` may be
 /// null; Structure::bvh and Structure::pieces start from it, the others leave it alone. Needs
-/// what overlapping_triangles_through() needs.
+/// Ask::collide and ask_of(through.structure) of both models.
 [[nodiscard]] bool any_overlap_through(const StructureOptions& through, const Model& a,
                                        const Model& b, const Placement& placement,
                                        Workspace& workspace, const OverlapOptions& options = {},

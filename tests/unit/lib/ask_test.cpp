@@ -155,6 +155,24 @@ TEST(Refusal, OfABitThatThisVersionDoesNotKnowSaysSo) {
     EXPECT_NE(refused->message.find("does not know"), std::string::npos);
 }
 
+// Flags of leaves mean nothing where there are none: what is missing is the corners.
+TEST(Refusal, OfAnEmptyModelNamesTheMissingSections) {
+    const auto empty = bake_tiny({}, {});
+    const auto opened = Model::open(
+        empty.span(), {SectionId::bvh_nodes, SectionId::bvh_leaves, SectionId::source_triangle});
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    const auto refused = opened->refusal(Ask::overlap);
+    ASSERT_TRUE(refused);
+    EXPECT_NE(refused->message.find("positions, triangles"), std::string::npos) << refused->message;
+}
+
+// Contacts look up corners by number, also where leaves hold the corners without loss.
+TEST(Needs, ContactsAreNotServedWithoutTriangles) {
+    SectionSet sections = sections_for(Ask::contacts);
+    sections.erase(SectionId::triangles);
+    EXPECT_FALSE(contains(served_by(sections, true), Ask::contacts));
+}
+
 TEST(Refusal, OfAModelThatWasMovedAwayIsASentence) {
     auto open = test::open_tiny(baked_cube());
     const Model taken = std::move(open.model);

@@ -18,7 +18,8 @@ constexpr format::SectionSet kWanted = {
     SectionId::bvh_leaves,     SectionId::source_triangle, SectionId::pieces,
     SectionId::piece_vertices, SectionId::piece_triangles, SectionId::piece_facets,
     SectionId::triangle_piece, SectionId::piece_adjacency, SectionId::edge_convexity,
-    SectionId::source_vertex};
+    SectionId::source_vertex,  SectionId::piece_nodes,     SectionId::piece_leaves,
+    SectionId::piece_swept,    SectionId::piece_node_hulls};
 
 std::vector<Contact> all_contacts(const Model& a, const Model& b, const Placement& placement,
                                   Workspace& workspace) {

@@ -424,5 +424,20 @@ TEST(OverlapThroughLaws, ReadOnlyTheSectionsThatTheyName) {
     }
 }
 
+// A model overlaps itself; that no triangle is named makes their numbers needless.
+TEST(OverlapThroughLaws, WhetherAnyOverlapNeedsNoNumbersOfTriangles) {
+    const TestMesh mesh = icosphere(2);
+    const AlignedBytes plain =
+        bake_tiny(mesh.positions, mesh.triangles, {.leave_out = {SectionId::source_triangle}});
+    const OpenModel model = open_tiny(with_octree(plain, {.hashed = true}));
+    ASSERT_FALSE(model.model.serves(Ask::overlap));
+    Workspace workspace;
+    for (const Structure structure :
+         {Structure::bvh, Structure::octree, Structure::hashed_octree}) {
+        EXPECT_TRUE(any_overlap_through({.structure = structure}, model.model, model.model,
+                                        Placement::b_moves(Pose()), workspace));
+    }
+}
+
 }  // namespace
 }  // namespace cdprep::test
