@@ -49,9 +49,10 @@ public:
     template <class Visit>
     bool any(Visit&& visit) const noexcept {
         for (const TetraNode& node : nodes_) {
-            if (node.key >= first_key_of(level_ + 1)) break;
+            const std::uint32_t level = format::tetra_level(node.key);
+            if (level > level_) break;
             const bool is_split = (node.flags & format::tetra_inner) != 0;
-            if (is_split && node.key < first_key_of(level_)) continue;
+            if (is_split && level < level_) continue;
             if (visit(node)) return true;
         }
         return false;

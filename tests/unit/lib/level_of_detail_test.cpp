@@ -166,5 +166,13 @@ TEST(LevelOfDetail, AnyScale) {
     }
 }
 
+// Facets of a curved surface never agree; the keys of the deepest level fill 32 bits.
+TEST(LevelOfDetail, TheDeepestLevelThatAKeyHoldsHasFacets) {
+    const OpenModel sphere = with_cones(icosphere(2), format::kMaxTetraLevel);
+    const double error = level_error(sphere.model, format::kMaxTetraLevel);
+    EXPECT_GT(error, 0);
+    EXPECT_LE(error, level_error(sphere.model, format::kMaxTetraLevel - 1));
+}
+
 }  // namespace
 }  // namespace cdprep::test
