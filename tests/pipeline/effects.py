@@ -81,7 +81,8 @@ def main():
              f"query {arguments} exited {done.returncode}: {done.stderr}")
         if not served:
             must("--effects" in done.stderr and len(done.stderr.splitlines()) == 1
-                 and ("source_triangle" in done.stderr or "components" in done.stderr),
+                 and any(name in done.stderr
+                         for name in ("source_triangle", "components", "bvh_nodes")),
                  f"the sentence names no section: {done.stderr}")
 
     everything = folder / "all.cdp.h5"
