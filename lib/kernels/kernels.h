@@ -230,8 +230,8 @@ struct BoundTests {
                      const BoxChoice& choice, const Reach& reach, BoxPairFloats& gaps) noexcept;
 };
 
-/// What points are held against: moved to rotation * p + translation, as cdprep::transform_point()
-/// does, they are so far along `direction` from `origin`.
+/// The motion that points are tested under: they move to rotation * p + translation, as
+/// cdprep::transform_point() does, and are then so far along `direction` from `origin`.
 struct MovedDirection {
     double rotation[9];
     double translation[3];

@@ -37,12 +37,12 @@ struct Distance {
 /// Returns how far two surfaces are apart, or nothing when that is more than
 /// `max_distance` or a model is empty.
 ///
-/// Surfaces that touch are 0 apart, exactly, with a common point as witness; so
-/// are none else, but with Body::solid models of which one is proved inside the other:
-/// their witnesses are still the surfaces' nearest points. Of pairs of triangles with equal `upper`
-/// the one with the lowest numbers answers; of pairs that are equally near in exact numbers, whose
-/// `upper` may differ in the last bits, any may, and always the same. With Body::surface a small
-/// model inside a large one is as far away as its walls are.
+/// The distance is 0 exactly if the surfaces touch, with a common point as witness, or if, with
+/// Body::solid, one model is proved inside the other. Its witnesses are then the surfaces' nearest
+/// points. Of pairs of triangles with equal `upper` the one with the lowest numbers answers; of
+/// pairs that are equally near in exact numbers, whose `upper` may differ in the last bits, any
+/// may, and always the same. With Body::surface a small model inside a large one is as far away as
+/// its walls are.
 ///
 /// The interval holds the distance between the vertices as `placement` moves them
 /// (level E1). Without permitted errors it is at most 1e-12 of the distance plus

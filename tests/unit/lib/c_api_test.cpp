@@ -128,7 +128,7 @@ TEST(CApi, ManyLanesGetTheAnswersOfOne) {
     EXPECT_GT(tasks, 8u * 7u);
 }
 
-/// Runs some tasks twice, some never, and one that is none.
+/// Runs some tasks twice, some never, and one number past the last.
 void run_badly(void* /*context*/, std::size_t count, cdprep_task task, const void* work) {
     for (std::size_t i = 0; i < count; i += 2) task(work, i);
     for (std::size_t i = 0; i < count; i += 2) task(work, i);

@@ -131,7 +131,9 @@ TEST(Model, CopyIsAlignedAsSectionsAre) {
 TEST(Model, CopyOfAFileThatEndsEarlyIsRefused) {
     const fs::path path = "/sys/kernel/mm/transparent_hugepage/enabled";
     std::error_code none;
-    if (!fs::is_regular_file(path, none) || fs::file_size(path, none) != 4096) GTEST_SKIP();
+    if (!fs::is_regular_file(path, none) || fs::file_size(path, none) != 4096) {
+        GTEST_SKIP() << "this system has no file that is shorter than it says";
+    }
     const Result<Model> copied = Model::open(path, {.mode = OpenMode::copy});
     ASSERT_FALSE(copied);
     EXPECT_EQ(copied.error().code, ErrorCode::unreadable);
