@@ -311,7 +311,7 @@ TEST_F(CHostile, DistanceOptionsAreCheckedFieldByField) {
     expect_refused(right, all, ask);
 }
 
-// Zeros but for the size and one field found nothing for models that were 450 apart.
+// A struct of zeros has max_distance 0: models 450 apart would count as not found.
 TEST_F(CHostile, ZeroedOptionsAreNeverReadAsNothing) {
     cdprep_distance_options zeros{};
     zeros.head.size = sizeof zeros;
