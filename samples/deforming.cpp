@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/runtime_model.h"
+#include "cdprep/advanced/runtime_model.h"
+#include "cdprep/pairs.h"
 
 namespace {
 
@@ -73,9 +73,9 @@ int main() {
             std::cerr << cost.error().message << '\n';  // a vertex that is NaN, say: by number
             return 1;
         }
-        const std::size_t count =
-            cdprep::overlapping_triangles(object.value().model(), fixed_model.value(),
-                                          cdprep::Placement::b_moves({}), workspace, pairs);
+        const std::size_t count = cdprep::overlaps(
+            {object.value().model(), fixed_model.value(), cdprep::Placement::b_moves({})},
+            workspace, pairs);
         if (frame % 11 == 0) std::cout << "frame " << frame << ": " << count << " pairs\n";
     }
 }

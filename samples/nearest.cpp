@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "cdprep/closest_point.h"
+#include "cdprep/points.h"
 
 int main(int argc, char** argv) {
     if (argc != 5) {

@@ -6,7 +6,7 @@
 #include <iostream>
 #include <vector>
 
-#include "cdprep/collide.h"
+#include "cdprep/pairs.h"
 
 int main(int argc, char** argv) {
     if (argc != 3) {
@@ -28,9 +28,10 @@ int main(int argc, char** argv) {
             return 2;
         }
         const auto placement = cdprep::Placement::b_moves(pose.value());
-        const bool hit = cdprep::collide(a.value(), b.value(), placement, workspace).hit;
+        const bool hit = cdprep::collide({a.value(), b.value(), placement}, workspace).hit ==
+                         cdprep::Answer::yes;
         const std::size_t count =
-            cdprep::overlapping_triangles(a.value(), b.value(), placement, workspace, pairs);
+            cdprep::overlaps({a.value(), b.value(), placement}, workspace, pairs);
         std::cout << "x = " << x << ": " << (hit ? "collision" : "free") << ", " << count
                   << " overlapping pairs";
         for (std::size_t i = 0; i < std::min<std::size_t>({count, pairs.size(), 3}); ++i) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/build_adaptive_octree.h"
+#include "cdprep/advanced/build_adaptive_octree.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
 
-#include "cdprep/build_octree.h"
+#include "cdprep/advanced/build_octree.h"
 #include "cdprep/format/float_environment.h"
 #include "cell_boxes.h"
 #include "choose_split.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 
+#include "cdprep/advanced/refit_bvh.h"
 #include "cdprep/format/float_environment.h"
-#include "cdprep/refit_bvh.h"
 #include "frame_map.h"
 #include "guarded_for.h"
 #include "lanes.h"

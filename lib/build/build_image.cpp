@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/build_image.h"
+#include "cdprep/advanced/build_image.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/build_model.h"
+#include "cdprep/advanced/build_model.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/build_tetra_tree.h"
+#include "cdprep/advanced/build_tetra_tree.h"
 
 #include <bit>
 #include <cassert>
 #include <limits>
 #include <memory>
 
-#include "cdprep/build_octree.h"
+#include "cdprep/advanced/build_octree.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/octree.h"
 #include "chunks.h"

@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/build_adaptive_octree.h"
-#include "cdprep/build_octree.h"
+#include "cdprep/advanced/build_adaptive_octree.h"
+#include "cdprep/advanced/build_octree.h"
 
 namespace cdprep::build {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/bvh_shape.h"
-#include "cdprep/parallel_for.h"
 
 namespace cdprep::build {
 

@@ -5,7 +5,7 @@
 #include <cassert>
 
 #include "cdprep/format/float_environment.h"
-#include "cdprep/mesh_arrays.h"
+#include "cdprep/advanced/mesh_arrays.h"
 #include "chunks.h"
 #include "frame_map.h"
 #include "guarded_for.h"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/geometry.h"
-#include "cdprep/parallel_for.h"
 
 namespace cdprep::build {
 

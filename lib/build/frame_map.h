@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 
 namespace cdprep::build {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 
 namespace cdprep::build {
 

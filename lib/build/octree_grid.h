@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "lanes.h"
 #include "octree_cells.h"
 

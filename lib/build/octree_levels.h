@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/build_octree.h"
+#include "cdprep/advanced/build_octree.h"
 
 namespace cdprep::build {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cdprep/build_octree.h"
+#include "cdprep/advanced/build_octree.h"
 
 namespace cdprep::build {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 #include "cdprep/format/pieces.h"
 
 namespace cdprep::build {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/runtime_model.h"
+#include "cdprep/advanced/runtime_model.h"
 
 #include <algorithm>
 #include <array>

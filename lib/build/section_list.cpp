@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/section_list.h"
+#include "cdprep/advanced/section_list.h"
 
 namespace cdprep::build {
 

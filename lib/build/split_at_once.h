@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cone_children.h"
 
 namespace cdprep::build {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cdprep/build_tetra_tree.h"
+#include "cdprep/advanced/build_tetra_tree.h"
 #include "cone_children.h"
 
 namespace cdprep::build {

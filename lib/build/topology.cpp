@@ -6,9 +6,9 @@
 #include <limits>
 #include <numeric>
 
-#include "cdprep/disjoint_sets.h"
+#include "cdprep/advanced/disjoint_sets.h"
 #include "cdprep/format/float_environment.h"
-#include "cdprep/mesh_arrays.h"
+#include "cdprep/advanced/mesh_arrays.h"
 
 namespace cdprep::build {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/mesh_arrays.h"
+#include "cdprep/advanced/mesh_arrays.h"
 
 namespace cdprep::build {
 

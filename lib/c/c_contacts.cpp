@@ -79,18 +79,15 @@ int read(Call& call, const cdprep_contact_options* given,
 template <class Take>
 bool visit_all(const AskedPair& asked, const cdprep_contact_options& options, Workspace& scratch,
                Take&& take) noexcept {
-    ContactOptions wanted;
-    wanted.manifold = options.manifold == 0 ? Manifold::none : Manifold::four;
-    wanted.degenerate = asked.options.degenerate;
-    wanted.structure = asked.through.structure;
+    const ContactOptions wanted = {options.tolerance,
+                                   options.manifold == 0 ? Manifold::none : Manifold::four};
     std::uint64_t seen = 0;
     const auto visit = [&](const Contact& contact) {
         if (options.work != 0 && seen == options.work) return false;
         ++seen;
         return take(in_c(contact));
     };
-    return visit_contacts(*asked.a, *asked.b, asked.placement, options.tolerance, scratch, visit,
-                          wanted);
+    return visit_contacts(asked.pair(), scratch, visit, wanted);
 }
 
 /// Visitors call it in the caller's floating-point environment.

@@ -6,9 +6,9 @@
 
 #include "c/c_mesh.h"
 #include "c/c_model.h"
+#include "cdprep/advanced/level_of_detail.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/sections.h"
-#include "cdprep/level_of_detail.h"
 
 namespace cdprep::c {
 namespace {

@@ -3,9 +3,8 @@
 #include <optional>
 
 #include "c/c_pairs.h"
-#include "cdprep/convex_penetration.h"
-#include "cdprep/model_hulls.h"
-#include "cdprep/model_pieces.h"
+#include "cdprep/advanced/convex_penetration.h"
+#include "cdprep/hulls.h"
 #include "piece_parts.h"
 
 namespace cdprep::c {

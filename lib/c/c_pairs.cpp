@@ -6,10 +6,9 @@
 
 #include "c/pair_answers.h"
 #include "c/pair_cache_words.h"
-#include "cdprep/crossing_segments.h"
-#include "cdprep/level_of_detail.h"
-#include "cdprep/split_overlap.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/pairs.h"
+#include "cdprep/parallel.h"
 
 namespace cdprep::c {
 namespace {
@@ -122,7 +121,7 @@ int read_pair(Call& call, const Name& name, const PairQuestion& question, const 
     asked.options.overlap = pair.overlap == CDPREP_PROPER ? Overlap::proper : Overlap::closed;
     asked.options.degenerate =
         pair.degenerate == CDPREP_SKIP_DEGENERATE ? Degenerate::skip : Degenerate::keep;
-    asked.through.structure = structure_of(pair.through);
+    asked.options.through = structure_of(pair.through);
     asked.cache = pair.cache;
     return CDPREP_OK;
 }
@@ -176,7 +175,7 @@ int cdprep_containment(const cdprep_pair* pair, cdprep_workspace* workspace,
     return ask_pair(cdprep::c::kContainment, pair, workspace, collision, "collision", error,
                     nothing_to_check, [&](const AskedPair& asked, Workspace& scratch) {
                         *collision = cdprep::c::in_c(
-                            false, find_containment(*asked.a, *asked.b, asked.placement, scratch));
+                            false, containment(asked.pair(), scratch));
                     });
 }
 
@@ -186,7 +185,7 @@ int cdprep_collide_at_level(const cdprep_pair* pair, uint32_t level, cdprep_work
         cdprep::c::kCollideAtLevel, pair, workspace, hit, "hit", error, nothing_to_check,
         [&](const AskedPair& asked, Workspace& scratch) {
             *hit = cdprep::c::word(
-                collide_at_level(*asked.a, *asked.b, asked.placement, level, scratch).answer);
+                collide_at_level(asked.pair(), level, scratch).answer);
         });
 }
 
@@ -207,9 +206,8 @@ int cdprep_overlaps_split(const cdprep_pair* pair, cdprep_workspace* workspace,
         [&](Call& call) { return check_list(call, {"list"}, *list); },
         [&](const AskedPair& asked, Workspace& /*scratch*/) {
             const cdprep::c::CallersThreads threads(*workspace);
-            list->count =
-                split_overlapping_triangles(*asked.a, *asked.b, asked.placement, workspace->lanes,
-                                            threads, room_of(*list), asked.overlap());
+            list->count = split_overlaps(asked.pair(),
+                                         workspace->lanes, threads, room_of(*list));
         });
 }
 
@@ -222,8 +220,9 @@ int cdprep_overlaps_visit(const cdprep_pair* pair, cdprep_workspace* workspace,
                             return visit(context, &overlap) != 0;
                         };
                         PairCacheWords cache(asked.cache);
-                        visit_overlapping_triangles(*asked.a, *asked.b, asked.placement, scratch,
-                                                    hand_on, asked.overlap(), cache.get());
+                        visit_overlaps(
+                            asked.with(cache),
+                            scratch, hand_on);
                     });
 }
 
@@ -251,8 +250,7 @@ int cdprep_crossings(const cdprep_pair* pair, cdprep_workspace* workspace,
                 ++count;
                 return true;
             };
-            visit_crossing_segments(*asked.a, *asked.b, asked.placement, scratch, take,
-                                    asked.overlap());
+            visit_crossings(asked.pair(), scratch, take);
             list->count = count;
         });
 }
@@ -265,8 +263,8 @@ int cdprep_crossings_visit(const cdprep_pair* pair, cdprep_workspace* workspace,
                             const cdprep_crossing crossing = cdprep::c::crossing_of(found);
                             return visit(context, &crossing) != 0;
                         };
-                        visit_crossing_segments(*asked.a, *asked.b, asked.placement, scratch,
-                                                hand_on, asked.overlap());
+                        visit_crossings(asked.pair(),
+                                        scratch, hand_on);
                     });
 }
 
@@ -319,7 +317,7 @@ int cdprep_pairs_within_visit(const cdprep_pair* pair, double tolerance,
                 const cdprep_overlap overlap = cdprep::c::overlap_of(found);
                 return visit(context, &overlap) != 0;
             };
-            visit_triangles_within(*asked.a, *asked.b, asked.placement, tolerance, scratch, hand_on,
-                                   {asked.options.degenerate});
+            visit_pairs_within(asked.pair(),
+                               tolerance, scratch, hand_on);
         });
 }

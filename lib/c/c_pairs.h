@@ -8,12 +8,12 @@
 #include "c/c_mesh.h"
 #include "c/c_model.h"
 #include "c/c_workspace.h"
+#include "c/pair_cache_words.h"
 #include "c/pose_input.h"
+#include "cdprep/advanced/structure.h"
 #include "cdprep/c/contacts.h"
 #include "cdprep/c/pairs.h"
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
-#include "cdprep/structure.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep::c {
 
@@ -65,15 +65,16 @@ struct AskedPair {
     const Model* a = nullptr;
     const Model* b = nullptr;
     Placement placement = Placement::b_moves(Pose());
-    CollideOptions options;
-    StructureOptions through;
+    PairOptions options;
     cdprep_cache* cache = nullptr;
 
-    [[nodiscard]] OverlapOptions overlap() const noexcept {
-        return {options.overlap, options.degenerate};
+    [[nodiscard]] Pair pair() const noexcept {
+        return {*a, *b, placement, options};
     }
-    [[nodiscard]] bool is_through_bvh() const noexcept {
-        return through.structure == Structure::bvh;
+    /// The same with a cache, where the answer is found through the BVH.
+    [[nodiscard]] Pair with(PairCacheWords& words) const noexcept {
+        const bool uses_cache = options.through == Structure::bvh;
+        return {*a, *b, placement, options, uses_cache ? words.get() : nullptr};
     }
 };
 

@@ -7,10 +7,8 @@
 #include <limits>
 
 #include "c/c_pairs.h"
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_point.h"
 #include "cdprep/format/float_environment.h"
-#include "cdprep/includes_through.h"
+#include "cdprep/points.h"
 #include "share_out.h"
 
 namespace cdprep::c {
@@ -314,8 +312,8 @@ int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* work
         },
         [](cdprep_point_state& to, const cdprep_point_query& asked, size_t i, Workspace& scratch) {
             const cdprep::Inclusion found =
-                includes_through(cdprep::c::structure_of(asked.through), asked.model->model,
-                                 cdprep::c::point_of(asked.points + 3 * i), scratch);
+                points_inside(asked.model->model, cdprep::c::point_of(asked.points + 3 * i),
+                              scratch, cdprep::c::structure_of(asked.through));
             to = {cdprep::c::word(found.answer), cdprep::c::word(found.on_surface), found.winding};
         });
 }

@@ -6,10 +6,7 @@
 #include "c/c_pairs.h"
 #include "cdprep/c/points.h"
 #include "cdprep/format/float_environment.h"
-#include "cdprep/touching_box.h"
-#include "cdprep/touching_capsule.h"
-#include "cdprep/touching_sphere.h"
-#include "cdprep/touching_triangle.h"
+#include "cdprep/points.h"
 
 namespace cdprep::c {
 
@@ -105,15 +102,31 @@ Double3 point_of(const double* numbers) noexcept {
     return {numbers[0], numbers[1], numbers[2]};
 }
 
+Shape shape_of(const cdprep_shape_query& query) noexcept {
+    switch (query.shape) {
+        case CDPREP_BOX:
+            return Box{point_of(query.a), point_of(query.b)};
+        case CDPREP_SPHERE:
+            return Sphere{point_of(query.a), query.radius};
+        case CDPREP_CAPSULE:
+            return Capsule{point_of(query.a), point_of(query.b), query.radius};
+        default:
+            return TriangleShape{{point_of(query.a), point_of(query.b), point_of(query.c)}};
+    }
+}
+
 /// A query whose every field was checked, but for what depends on the question.
 struct AskedShape {
     cdprep_shape_query query{};
-    TouchOptions options;
+    Shape shape;
+    ShapeOptions options;
 };
 
 int read_shape(Call& call, const cdprep_shape_query* given, AskedShape& asked) {
     if (const int code = read_input(call, kQuery, given, asked.query)) return code;
     if (const int code = check_shape(call, asked.query)) return code;
+    asked.shape = shape_of(asked.query);
+    asked.options.max_distance = asked.query.max_distance;
     if (asked.query.degenerate == CDPREP_SKIP_DEGENERATE) {
         asked.options.degenerate = Degenerate::skip;
     }
@@ -121,27 +134,11 @@ int read_shape(Call& call, const cdprep_shape_query* given, AskedShape& asked) {
                       asked.options.world_from_model);
 }
 
-/// Calls `ask` with the shape that the query names.
-template <class Asker>
-void with_shape(const cdprep_shape_query& query, Asker&& ask) {
-    switch (query.shape) {
-        case CDPREP_BOX:
-            return ask(Box{point_of(query.a), point_of(query.b)});
-        case CDPREP_SPHERE:
-            return ask(Sphere{point_of(query.a), query.radius});
-        case CDPREP_CAPSULE:
-            return ask(Capsule{point_of(query.a), point_of(query.b), query.radius});
-        default:
-            return ask(TriangleShape{{point_of(query.a), point_of(query.b), point_of(query.c)}});
-    }
-}
-
 int check_touch(Call& call, const AskedShape& asked) noexcept {
     return is_infinite(asked.query.max_distance) ? CDPREP_OK : refuse_meaning(call, "max_distance");
 }
 
 int check_distance(Call& call, const AskedShape& asked) noexcept {
-    if (asked.query.shape == CDPREP_BOX) return refuse_meaning(call, "shape");
     const bool skips = asked.query.degenerate != CDPREP_KEEP_DEGENERATE;
     return skips ? refuse_meaning(call, "degenerate") : CDPREP_OK;
 }
@@ -199,7 +196,6 @@ using cdprep::Workspace;
 using cdprep::c::ask_shape;
 using cdprep::c::AskedShape;
 using cdprep::c::check_touch;
-using cdprep::c::with_shape;
 
 void cdprep_shape_query_init(cdprep_shape_query* query, size_t size) {
     cdprep::c::initialise(query, size);
@@ -210,9 +206,7 @@ int cdprep_touch(const cdprep_shape_query* query, cdprep_workspace* workspace, u
     return ask_shape(
         query, workspace, touches, "touches", error, check_touch,
         [&](const AskedShape& asked, const Model& model, Workspace& scratch) {
-            with_shape(asked.query, [&](const auto& shape) {
-                *touches = cdprep::c::word(cdprep::touches(model, shape, scratch, asked.options));
-            });
+            *touches = cdprep::c::word(cdprep::touches(model, asked.shape, scratch, asked.options));
         });
 }
 
@@ -220,11 +214,9 @@ int cdprep_touch_list(const cdprep_shape_query* query, cdprep_workspace* workspa
                       cdprep_triangle_list* list, cdprep_error* error) {
     return ask_shape(query, workspace, list, "list", error, check_touch,
                      [&](const AskedShape& asked, const Model& model, Workspace& scratch) {
-                         with_shape(asked.query, [&](const auto& shape) {
-                             list->count = touching_triangles(model, shape, scratch,
-                                                              std::span(list->items, list->room),
-                                                              asked.options);
-                         });
+                         const std::span room(list->items, list->room);
+                         list->count =
+                             touching_triangles(model, asked.shape, scratch, room, asked.options);
                      });
 }
 
@@ -234,9 +226,7 @@ int cdprep_touch_visit(const cdprep_shape_query* query, cdprep_workspace* worksp
         query, workspace, visit, "visit", error, check_touch,
         [&](const AskedShape& asked, const Model& model, Workspace& scratch) {
             const auto hand_on = [&](uint32_t triangle) { return visit(context, triangle) != 0; };
-            with_shape(asked.query, [&](const auto& shape) {
-                visit_touching_triangles(model, shape, scratch, hand_on, asked.options);
-            });
+            visit_touching_triangles(model, asked.shape, scratch, hand_on, asked.options);
         });
 }
 
@@ -245,15 +235,6 @@ int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* wor
     return ask_shape(
         query, workspace, nearest, "nearest", error, cdprep::c::check_distance,
         [&](const AskedShape& asked, const Model& model, Workspace& scratch) {
-            const cdprep::ShapeDistanceOptions options = {asked.options.world_from_model,
-                                                          asked.query.max_distance};
-            with_shape(asked.query, [&]<class Shape>(const Shape& shape) {
-                if constexpr (std::is_same_v<Shape, cdprep::Sphere>) {
-                    const cdprep::Capsule ball = {shape.centre, shape.centre, shape.radius};
-                    *nearest = cdprep::c::in_c(distance_to(model, ball, scratch, options));
-                } else if constexpr (!std::is_same_v<Shape, cdprep::Box>) {
-                    *nearest = cdprep::c::in_c(distance_to(model, shape, scratch, options));
-                }
-            });
+            *nearest = cdprep::c::in_c(shape_distance(model, asked.shape, scratch, asked.options));
         });
 }

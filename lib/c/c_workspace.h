@@ -7,8 +7,8 @@
 
 #include "c/input.h"
 #include "c/memory.h"
-#include "cdprep/parallel_for.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/parallel_for.h"
+#include "cdprep/advanced/query_counts.h"
 #include "cdprep/workspace.h"
 
 /// A workspace of one or more lanes. The object, the lanes' objects, their counts and their

@@ -2,9 +2,7 @@
 #include "c/pair_answers.h"
 
 #include "c/pair_cache_words.h"
-#include "cdprep/distance_through.h"
-#include "cdprep/overlap_through.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep::c {
 namespace {
@@ -45,67 +43,39 @@ cdprep_nearest in_c(const std::optional<Distance>& found) noexcept {
 }
 
 cdprep_collision collision_of(const AskedPair& asked, Workspace& workspace) noexcept {
-    if (asked.is_through_bvh()) {
-        PairCacheWords cache(asked.cache);
-        const Collision found =
-            collide(*asked.a, *asked.b, asked.placement, workspace, asked.options, cache.get());
-        return in_c(found.hit, found.containment);
-    }
-    const bool surfaces_touch = any_overlap_through(asked.through, *asked.a, *asked.b,
-                                                    asked.placement, workspace, asked.overlap());
-    if (surfaces_touch || asked.options.body == Body::surface) return in_c(surfaces_touch, {});
-    return in_c(false, find_containment(*asked.a, *asked.b, asked.placement, workspace));
+    PairCacheWords cache(asked.cache);
+    const Collision found = collide(asked.with(cache), workspace);
+    return in_c(found.hit == Answer::yes, found.containment);
 }
 
 std::size_t list_overlaps(const AskedPair& asked, Workspace& workspace,
                           std::span<TrianglePair> room) noexcept {
-    if (!asked.is_through_bvh()) {
-        return overlapping_triangles_through(asked.through, *asked.a, *asked.b, asked.placement,
-                                             workspace, room, asked.overlap());
-    }
     PairCacheWords cache(asked.cache);
-    return overlapping_triangles(*asked.a, *asked.b, asked.placement, workspace, room,
-                                 asked.overlap(), cache.get());
+    return overlaps(asked.with(cache), workspace, room);
 }
 
 std::size_t mark_overlaps(const AskedPair& asked, Workspace& workspace,
                           const cdprep_marks& marks) noexcept {
     PairCacheWords cache(asked.cache);
-    return mark_overlapping_triangles(*asked.a, *asked.b, asked.placement, workspace,
-                                      {marks.bits_a, marks.words_a}, {marks.bits_b, marks.words_b},
-                                      asked.overlap(), cache.get());
+    return mark_overlaps(asked.with(cache), workspace, {marks.bits_a, marks.words_a},
+                         {marks.bits_b, marks.words_b});
 }
 
 cdprep_nearest nearest_of(const AskedPair& asked, const cdprep_distance_options& options,
                           Workspace& workspace) noexcept {
-    const DistanceOptions wanted = {options.relative_error, options.absolute_error,
-                                    options.max_distance, asked.options.body};
-    if (!asked.is_through_bvh()) {
-        return in_c(distance_through(asked.through, *asked.a, *asked.b, asked.placement, workspace,
-                                     wanted));
-    }
     PairCacheWords cache(asked.cache);
-    return in_c(distance(*asked.a, *asked.b, asked.placement, workspace, wanted, cache.get()));
+    return in_c(distance(asked.with(cache), workspace,
+                         {options.relative_error, options.absolute_error, options.max_distance}));
 }
 
 bool is_pair_within(const AskedPair& asked, double tolerance, Workspace& workspace) noexcept {
-    if (!asked.is_through_bvh()) {
-        return is_within_through(asked.through, *asked.a, *asked.b, asked.placement, tolerance,
-                                 workspace);
-    }
     PairCacheWords cache(asked.cache);
-    return is_within(*asked.a, *asked.b, asked.placement, tolerance, workspace, cache.get());
+    return within(asked.with(cache), tolerance, workspace);
 }
 
 std::size_t list_pairs_within(const AskedPair& asked, double tolerance, Workspace& workspace,
                               std::span<TrianglePair> room) noexcept {
-    const WithinOptions options = {asked.options.degenerate};
-    if (!asked.is_through_bvh()) {
-        return triangles_within_through(asked.through, *asked.a, *asked.b, asked.placement,
-                                        tolerance, workspace, room, options);
-    }
-    return triangles_within(*asked.a, *asked.b, asked.placement, tolerance, workspace, room,
-                            options);
+    return pairs_within(asked.pair(), tolerance, workspace, room);
 }
 
 int check_marks(Call& call, const Name& name, const cdprep_marks& marks,

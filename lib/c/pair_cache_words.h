@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cdprep/advanced/pair_cache.h"
 #include "cdprep/c/pairs.h"
-#include "cdprep/pair_cache.h"
 
 namespace cdprep::c {
 

@@ -3,7 +3,6 @@
 
 #include "c/input.h"
 #include "cdprep/c/pairs.h"
-#include "cdprep/placement.h"
 #include "cdprep/pose.h"
 
 namespace cdprep::c {

@@ -29,7 +29,7 @@ inline void note_contact(PairCache& cache, const Model& a, const Model& b,
 /// takes much longer.
 template <class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
-                      Workspace& workspace, const OverlapOptions& options, PairCache* cache,
+                      Workspace& workspace, const PairOptions& options, PairCache* cache,
                       Found&& found) noexcept {
     if (cache == nullptr || a.triangle_count() == 0 || b.triangle_count() == 0) {
         return for_each_contact<Search::all>(a, b, placement, workspace, options,

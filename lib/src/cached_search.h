@@ -28,7 +28,7 @@ inline constexpr std::uint32_t kNearHeight = 2;
 
 /// Whether the cached pair of triangles, if there is one that touched, still does.
 inline bool still_touches(const PairCache& cache, const Model& a, const Model& b,
-                          const Placement& placement, const OverlapOptions& options,
+                          const Placement& placement, const PairOptions& options,
                           QueryCounts* counts) noexcept {
     if ((cache.holds & held_touch) == 0 || !has_pair(cache, a, b)) return false;
     const ContactTest touch(a, b, placement, options, counts);
@@ -45,7 +45,7 @@ struct LeafPlaces {
 class CachedSearch {
 public:
     CachedSearch(const Model& a, const Model& b, const Placement& placement, Workspace& workspace,
-                 const OverlapOptions& options, PairCache& cache) noexcept
+                 const PairOptions& options, PairCache& cache) noexcept
         : a_(a),
           b_(b),
           placement_(placement),

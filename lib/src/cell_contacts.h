@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "cdprep/structure.h"
+#include "cdprep/study/overlap_through.h"
 #include "contact_pairs.h"
 
 namespace cdprep {
@@ -30,7 +30,7 @@ template <class Found, class Owns>
 class CellContacts {
 public:
     CellContacts(const Model& a, const Model& b, const Placement& placement,
-                 const PlacedBoxes& placed, LeafTest leaf_test, const OverlapOptions& options,
+                 const PlacedBoxes& placed, LeafTest leaf_test, const PairOptions& options,
                  Workspace::Storage& scratch, Found found, Owns owns) noexcept
         : scratch_(scratch),
           leaf_test_(leaf_test),
@@ -129,7 +129,7 @@ private:
 
     Workspace::Storage& scratch_;
     LeafTest leaf_test_;
-    OverlapOptions options_;
+    PairOptions options_;
     MovedModel a_;
     MovedModel b_;
     ContactTest touch_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/closest_features.h"
+#include "cdprep/advanced/closest_features.h"
 
 #include <algorithm>
 #include <array>

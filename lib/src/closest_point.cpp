@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/closest_point.h"
+#include "cdprep/points.h"
 
 #include <algorithm>
 

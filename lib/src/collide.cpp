@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/collide.h"
-
 #include "cdprep/format/float_environment.h"
+#include "cdprep/pairs.h"
+#include "cdprep/study/overlap_through.h"
 #include "core/require.h"
 #include "find_contact.h"
 
 namespace cdprep {
+namespace {
 
-Collision collide(const Model& a, const Model& b, const Placement& placement, Workspace& workspace,
-                  const CollideOptions& options, PairCache* cache) noexcept {
+bool any_overlap(const Pair& pair, Workspace& workspace) noexcept {
+    const Structure through = pair.options.through;
+    if (through == Structure::bvh) {
+        return any_contact(*pair.a, *pair.b, pair.placement, workspace, pair.options, pair.cache);
+    }
+    return any_overlap_through(pair, {.structure = through}, workspace);
+}
+
+}  // namespace
+
+Collision collide(const Pair& pair, Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
-    require(a, b, options.body == Body::solid ? Ask::collide | Ask::solid : Ask::collide);
-    Collision collision;
-    const OverlapOptions pairs = {options.overlap, options.degenerate};
-    collision.hit = any_contact(a, b, placement, workspace, pairs, cache);
-    if (collision.hit || options.body == Body::surface) return collision;
-    collision.containment = find_containment(a, b, placement, workspace);
-    collision.hit = collision.containment.answer == Answer::yes;
-    return collision;
+    const bool is_solid = pair.options.body == Body::solid;
+    require(*pair.a, *pair.b, is_solid ? Ask::collide | Ask::solid : Ask::collide);
+    if (any_overlap(pair, workspace)) return {Answer::yes, {}};
+    if (!is_solid) return {};
+    const Containment inside = containment(pair, workspace);
+    return {inside.answer, inside};
 }
 
 }  // namespace cdprep

@@ -50,7 +50,7 @@ public:
         contact.feature_a = a_.in_source(meeting.a);
         contact.feature_b = b_.in_source(meeting.b);
         if (question_.options.manifold == Manifold::four) {
-            add_manifold(a_, b_, meeting.a, meeting.b, question_.tolerance, contact);
+            add_manifold(a_, b_, meeting.a, meeting.b, question_.options.tolerance, contact);
         }
         return contact;
     }
@@ -72,7 +72,7 @@ private:
     [[nodiscard]] Meeting triangle_features() const noexcept {
         const TreePair pair = near_.touch ? TreePair{near_.a, near_.b}
                                           : nearest_triangles(a_, b_, {near_.a, near_.b},
-                                                              question_.options.degenerate);
+                                                              question_.degenerate);
         const ConvexPoints of_a = a_.points_of(pair.a), of_b = b_.points_of(pair.b);
         const TwoHulls triangles(of_a, of_b, *question_.placement);
         const auto nearest = hull_nearest(triangles.a, triangles.b, {}, nullptr, question_.counts);

@@ -9,8 +9,8 @@ namespace cdprep {
 /// What all pairs of pieces of a question share.
 struct ContactQuestion {
     const Placement* placement;
-    double tolerance;
     ContactOptions options;
+    Degenerate degenerate;
     QueryCounts* counts;  ///< or null
 };
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 #include "find_contact.h"
 #include "leaf_batch.h"
 #include "walked_trees.h"
@@ -42,7 +42,7 @@ inline bool in_contact(const Corners& a, const Corners& b, Overlap overlap,
 class ContactTest {
 public:
     ContactTest(const Model& a, const Model& b, const Placement& placement,
-                const OverlapOptions& options, QueryCounts* counts) noexcept
+                const PairOptions& options, QueryCounts* counts) noexcept
         : a_(moved_a(a, placement)),
           b_(moved_b(b, placement)),
           options_(options),
@@ -66,7 +66,7 @@ public:
 private:
     MovedModel a_;
     MovedModel b_;
-    OverlapOptions options_;
+    PairOptions options_;
     QueryCounts* counts_;  ///< or null
 };
 
@@ -74,7 +74,7 @@ private:
 /// returns false when it did.
 template <Search kSearch, class Trees = TriangleTrees, class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
-                      Workspace& workspace, const OverlapOptions& options, Found&& found) noexcept {
+                      Workspace& workspace, const PairOptions& options, Found&& found) noexcept {
     Workspace::Storage& scratch = workspace.storage();
     // Most that do not touch are apart before any leaf is looked at.
     std::optional<ContactTest> touch;
@@ -103,8 +103,7 @@ bool for_each_contact(const Model& a, const Model& b, const Placement& placement
 /// The first pair of triangles in contact that a walk meets.
 template <class Trees>
 std::optional<TreePair> find_contact_by(const Model& a, const Model& b, const Placement& placement,
-                                        Workspace& workspace,
-                                        const OverlapOptions& options) noexcept {
+                                        Workspace& workspace, const PairOptions& options) noexcept {
     std::optional<TreePair> contact;
     for_each_contact<Search::first, Trees>(a, b, placement, workspace, options,
                                            [&](std::uint32_t at_a, std::uint32_t at_b) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "cdprep/model_pieces.h"
+#include "cdprep/hulls.h"
 #include "contact_pairs.h"
 #include "piece_parts.h"
 #include "point_triangle_distance.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "cdprep/closest_features.h"
+#include "cdprep/advanced/closest_features.h"
 #include "cdprep/contacts.h"
 #include "moved_hull.h"
 #include "moved_model.h"

@@ -74,12 +74,10 @@ private:
 
 class ContactSearch {
 public:
-    ContactSearch(const Model& a, const Model& b, const Placement& placement, double tolerance,
-                  Workspace& workspace, const ContactOptions& options) noexcept
-        : moved_a_(moved_a(a, placement)),
-          moved_b_(moved_b(b, placement)),
-          placement_(placement),
-          tolerance_(tolerance),
+    ContactSearch(const Pair& pair, Workspace& workspace, const ContactOptions& options) noexcept
+        : pair_(pair),
+          moved_a_(moved_a(*pair.a, pair.placement)),
+          moved_b_(moved_b(*pair.b, pair.placement)),
           options_(options),
           workspace_(workspace),
           gathered_(workspace.storage().near_pieces) {}
@@ -87,7 +85,7 @@ public:
     /// Calls `found` with each contact in order until it returns false; returns false when it did.
     template <class Found>
     bool run(Found&& found) noexcept {
-        const ContactQuestion question = {&placement_, tolerance_, options_,
+        const ContactQuestion question = {&pair_.placement, options_, pair_.options.degenerate,
                                           workspace_.storage().counts};
         std::optional<ContactSide> a;
         std::optional<std::uint64_t> last;
@@ -114,8 +112,8 @@ private:
             if (gathered_.takes(key)) gathered_.add({key, near.a, near.b, touch(near)});
             return true;
         };
-        visit_near_triangles(options_.structure, *moved_a_.model, *moved_b_.model, placement_,
-                             tolerance_, workspace_, visit, {.degenerate = options_.degenerate});
+        visit_near_triangles(pair_.options.through, *pair_.a, *pair_.b, pair_.placement,
+                             options_.tolerance, workspace_, visit, pair_.options);
     }
     [[nodiscard]] bool touch(const NearTriangles& near) const noexcept {
         if (near.touch != Touch::unknown) return near.touch == Touch::yes;
@@ -123,48 +121,36 @@ private:
                           workspace_.storage().counts);
     }
 
+    const Pair& pair_;
     MovedModel moved_a_;
     MovedModel moved_b_;
-    const Placement& placement_;
-    double tolerance_;
     ContactOptions options_;
     Workspace& workspace_;
     Gathered gathered_;
 };
 
-template <class Found>
-bool for_each_piece_contact(const Model& a, const Model& b, const Placement& placement,
-                            double tolerance, Workspace& workspace, const ContactOptions& options,
-                            Found&& found) noexcept {
-    return ContactSearch(a, b, placement, tolerance, workspace, options).run(found);
-}
-
 }  // namespace
 
-std::size_t contacts(const Model& a, const Model& b, const Placement& placement, double tolerance,
-                     Workspace& workspace, std::span<Contact> contacts,
+std::size_t contacts(const Pair& pair, Workspace& workspace, std::span<Contact> room,
                      const ContactOptions& options) noexcept {
     const format::FloatEnvironment environment;
-    require(a, b, Ask::contacts | ask_of(options.structure));
+    require(*pair.a, *pair.b, Ask::contacts | ask_of(pair.options.through));
     std::size_t count = 0;
-    for_each_piece_contact(a, b, placement, tolerance, workspace, options,
-                           [&](const Contact& contact) {
-                               if (count < contacts.size()) contacts[count] = contact;
-                               ++count;
-                               return true;
-                           });
+    ContactSearch(pair, workspace, options).run([&](const Contact& contact) {
+        if (count < room.size()) room[count] = contact;
+        ++count;
+        return true;
+    });
     return count;
 }
 
-bool visit_contacts(const Model& a, const Model& b, const Placement& placement, double tolerance,
-                    Workspace& workspace, ContactVisitor visit,
+bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options) noexcept {
     format::FloatEnvironment environment;
-    require(a, b, Ask::contacts | ask_of(options.structure));
-    return for_each_piece_contact(a, b, placement, tolerance, workspace, options,
-                                  [&](const Contact& contact) {
-                                      return environment.outside([&] { return visit(contact); });
-                                  });
+    require(*pair.a, *pair.b, Ask::contacts | ask_of(pair.options.through));
+    return ContactSearch(pair, workspace, options).run([&](const Contact& contact) {
+        return environment.outside([&] { return visit(contact); });
+    });
 }
 
 }  // namespace cdprep

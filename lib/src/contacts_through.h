@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cdprep/overlap_through.h"
+#include "cdprep/study/overlap_through.h"
 #include "cdprep/visitor.h"
 #include "find_contact.h"
 #include "walk_pairs.h"
@@ -15,7 +15,7 @@ struct QuestionThrough {
     const Model& b;
     const Placement& placement;
     Workspace& workspace;
-    const OverlapOptions& options;
+    const PairOptions& options;
     Search search;  ///< first: whoever asks ends at the first pair
 };
 

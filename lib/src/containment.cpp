@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/containment.h"
+#include "inclusion_by_bvh.h"
 
 #include <algorithm>
 #include <array>
@@ -157,12 +157,11 @@ Containment find_inside(const MovedModel& inner, const MovedModel& outer,
 
 }  // namespace
 
-Containment find_containment(const Model& a, const Model& b, const Placement& placement,
-                             Workspace& workspace) noexcept {
+Containment containment(const Pair& pair, Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
-    require(a, b, Ask::solid);
-    const MovedModel in_a = moved_a(a, placement);
-    const MovedModel in_b = moved_b(b, placement);
+    require(*pair.a, *pair.b, Ask::solid);
+    const MovedModel in_a = moved_a(*pair.a, pair.placement);
+    const MovedModel in_b = moved_b(*pair.b, pair.placement);
     Workspace::Storage& scratch = workspace.storage();
     const Containment a_in_b = find_inside(in_a, in_b, scratch, true);
     if (a_in_b.answer == Answer::yes) return a_in_b;
@@ -171,9 +170,7 @@ Containment find_containment(const Model& a, const Model& b, const Placement& pl
     return a_in_b;
 }
 
-Inclusion points_inside(const Model& model, const Double3& p, Workspace& workspace) noexcept {
-    const format::FloatEnvironment environment;
-    require(model, Ask::inside);
+Inclusion inclusion_by_bvh(const Model& model, const Double3& p, Workspace& workspace) noexcept {
     return inclusion({model, nullptr}, p, workspace.storage());
 }
 

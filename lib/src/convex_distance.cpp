@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/convex_distance.h"
+#include "cdprep/advanced/convex_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace cdprep {
 namespace {
 
 /// Whether the bounds are as near each other as was promised.
-bool is_good(const GjkResult& found, const ConvexDistanceOptions& options) {
+bool is_good(const GjkResult& found, const DistanceOptions& options) {
     const double width = found.upper - found.lower;
     if (width <= options.relative_error * found.upper || width <= options.absolute_error) {
         return true;
@@ -29,7 +29,7 @@ bool is_good(const GjkResult& found, const ConvexDistanceOptions& options) {
 }  // namespace
 
 std::optional<HullNearest> hull_nearest(const MovedHull& a, const MovedHull& b,
-                                        const ConvexDistanceOptions& options, ConvexCache* cache,
+                                        const DistanceOptions& options, ConvexCache* cache,
                                         QueryCounts* counts) noexcept {
     const GjkGoal goal = {options.relative_error, options.absolute_error, options.max_distance};
     const GjkResult found = gjk(a, b, goal, cache, counts);
@@ -58,8 +58,8 @@ bool convex_collide(const ConvexPoints& a, const ConvexPoints& b, const Placemen
 
 std::optional<ConvexDistance> convex_distance(const ConvexPoints& a, const ConvexPoints& b,
                                               const Placement& placement,
-                                              const ConvexDistanceOptions& options,
-                                              ConvexCache* cache, QueryCounts* counts) noexcept {
+                                              const DistanceOptions& options, ConvexCache* cache,
+                                              QueryCounts* counts) noexcept {
     const format::FloatEnvironment environment;
     if (a.count == 0 || b.count == 0 || !(options.max_distance >= 0)) return std::nullopt;
     const TwoHulls hulls(a, b, placement);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/convex_penetration.h"
+#include "cdprep/advanced/convex_penetration.h"
 
 #include "cdprep/format/float_environment.h"
 #include "exact_nearest.h"
@@ -11,7 +11,7 @@ namespace cdprep {
 namespace {
 
 Penetration expanded(const TwoHulls& hulls, const Difference* corner, std::size_t count,
-                     const PenetrationOptions& options, QueryCounts* counts) {
+                     const DistanceOptions& options, QueryCounts* counts) {
     ExpandingPolytope polytope(hulls.a, hulls.b);
     const Penetration result = polytope.expand(corner, count, options);
     if (counts != nullptr) counts->hull_steps += polytope.steps();
@@ -21,13 +21,13 @@ Penetration expanded(const TwoHulls& hulls, const Difference* corner, std::size_
 }  // namespace
 
 Penetration hull_depth(const TwoHulls& hulls, const NearestSimplex& common,
-                       const PenetrationOptions& options, QueryCounts* counts) noexcept {
+                       const DistanceOptions& options, QueryCounts* counts) noexcept {
     return expanded(hulls, common.corner.data(), common.count, options, counts);
 }
 
 std::optional<Penetration> convex_penetration(const ConvexPoints& a, const ConvexPoints& b,
                                               const Placement& placement,
-                                              const PenetrationOptions& options, ConvexCache* cache,
+                                              const DistanceOptions& options, ConvexCache* cache,
                                               QueryCounts* counts) noexcept {
     const format::FloatEnvironment environment;
     if (a.count == 0 || b.count == 0) return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/convex_points.h"
+#include "cdprep/advanced/convex_points.h"
 
 #include "cdprep/format/float_environment.h"
 #include "hull_points.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/crossing_segments.h"
+#include "cdprep/pairs.h"
 
 #include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
@@ -8,15 +8,14 @@
 
 namespace cdprep {
 
-bool visit_crossing_segments(const Model& a, const Model& b, const Placement& placement,
-                             Workspace& workspace, Visitor<Crossing> visit,
-                             const OverlapOptions& options) noexcept {
+bool visit_crossings(const Pair& pair, Workspace& workspace, Visitor<Crossing> visit) noexcept {
     format::FloatEnvironment environment;
+    const Model &a = *pair.a, &b = *pair.b;
     require(a, b, Ask::overlap);
-    const MovedModel in_a = moved_a(a, placement);
-    const MovedModel in_b = moved_b(b, placement);
+    const MovedModel in_a = moved_a(a, pair.placement);
+    const MovedModel in_b = moved_b(b, pair.placement);
     return for_each_contact<Search::all>(
-        a, b, placement, workspace, options, [&](std::uint32_t at_a, std::uint32_t at_b) {
+        a, b, pair.placement, workspace, pair.options, [&](std::uint32_t at_a, std::uint32_t at_b) {
             const Corners s = in_a.corners(at_a);
             const Corners t = in_b.corners(at_b);
             Crossing crossing{{source_number(a, at_a), source_number(b, at_b)}, true, {}, {}};

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
 #include "moved_hull.h"
 #include "nearest_simplex.h"
 

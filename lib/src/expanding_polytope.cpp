@@ -327,7 +327,7 @@ const ExpandingPolytope::Face& ExpandingPolytope::nearest_face() noexcept {
 }
 
 Penetration ExpandingPolytope::expand(const Difference* corner, std::size_t count,
-                                      const PenetrationOptions& options) noexcept {
+                                      const DistanceOptions& options) noexcept {
     assert(count >= 1 && count <= 4);
     std::copy_n(corner, count, corner_.begin());
     corners_ = count;

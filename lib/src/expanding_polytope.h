@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cdprep/convex_penetration.h"
+#include "cdprep/advanced/convex_penetration.h"
 #include "moved_hull.h"
 #include "nearest_simplex.h"
 
@@ -22,7 +22,7 @@ public:
 
     /// Starts from up to four corners, affinely independent, whose hull holds the origin.
     [[nodiscard]] Penetration expand(const Difference* corner, std::size_t count,
-                                     const PenetrationOptions& options) noexcept;
+                                     const DistanceOptions& options) noexcept;
     /// Farthest points that were sought, one of each hull.
     [[nodiscard]] std::uint64_t steps() const noexcept {
         return steps_;

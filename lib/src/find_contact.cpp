@@ -17,12 +17,12 @@ void remember_pair(PairCache& cache, const TreePair& pair) noexcept {
 }
 
 std::optional<TreePair> find_contact(const Model& a, const Model& b, const Placement& placement,
-                                     Workspace& workspace, const OverlapOptions& options) noexcept {
+                                     Workspace& workspace, const PairOptions& options) noexcept {
     return find_contact_by<TriangleTrees>(a, b, placement, workspace, options);
 }
 
 bool any_contact(const Model& a, const Model& b, const Placement& placement, Workspace& workspace,
-                 const OverlapOptions& options, PairCache* cache) noexcept {
+                 const PairOptions& options, PairCache* cache) noexcept {
     if (cache == nullptr) {
         return find_contact(a, b, placement, workspace, options).has_value();
     }

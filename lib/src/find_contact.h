@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/pair_cache.h"
+#include "cdprep/advanced/pair_cache.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep {
 
@@ -22,11 +22,11 @@ void remember_pair(PairCache& cache, const TreePair& pair) noexcept;
 /// The first pair of triangles in contact that a walk of both hierarchies meets.
 [[nodiscard]] std::optional<TreePair> find_contact(const Model& a, const Model& b,
                                                    const Placement& placement, Workspace& workspace,
-                                                   const OverlapOptions& options) noexcept;
+                                                   const PairOptions& options) noexcept;
 
 /// Whether any triangles are in contact, by a cache that may be null.
 [[nodiscard]] bool any_contact(const Model& a, const Model& b, const Placement& placement,
-                               Workspace& workspace, const OverlapOptions& options,
+                               Workspace& workspace, const PairOptions& options,
                                PairCache* cache) noexcept;
 
 }  // namespace cdprep

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "cdprep/convex_distance.h"
-#include "cdprep/model_hulls.h"
+#include "cdprep/advanced/convex_distance.h"
+#include "cdprep/hulls.h"
 #include "hull_points.h"
 #include "list_places.h"
 #include "predicates.h"

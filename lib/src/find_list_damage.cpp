@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/find_list_damage.h"
+#include "cdprep/advanced/find_list_damage.h"
 
 #include <algorithm>
 #include <bit>

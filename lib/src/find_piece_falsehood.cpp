@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "cdprep/convex_distance.h"
+#include "cdprep/advanced/convex_distance.h"
 #include "cdprep/format/sections.h"
 #include "hull_blocks.h"
 #include "moved_model.h"

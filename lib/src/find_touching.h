@@ -4,7 +4,7 @@
 #include <span>
 
 #include "cdprep/format/float_environment.h"
-#include "cdprep/touching.h"
+#include "cdprep/points.h"
 #include "contact_pairs.h"
 #include "core/require.h"
 #include "smallest.h"
@@ -29,7 +29,7 @@ inline MovedModel placed(const Model& model, const Pose& world_from_model) noexc
 /// holds entirely, shape.touches(corners) decides exactly.
 template <class Shape, class Asked, class Found>
 bool for_each_touching(const Model& model, const Asked& asked, Workspace& workspace,
-                       const TouchOptions& options, Found&& found) noexcept {
+                       const ShapeOptions& options, Found&& found) noexcept {
     const MovedModel moved = placed(model, options.world_from_model);
     const Shape shape(moved, asked);
     const bool skips = options.degenerate == Degenerate::skip;
@@ -49,7 +49,7 @@ bool for_each_touching(const Model& model, const Asked& asked, Workspace& worksp
 
 template <class Shape, class Asked>
 bool any_touching(const Model& model, const Asked& asked, Workspace& workspace,
-                  const TouchOptions& options) noexcept {
+                  const ShapeOptions& options) noexcept {
     const format::FloatEnvironment environment;
     require(model, Ask::touch);
     return !for_each_touching<Shape>(model, asked, workspace, options,
@@ -58,7 +58,7 @@ bool any_touching(const Model& model, const Asked& asked, Workspace& workspace,
 
 template <class Shape, class Asked>
 std::size_t all_touching(const Model& model, const Asked& asked, Workspace& workspace,
-                         std::span<std::uint32_t> triangles, const TouchOptions& options) noexcept {
+                         std::span<std::uint32_t> triangles, const ShapeOptions& options) noexcept {
     const format::FloatEnvironment environment;
     require(model, Ask::touch);
     Smallest<std::uint32_t> smallest(triangles);
@@ -72,7 +72,7 @@ std::size_t all_touching(const Model& model, const Asked& asked, Workspace& work
 
 template <class Shape, class Asked>
 bool visit_touching(const Model& model, const Asked& asked, Workspace& workspace,
-                    TriangleVisitor visit, const TouchOptions& options) noexcept {
+                    TriangleVisitor visit, const ShapeOptions& options) noexcept {
     format::FloatEnvironment environment;
     require(model, Ask::touch);
     return for_each_touching<Shape>(model, asked, workspace, options, [&](std::uint32_t i) {

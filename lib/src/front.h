@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "cdprep/pair_front.h"
+#include "cdprep/advanced/pair_front.h"
 #include "farthest_below.h"
 #include "walked_trees.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "cdprep/convex_distance.h"
+#include "cdprep/advanced/convex_distance.h"
 #include "moved_hull.h"
 #include "nearest_simplex.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/float_environment.h"
-#include "cdprep/parallel_for.h"
 
 namespace cdprep {
 

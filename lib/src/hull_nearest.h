@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "cdprep/convex_distance.h"
-#include "cdprep/convex_penetration.h"
+#include "cdprep/advanced/convex_distance.h"
+#include "cdprep/advanced/convex_penetration.h"
 #include "exact_nearest.h"
 
 namespace cdprep {
@@ -20,14 +20,13 @@ struct HullNearest {
 
 /// What convex_distance() answers, and with the same errors. Neither hull is empty.
 [[nodiscard]] std::optional<HullNearest> hull_nearest(const MovedHull& a, const MovedHull& b,
-                                                      const ConvexDistanceOptions& options,
+                                                      const DistanceOptions& options,
                                                       ConvexCache* cache,
                                                       QueryCounts* counts) noexcept;
 
 /// What convex_penetration() answers of two hulls that meet, from the simplex that says so.
 [[nodiscard]] Penetration hull_depth(const TwoHulls& hulls, const NearestSimplex& common,
-                                     const PenetrationOptions& options,
-                                     QueryCounts* counts) noexcept;
+                                     const DistanceOptions& options, QueryCounts* counts) noexcept;
 
 /// Whether bounds are as near each other as is promised where no error is permitted; `size` is
 /// that of a point of A - B, largest coordinate.

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cdprep/convex_points.h"
+#include "cdprep/advanced/convex_points.h"
 
 namespace cdprep {
 

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "box_placement.h"
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 #include "moved_model.h"
 #include "node_lists.h"
 #include "prefetch.h"

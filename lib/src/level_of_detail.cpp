@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/level_of_detail.h"
+#include "cdprep/advanced/level_of_detail.h"
 
 #include <algorithm>
 #include <array>
@@ -214,8 +214,10 @@ double level_error(const Model& model, std::uint32_t level) noexcept {
     return widest * kRoot3 * (1 + 0x1p-50);
 }
 
-CoarseCollision collide_at_level(const Model& a, const Model& b, const Placement& placement,
-                                 std::uint32_t level, Workspace& workspace) noexcept {
+CoarseCollision collide_at_level(const Pair& pair, std::uint32_t level,
+                                 Workspace& workspace) noexcept {
+    const Model &a = *pair.a, &b = *pair.b;
+    const Placement& placement = pair.placement;
     const format::FloatEnvironment environment;
     require(a, b, Ask::tetra_tree);
     if (a.triangle_count() == 0 || b.triangle_count() == 0) return {Answer::no, 0, 0};

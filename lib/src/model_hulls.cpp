@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/model_hulls.h"
+#include "cdprep/hulls.h"
 
 #include <algorithm>
 #include <cassert>

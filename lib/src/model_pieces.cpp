@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/model_pieces.h"
+#include "cdprep/hulls.h"
 
 #include <cassert>
 

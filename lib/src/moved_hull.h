@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "cdprep/convex_points.h"
-#include "cdprep/placement.h"
+#include "cdprep/advanced/convex_points.h"
+#include "cdprep/pose.h"
 #include "hull_points.h"
 #include "kernels.h"
 #include "moved_point.h"

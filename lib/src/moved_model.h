@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "cdprep/model.h"
-#include "cdprep/placement.h"
+#include "cdprep/pose.h"
 #include "moved_point.h"
 #include "triangle_contact.h"
 

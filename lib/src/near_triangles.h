@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cdprep/structure.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/advanced/structure.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep {
 
@@ -20,6 +20,6 @@ struct NearTriangles {
 /// structure, the hierarchies of boxes.
 bool visit_near_triangles(Structure structure, const Model& a, const Model& b,
                           const Placement& placement, double tolerance, Workspace& workspace,
-                          Visitor<NearTriangles> visit, const WithinOptions& options) noexcept;
+                          Visitor<NearTriangles> visit, const PairOptions& options) noexcept;
 
 }  // namespace cdprep

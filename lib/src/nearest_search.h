@@ -9,7 +9,7 @@
 #include <functional>
 #include <limits>
 
-#include "cdprep/distance.h"
+#include "cdprep/pairs.h"
 #include "contact_pairs.h"
 #include "exact_within.h"
 #include "find_contact.h"
@@ -459,9 +459,8 @@ inline Distance touching(const Model& a, const Model& b, const Placement& placem
 }
 
 template <class Trees>
-std::optional<Distance> distance_by(const Model& a, const Model& b, const Placement& placement,
-                                    Workspace& workspace, const DistanceOptions& options,
-                                    PairCache* cache, PairFront* front = nullptr) noexcept;
+std::optional<Distance> distance_by(const Pair& pair, Workspace& workspace,
+                                    const DistanceOptions& options) noexcept;
 
 /// An answer, or none by whoever was asked.
 struct FrontDistance {
@@ -495,23 +494,26 @@ FrontDistance distance_by_front(const Model& a, const Model& b, const Placement&
     return {true, found};
 }
 
-/// One solid inside the other: no way apart, and the walls tell where it is shortest.
+/// One solid inside the other: their distance is 0, and the witnesses are where the walls are
+/// nearest.
 template <class Trees>
-std::optional<Distance> inside(const Model& a, const Model& b, const Placement& placement,
-                               Workspace& workspace, PairCache* cache, PairFront* front) noexcept {
-    std::optional<Distance> walls =
-        distance_by<Trees>(a, b, placement, workspace, {}, cache, front);
+std::optional<Distance> inside(const Pair& pair, Workspace& workspace) noexcept {
+    const Pair surfaces(*pair.a, *pair.b, pair.placement, {}, pair.cache, pair.front);
+    std::optional<Distance> walls = distance_by<Trees>(surfaces, workspace, {});
     if (walls) walls->lower = walls->upper = 0;
     return walls;
 }
 
 template <class Trees>
-std::optional<Distance> distance_by(const Model& a, const Model& b, const Placement& placement,
-                                    Workspace& workspace, const DistanceOptions& options,
-                                    PairCache* cache, PairFront* front) noexcept {
+std::optional<Distance> distance_by(const Pair& pair, Workspace& workspace,
+                                    const DistanceOptions& options) noexcept {
+    const Model &a = *pair.a, &b = *pair.b;
+    const Placement& placement = pair.placement;
+    PairCache* const cache = pair.cache;
+    PairFront* const front = cache == nullptr ? nullptr : pair.front;
     if (!(options.max_distance >= 0)) return std::nullopt;
     if constexpr (Trees::kHasHulls) {
-        if (front != nullptr && options.body == Body::surface && is_of(*front, a, b)) {
+        if (front != nullptr && pair.options.body == Body::surface && is_of(*front, a, b)) {
             const FrontDistance found =
                 distance_by_front<Trees>(a, b, placement, workspace, options, *cache, *front);
             if (found.answered) return found.distance;
@@ -525,9 +527,8 @@ std::optional<Distance> distance_by(const Model& a, const Model& b, const Placem
             return touching(a, b, placement, *at);
         }
     }
-    if (options.body == Body::solid &&
-        find_containment(a, b, placement, workspace).answer == Answer::yes) {
-        return inside<Trees>(a, b, placement, workspace, cache, front);
+    if (pair.options.body == Body::solid && containment(pair, workspace).answer == Answer::yes) {
+        return inside<Trees>(pair, workspace);
     }
     NearestSearch<Trees> search(a, b, placement, workspace);
     Nearest<Trees> nearest(a, b, search, options);

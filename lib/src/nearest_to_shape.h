@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "cdprep/shape_distance.h"
+#include "cdprep/points.h"
 #include "cdprep/workspace.h"
 #include "moved_model.h"
 

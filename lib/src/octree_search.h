@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
-#include "cdprep/build_octree.h"
+#include "cdprep/advanced/build_octree.h"
 #include "cdprep/model.h"
-#include "cdprep/structure.h"
+#include "cdprep/study/overlap_through.h"
 #include "octree_cells.h"
 
 namespace cdprep {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/overlap_through.h"
+#include "cdprep/study/overlap_through.h"
 
 #include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
@@ -38,37 +38,39 @@ bool visit_contacts_through(const QuestionThrough& question, ContactVisitor visi
 
 }  // namespace
 
-std::size_t overlapping_triangles_through(const StructureOptions& through, const Model& a,
-                                          const Model& b, const Placement& placement,
-                                          Workspace& workspace, std::span<TrianglePair> pairs,
-                                          const OverlapOptions& options) noexcept {
+std::size_t overlaps_through(const Pair& pair, const StructureOptions& through,
+                             Workspace& workspace, std::span<TrianglePair> room) noexcept {
     const format::FloatEnvironment environment;
+    const Model &a = *pair.a, &b = *pair.b;
     require(a, b, Ask::overlap | ask_of(through.structure));
     if (through.structure == Structure::bvh) {
-        return overlapping_triangles(a, b, placement, workspace, pairs, options);
+        PairOptions options = pair.options;
+        options.through = Structure::bvh;
+        return overlaps({a, b, pair.placement, options, pair.cache}, workspace, room);
     }
-    const QuestionThrough question = {through, a, b, placement, workspace, options, Search::all};
-    return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
-        const auto visit = [&](const TreePair& pair) { return found(pair.a, pair.b); };
+    const QuestionThrough question = {through,      a,          b, pair.placement, workspace,
+                                      pair.options, Search::all};
+    return keep_smallest_pairs(a, b, workspace, room, [&](auto&& found) {
+        const auto visit = [&](const TreePair& at) { return found(at.a, at.b); };
         visit_contacts_through(question, visit);
     });
 }
 
-bool any_overlap_through(const StructureOptions& through, const Model& a, const Model& b,
-                         const Placement& placement, Workspace& workspace,
-                         const OverlapOptions& options, PieceCache* cache) noexcept {
+bool any_overlap_through(const Pair& pair, const StructureOptions& through,
+                         Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
+    const Model &a = *pair.a, &b = *pair.b;
     // No triangle is named, so their numbers are not needed.
     require(a, b, Ask::collide | ask_of(through.structure));
     if (through.structure == Structure::bvh) {
-        PairCache* pair = cache == nullptr ? nullptr : &cache->pair;
-        return any_contact(a, b, placement, workspace, options, pair);
+        return any_contact(a, b, pair.placement, workspace, pair.options, pair.cache);
     }
     if (through.structure == Structure::pieces) {
-        return any_contact_of_pieces(a, b, placement, workspace, options, cache);
+        return any_contact_of_pieces(a, b, pair.placement, workspace, pair.options, pair.cache);
     }
-    const QuestionThrough question = {through, a, b, placement, workspace, options, Search::first};
-    const auto visit = [](const TreePair& /*pair*/) { return false; };
+    const QuestionThrough question = {through,      a, b, pair.placement, workspace, pair.options,
+                                      Search::first};
+    const auto visit = [](const TreePair& /*at*/) { return false; };
     return !visit_contacts_through(question, visit);
 }
 

@@ -20,13 +20,13 @@ ConvexPoints hull_points(const format::PieceNodeHull& hull) noexcept {
 // From a pair of triangles that touched, boxes around triangles are the nearest way to others;
 // and where nothing touches they are walked as fast.
 bool any_contact_of_pieces(const Model& a, const Model& b, const Placement& placement,
-                           Workspace& workspace, const OverlapOptions& options,
-                           PieceCache* cache) noexcept {
+                           Workspace& workspace, const PairOptions& options,
+                           PairCache* cache) noexcept {
     if (cache == nullptr) {
         return find_contact_by<PieceTrees>(a, b, placement, workspace, options).has_value();
     }
     if (a.pieces().leaves.empty() || b.pieces().leaves.empty()) return false;
-    return any_contact(a, b, placement, workspace, options, &cache->pair);
+    return any_contact(a, b, placement, workspace, options, cache);
 }
 
 }  // namespace cdprep

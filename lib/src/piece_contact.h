@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cdprep/convex_points.h"
+#include "cdprep/advanced/convex_points.h"
+#include "cdprep/advanced/pair_front.h"
 #include "cdprep/format/pieces.h"
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/piece_cache.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep {
 
@@ -13,7 +13,7 @@ namespace cdprep {
 
 /// As any_contact(), through pieces.
 [[nodiscard]] bool any_contact_of_pieces(const Model& a, const Model& b, const Placement& placement,
-                                         Workspace& workspace, const OverlapOptions& options,
-                                         PieceCache* cache) noexcept;
+                                         Workspace& workspace, const PairOptions& options,
+                                         PairCache* cache) noexcept;
 
 }  // namespace cdprep

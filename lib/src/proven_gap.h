@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "cdprep/advanced/pair_cache.h"
 #include "cdprep/model.h"
-#include "cdprep/pair_cache.h"
-#include "cdprep/placement.h"
+#include "cdprep/pose.h"
 
 namespace cdprep {
 

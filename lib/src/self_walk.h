@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 #include "workspace_storage.h"
 
 namespace cdprep {

@@ -6,7 +6,7 @@
 #include <cassert>
 #include <cstddef>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 
 namespace cdprep {
 

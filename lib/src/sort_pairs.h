@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep {
 

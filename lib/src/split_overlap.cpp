@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/split_overlap.h"
+#include "cdprep/parallel.h"
 
 #include <algorithm>
 #include <atomic>
@@ -129,7 +129,7 @@ struct Question {
     const Model& a;
     const Model& b;
     const Placement& placement;
-    const OverlapOptions& options;
+    const PairOptions& options;
     const PlacedBoxes& placed;
 };
 
@@ -178,28 +178,29 @@ void sort_shared(std::span<TrianglePair> pairs, std::span<Workspace> workspaces,
 
 }  // namespace
 
-std::size_t split_overlapping_triangles(const Model& a, const Model& b, const Placement& placement,
-                                        std::span<Workspace> workspaces, ParallelFor parallel_for,
-                                        std::span<TrianglePair> pairs,
-                                        const OverlapOptions& options) noexcept {
+std::size_t split_overlaps(const Pair& pair, std::span<Workspace> workspaces,
+                           ParallelFor parallel_for, std::span<TrianglePair> pairs) noexcept {
     format::FloatEnvironment environment;
+    const Model &a = *pair.a, &b = *pair.b;
     require(a, b, Ask::overlap);
     assert(!workspaces.empty());
     const GuardedFor guarded(environment, parallel_for);
-    const PlacedBoxes placed = place_boxes(a, b, placement);
+    const PlacedBoxes placed = place_boxes(a, b, pair.placement);
     Places places(workspaces[0].storage());
     places.find(Tree(a), Tree(b), placed, kPlacesForAWorker * workspaces.size());
     if (places.size() == 0) return 0;
     SharedRoom room(pairs);
     Shares shares(places.size(), 1);
-    const Question question = {a, b, placement, options, placed};
+    const Question question = {a, b, pair.placement, pair.options, placed};
     run_workers(std::min(workspaces.size(), places.size()), guarded, [&](std::size_t worker) {
         walk_shares(question, places, shares, workspaces[worker].storage(), room);
     });
     const std::size_t count = room.count();
     if (count > pairs.size()) {
         if (pairs.empty()) return count;
-        return overlapping_triangles(a, b, placement, workspaces[0], pairs, options);
+        PairOptions options = pair.options;
+        options.through = Structure::bvh;
+        return overlaps({a, b, pair.placement, options}, workspaces[0], pairs);
     }
     sort_shared(pairs.first(count), workspaces, guarded);
     return count;

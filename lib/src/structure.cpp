@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/structure.h"
+#include "cdprep/advanced/structure.h"
 
 namespace cdprep {
 

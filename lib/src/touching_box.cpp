@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/touching_box.h"
+#include "touching_shapes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "find_touching.h"
 #include "moved_point.h"
+#include "nearest_to_shape.h"
 #include "shape_frame.h"
 #include "triangle_box.h"
 
 namespace cdprep {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Double3 at_least(const Double3& p, const Double3& limit) noexcept {
     return {std::max(p.x, limit.x), std::max(p.y, limit.y), std::max(p.z, limit.z)};
@@ -38,6 +43,57 @@ Box3 clipped(const Box3& box, const MovedModel& model) noexcept {
         0x1p-30 * (ShapeFrame::largest(o) + ShapeFrame::largest(pose.translation()));
     return {at_least(box.lower, {middle.x - around, middle.y - around, middle.z - around}),
             at_most(box.upper, {middle.x + around, middle.y + around, middle.z + around})};
+}
+
+/// The part of the box that holds the points nearest to the model's: each limit as near to the
+/// model as it can be without passing it or the other limit.
+Box3 facing(const Box3& box, const MovedModel& model) noexcept {
+    const Box3 all = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+    const Box3 around = clipped(all, model);
+    return {at_least(box.lower, at_most(around.lower, box.upper)),
+            at_most(box.upper, at_least(around.upper, box.lower))};
+}
+
+/// Two triangles on each side of a box; corners by bits: 1 for the upper x, 2 for y, 4 for z.
+constexpr std::array<std::array<unsigned, 3>, 12> kBoxFaces = {{{0, 2, 6},
+                                                                {0, 6, 4},
+                                                                {1, 5, 7},
+                                                                {1, 7, 3},
+                                                                {0, 4, 5},
+                                                                {0, 5, 1},
+                                                                {2, 3, 7},
+                                                                {2, 7, 6},
+                                                                {0, 1, 3},
+                                                                {0, 3, 2},
+                                                                {4, 6, 7},
+                                                                {4, 7, 5}}};
+
+Corners corners_of(const Box3& box, const std::array<unsigned, 3>& face) noexcept {
+    Corners corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const unsigned at = face[i];
+        corners[i] = {(at & 1U ? box.upper : box.lower).x, (at & 2U ? box.upper : box.lower).y,
+                      (at & 4U ? box.upper : box.lower).z};
+    }
+    return corners;
+}
+
+/// The answer for a triangle, tree order, that touches the box: a corner inside it or, where none
+/// is, a point that the triangle shares with a side.
+ShapeDistance touching_box_at(const MovedModel& model, const Box3& box,
+                              std::uint32_t triangle) noexcept {
+    const Corners corners = model.corners(triangle);
+    for (const Double3& corner : corners) {
+        if (holds(box, corner)) {
+            return {0, 0, corner, corner, source_number(*model.model, triangle)};
+        }
+    }
+    for (const auto& face : kBoxFaces) {
+        const Corners side = corners_of(box, face);
+        if (triangles_touch(side, corners)) return touching_at(model, side, triangle);
+    }
+    assert(false);  // what enters the box from outside crosses a side
+    return {};
 }
 
 /// A box among those of a model. Everything for the walk is in frame units.
@@ -145,20 +201,50 @@ BoxVerdict BoxShape::judge_along_box(const format::BvhNode& node) const noexcept
 
 }  // namespace
 
-bool touches(const Model& model, const Box& box, Workspace& workspace,
-             const TouchOptions& options) noexcept {
+bool touches_shape(const Model& model, const Box& box, Workspace& workspace,
+                   const ShapeOptions& options) noexcept {
     return any_touching<BoxShape>(model, box, workspace, options);
 }
 
-std::size_t touching_triangles(const Model& model, const Box& box, Workspace& workspace,
-                               std::span<std::uint32_t> triangles,
-                               const TouchOptions& options) noexcept {
-    return all_touching<BoxShape>(model, box, workspace, triangles, options);
+std::size_t triangles_at(const Model& model, const Box& box, Workspace& workspace,
+                         std::span<std::uint32_t> room, const ShapeOptions& options) noexcept {
+    return all_touching<BoxShape>(model, box, workspace, room, options);
 }
 
-bool visit_touching_triangles(const Model& model, const Box& box, Workspace& workspace,
-                              TriangleVisitor visit, const TouchOptions& options) noexcept {
+bool visit_triangles_at(const Model& model, const Box& box, Workspace& workspace,
+                        TriangleVisitor visit, const ShapeOptions& options) noexcept {
     return visit_touching<BoxShape>(model, box, workspace, visit, options);
+}
+
+std::optional<ShapeDistance> measure(const Model& model, const Box& box, Workspace& workspace,
+                                     const ShapeOptions& options) noexcept {
+    const format::FloatEnvironment environment;
+    require(model, Ask::touch);
+    const Box3 whole = finite(box);
+    if (!overlap(whole, whole) || !(options.max_distance >= 0)) return std::nullopt;
+    const MovedModel moved = placed(model, options.world_from_model);
+    const Box3 part = facing(whole, moved);
+    std::optional<ShapeDistance> best;
+    for_each_touching<BoxShape>(model, box, workspace,
+                                {.world_from_model = options.world_from_model},
+                                [&](std::uint32_t i) {
+                                    best = touching_box_at(moved, part, i);
+                                    return false;
+                                });
+    if (best) return best;
+    double lower = kInfinity;
+    for (const auto& face : kBoxFaces) {
+        const double limit = best ? best->upper : options.max_distance;
+        const auto found =
+            nearest_to_shape(moved, corners_of(part, face), limit, workspace.storage());
+        if (!found) continue;
+        lower = std::min(lower, found->lower);
+        const bool precedes = !best || found->upper < best->upper ||
+                              (found->upper == best->upper && found->triangle < best->triangle);
+        if (precedes) best = found;
+    }
+    if (best) best->lower = lower;
+    return best;
 }
 
 }  // namespace cdprep

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/touching_capsule.h"
+#include "touching_shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,32 +100,31 @@ private:
 
 }  // namespace
 
-bool touches(const Model& model, const Capsule& capsule, Workspace& workspace,
-             const TouchOptions& options) noexcept {
+bool touches_shape(const Model& model, const Capsule& capsule, Workspace& workspace,
+                   const ShapeOptions& options) noexcept {
     return any_touching<CapsuleShape>(model, capsule, workspace, options);
 }
 
-std::size_t touching_triangles(const Model& model, const Capsule& capsule, Workspace& workspace,
-                               std::span<std::uint32_t> triangles,
-                               const TouchOptions& options) noexcept {
-    return all_touching<CapsuleShape>(model, capsule, workspace, triangles, options);
+std::size_t triangles_at(const Model& model, const Capsule& capsule, Workspace& workspace,
+                         std::span<std::uint32_t> room, const ShapeOptions& options) noexcept {
+    return all_touching<CapsuleShape>(model, capsule, workspace, room, options);
 }
 
-bool visit_touching_triangles(const Model& model, const Capsule& capsule, Workspace& workspace,
-                              TriangleVisitor visit, const TouchOptions& options) noexcept {
+bool visit_triangles_at(const Model& model, const Capsule& capsule, Workspace& workspace,
+                        TriangleVisitor visit, const ShapeOptions& options) noexcept {
     return visit_touching<CapsuleShape>(model, capsule, workspace, visit, options);
 }
 
-std::optional<ShapeDistance> distance_to(const Model& model, const Capsule& capsule,
-                                         Workspace& workspace,
-                                         const ShapeDistanceOptions& options) noexcept {
+std::optional<ShapeDistance> measure(const Model& model, const Capsule& capsule,
+                                     Workspace& workspace, const ShapeOptions& options) noexcept {
     const format::FloatEnvironment environment;
     require(model, Ask::touch);
     if (!(capsule.radius >= 0) || !(options.max_distance >= 0)) return std::nullopt;
     const MovedModel moved = placed(model, options.world_from_model);
     const Corners segment = {capsule.from, capsule.to, capsule.to};
     std::optional<ShapeDistance> found;
-    for_each_touching<CapsuleShape>(model, capsule, workspace, {options.world_from_model},
+    for_each_touching<CapsuleShape>(model, capsule, workspace,
+                                    {.world_from_model = options.world_from_model},
                                     [&](std::uint32_t i) {
                                         found = touching_at(moved, segment, i);
                                         return false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/touching_sphere.h"
+#include "touching_shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -61,20 +61,24 @@ private:
 
 }  // namespace
 
-bool touches(const Model& model, const Sphere& sphere, Workspace& workspace,
-             const TouchOptions& options) noexcept {
+bool touches_shape(const Model& model, const Sphere& sphere, Workspace& workspace,
+                   const ShapeOptions& options) noexcept {
     return any_touching<SphereShape>(model, sphere, workspace, options);
 }
 
-std::size_t touching_triangles(const Model& model, const Sphere& sphere, Workspace& workspace,
-                               std::span<std::uint32_t> triangles,
-                               const TouchOptions& options) noexcept {
-    return all_touching<SphereShape>(model, sphere, workspace, triangles, options);
+std::size_t triangles_at(const Model& model, const Sphere& sphere, Workspace& workspace,
+                         std::span<std::uint32_t> room, const ShapeOptions& options) noexcept {
+    return all_touching<SphereShape>(model, sphere, workspace, room, options);
 }
 
-bool visit_touching_triangles(const Model& model, const Sphere& sphere, Workspace& workspace,
-                              TriangleVisitor visit, const TouchOptions& options) noexcept {
+bool visit_triangles_at(const Model& model, const Sphere& sphere, Workspace& workspace,
+                        TriangleVisitor visit, const ShapeOptions& options) noexcept {
     return visit_touching<SphereShape>(model, sphere, workspace, visit, options);
+}
+
+std::optional<ShapeDistance> measure(const Model& model, const Sphere& sphere, Workspace& workspace,
+                                     const ShapeOptions& options) noexcept {
+    return measure(model, Capsule{sphere.centre, sphere.centre, sphere.radius}, workspace, options);
 }
 
 }  // namespace cdprep

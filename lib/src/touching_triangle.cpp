@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/touching_triangle.h"
+#include "touching_shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,32 +81,30 @@ private:
 
 }  // namespace
 
-bool touches(const Model& model, const TriangleShape& triangle, Workspace& workspace,
-             const TouchOptions& options) noexcept {
+bool touches_shape(const Model& model, const TriangleShape& triangle, Workspace& workspace,
+                   const ShapeOptions& options) noexcept {
     return any_touching<TriangleAmongBoxes>(model, triangle, workspace, options);
 }
 
-std::size_t touching_triangles(const Model& model, const TriangleShape& triangle,
-                               Workspace& workspace, std::span<std::uint32_t> triangles,
-                               const TouchOptions& options) noexcept {
-    return all_touching<TriangleAmongBoxes>(model, triangle, workspace, triangles, options);
+std::size_t triangles_at(const Model& model, const TriangleShape& triangle, Workspace& workspace,
+                         std::span<std::uint32_t> room, const ShapeOptions& options) noexcept {
+    return all_touching<TriangleAmongBoxes>(model, triangle, workspace, room, options);
 }
 
-bool visit_touching_triangles(const Model& model, const TriangleShape& triangle,
-                              Workspace& workspace, TriangleVisitor visit,
-                              const TouchOptions& options) noexcept {
+bool visit_triangles_at(const Model& model, const TriangleShape& triangle, Workspace& workspace,
+                        TriangleVisitor visit, const ShapeOptions& options) noexcept {
     return visit_touching<TriangleAmongBoxes>(model, triangle, workspace, visit, options);
 }
 
-std::optional<ShapeDistance> distance_to(const Model& model, const TriangleShape& triangle,
-                                         Workspace& workspace,
-                                         const ShapeDistanceOptions& options) noexcept {
+std::optional<ShapeDistance> measure(const Model& model, const TriangleShape& triangle,
+                                     Workspace& workspace, const ShapeOptions& options) noexcept {
     const format::FloatEnvironment environment;
     require(model, Ask::touch);
     if (!(options.max_distance >= 0)) return std::nullopt;
     const MovedModel moved = placed(model, options.world_from_model);
     std::optional<ShapeDistance> found;
-    for_each_touching<TriangleAmongBoxes>(model, triangle, workspace, {options.world_from_model},
+    for_each_touching<TriangleAmongBoxes>(model, triangle, workspace,
+                                          {.world_from_model = options.world_from_model},
                                           [&](std::uint32_t i) {
                                               found = touching_at(moved, triangle.corner, i);
                                               return false;

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/triangles_within.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "cdprep/distance_through.h"
 #include "cdprep/format/float_environment.h"
+#include "cdprep/pairs.h"
 #include "core/require.h"
 #include "exact_within.h"
 #include "near_triangles.h"
@@ -29,7 +27,7 @@ template <class Trees>
 class WithinSearch {
 public:
     WithinSearch(const Model& a, const Model& b, const Placement& placement, double tolerance,
-                 Workspace& workspace, const WithinOptions& options) noexcept
+                 Workspace& workspace, const PairOptions& options) noexcept
         : a_(a),
           b_(b),
           moved_a_(moved_a(a, placement)),
@@ -72,7 +70,7 @@ private:
     const Model& b_;
     MovedModel moved_a_;
     MovedModel moved_b_;
-    WithinOptions options_;
+    PairOptions options_;
     double tolerance_;
     PlacedBoxes placed_;
     Workspace::Storage& scratch_;
@@ -126,7 +124,7 @@ bool WithinSearch<Trees>::give_all(Found&& found) const noexcept {
 
 template <class Trees, class Found>
 bool for_each_within_by(const Model& a, const Model& b, const Placement& placement,
-                        double tolerance, Workspace& workspace, const WithinOptions& options,
+                        double tolerance, Workspace& workspace, const PairOptions& options,
                         Found&& found) noexcept {
     if (!(tolerance >= 0)) return true;
     if (tolerance == 0) {
@@ -140,7 +138,7 @@ bool for_each_within_by(const Model& a, const Model& b, const Placement& placeme
 template <class Found>
 bool for_each_within(Structure structure, const Model& a, const Model& b,
                      const Placement& placement, double tolerance, Workspace& workspace,
-                     const WithinOptions& options, Found&& found) noexcept {
+                     const PairOptions& options, Found&& found) noexcept {
     if (structure == Structure::pieces) {
         return for_each_within_by<PieceTrees>(a, b, placement, tolerance, workspace, options,
                                               found);
@@ -152,42 +150,35 @@ bool for_each_within(Structure structure, const Model& a, const Model& b,
 
 bool visit_near_triangles(Structure structure, const Model& a, const Model& b,
                           const Placement& placement, double tolerance, Workspace& workspace,
-                          Visitor<NearTriangles> visit, const WithinOptions& options) noexcept {
+                          Visitor<NearTriangles> visit, const PairOptions& options) noexcept {
     return for_each_within(structure, a, b, placement, tolerance, workspace, options,
                            [&](std::uint32_t at_a, std::uint32_t at_b, Touch touch) {
                                return visit({at_a, at_b, touch});
                            });
 }
 
-std::size_t triangles_within_through(const StructureOptions& through, const Model& a,
-                                     const Model& b, const Placement& placement, double tolerance,
-                                     Workspace& workspace, std::span<TrianglePair> pairs,
-                                     const WithinOptions& options) noexcept {
+std::size_t pairs_within(const Pair& pair, double tolerance, Workspace& workspace,
+                         std::span<TrianglePair> room) noexcept {
     const format::FloatEnvironment environment;
-    require(a, b, Ask::within | ask_of(through.structure));
-    return keep_smallest_pairs(a, b, workspace, pairs, [&](auto&& found) {
+    const Model &a = *pair.a, &b = *pair.b;
+    require(a, b, Ask::within | ask_of(pair.options.through));
+    return keep_smallest_pairs(a, b, workspace, room, [&](auto&& found) {
         for_each_within(
-            through.structure, a, b, placement, tolerance, workspace, options,
+            pair.options.through, a, b, pair.placement, tolerance, workspace, pair.options,
             [&](std::uint32_t at_a, std::uint32_t at_b, Touch) { return found(at_a, at_b); });
     });
 }
 
-std::size_t triangles_within(const Model& a, const Model& b, const Placement& placement,
-                             double tolerance, Workspace& workspace, std::span<TrianglePair> pairs,
-                             const WithinOptions& options) noexcept {
-    return triangles_within_through({}, a, b, placement, tolerance, workspace, pairs, options);
-}
-
-bool visit_triangles_within(const Model& a, const Model& b, const Placement& placement,
-                            double tolerance, Workspace& workspace, PairVisitor visit,
-                            const WithinOptions& options) noexcept {
+bool visit_pairs_within(const Pair& pair, double tolerance, Workspace& workspace,
+                        PairVisitor visit) noexcept {
     format::FloatEnvironment environment;
-    require(a, b, Ask::within);
+    const Model &a = *pair.a, &b = *pair.b;
+    require(a, b, Ask::within | ask_of(pair.options.through));
     return for_each_within(
-        Structure::bvh, a, b, placement, tolerance, workspace, options,
+        pair.options.through, a, b, pair.placement, tolerance, workspace, pair.options,
         [&](std::uint32_t at_a, std::uint32_t at_b, Touch) {
-            const TrianglePair pair = {source_number(a, at_a), source_number(b, at_b)};
-            return environment.outside([&] { return visit(pair); });
+            const TrianglePair found = {source_number(a, at_a), source_number(b, at_b)};
+            return environment.outside([&] { return visit(found); });
         });
 }
 

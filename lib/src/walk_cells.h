@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "cdprep/structure.h"
+#include "cdprep/study/overlap_through.h"
 #include "cell_bounds.h"
 #include "walk_pairs.h"
 

@@ -7,10 +7,10 @@
 #include <cstdint>
 
 #include "candidate_nodes.h"
+#include "cdprep/advanced/pair_front.h"
+#include "cdprep/advanced/query_counts.h"
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/limits.h"
-#include "cdprep/pair_front.h"
-#include "cdprep/query_counts.h"
 #include "cdprep/workspace.h"
 #include "cell_bounds.h"
 #include "kernels.h"

@@ -10,7 +10,7 @@
 #include "support/tiny_pieces.h"
 
 #include "cdprep/cdprep.h"
-#include "cdprep/placement.h"
+#include "cdprep/pose.h"
 
 namespace cdprep::test {
 

@@ -12,7 +12,8 @@
 #include "support/exact_distance.h"
 #include "support/hard_distances.h"
 
-#include "cdprep/distance_through.h"
+#include "cdprep/pairs.h"
+#include "cdprep/study/overlap_through.h"
 
 namespace cdprep::test {
 namespace {
@@ -53,24 +54,27 @@ public:
         const StructureOptions pieces = {.structure = Structure::pieces};
 
         PairCache cache;
-        const auto found = in_mode([&] { return distance(a, b, placement, workspace_); });
+        const auto found = in_mode([&] { return distance({a, b, placement}, workspace_); });
         expect(bvh, found);
-        expect(bvh, in_mode([&] { return distance(a, b, placement, workspace_, {}, &cache); }));
-        expect(bvh, in_mode([&] { return distance(a, b, placement, workspace_, {}, &cache); }));
-        expect("pieces",
-               in_mode([&] { return distance_through(pieces, a, b, placement, workspace_); }));
-        ask_again(bvh, found, in_mode([&] { return distance(a, b, placement, workspace_); }));
+        expect(bvh, in_mode([&] { return distance({a, b, placement, {}, &cache}, workspace_); }));
+        expect(bvh, in_mode([&] { return distance({a, b, placement, {}, &cache}, workspace_); }));
+        expect("pieces", in_mode([&] {
+                   return distance({a, b, placement, {.through = pieces.structure}}, workspace_);
+               }));
+        ask_again(bvh, found, in_mode([&] { return distance({a, b, placement}, workspace_); }));
         ask_permitted(bvh, a, b);
         expect_within("within", [&](double length) {
-            return in_mode([&] { return is_within(a, b, placement, length, workspace_); });
+            return in_mode([&] { return within({a, b, placement}, length, workspace_); });
         });
         expect_within("pieces", [&](double length) {
-            return in_mode(
-                [&] { return is_within_through(pieces, a, b, placement, length, workspace_); });
+            return in_mode([&] {
+                return within({a, b, placement, {.through = pieces.structure}}, length, workspace_);
+            });
         });
         if (hard_.is_nested) {
-            const auto solid = in_mode(
-                [&] { return distance(a, b, placement, workspace_, {.body = Body::solid}); });
+            const auto solid = in_mode([&] {
+                return distance({a, b, placement, {.body = Body::solid}}, workspace_);
+            });
             of(bvh).expect(solid && solid->lower == 0 && solid->upper == 0, told());
         }
         if (turn % 2 == 0) ask_c_face(asked_a, asked_b);
@@ -112,11 +116,11 @@ private:
         const double unit = variant_->change.length(1);
         for (const double error : {1e-6, 1e-3, 0.1, 1.0}) {
             const auto by_ratio = in_mode([&] {
-                return distance(a, b, variant_->placement, workspace_, {.relative_error = error});
+                return distance({a, b, variant_->placement}, workspace_, {.relative_error = error});
             });
             const double permitted = error * unit;
             const auto by_length = in_mode([&] {
-                return distance(a, b, variant_->placement, workspace_,
+                return distance({a, b, variant_->placement}, workspace_,
                                 {.absolute_error = permitted});
             });
             Tally& tally = of(strategy);

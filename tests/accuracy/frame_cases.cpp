@@ -12,7 +12,7 @@
 #include "support/exact_pairs.h"
 #include "support/open_tiny.h"
 
-#include "cdprep/refit_bvh.h"
+#include "cdprep/advanced/refit_bvh.h"
 
 namespace cdprep::test {
 namespace {

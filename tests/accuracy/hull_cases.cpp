@@ -15,8 +15,8 @@
 #include "support/hard_hulls.h"
 #include "support/small_hull.h"
 
-#include "cdprep/convex_penetration.h"
-#include "cdprep/distance.h"
+#include "cdprep/advanced/convex_penetration.h"
+#include "cdprep/pairs.h"
 
 #ifdef CDPREP_HAVE_TOOLS
 #include "unit/tools/feature_hull_of.h"
@@ -237,14 +237,16 @@ private:
         const OpenModel model_a = open_tiny(mesh_of(a), {.double_precision = true});
         const OpenModel model_b = open_tiny(mesh_of(b), {.double_precision = true});
         Tally& tally = of("bvh");
-        tally.expect(in_mode([&] {
-                         return collide(model_a.model, model_b.model, variant_->placement,
-                                        workspace_, {.body = Body::solid});
-                     }).hit == meet(),
-                     told());
+        tally.expect(
+            in_mode([&] {
+                return collide(
+                    {model_a.model, model_b.model, variant_->placement, {.body = Body::solid}},
+                    workspace_);
+            }).hit == (meet() ? Answer::yes : Answer::no),
+            told());
         if (meet()) return;
         const auto found = in_mode([&] {
-            return distance(model_a.model, model_b.model, variant_->placement, workspace_);
+            return distance({model_a.model, model_b.model, variant_->placement}, workspace_);
         });
         tally.expect(
             found && found->upper > 0 && is_held(found->lower, found->upper, *truth_->distance),

@@ -11,7 +11,7 @@
 #include "accuracy/mesh_variants.h"
 #include "support/hard_points.h"
 
-#include "cdprep/includes_through.h"
+#include "cdprep/points.h"
 
 namespace cdprep::test {
 namespace {
@@ -52,13 +52,13 @@ public:
             };
             for (const auto& [structure, name] : kThrough) {
                 const bool is_bvh = structure == Structure::bvh;
-                const Inclusion found =
-                    is_bvh ? in_mode(
-                                 [&] { return points_inside(asked.model(), point.at, workspace_); })
-                           : in_mode([&] {
-                                 return includes_through(structure, asked.model(), point.at,
-                                                         workspace_);
-                             });
+                const Inclusion found = is_bvh ? in_mode([&] {
+                    return points_inside(asked.model(), point.at, workspace_);
+                })
+                                               : in_mode([&] {
+                                                     return points_inside(asked.model(), point.at,
+                                                                          workspace_, structure);
+                                                 });
                 const std::string kind = is_bvh          ? asked.bounds()
                                          : turn % 2 == 1 ? "boxes"
                                                          : "plain";

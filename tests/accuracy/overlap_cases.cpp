@@ -17,12 +17,10 @@
 #include "support/small_hull.h"
 #include "support/waiting_leaves.h"
 
-#include "cdprep/collide.h"
-#include "cdprep/convex_penetration.h"
-#include "cdprep/distance.h"
-#include "cdprep/overlap_through.h"
-#include "cdprep/split_overlap.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/advanced/convex_penetration.h"
+#include "cdprep/pairs.h"
+#include "cdprep/parallel.h"
+#include "cdprep/study/overlap_through.h"
 
 namespace cdprep::test {
 namespace {
@@ -83,10 +81,10 @@ private:
         const std::string name = std::string("bvh/") + a_->bounds();
         const Model &a = a_->model(), &b = b_->model();
         const Placement& placement = variant_->placement;
-        const auto overlapping = [&](const Pairs& expected, const OverlapOptions& options) {
+        const auto overlapping = [&](const Pairs& expected, const PairOptions& options) {
             return listed(expected, [&](std::span<TrianglePair> pairs) {
                 return in_mode([&] {
-                    return overlapping_triangles(a, b, placement, workspace_, pairs, options);
+                    return overlaps({a, b, placement, options}, workspace_, pairs);
                 });
             });
         };
@@ -95,12 +93,13 @@ private:
         PairCache cache;
         for (int i = 0; i < 2; ++i) {
             expect(name, in_mode([&] {
-                             return collide(a, b, placement, workspace_, {}, &cache);
+                             return collide({a, b, placement, {}, &cache}, workspace_);
                          }).hit == !truth.closed.empty());
         }
         if (truth.is_nested) {
-            const Collision solid = in_mode(
-                [&] { return collide(a, b, placement, workspace_, {.body = Body::solid}); });
+            const Collision solid = in_mode([&] {
+                return collide({a, b, placement, {.body = Body::solid}}, workspace_);
+            });
             expect(name, solid.hit && solid.containment.answer == Answer::yes);
         }
     }
@@ -110,12 +109,14 @@ private:
         const std::string name = "within 0/" + std::string(a_->bounds());
         const Model &a = a_->model(), &b = b_->model();
         const Pairs within = listed(truth.closed, [&](std::span<TrianglePair> pairs) {
-            return in_mode(
-                [&] { return triangles_within(a, b, variant_->placement, 0, workspace_, pairs); });
+            return in_mode([&] {
+                return pairs_within({a, b, variant_->placement}, 0, workspace_, pairs);
+            });
         });
         expect_pairs(name, within, truth.closed);
-        expect(name, in_mode([&] { return is_within(a, b, variant_->placement, 0, workspace_); }) !=
-                         truth.closed.empty());
+        expect(name, in_mode([&] {
+                         return within({a, b, variant_->placement}, 0, workspace_);
+                     }) != truth.closed.empty());
     }
 
     /// All that a question lists. It is asked once where as many fit as are expected; at some
@@ -132,16 +133,15 @@ private:
     }
 
     void expect_through(const std::string& strategy, const StructureOptions& options,
-                        const Pairs& expected, const OverlapOptions& overlap = {}) {
+                        const Pairs& expected, const PairOptions& overlap = {}) {
         expect_pairs(strategy, through(options, expected, overlap), expected);
     }
     [[nodiscard]] Pairs through(const StructureOptions& options, const Pairs& expected,
-                                const OverlapOptions& overlap = {}) {
+                                const PairOptions& overlap = {}) {
         return listed(expected, [&](std::span<TrianglePair> pairs) {
             return in_mode([&] {
-                return overlapping_triangles_through(options, a_->model(), b_->model(),
-                                                     variant_->placement, workspace_, pairs,
-                                                     overlap);
+                return overlaps_through({a_->model(), b_->model(), variant_->placement, overlap},
+                                        options, workspace_, pairs);
             });
         });
     }
@@ -157,8 +157,9 @@ private:
                 structure == Structure::pieces ? "pieces/scattered" : name + boxes;
             StructureOptions options = {.structure = structure, .descent = descent};
             expect(strategy, in_mode([&] {
-                                 return any_overlap_through(options, a_->model(), b_->model(),
-                                                            variant_->placement, workspace_);
+                                 return any_overlap_through(
+                                     {a_->model(), b_->model(), variant_->placement}, options,
+                                     workspace_);
                              }) == !truth.closed.empty());
             expect_through(strategy, options, truth.closed);
             expect_through(strategy, options, truth.proper, {.overlap = Overlap::proper});
@@ -185,9 +186,8 @@ private:
         std::vector<Workspace>& workers = workers_of();
         Pairs pairs(truth.closed.size());
         const std::size_t count = in_mode([&] {
-            return split_overlapping_triangles(a_->model(), b_->model(), variant_->placement,
-                                               std::span(workers).first(threads), run_threads,
-                                               pairs);
+            return split_overlaps({a_->model(), b_->model(), variant_->placement},
+                                  std::span(workers).first(threads), run_threads, pairs);
         });
         pairs.resize(std::min(count, pairs.size()));
         expect("threads/1 to 16", count == truth.closed.size() && pairs == truth.closed,
@@ -346,8 +346,9 @@ void score_triangles(const HardCaseOptions& options, Scoreboard& board) {
 void score_count(const HardMeshes& hard, Scoreboard& board) {
     const AskedModel a(hard.a, 1), b(hard.b, 1);
     Workspace workspace;
-    const std::size_t count = in_mode(
-        [&] { return overlapping_triangles(a.model(), b.model(), hard.placement, workspace, {}); });
+    const std::size_t count = in_mode([&] {
+        return overlaps({a.model(), b.model(), hard.placement}, workspace, {});
+    });
     board.of(hard.id, "bvh/oriented").expect(count == *hard.count, [&] {
         return hard.id + ": " + std::to_string(count) + " pairs";
     });

@@ -145,8 +145,8 @@ public:
                 reseal(changed.span());
                 const auto opened = Model::open(std::as_const(changed).span());
                 if (opened && opened.value().bvh().leaves.size() > 0) {
-                    (void)overlapping_triangles(opened.value(), opened.value(),
-                                                Placement::b_moves(Pose()), workspace, pairs);
+                    (void)overlaps({opened.value(), opened.value(), Placement::b_moves(Pose())},
+                                   workspace, pairs);
                 }
                 board_.of("B16", "header words").expect(true, [] { return ""; });
             }

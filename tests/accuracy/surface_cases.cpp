@@ -20,7 +20,7 @@
 #include "unit/tools/pieces_flaw.h"
 #include "unit/tools/soup_of.h"
 
-#include "cdprep/convex_distance.h"
+#include "cdprep/advanced/convex_distance.h"
 
 namespace cdprep::test {
 namespace {

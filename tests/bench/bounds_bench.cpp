@@ -25,10 +25,8 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep {
 namespace {
@@ -53,13 +51,13 @@ std::size_t ask(const Baked& baked, std::size_t question, const Pose& pose, Work
     const Placement placement = Placement::b_moves(pose);
     switch (question) {
         case overlap:
-            return overlapping_triangles(baked.a, baked.b, placement, workspace, room);
+            return overlaps({baked.a, baked.b, placement}, workspace, room);
         case collides:
-            return collide(baked.a, baked.b, placement, workspace).hit ? 1 : 0;
+            return collide({baked.a, baked.b, placement}, workspace).hit == Answer::yes ? 1 : 0;
         case how_far:
-            return distance(baked.a, baked.b, placement, workspace)->upper > 0 ? 1 : 0;
+            return distance({baked.a, baked.b, placement}, workspace)->upper > 0 ? 1 : 0;
         default:
-            return is_within(baked.a, baked.b, placement, kTolerance, workspace) ? 1 : 0;
+            return cdprep::within({baked.a, baked.b, placement}, kTolerance, workspace) ? 1 : 0;
     }
 }
 

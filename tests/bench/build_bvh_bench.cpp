@@ -22,10 +22,9 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/build_bvh.h"
-#include "cdprep/collide.h"
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/refit_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
+#include "cdprep/advanced/refit_bvh.h"
+#include "cdprep/pairs.h"
 #include "crew.h"
 #include "support/tiny_baker.h"
 
@@ -216,10 +215,9 @@ void time_queries(const std::string& pair, const SourceMesh& a, const SourceMesh
                     const Model& model_b = models_b[tree].model;
                     const auto us = time_poses(poses, 3, [&](const Placement& placement) {
                         if (overlap) {
-                            (void)overlapping_triangles(model_a, model_b, placement, workspace,
-                                                        found);
+                            (void)overlaps({model_a, model_b, placement}, workspace, found);
                         } else {
-                            (void)collide(model_a, model_b, placement, workspace);
+                            (void)collide({model_a, model_b, placement}, workspace);
                         }
                     });
                     totals[tree].push_back(median(us));

@@ -26,10 +26,10 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/distance_through.h"
-#include "cdprep/overlap_through.h"
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/pair_front.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/pairs.h"
+#include "cdprep/study/overlap_through.h"
 
 namespace cdprep {
 namespace {
@@ -85,17 +85,19 @@ Walk walk_from(const Pose& start, std::mt19937& random) {
 
 bool ask(const StructureOptions& through, const Model& a, const Model& b, std::size_t question,
          const Placement& placement, Workspace& workspace, PieceCache* cache) {
-    if (question == collides) {
-        return any_overlap_through(through, a, b, placement, workspace, {}, cache);
+    Pair pair(a, b, placement, {.through = through.structure});
+    if (cache != nullptr) pair.cache = &cache->pair, pair.front = &cache->front;
+    switch (question) {
+        case collides:
+            return any_overlap_through(pair, through, workspace);
+        case overlaps:
+            pair.options.through = Structure::bvh;
+            return cdprep::overlaps(pair, workspace, {}) > 0;
+        case within:
+            return cdprep::within(pair, kTolerance, workspace);
+        default:
+            return distance(pair, workspace)->upper == 0;
     }
-    if (question == overlaps) {
-        PairCache* pair = cache == nullptr ? nullptr : &cache->pair;
-        return overlapping_triangles(a, b, placement, workspace, {}, {}, pair) > 0;
-    }
-    if (question == within) {
-        return is_within_through(through, a, b, placement, kTolerance, workspace, cache);
-    }
-    return distance_through(through, a, b, placement, workspace, {}, cache)->upper == 0;
 }
 
 /// What one contender took for one set of walks.

@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/pairs.h"
 #include "support/open_tiny.h"
 #include "triangle_contact.h"
 
@@ -68,8 +68,7 @@ TestMesh sloping(TestMesh sheet) {
 
 void ask(Family& family, Workspace& workspace, std::vector<TrianglePair>& pairs) {
     const auto begun = std::chrono::steady_clock::now();
-    family.pairs =
-        overlapping_triangles(family.a, family.b, family.placement, workspace, pairs, {});
+    family.pairs = overlaps({family.a, family.b, family.placement}, workspace, pairs);
     const std::chrono::duration<double, std::micro> taken =
         std::chrono::steady_clock::now() - begun;
     family.us.push_back(taken.count());
@@ -77,8 +76,7 @@ void ask(Family& family, Workspace& workspace, std::vector<TrianglePair>& pairs)
 
 void count(Family& family, Workspace& workspace) {
     workspace.count_into(&family.counts);
-    static_cast<void>(
-        overlapping_triangles(family.a, family.b, family.placement, workspace, {}, {}));
+    static_cast<void>(overlaps({family.a, family.b, family.placement}, workspace, {}));
     workspace.count_into(nullptr);
 }
 

@@ -27,9 +27,9 @@
 #include <vector>
 
 #include "bench_input.h"
+#include "cdprep/advanced/query_counts.h"
 #include "cdprep/contacts.h"
-#include "cdprep/model_pieces.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/hulls.h"
 
 #ifdef CDPREP_HAVE_FCL
 #include "fcl_models.h"
@@ -83,8 +83,8 @@ public:
     Found ask(const Question& question, const Pose& pose) override {
         Found found;
         found.contacts =
-            contacts(a_, b_, Placement::b_moves(pose), question.tolerance, workspace_, contacts_,
-                     {.manifold = question.manifold, .structure = structure_});
+            contacts({a_, b_, Placement::b_moves(pose), {.through = structure_}}, workspace_,
+                     contacts_, {.tolerance = question.tolerance, .manifold = question.manifold});
         for (std::size_t i = 0; i < std::min(found.contacts, kMostContacts); ++i) {
             found.points += contacts_[i].point_count;
         }

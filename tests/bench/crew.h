@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 
 namespace cdprep {
 

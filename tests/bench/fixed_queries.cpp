@@ -14,15 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
-#include "cdprep/touching_box.h"
-#include "cdprep/touching_capsule.h"
-#include "cdprep/touching_sphere.h"
-#include "cdprep/touching_triangle.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/pairs.h"
+#include "cdprep/points.h"
 #include "support/open_tiny.h"
 
 namespace {
@@ -45,7 +38,7 @@ std::optional<double> ask_ring(const std::string& question, const Model& ring, W
     const Capsule above = {{0.9, 0.3, 0.9}, {0.2, 0.1, 0.8}, 0.1};
     const TriangleShape triangle = {{{{0.9, 0.3, 0.1}, {0.2, 0.1, 0.5}, {0.8, 0.9, 0.2}}}};
     const TriangleShape nearby = {{{{0.9, 0.3, 0.9}, {0.2, 0.1, 0.8}, {0.8, 0.9, 0.7}}}};
-    const auto all = [&](const auto& shape, const TouchOptions& options = {}) {
+    const auto all = [&](const auto& shape, const ShapeOptions& options = {}) {
         return static_cast<double>(touching_triangles(ring, shape, workspace, triangles, options));
     };
     if (question == "ray") return cast_ray(ring, ray, workspace)->t;
@@ -57,8 +50,8 @@ std::optional<double> ask_ring(const std::string& question, const Model& ring, W
     if (question == "sphere") return all(sphere);
     if (question == "capsule") return all(capsule);
     if (question == "triangle") return all(triangle);
-    if (question == "to_capsule") return distance_to(ring, above, workspace)->upper;
-    if (question == "to_triangle") return distance_to(ring, nearby, workspace)->upper;
+    if (question == "to_capsule") return shape_distance(ring, above, workspace)->upper;
+    if (question == "to_triangle") return shape_distance(ring, nearby, workspace)->upper;
     return std::nullopt;
 }
 
@@ -68,14 +61,16 @@ double ask(const std::string& question, const Model& ball, const Model& ring, Wo
     const Placement crossing = turned(0.4);
     const Placement apart = turned(2.5);
     if (question == "overlap") {
-        return static_cast<double>(overlapping_triangles(ball, ring, crossing, workspace, pairs));
+        return static_cast<double>(overlaps({ball, ring, crossing}, workspace, pairs));
     }
-    if (question == "collide_hit") return collide(ball, ring, crossing, workspace).hit ? 1 : 0;
-    if (question == "collide_miss") return collide(ball, ring, apart, workspace).hit ? 1 : 0;
-    if (question == "distance") return distance(ball, ring, apart, workspace)->upper;
-    if (question == "within") return is_within(ball, ring, apart, 0.01, workspace) ? 1 : 0;
+    if (question == "collide_hit")
+        return collide({ball, ring, crossing}, workspace).hit == Answer::yes ? 1 : 0;
+    if (question == "collide_miss")
+        return collide({ball, ring, apart}, workspace).hit == Answer::yes ? 1 : 0;
+    if (question == "distance") return distance({ball, ring, apart}, workspace)->upper;
+    if (question == "within") return within({ball, ring, apart}, 0.01, workspace) ? 1 : 0;
     if (question == "pairs_within") {
-        return static_cast<double>(triangles_within(ball, ring, crossing, 0.02, workspace, pairs));
+        return static_cast<double>(pairs_within({ball, ring, crossing}, 0.02, workspace, pairs));
     }
     static std::array<std::uint32_t, 4096> triangles;
     if (const auto answer = ask_ring(question, ring, workspace, triangles)) return *answer;

@@ -36,8 +36,8 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/closest_features.h"
-#include "cdprep/convex_distance.h"
+#include "cdprep/advanced/closest_features.h"
+#include "cdprep/advanced/convex_distance.h"
 #include "support/small_hull.h"
 
 #ifdef CDPREP_HAVE_CCD

@@ -32,7 +32,7 @@
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 
-#include "cdprep/overlap_through.h"
+#include "cdprep/study/overlap_through.h"
 
 namespace cdprep {
 namespace {
@@ -80,8 +80,8 @@ public:
 
 private:
     std::size_t count(Structure structure, const Placement& placement) {
-        return overlapping_triangles_through({.structure = structure, .search = search_}, a_, b_,
-                                             placement, workspace_, {});
+        return overlaps_through({a_, b_, placement}, {.structure = structure, .search = search_},
+                                workspace_, {});
     }
     void time(const Placement& placement, int rounds, Row& row);
 

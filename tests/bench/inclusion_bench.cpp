@@ -22,8 +22,8 @@
 #include "bench_input.h"
 #include "support/every_structure.h"
 
-#include "cdprep/includes_through.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/points.h"
 
 namespace cdprep {
 namespace {
@@ -72,7 +72,7 @@ double timed(Structure structure, const Model& model, const Points& points, Work
              std::size_t& inside) {
     const auto begun = std::chrono::steady_clock::now();
     for (const format::Double3& p : points) {
-        const Inclusion found = includes_through(structure, model, p, workspace);
+        const Inclusion found = points_inside(model, p, workspace, structure);
         inside += found.answer == Answer::yes ? 1 : 0;
     }
     const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begun;

@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "cdprep/study/overlap_through.h"
 #include "octree_meshes.h"
 #include "prefetch.h"
 

@@ -31,10 +31,9 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/collide.h"
-#include "cdprep/distance_through.h"
-#include "cdprep/overlap_through.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/pairs.h"
+#include "cdprep/study/overlap_through.h"
 
 #ifdef CDPREP_HAVE_FCL
 #include "fcl_models.h"
@@ -76,12 +75,14 @@ public:
         const Placement placement = Placement::b_moves(pose);
         switch (question) {
             case overlap:
-                return overlapping_triangles_through(through_, a_, b_, placement, workspace_,
-                                                     pairs_);
+                return overlaps_through({a_, b_, placement}, through_, workspace_, pairs_);
             case collides:
-                return any_overlap_through(through_, a_, b_, placement, workspace_) ? 1 : 0;
+                return any_overlap_through({a_, b_, placement}, through_, workspace_) ? 1 : 0;
             case how_far:
-                return distance_through(through_, a_, b_, placement, workspace_)->upper > 0 ? 1 : 0;
+                return distance({a_, b_, placement, {.through = through_.structure}}, workspace_)
+                                   ->upper > 0
+                           ? 1
+                           : 0;
             case within_true:
                 return is_within(kTrueTolerance, placement) ? 1 : 0;
             default:
@@ -99,7 +100,7 @@ public:
 
 private:
     bool is_within(double tolerance, const Placement& placement) {
-        return is_within_through(through_, a_, b_, placement, tolerance, workspace_);
+        return within({a_, b_, placement, {.through = through_.structure}}, tolerance, workspace_);
     }
 
     const Model& a_;

@@ -26,7 +26,7 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/split_overlap.h"
+#include "cdprep/parallel.h"
 
 namespace cdprep {
 namespace {
@@ -122,13 +122,12 @@ void compare(const char* name, const Model& a, const Model& b, const Pose& pose,
     std::vector<std::unique_ptr<Pool>> pools;
     for (const std::size_t each : workers) pools.push_back(std::make_unique<Pool>(each));
     for (int round = 0; round < rounds; ++round) {
-        serial.push_back(
-            ms([&] { count = overlapping_triangles(a, b, placement, workspaces[0], expected); }));
+        serial.push_back(ms([&] { count = overlaps({a, b, placement}, workspaces[0], expected); }));
         for (std::size_t i = 0; i < workers.size(); ++i) {
             const std::span<Workspace> own = std::span(workspaces).first(workers[i]);
             std::size_t found = 0;
             split[i].push_back(ms([&] {
-                found = split_overlapping_triangles(a, b, placement, own, *pools[i], pairs);
+                found = split_overlaps({a, b, placement}, own, *pools[i], pairs);
             }));
             if (found != count ||
                 !std::equal(pairs.begin(), pairs.begin() + count, expected.begin())) {

@@ -23,8 +23,8 @@
 #include <optional>
 
 #include "bench_input.h"
-#include "cdprep/overlap_through.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/study/overlap_through.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 
@@ -130,10 +130,10 @@ public:
                     std::span<TrianglePair> pairs) const {
         const Placement placement = Placement::b_moves(pose);
         if (overlap) {
-            return overlapping_triangles_through(setting_.through, a_.model, b_.model, placement,
-                                                 workspace, pairs);
+            return overlaps_through({a_.model, b_.model, placement}, setting_.through, workspace,
+                                    pairs);
         }
-        return any_overlap_through(setting_.through, a_.model, b_.model, placement, workspace);
+        return any_overlap_through({a_.model, b_.model, placement}, setting_.through, workspace);
     }
 
 private:

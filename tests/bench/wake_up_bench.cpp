@@ -21,9 +21,7 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep {
 namespace {
@@ -82,12 +80,11 @@ Times wake_up(const Files& files, Opening opening, Question question) {
     const auto ask = [&] {
         switch (question) {
             case Question::collide:
-                return collide(a, b, placement, workspace).hit ? 1.0 : 0.0;
+                return collide({a, b, placement}, workspace).hit == Answer::yes ? 1.0 : 0.0;
             case Question::overlap:
-                return static_cast<double>(
-                    overlapping_triangles(a, b, placement, workspace, pairs));
+                return static_cast<double>(overlaps({a, b, placement}, workspace, pairs));
             default:
-                return distance(a, b, placement, workspace)->upper;
+                return distance({a, b, placement}, workspace)->upper;
         }
     };
     const auto opened = Clock::now();

@@ -17,27 +17,18 @@
 #include "support/tiny_baker.h"
 #include "support/tiny_pieces.h"
 
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/collide.h"
+#include "cdprep/advanced/convex_penetration.h"
+#include "cdprep/advanced/find_list_damage.h"
+#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/advanced/pair_front.h"
 #include "cdprep/contacts.h"
-#include "cdprep/containment.h"
-#include "cdprep/convex_penetration.h"
-#include "cdprep/crossing_segments.h"
-#include "cdprep/distance.h"
-#include "cdprep/distance_through.h"
-#include "cdprep/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
-#include "cdprep/includes_through.h"
-#include "cdprep/level_of_detail.h"
-#include "cdprep/model_hulls.h"
-#include "cdprep/octree_figures.h"
-#include "cdprep/overlap_through.h"
-#include "cdprep/tetra_figures.h"
-#include "cdprep/touching_box.h"
-#include "cdprep/touching_capsule.h"
-#include "cdprep/touching_sphere.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/hulls.h"
+#include "cdprep/pairs.h"
+#include "cdprep/points.h"
+#include "cdprep/study/octree_figures.h"
+#include "cdprep/study/overlap_through.h"
+#include "cdprep/study/tetra_figures.h"
 #include "find_hull_falsehood.h"
 
 namespace {
@@ -64,23 +55,23 @@ void ask_pair(const Model& model, Workspace& workspace) {
     const Pose turned = Pose::from_quaternion(1, 2, 3, 4, {0.25, 0, 0}).value();
     for (const Placement& placement :
          {Placement::b_moves(Pose()), Placement::world(turned, Pose())}) {
-        (void)overlapping_triangles(model, model, placement, workspace, pairs);
-        (void)collide(model, model, placement, workspace, {.body = Body::solid});
-        (void)distance(model, model, placement, workspace);
-        (void)is_within(model, model, placement, 0.125, workspace);
-        (void)triangles_within(model, model, placement, 0.0625, workspace, pairs);
+        (void)overlaps({model, model, placement}, workspace, pairs);
+        (void)collide({model, model, placement, {.body = Body::solid}}, workspace);
+        (void)distance({model, model, placement}, workspace);
+        (void)within({model, model, placement}, 0.125, workspace);
+        (void)pairs_within({model, model, placement}, 0.0625, workspace, pairs);
     }
     const Placement apart =
         Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {3, 0.25, 0.5}).value());
-    (void)distance(model, model, apart, workspace);
-    (void)is_within(model, model, apart, 0.5, workspace);
+    (void)distance({model, model, apart}, workspace);
+    (void)within({model, model, apart}, 0.5, workspace);
     PairCache cache;
     for (const Placement& placement : {apart, Placement::b_moves(Pose()), apart, apart}) {
-        (void)collide(model, model, placement, workspace, {}, &cache);
-        (void)distance(model, model, placement, workspace, {}, &cache);
+        (void)collide({model, model, placement, {}, &cache}, workspace);
+        (void)distance({model, model, placement, {}, &cache}, workspace);
     }
     const auto every = [](const Crossing&) { return true; };
-    (void)visit_crossing_segments(model, model, Placement::b_moves(Pose()), workspace, every);
+    (void)visit_crossings({model, model, Placement::b_moves(Pose())}, workspace, every);
 }
 
 void ask_shapes(const Model& model, Workspace& workspace) {
@@ -89,7 +80,7 @@ void ask_shapes(const Model& model, Workspace& workspace) {
     (void)touching_triangles(model, Box{{-0.5, 0, 0}, {0.5, 1, 1}}, workspace, numbers);
     (void)touching_triangles(model, Sphere{{0, 0, 0}, 0.5}, workspace, numbers);
     (void)touching_triangles(model, capsule, workspace, numbers);
-    (void)distance_to(model, capsule, workspace);
+    (void)shape_distance(model, capsule, workspace);
     (void)ray_hits(model, {{0, 0, 5}, {0.1, 0, -1}}, workspace);
 }
 
@@ -101,15 +92,14 @@ void ask_structures(const Model& model, Workspace& workspace) {
     for (const Structure structure :
          {Structure::octree, Structure::adaptive_octree, Structure::hashed_octree,
           Structure::hashed_octree_literal, Structure::tetra_tree}) {
-        (void)includes_through(structure, model, {0.5, 0.5, 0.5}, workspace);
+        (void)points_inside(model, {0.5, 0.5, 0.5}, workspace, structure);
         if (!can_answer_pairs(model)) continue;
         for (const Placement& placement : {turned, Placement::b_moves(Pose())}) {
             for (const CellSearch search :
                  {CellSearch::sorted, CellSearch::modulus, CellSearch::mixed}) {
                 const StructureOptions through = {.structure = structure, .search = search};
-                (void)overlapping_triangles_through(through, model, model, placement, workspace,
-                                                    pairs);
-                (void)any_overlap_through(through, model, model, placement, workspace);
+                (void)overlaps_through({model, model, placement}, through, workspace, pairs);
+                (void)any_overlap_through({model, model, placement}, through, workspace);
                 const bool is_hashed = structure == Structure::hashed_octree ||
                                        structure == Structure::hashed_octree_literal;
                 if (!is_hashed) break;
@@ -118,11 +108,11 @@ void ask_structures(const Model& model, Workspace& workspace) {
         for (const Descent descent : {Descent::larger, Descent::a_first, Descent::b_first}) {
             const StructureOptions through = {
                 .structure = structure, .leaf_test = LeafTest::feito_torres, .descent = descent};
-            (void)any_overlap_through(through, model, model, turned, workspace);
+            (void)any_overlap_through({model, model, turned}, through, workspace);
         }
     }
     for (const std::uint32_t level : {0U, 3U, format::kMaxTetraLevel}) {
-        (void)collide_at_level(model, model, turned, level, workspace);
+        (void)collide_at_level({model, model, turned}, level, workspace);
         (void)level_error(model, level);
     }
 }
@@ -204,13 +194,17 @@ void ask_through_pieces(const Model& model, Workspace& workspace) {
     cache.front.models = {1, 2};
     cache.front.count = 0xfffffff0U;
     for (const Placement& placement : piece_placements()) {
-        (void)overlapping_triangles_through(kThrough, model, model, placement, workspace, pairs);
-        (void)any_overlap_through(kThrough, model, model, placement, workspace);
-        (void)any_overlap_through(kThrough, model, model, placement, workspace, {}, &cache);
-        (void)distance_through(kThrough, model, model, placement, workspace);
-        (void)distance_through(kThrough, model, model, placement, workspace, {}, &cache);
-        (void)is_within_through(kThrough, model, model, placement, 0.125, workspace);
-        (void)is_within_through(kThrough, model, model, placement, 0.5, workspace, &cache);
+        (void)overlaps_through({model, model, placement}, kThrough, workspace, pairs);
+        (void)any_overlap_through({model, model, placement}, kThrough, workspace);
+        (void)any_overlap_through({model, model, placement, {}, &cache.pair}, kThrough, workspace);
+        (void)distance({model, model, placement, {.through = kThrough.structure}}, workspace);
+        (void)distance(
+            {model, model, placement, {.through = kThrough.structure}, &cache.pair, &cache.front},
+            workspace);
+        (void)within({model, model, placement, {.through = kThrough.structure}}, 0.125, workspace);
+        (void)within(
+            {model, model, placement, {.through = kThrough.structure}, &cache.pair, &cache.front},
+            0.5, workspace);
     }
 }
 
@@ -221,8 +215,8 @@ void ask_contacts(const Model& model, Workspace& workspace) {
         for (const Manifold manifold : {Manifold::none, Manifold::four}) {
             std::size_t count = 0;
             const auto visit = [&](const Contact&) { return ++count < kMostContacts; };
-            visit_contacts(model, model, placement, 0.0625, workspace, visit,
-                           {.manifold = manifold});
+            visit_contacts({model, model, placement}, workspace, visit,
+                           {.tolerance = 0.0625, .manifold = manifold});
         }
     }
 }

@@ -11,17 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "cdprep/build_bvh.h"
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/collide.h"
-#include "cdprep/convex_penetration.h"
-#include "cdprep/crossing_segments.h"
-#include "cdprep/distance.h"
-#include "cdprep/model_hulls.h"
-#include "cdprep/touching_capsule.h"
-#include "cdprep/touching_sphere.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/advanced/build_bvh.h"
+#include "cdprep/points.h"
+#include "cdprep/pairs.h"
+#include "cdprep/advanced/convex_penetration.h"
+#include "cdprep/hulls.h"
 
 namespace {
 
@@ -77,7 +71,7 @@ void print_points(Dice& dice) {
 
 void print_pairs(const Model& a, const Model& b, const Placement& placement, Workspace& workspace) {
     std::vector<TrianglePair> pairs(100'000);
-    pairs.resize(overlapping_triangles(a, b, placement, workspace, pairs));
+    pairs.resize(overlaps({a, b, placement}, workspace, pairs));
     for (const TrianglePair& pair : pairs) std::printf("%u %u\n", pair.a, pair.b);
     const auto visit = [](const Crossing& crossing) {
         print(crossing.from);
@@ -85,16 +79,16 @@ void print_pairs(const Model& a, const Model& b, const Placement& placement, Wor
         end_line("crossing");
         return true;
     };
-    visit_crossing_segments(a, b, placement, workspace, visit);
-    if (const auto found = distance(a, b, placement, workspace)) {
+    visit_crossings({a, b, placement}, workspace, visit);
+    if (const auto found = distance({a, b, placement}, workspace)) {
         print(found->lower);
         print(found->upper);
         print(found->witness_a);
         print(found->witness_b);
     }
-    const Collision solid = collide(a, b, placement, workspace, {.body = Body::solid});
+    const Collision solid = collide({a, b, placement, {.body = Body::solid}}, workspace);
     std::printf(" %d %zu", solid.hit ? 1 : 0,
-                triangles_within(a, b, placement, 0x1p-6, workspace, {}));
+                pairs_within({a, b, placement}, 0x1p-6, workspace, {}));
     end_line("pair");
     const ConvexPoints hull_a = convex_points(a, 0), hull_b = convex_points(b, 0);
     if (const auto found = convex_distance(hull_a, hull_b, placement)) print(found->upper);
@@ -124,7 +118,7 @@ void print_places(const Model& model, Dice& dice, Workspace& workspace) {
         std::printf(" %d", static_cast<int>(in.answer));
         const Sphere sphere = {at, 0.25};
         std::printf(" %zu", touching_triangles(model, sphere, workspace, {}));
-        if (const auto far = distance_to(model, Capsule{at, to, 0.125}, workspace)) {
+        if (const auto far = shape_distance(model, Capsule{at, to, 0.125}, workspace)) {
             print(far->upper);
             print(far->on_shape);
         }

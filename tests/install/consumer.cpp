@@ -2,8 +2,8 @@
 // Opens a file that is not there: proves that headers and libraries fit together.
 #include <cstdio>
 
-#include "cdprep/collide.h"
 #include "cdprep/format/find_damage.h"
+#include "cdprep/pairs.h"
 
 int main() {
     const auto opened = cdprep::Model::open("no such file.cdp.h5");

@@ -28,8 +28,8 @@
 
 #include "support/every_structure.h"
 
-#include "cdprep/includes_through.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/points.h"
 
 namespace {
 
@@ -237,7 +237,7 @@ int compare(const cdprep::Model& model, const BuilderInput& input, Oracle&& orac
         const Truth truth = oracle(q);
         for (std::size_t s = 0; s < kStructures.size(); ++s) {
             workspace.count_into(&counts[s]);
-            const Inclusion found = cdprep::includes_through(kStructures[s], model, q, workspace);
+            const Inclusion found = cdprep::points_inside(model, q, workspace, kStructures[s]);
             if (agrees(found, truth)) continue;
             std::printf(
                 "point %zu, (%a, %a, %a): %s says %s, %d around, on it: %d; exact: %d, %d\n", i,

@@ -16,10 +16,7 @@
 
 #include "support/float_modes.h"
 
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep::test {
 namespace {
@@ -68,15 +65,15 @@ public:
 
     [[nodiscard]] Answers ask(const Placement& placement, double tolerance) {
         Answers answers;
-        answers.pairs.resize(overlapping_triangles(a_, b_, placement, workspace_, pairs_));
+        answers.pairs.resize(overlaps({a_, b_, placement}, workspace_, pairs_));
         std::copy_n(pairs_.begin(), answers.pairs.size(), answers.pairs.begin());
-        answers.near.resize(triangles_within(a_, b_, placement, tolerance, workspace_, pairs_));
+        answers.near.resize(pairs_within({a_, b_, placement}, tolerance, workspace_, pairs_));
         std::copy_n(pairs_.begin(), answers.near.size(), answers.near.begin());
-        const Collision solid = collide(a_, b_, placement, workspace_, {.body = Body::solid});
-        answers.numbers.push_back(solid.hit ? 1 : 0);
+        const Collision solid = collide({a_, b_, placement, {.body = Body::solid}}, workspace_);
+        answers.numbers.push_back(solid.hit == Answer::yes ? 1 : 0);
         answers.add(solid.containment.winding);
-        answers.numbers.push_back(is_within(a_, b_, placement, tolerance, workspace_) ? 1 : 0);
-        if (const auto found = distance(a_, b_, placement, workspace_)) {
+        answers.numbers.push_back(within({a_, b_, placement}, tolerance, workspace_) ? 1 : 0);
+        if (const auto found = distance({a_, b_, placement}, workspace_)) {
             answers.add(found->lower);
             answers.add(found->upper);
             answers.add(found->witness_a);

@@ -6,7 +6,7 @@
 
 #include "support/meshes.h"
 
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 #include "moved_model.h"
 #include "triangle_contact.h"
 
@@ -82,9 +82,9 @@ std::vector<TrianglePair> boxed_pairs(const TestMesh& a, const TestMesh& b,
 /// The answer of the product, with all pairs.
 inline std::vector<TrianglePair> all_pairs(const Model& a, const Model& b,
                                            const Placement& placement, Workspace& workspace,
-                                           const OverlapOptions& options = {}) {
-    std::vector<TrianglePair> pairs(overlapping_triangles(a, b, placement, workspace, {}, options));
-    pairs.resize(overlapping_triangles(a, b, placement, workspace, pairs, options));
+                                           const PairOptions& options = {}) {
+    std::vector<TrianglePair> pairs(overlaps({a, b, placement, options}, workspace, {}));
+    pairs.resize(overlaps({a, b, placement, options}, workspace, pairs));
     return pairs;
 }
 

@@ -8,7 +8,7 @@
 #include "support/exact_rational.h"
 #include "support/meshes.h"
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 
 namespace cdprep::test {
 

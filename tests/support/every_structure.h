@@ -9,7 +9,7 @@
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 
-#include "cdprep/structure.h"
+#include "cdprep/advanced/structure.h"
 
 namespace cdprep::test {
 

@@ -5,8 +5,8 @@
 
 #include "support/meshes.h"
 
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/placement.h"
+#include "cdprep/pairs.h"
+#include "cdprep/pose.h"
 #include "triangle_contact.h"
 
 namespace cdprep::test {

@@ -8,7 +8,7 @@
 #include "support/exact_rational.h"
 #include "support/meshes.h"
 
-#include "cdprep/placement.h"
+#include "cdprep/pose.h"
 
 namespace cdprep::test {
 

@@ -8,8 +8,8 @@
 
 #include "support/meshes.h"
 
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/placement.h"
+#include "cdprep/pairs.h"
+#include "cdprep/pose.h"
 
 namespace cdprep::test {
 

@@ -9,7 +9,7 @@
 
 #include "support/random_pose.h"
 
-#include "cdprep/convex_distance.h"
+#include "cdprep/advanced/convex_distance.h"
 
 namespace cdprep::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cdprep/placement.h"
+#include "cdprep/pose.h"
 
 namespace cdprep::test {
 

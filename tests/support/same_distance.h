@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "cdprep/distance.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep::test {
 

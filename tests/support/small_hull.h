@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/convex_points.h"
+#include "cdprep/advanced/convex_points.h"
 
 namespace cdprep::test {
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 #include <utility>
 
-#include "cdprep/build_image.h"
-#include "cdprep/build_model.h"
+#include "cdprep/advanced/build_image.h"
+#include "cdprep/advanced/build_model.h"
 
 namespace cdprep::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "support/aligned_bytes.h"
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 #include "cdprep/format/file_header.h"
 #include "cdprep/format/section_set.h"
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <vector>
 
-#include "cdprep/touching.h"
+#include "cdprep/points.h"
 #include "support/open_tiny.h"
 
 namespace cdprep::test {
@@ -16,7 +16,7 @@ using Numbers = std::vector<std::uint32_t>;
 
 /// All triangles of the mesh that the shape touches.
 template <class Shape>
-Numbers touched(const TestMesh& mesh, const Shape& shape, const TouchOptions& options = {}) {
+Numbers touched(const TestMesh& mesh, const Shape& shape, const ShapeOptions& options = {}) {
     const OpenModel model = open_tiny(mesh, {.double_precision = true});
     Workspace workspace;
     Numbers triangles(mesh.triangles.size());

@@ -9,7 +9,7 @@
 #include "support/open_tiny.h"
 #include "support/tiny_pieces.h"
 
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 #include "walked_trees.h"
 #include "workspace_storage.h"
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
+#include "cdprep/advanced/section_list.h"
 #include "cdprep/format/section_set.h"
 #include "cdprep/format/verdict.h"
-#include "cdprep/section_list.h"
 #include "convex/contact_arrays.h"
 #include "convex/piece_arrays.h"
 #include "convex/piece_tree.h"

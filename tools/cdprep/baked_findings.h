@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "mesh/mesh.h"
 #include "mesh/repair.h"
 #include "report/validation_report.h"

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cdprep/model.h"
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 
 namespace cdprep::cli {
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "cdprep/advanced/structure.h"
 #include "cdprep/model.h"
-#include "cdprep/structure.h"
 
 namespace cdprep::cli {
 

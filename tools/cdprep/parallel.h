@@ -6,7 +6,7 @@
 #include <initializer_list>
 #include <memory>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 
 namespace cdprep::cli {
 

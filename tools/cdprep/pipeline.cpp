@@ -11,7 +11,7 @@
 
 #include "baked_arrays.h"
 #include "baked_findings.h"
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 #include "cdprep/format/checksum.h"
 #include "convex/find_bounds.h"
 #include "convex/mass_properties.h"

@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 #include "cdprep/result.h"
 #include "effects.h"
 #include "import/import_file.h"

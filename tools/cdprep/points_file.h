@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "cdprep/cast_ray.h"
+#include "cdprep/points.h"
 
 namespace cdprep::cli {
 

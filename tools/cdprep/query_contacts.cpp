@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cdprep/contacts.h"
+#include "cdprep/study/overlap_through.h"
 #include "interrupt.h"
 #include "open_for.h"
 #include "query.h"
@@ -36,9 +37,10 @@ std::vector<Contact> find_contacts(const Model& a, const Model& b, const Placeme
         found.push_back(contact);
         return true;
     };
-    visit_contacts(a, b, placement, arguments.tolerance, workspace, keep,
-                   {arguments.manifold ? Manifold::four : Manifold::none,
-                    arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep, through});
+    const Degenerate degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
+    visit_contacts({a, b, placement, {.degenerate = degenerate, .through = through}}, workspace,
+                   keep,
+                   {arguments.tolerance, arguments.manifold ? Manifold::four : Manifold::none});
     return found;
 }
 

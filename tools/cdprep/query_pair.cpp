@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "cdprep/collide.h"
-#include "cdprep/convex_distance.h"
-#include "cdprep/crossing_segments.h"
-#include "cdprep/distance_through.h"
-#include "cdprep/model_hulls.h"
-#include "cdprep/overlap_through.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/convex_distance.h"
+#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/advanced/pair_front.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/hulls.h"
+#include "cdprep/pairs.h"
+#include "cdprep/study/overlap_through.h"
 #include "interrupt.h"
 #include "open_for.h"
 #include "query.h"
@@ -99,7 +99,6 @@ public:
           const Model& b)
         : arguments_(arguments), through_(through), a_(a), b_(b), errors_(arguments.errors) {
         options_.body = arguments.as == "solid" ? Body::solid : Body::surface;
-        errors_.body = options_.body;
         options_.overlap = arguments.contact == "proper" ? Overlap::proper : Overlap::closed;
         options_.degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
         if (arguments.counts) workspace_.count_into(&counts_);
@@ -114,8 +113,13 @@ public:
                 return answers.add(timed([&] {
                     cache_ = before;
                     return report::DistanceAnswer{
-                        number, distance_through(through_, a_, b_, placement, workspace_, errors_,
-                                                 &cache_)};
+                        number, distance({a_,
+                                          b_,
+                                          placement,
+                                          {.body = options_.body, .through = through_.structure},
+                                          &cache_.pair,
+                                          &cache_.front},
+                                         workspace_, errors_)};
                 }));
             case Question::within:
                 return answers.add(timed([&] {
@@ -129,7 +133,7 @@ public:
             return answers.add(timed([&] {
                 return report::CoarseAnswer{
                     number,
-                    collide_at_level(a_, b_, placement, *arguments_.level_of_detail, workspace_)};
+                    collide_at_level({a_, b_, placement}, *arguments_.level_of_detail, workspace_)};
             }));
         }
         answers.add(timed([&] {
@@ -180,7 +184,7 @@ private:
             if (options_.body == Body::surface) return answer;
         }
         const Collision collision = find_collision(placement);
-        answer.hit = collision.hit;
+        answer.hit = collision.hit == Answer::yes;
         if (options_.body == Body::solid) answer.containment = collision.containment;
         return answer;
     }
@@ -189,15 +193,13 @@ private:
     /// the hierarchy of boxes.
     Collision find_collision(const Placement& placement) {
         if (through_.structure == Structure::bvh) {
-            return collide(a_, b_, placement, workspace_, options_, &cache_.pair);
+            return collide({a_, b_, placement, options_, &cache_.pair}, workspace_);
         }
-        Collision collision;
-        collision.hit = any_overlap_through(through_, a_, b_, placement, workspace_,
-                                            {options_.overlap, options_.degenerate}, &cache_);
-        if (collision.hit || options_.body == Body::surface) return collision;
-        collision.containment = find_containment(a_, b_, placement, workspace_);
-        collision.hit = collision.containment.answer == Answer::yes;
-        return collision;
+        const Pair pair = {a_, b_, placement, options_, &cache_.pair};
+        if (any_overlap_through(pair, through_, workspace_)) return {Answer::yes, {}};
+        if (options_.body == Body::surface) return {};
+        const Containment inside = containment(pair, workspace_);
+        return {inside.answer, inside};
     }
 
     /// The answer's pairs stay valid until the next call.
@@ -206,13 +208,14 @@ private:
         report::WithinAnswer answer;
         answer.pose = number;
         if (!arguments_.pairs && !arguments_.count) {
-            answer.within =
-                is_within_through(through_, a_, b_, placement, tolerance, workspace_, &cache_);
+            answer.within = within(
+                {a_, b_, placement, {.through = through_.structure}, &cache_.pair, &cache_.front},
+                tolerance, workspace_);
             return answer;
         }
         answer.count = keep_pairs([&](std::span<TrianglePair> room) {
-            return triangles_within_through(through_, a_, b_, placement, tolerance, workspace_,
-                                            room);
+            return pairs_within({a_, b_, placement, {.through = through_.structure}}, tolerance,
+                                workspace_, room);
         });
         answer.within = *answer.count > 0;
         if (arguments_.pairs) answer.pairs = std::span(pairs_).first(*answer.count);
@@ -220,10 +223,9 @@ private:
     }
 
     std::size_t find_pairs(const Placement& placement) {
-        const OverlapOptions options = {options_.overlap, options_.degenerate};
+        const PairOptions options = options_;
         return keep_pairs([&](std::span<TrianglePair> room) {
-            return overlapping_triangles_through(through_, a_, b_, placement, workspace_, room,
-                                                 options);
+            return overlaps_through({a_, b_, placement, options}, through_, workspace_, room);
         });
     }
 
@@ -246,8 +248,7 @@ private:
             crossings_.push_back(crossing);
             return true;
         };
-        visit_crossing_segments(a_, b_, placement, workspace_, keep,
-                                {options_.overlap, options_.degenerate});
+        visit_crossings({a_, b_, placement, options_}, workspace_, keep);
         std::sort(crossings_.begin(), crossings_.end(),
                   [](const Crossing& x, const Crossing& y) { return x.pair < y.pair; });
         return crossings_.size();
@@ -257,7 +258,7 @@ private:
     const StructureOptions through_;
     const Model& a_;
     const Model& b_;
-    CollideOptions options_;
+    PairOptions options_;
     DistanceOptions errors_;
     Workspace workspace_;
     std::vector<TrianglePair> pairs_ = std::vector<TrianglePair>(4096);
@@ -319,9 +320,9 @@ Exit run_hulls(const Arguments& arguments) {
     if (!placements) return fail("query", placements.error());
 
     const ConvexPoints of_a = convex_points(a.value(), 0), of_b = convex_points(b.value(), 0);
-    const ConvexDistanceOptions options = {arguments.errors.relative_error,
-                                           arguments.errors.absolute_error,
-                                           arguments.errors.max_distance};
+    const DistanceOptions options = {arguments.errors.relative_error,
+                                     arguments.errors.absolute_error,
+                                     arguments.errors.max_distance};
     ConvexCache cache;
     QueryCounts counts;
     QueryCounts* const counted = arguments.counts ? &counts : nullptr;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/placement.h"
+#include "cdprep/pose.h"
 #include "command.h"
 
 namespace cdprep::cli {

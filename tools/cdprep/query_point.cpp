@@ -7,9 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/includes_through.h"
+#include "cdprep/points.h"
+#include "cdprep/study/overlap_through.h"
 #include "interrupt.h"
 #include "open_for.h"
 #include "points_file.h"
@@ -59,7 +58,7 @@ struct Question {
 
 std::uint8_t ask_inside(const Model& model, const Double3& point, Structure through,
                         Workspace& workspace, std::size_t number, report::Answers& answers) {
-    const Inclusion inclusion = includes_through(through, model, point, workspace);
+    const Inclusion inclusion = points_inside(model, point, workspace, through);
     answers.add(report::InsideAnswer{number, inclusion});
     return shade_of(inclusion);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "cdprep/study/overlap_through.h"
 #include "report/structure_name.h"
 
 namespace cdprep::cli {

@@ -4,8 +4,9 @@
 #include <span>
 #include <string>
 
+#include "cdprep/advanced/structure.h"
 #include "cdprep/result.h"
-#include "cdprep/structure.h"
+#include "cdprep/study/overlap_through.h"
 #include "command.h"
 
 namespace cdprep::cli {

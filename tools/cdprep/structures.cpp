@@ -5,8 +5,8 @@
 #include <array>
 #include <sstream>
 
+#include "cdprep/advanced/structure_presets.h"
 #include "cdprep/format/limits.h"
-#include "cdprep/structure_presets.h"
 #include "convex/enclosing_hull.h"
 #include "report/structure_name.h"
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "convex/convex_hull.h"
 #include "convex/hull_error.h"
 #include "convex/solid.h"

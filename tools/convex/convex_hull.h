@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/geometry.h"
-#include "cdprep/parallel_for.h"
 
 namespace cdprep::convex {
 

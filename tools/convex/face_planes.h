@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "mesh/mesh.h"
 
 namespace cdprep::convex {

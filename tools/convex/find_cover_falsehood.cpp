@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "cdprep/model_hulls.h"
+#include "cdprep/hulls.h"
 #include "list_places.h"
 #include "mesh/point_tree.h"
 #include "predicates.h"

@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "cdprep/convex_points.h"
+#include "cdprep/advanced/convex_points.h"
 #include "hull_blocks.h"
 
 namespace cdprep::convex {

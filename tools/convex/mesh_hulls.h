@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "convex/convex_hull.h"
 #include "mesh/mesh.h"
 

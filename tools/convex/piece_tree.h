@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 #include "cdprep/format/pieces.h"
 #include "convex/piece_arrays.h"
 

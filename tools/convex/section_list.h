@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cdprep/section_list.h"
+#include "cdprep/advanced/section_list.h"
 #include "convex/contact_arrays.h"
 #include "convex/hull_sections.h"
 #include "convex/piece_arrays.h"

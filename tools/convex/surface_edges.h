@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "mesh/half_edges.h"
 #include "mesh/mesh.h"
 

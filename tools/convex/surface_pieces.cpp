@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "build/chunks.h"
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 #include "convex/close_regions.h"
 #include "convex/grow_patches.h"
 #include "convex/merge_patches.h"

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "mesh/mesh.h"
 #include "mesh/point_tree.h"
 

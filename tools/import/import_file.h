@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/result.h"
 #include "mesh/mesh.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/result.h"
 #include "import/polygon_chunk.h"
 #include "import/source_file.h"

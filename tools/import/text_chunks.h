@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 
 namespace cdprep::import {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cdprep/mesh_arrays.h"
+#include "cdprep/advanced/mesh_arrays.h"
 #include "mesh/mesh.h"
 
 namespace cdprep::mesh {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/degenerate.h"
 
-#include "cdprep/mesh_arrays.h"
+#include "cdprep/advanced/mesh_arrays.h"
 
 namespace cdprep::mesh {
 

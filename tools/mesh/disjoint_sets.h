@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "cdprep/disjoint_sets.h"
+#include "cdprep/advanced/disjoint_sets.h"
 
 namespace cdprep::mesh {
 

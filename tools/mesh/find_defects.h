@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/verdict.h"
-#include "cdprep/parallel_for.h"
 #include "mesh/finding.h"
 #include "mesh/mesh.h"
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "mesh/repair_step.h"
 #include "mesh/stop.h"
 #include "mesh/stored_verdict.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "mesh/mesh.h"
 #include "mesh/stored_verdict.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "mesh/mesh.h"
 
 namespace cdprep::mesh {

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "cdprep/mesh_arrays.h"
+#include "cdprep/advanced/mesh_arrays.h"
 
 namespace cdprep::mesh {
 

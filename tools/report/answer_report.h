@@ -7,14 +7,11 @@
 #include <span>
 #include <string>
 
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/collide.h"
+#include "cdprep/advanced/convex_distance.h"
+#include "cdprep/advanced/level_of_detail.h"
 #include "cdprep/contacts.h"
-#include "cdprep/convex_distance.h"
-#include "cdprep/crossing_segments.h"
-#include "cdprep/distance.h"
-#include "cdprep/level_of_detail.h"
+#include "cdprep/pairs.h"
+#include "cdprep/points.h"
 
 namespace cdprep::report {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 #include "cdprep/model.h"
 
 namespace cdprep::report {

@@ -3,9 +3,9 @@
 
 #include <array>
 
+#include "cdprep/advanced/structure.h"
 #include "cdprep/format/octree.h"
 #include "cdprep/format/tetra_tree.h"
-#include "cdprep/structure.h"
 
 namespace cdprep::report {
 

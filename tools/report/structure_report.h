@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cdprep/model.h"
-#include "cdprep/octree_figures.h"
-#include "cdprep/tetra_figures.h"
+#include "cdprep/study/octree_figures.h"
+#include "cdprep/study/tetra_figures.h"
 #include "report/structure_settings.h"
 
 namespace cdprep::report {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/structure.h"
+#include "cdprep/advanced/structure.h"
 
 namespace cdprep::report {
 

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "cdprep/collide.h"
+#include "cdprep/pairs.h"
 #include "study/bounding_shapes.h"
 #include "study/coherence_ladder.h"
 #include "study/distance_ladder.h"
@@ -126,9 +126,10 @@ TimingOptions timing_options(const AccuracyOptions& options, Steps& steps) {
 TimeRatio check_clock(const Climb& climb) {
     Workspace workspace;
     const Question exact = question_of([&](std::size_t i) {
-        return collide(climb.a.model, climb.b.model,
-                       Placement::b_moves(climb.set.poses[i].a_from_b), workspace)
-                       .hit
+        return collide(
+                   {climb.a.model, climb.b.model, Placement::b_moves(climb.set.poses[i].a_from_b)},
+                   workspace)
+                           .hit == Answer::yes
                    ? 1
                    : 0;
     });

@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <functional>
 
+#include "cdprep/advanced/query_counts.h"
 #include "cdprep/model.h"
-#include "cdprep/query_counts.h"
 #include "cdprep/workspace.h"
 
 namespace cdprep::study {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "cdprep/build_octree.h"
+#include "cdprep/advanced/build_octree.h"
 #include "study/pointer_octrees.h"
 #include "study/search_contenders.h"
 

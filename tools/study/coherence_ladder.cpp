@@ -5,8 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
+#include "cdprep/pairs.h"
 #include "study/bytes_read.h"
 #include "study/seeded_random.h"
 
@@ -101,10 +100,11 @@ public:
         const Model& a = climb_.a.model;
         const Model& b = climb_.b.model;
         if (!is_distance_) {
-            const double hit = collide(a, b, placement, workspace_, {}, cache).hit ? 1 : 0;
+            const double hit =
+                collide({a, b, placement, {}, cache}, workspace_).hit == Answer::yes ? 1 : 0;
             return {hit, hit};
         }
-        const auto found = distance(a, b, placement, workspace_, {}, cache);
+        const auto found = distance({a, b, placement, {}, cache}, workspace_);
         return {found->lower, found->upper};
     }
 

@@ -7,9 +7,9 @@
 #include <limits>
 #include <sstream>
 
-#include "cdprep/convex_distance.h"
-#include "cdprep/distance.h"
-#include "cdprep/model_hulls.h"
+#include "cdprep/advanced/convex_distance.h"
+#include "cdprep/hulls.h"
+#include "cdprep/pairs.h"
 #include "study/bytes_read.h"
 
 namespace cdprep::study {
@@ -136,7 +136,7 @@ private:
     std::function<Interval(std::size_t)> ask(const DistanceOptions& options) {
         return [this, options](std::size_t i) {
             const auto found =
-                distance(climb_.a.model, climb_.b.model, placement(i), workspace_, options);
+                distance({climb_.a.model, climb_.b.model, placement(i)}, workspace_, options);
             return Interval{found->lower, found->upper};
         };
     }

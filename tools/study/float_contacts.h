@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "cdprep/model.h"
-#include "cdprep/placement.h"
+#include "cdprep/pose.h"
 #include "cdprep/visitor.h"
 #include "cdprep/workspace.h"
 

@@ -10,11 +10,10 @@
 #include <iterator>
 #include <utility>
 
-#include "cdprep/collide.h"
-#include "cdprep/convex_distance.h"
-#include "cdprep/level_of_detail.h"
-#include "cdprep/model_hulls.h"
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/advanced/convex_distance.h"
+#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/hulls.h"
+#include "cdprep/pairs.h"
 #include "convex/convex_hull.h"
 #include "convex/hull_error.h"
 #include "convex/solid.h"
@@ -307,7 +306,7 @@ private:
             Rung& rung = add("tetra-tree " + std::to_string(level),
                              "the facets of this level of both tetra-trees: yes, no or unknown",
                              Promise::both_sides, [this, &in_a, &in_b, level](std::size_t i) {
-                                 return collide_at_level(in_a.model, in_b.model, placement(i),
+                                 return collide_at_level({in_a.model, in_b.model, placement(i)},
                                                          level, workspace_)
                                      .answer;
                              });
@@ -378,11 +377,12 @@ private:
             add("exact", "the hierarchy of boxes, float, then double, then exact", Promise::exact,
                 [this](std::size_t i) {
                     return hit_or_no(
-                        collide(climb_.a.model, climb_.b.model, placement(i), workspace_).hit);
+                        collide({climb_.a.model, climb_.b.model, placement(i)}, workspace_).hit ==
+                        Answer::yes);
                 });
         keep(exact, tree_s, bytes);
         exact.touched = tree_read([&](std::size_t i) {
-            static_cast<void>(collide(climb_.a.model, climb_.b.model, placement(i), workspace_));
+            static_cast<void>(collide({climb_.a.model, climb_.b.model, placement(i)}, workspace_));
         });
         exact.outer = 0;
         exact.inner = 0;
@@ -420,8 +420,7 @@ private:
                 wanted.push_back(pair);
                 return true;
             };
-            visit_overlapping_triangles(climb_.a.model, climb_.b.model, placement(i), workspace_,
-                                        want);
+            visit_overlaps({climb_.a.model, climb_.b.model, placement(i)}, workspace_, want);
             const auto find = [&](const FloatContact& contact) {
                 if (contact.certain || doubt_counts) found.push_back({contact.a, contact.b});
                 return true;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/containment.h"
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
+#include "cdprep/pairs.h"
 #include "study/memory_model.h"
 #include "study/pair_errors.h"
 #include "study/pose_set.h"

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <utility>
 
-#include "cdprep/build_image.h"
-#include "cdprep/build_model.h"
+#include "cdprep/advanced/build_image.h"
+#include "cdprep/advanced/build_model.h"
 #include "cdprep/format/sections.h"
 #include "convex/contact_arrays.h"
 #include "convex/find_bounds.h"

@@ -9,12 +9,12 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/build_adaptive_octree.h"
-#include "cdprep/build_bvh.h"
-#include "cdprep/build_octree.h"
-#include "cdprep/build_tetra_tree.h"
+#include "cdprep/advanced/build_adaptive_octree.h"
+#include "cdprep/advanced/build_bvh.h"
+#include "cdprep/advanced/build_octree.h"
+#include "cdprep/advanced/build_tetra_tree.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/model.h"
-#include "cdprep/parallel_for.h"
 #include "mesh/mesh.h"
 #include "mesh/stop.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "cdprep/structure_presets.h"
+#include "cdprep/advanced/structure_presets.h"
 
 namespace cdprep::study {
 namespace {

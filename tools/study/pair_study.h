@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
 #include "study/model_forms.h"
 #include "study/pose_set.h"
 #include "study/strategy.h"

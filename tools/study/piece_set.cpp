@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "cdprep/convex_distance.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/convex_distance.h"
+#include "cdprep/advanced/query_counts.h"
 #include "convex/approximate_pieces.h"
 
 namespace cdprep::study {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/pose.h"
 #include "convex/hull_sections.h"
 #include "mesh/mesh.h"

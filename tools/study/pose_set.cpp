@@ -5,9 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
 #include "cdprep/format/checksum.h"
+#include "cdprep/pairs.h"
 #include "study/rigid_truth.h"
 #include "study/seeded_random.h"
 #include "vectors.h"
@@ -96,7 +95,7 @@ public:
         double apart = outside;
         double gap = 0;
         for (int step = 0; step < kMostSteps; ++step) {
-            gap = distance(pair_.a, pair_.b, Placement::b_moves(at(apart)), workspace,
+            gap = distance({pair_.a, pair_.b, Placement::b_moves(at(apart))}, workspace,
                            {.relative_error = 0.1})
                       ->lower;
             if (gap <= kCloseEnough * pair_.diagonal) break;
@@ -113,7 +112,7 @@ private:
     }
 
     [[nodiscard]] bool touches(double s, Workspace& workspace) const {
-        return collide(pair_.a, pair_.b, Placement::b_moves(at(s)), workspace).hit;
+        return collide({pair_.a, pair_.b, Placement::b_moves(at(s))}, workspace).hit == Answer::yes;
     }
 
     /// The touch that is somewhere not far before `apart`, where they do not yet.
@@ -165,10 +164,10 @@ StudyPose ask(const Pair& pair, const Pose& pose, double in, Workspace& workspac
     StudyPose asked;
     asked.a_from_b = pose;
     const Placement placement = Placement::b_moves(pose);
-    const Collision solid = collide(pair.a, pair.b, placement, workspace, {.body = Body::solid});
-    const std::optional<Distance> apart = distance(pair.a, pair.b, placement, workspace);
+    const Collision solid = collide({pair.a, pair.b, placement, {.body = Body::solid}}, workspace);
+    const std::optional<Distance> apart = distance({pair.a, pair.b, placement}, workspace);
     asked.hit = apart->upper == 0;
-    asked.solid = solid.hit ? Answer::yes : solid.containment.answer;
+    asked.solid = solid.hit;
     asked.gap_lower = apart->lower;
     asked.gap_upper = apart->upper;
     if (asked.hit) asked.depth = std::max(0.0, in) * pair.diagonal;

@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
-#include "cdprep/containment.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/model.h"
-#include "cdprep/parallel_for.h"
+#include "cdprep/pairs.h"
 #include "cdprep/pose.h"
 
 namespace cdprep::study {

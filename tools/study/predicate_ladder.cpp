@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cdprep/triangles_within.h"
+#include "cdprep/pairs.h"
 #include "moved_model.h"
 #include "study/naive_contact.h"
 #include "study/seeded_random.h"
@@ -51,8 +51,8 @@ std::vector<Candidate> find_candidates(const Climb& climb) {
             }
             return true;
         };
-        visit_triangles_within(climb.a.model, climb.b.model, placement,
-                               kNearby * climb.set.diagonal, workspace, keep);
+        visit_pairs_within({climb.a.model, climb.b.model, placement}, kNearby * climb.set.diagonal,
+                           workspace, keep);
         std::ranges::sort(pairs);
         const MovedModel in_a = moved_a(climb.a.model, placement);
         const MovedModel in_b = moved_b(climb.b.model, placement);

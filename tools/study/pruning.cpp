@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "cdprep/overlap_through.h"
-#include "cdprep/placement.h"
-#include "cdprep/query_counts.h"
-#include "cdprep/touching_box.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/points.h"
+#include "cdprep/pose.h"
+#include "cdprep/study/overlap_through.h"
 #include "contact_pairs.h"
 #include "potential_set.h"
 #include "study/cells.h"
@@ -46,8 +46,7 @@ public:
 
     [[nodiscard]] std::vector<TrianglePair> pairs(Structure structure) {
         std::vector<TrianglePair> found(count(structure));
-        found.resize(overlapping_triangles_through(through(structure), a_, b_, placement_,
-                                                   workspace_, found));
+        found.resize(overlaps_through({a_, b_, placement_}, through(structure), workspace_, found));
         return found;
     }
     [[nodiscard]] QueryCounts counts(Structure structure) {
@@ -77,8 +76,7 @@ private:
         return {.structure = structure, .search = search_};
     }
     std::size_t count(Structure structure) {
-        return overlapping_triangles_through(through(structure), a_, b_, placement_, workspace_,
-                                             {});
+        return overlaps_through({a_, b_, placement_}, through(structure), workspace_, {});
     }
 
     const Model& a_;

@@ -5,10 +5,11 @@
 #include <span>
 #include <vector>
 
+#include "cdprep/advanced/structure.h"
 #include "cdprep/model.h"
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 #include "cdprep/pose.h"
-#include "cdprep/structure.h"
+#include "cdprep/study/overlap_through.h"
 #include "cdprep/workspace.h"
 #include "study/pair_study.h"
 #include "study/table.h"

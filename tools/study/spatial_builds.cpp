@@ -8,12 +8,12 @@
 #include <span>
 #include <utility>
 
-#include "cdprep/build_adaptive_octree.h"
-#include "cdprep/build_bvh.h"
-#include "cdprep/build_octree.h"
-#include "cdprep/build_tetra_tree.h"
-#include "cdprep/octree_figures.h"
-#include "cdprep/tetra_figures.h"
+#include "cdprep/advanced/build_adaptive_octree.h"
+#include "cdprep/advanced/build_bvh.h"
+#include "cdprep/advanced/build_octree.h"
+#include "cdprep/advanced/build_tetra_tree.h"
+#include "cdprep/study/octree_figures.h"
+#include "cdprep/study/tetra_figures.h"
 #include "mesh/tree_order.h"
 
 namespace cdprep::study {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/parallel_for.h"
-#include "cdprep/structure_presets.h"
+#include "cdprep/advanced/parallel_for.h"
+#include "cdprep/advanced/structure_presets.h"
 #include "study/study_mesh.h"
 #include "study/timing.h"
 

@@ -8,8 +8,7 @@
 #include <deque>
 #include <numeric>
 
-#include "cdprep/collide.h"
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 #include "mesh/degenerate.h"
 #include "study/bounding_shapes.h"
 #include "study/bytes_read.h"
@@ -74,7 +73,7 @@ Pairs pairs_of(const MemoryModel& a, const MemoryModel& b, const Pose& pose, Wor
         pairs.push_back(pair);
         return true;
     };
-    visit_overlapping_triangles(a.model, b.model, Placement::b_moves(pose), workspace, keep);
+    visit_overlaps({a.model, b.model, Placement::b_moves(pose)}, workspace, keep);
     std::ranges::sort(pairs);
     return pairs;
 }
@@ -121,9 +120,10 @@ public:
     }
 
     [[nodiscard]] bool hits(const Stored& way, std::size_t pose) {
-        return collide(way.a.model, way.b.model,
-                       Placement::b_moves(climb_.set.poses[pose].a_from_b), workspace_)
-            .hit;
+        return collide(
+                   {way.a.model, way.b.model, Placement::b_moves(climb_.set.poses[pose].a_from_b)},
+                   workspace_)
+                   .hit == Answer::yes;
     }
 
     [[nodiscard]] double bytes_read(const Stored& way) {

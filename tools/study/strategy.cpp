@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/strategy.h"
 
-#include "cdprep/convex_distance.h"
-#include "cdprep/distance_through.h"
-#include "cdprep/model_hulls.h"
-#include "cdprep/overlap_through.h"
+#include "cdprep/advanced/convex_distance.h"
+#include "cdprep/hulls.h"
+#include "cdprep/pairs.h"
+#include "cdprep/study/overlap_through.h"
 
 namespace cdprep::study {
 
@@ -65,11 +65,11 @@ std::string StrategyPair::find_reason(Asked asked) const {
 
 bool StrategyPair::collides(const Placement& placement) {
     if (strategy_.of_hulls) return convex_collide(*hull_a_, *hull_b_, placement);
-    return any_overlap_through(strategy_.through, a_, b_, placement, workspace_);
+    return any_overlap_through({a_, b_, placement}, strategy_.through, workspace_);
 }
 
 std::size_t StrategyPair::count_pairs(const Placement& placement) {
-    return overlapping_triangles_through(strategy_.through, a_, b_, placement, workspace_, pairs_);
+    return overlaps_through({a_, b_, placement}, strategy_.through, workspace_, pairs_);
 }
 
 std::span<const TrianglePair> StrategyPair::pairs(const Placement& placement) {
@@ -86,18 +86,20 @@ Gap StrategyPair::gap(const Placement& placement) {
         const auto found = convex_distance(*hull_a_, *hull_b_, placement);
         return {found->lower, found->upper};
     }
-    const auto found = distance_through(strategy_.through, a_, b_, placement, workspace_);
+    const auto found =
+        distance({a_, b_, placement, {.through = strategy_.through.structure}}, workspace_);
     return found ? Gap{found->lower, found->upper} : Gap{};
 }
 
 bool StrategyPair::is_within(const Placement& placement, double tolerance) {
     if (strategy_.of_hulls) return convex_is_within(*hull_a_, *hull_b_, placement, tolerance);
-    return is_within_through(strategy_.through, a_, b_, placement, tolerance, workspace_);
+    return within({a_, b_, placement, {.through = strategy_.through.structure}}, tolerance,
+                  workspace_);
 }
 
 std::size_t StrategyPair::contacts(const Placement& placement, double tolerance,
                                    std::span<Contact> room) {
-    return cdprep::contacts(a_, b_, placement, tolerance, workspace_, room);
+    return cdprep::contacts({a_, b_, placement}, workspace_, room, {.tolerance = tolerance});
 }
 
 }  // namespace cdprep::study

@@ -9,11 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "cdprep/advanced/convex_points.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/advanced/structure.h"
 #include "cdprep/contacts.h"
-#include "cdprep/convex_points.h"
-#include "cdprep/overlapping_triangles.h"
-#include "cdprep/query_counts.h"
-#include "cdprep/structure.h"
+#include "cdprep/pairs.h"
+#include "cdprep/study/overlap_through.h"
 #include "study/model_forms.h"
 
 namespace cdprep::study {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <span>
 
-#include "cdprep/build_image.h"
+#include "cdprep/advanced/build_image.h"
 #include "cdprep/format/file_header.h"
 #include "cdprep/result.h"
 

@@ -11,9 +11,8 @@ namespace cdprep {
 
 using format::Double3;
 
-/// A rigid motion, proved to be one when it was made: a point p goes to
-/// rotation * p + translation. `world_from_arm` is a pose that maps points of
-/// the arm into the world.
+/// A rigid motion, checked when it is made: it maps a point p to rotation * p + translation. A
+/// pose `world_from_arm` maps points of the arm into the world.
 class Pose {
 public:
     /// The identity.
@@ -91,10 +90,60 @@ inline constexpr double kGreatestPoseTolerance = 0.25;
 [[nodiscard]] Result<Pose> nearest_pose(const std::array<double, 16>& matrix, double tolerance,
                                         MatrixLayout layout = MatrixLayout::rows);
 
-/// Moves one point: ((R00 x + R01 y) + R02 z) + T0 and so on, in double without
-/// contraction. This is *the* formula: an exact query answers for the points
-/// that it returns (level E1 of exactness). Neither the compiler's options nor the
-/// floating-point environment of the caller change it.
+/// Returns the point p moved by `pose`: ((R00 x + R01 y) + R02 z) + T0 and so on, in double without
+/// contraction. Queries are exact for the points that this function returns (level E1 of
+/// GLOSSARY.md). Neither compiler options nor the floating-point environment of the caller change
+/// them.
 [[nodiscard]] Double3 transform_point(const Pose& pose, const Double3& p) noexcept;
+
+/// The poses of two models, and which of the models moves.
+///
+/// A query moves each vertex of a moved model once, by transform_point(), and answers exactly for
+/// the resulting doubles. The choice matters: rounding shifts moved vertices by up to
+/// 5 u (|R||v| + |t|) per axis, u = 2^-53.
+class Placement {
+public:
+    /// B moves into A's frame, A stays as it is.
+    [[nodiscard]] static Placement b_moves(const Pose& a_from_b) noexcept {
+        return {Pose(), a_from_b, false, true};
+    }
+    /// A moves into B's frame. A query of (b, a) by b_moves(p) and one of (a, b)
+    /// by a_moves(p) give the same pairs, swapped, bit for bit.
+    [[nodiscard]] static Placement a_moves(const Pose& b_from_a) noexcept {
+        return {b_from_a, Pose(), true, false};
+    }
+    /// B moves by the relative_pose() of two world poses.
+    [[nodiscard]] static Placement relative(const Pose& world_from_a,
+                                            const Pose& world_from_b) noexcept {
+        return b_moves(relative_pose(world_from_a, world_from_b));
+    }
+    /// Both models move, each by its own world pose. Parts of one assembly that share vertices
+    /// and a pose still share them: touching stays touching.
+    [[nodiscard]] static Placement world(const Pose& world_from_a,
+                                         const Pose& world_from_b) noexcept {
+        return {world_from_a, world_from_b, true, true};
+    }
+
+    [[nodiscard]] const Pose& pose_a() const noexcept {
+        return pose_a_;
+    }  ///< identity: A stays
+    [[nodiscard]] const Pose& pose_b() const noexcept {
+        return pose_b_;
+    }  ///< identity: B stays
+    [[nodiscard]] bool a_is_moved() const noexcept {
+        return a_is_moved_;
+    }
+    [[nodiscard]] bool b_is_moved() const noexcept {
+        return b_is_moved_;
+    }
+
+private:
+    Placement(const Pose& pose_a, const Pose& pose_b, bool a, bool b) noexcept
+        : pose_a_(pose_a), pose_b_(pose_b), a_is_moved_(a), b_is_moved_(b) {}
+    Pose pose_a_;
+    Pose pose_b_;
+    bool a_is_moved_;
+    bool b_is_moved_;
+};
 
 }  // namespace cdprep

@@ -8,7 +8,7 @@
 
 #include "support/meshes.h"
 
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep::test {
 

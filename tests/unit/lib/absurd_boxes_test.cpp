@@ -4,18 +4,10 @@
 #include <cstring>
 #include <random>
 
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/collide.h"
-#include "cdprep/crossing_segments.h"
-#include "cdprep/distance.h"
 #include "cdprep/format/sections.h"
-#include "cdprep/overlap_through.h"
-#include "cdprep/touching_box.h"
-#include "cdprep/touching_capsule.h"
-#include "cdprep/touching_sphere.h"
-#include "cdprep/touching_triangle.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/pairs.h"
+#include "cdprep/points.h"
+#include "cdprep/study/overlap_through.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/random_pose.h"
@@ -42,7 +34,7 @@ void ask_about_shapes(const Model& m, const Pose& turn, Workspace& workspace) {
     const Capsule capsule = {{0, 0, 0.5}, {0.1, 0, -1}, 0.1};
     const TriangleShape triangle = {{{{0, 0, 0.5}, {0.1, 0, -1}, {1, 0, 0}}}};
     const auto ask = [&](const auto& shape) {
-        for (const TouchOptions& options : {TouchOptions{}, TouchOptions{turn, Degenerate::keep}}) {
+        for (const ShapeOptions& options : {ShapeOptions{}, ShapeOptions{turn, Degenerate::keep}}) {
             static_cast<void>(touches(m, shape, workspace, options));
             EXPECT_LE(touching_triangles(m, shape, workspace, numbers, options),
                       m.triangle_count());
@@ -52,8 +44,8 @@ void ask_about_shapes(const Model& m, const Pose& turn, Workspace& workspace) {
     ask(Sphere{{0, 0, 0}, 0.5});
     ask(capsule);
     ask(triangle);
-    static_cast<void>(distance_to(m, capsule, workspace));
-    static_cast<void>(distance_to(m, triangle, workspace, {turn}));
+    static_cast<void>(shape_distance(m, capsule, workspace));
+    static_cast<void>(shape_distance(m, triangle, workspace, {turn}));
     EXPECT_LE(all_ray_hits(m, {{0, 0, 5}, {0.1, 0, -1}}, workspace, hits), m.triangle_count());
     static_cast<void>(ray_hits(m, {{0, 0, 5}, {0.1, 0, 1}}, workspace));
 }
@@ -99,13 +91,13 @@ TEST(AbsurdBoxes, EveryQuestionEnds) {
              {Placement::b_moves(Pose()), Placement::b_moves(random_pose(random, 1)),
               Placement::world(random_pose(random, 9), Pose())}) {
             const std::size_t all = m.triangle_count() * std::size_t{m.triangle_count()};
-            EXPECT_LE(overlapping_triangles(m, m, placement, workspace, pairs), all);
-            static_cast<void>(collide(m, m, placement, workspace, {.body = Body::solid}));
-            static_cast<void>(distance(m, m, placement, workspace));
-            static_cast<void>(is_within(m, m, placement, 0.5, workspace));
-            EXPECT_LE(triangles_within(m, m, placement, 0.125, workspace, pairs), all);
+            EXPECT_LE(overlaps({m, m, placement}, workspace, pairs), all);
+            static_cast<void>(collide({m, m, placement, {.body = Body::solid}}, workspace));
+            static_cast<void>(distance({m, m, placement}, workspace));
+            static_cast<void>(within({m, m, placement}, 0.5, workspace));
+            EXPECT_LE(pairs_within({m, m, placement}, 0.125, workspace, pairs), all);
             const auto every = [](const Crossing&) { return true; };
-            EXPECT_TRUE(visit_crossing_segments(m, m, placement, workspace, every));
+            EXPECT_TRUE(visit_crossings({m, m, placement}, workspace, every));
         }
         static_cast<void>(cast_ray(m, {{0, 0, 5}, {0.1, 0, -1}}, workspace));
         static_cast<void>(closest_point(m, {0, 0, 5}, workspace));
@@ -136,10 +128,9 @@ TEST(AbsurdBoxes, EveryQuestionThroughAHashedOctreeEnds) {
                  {Structure::hashed_octree, Structure::hashed_octree_literal}) {
                 for (const CellSearch search : {CellSearch::sorted, CellSearch::mixed}) {
                     const StructureOptions through = {.structure = structure, .search = search};
-                    EXPECT_LE(
-                        overlapping_triangles_through(through, m, m, placement, workspace, {}),
-                        m.triangle_count() * std::size_t{m.triangle_count()});
-                    static_cast<void>(any_overlap_through(through, m, m, placement, workspace));
+                    EXPECT_LE(overlaps_through({m, m, placement}, through, workspace, {}),
+                              m.triangle_count() * std::size_t{m.triangle_count()});
+                    static_cast<void>(any_overlap_through({m, m, placement}, through, workspace));
                 }
             }
         }

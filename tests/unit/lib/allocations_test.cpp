@@ -6,24 +6,13 @@
 #include <memory>
 #include <new>
 
-#include "cdprep/batch.h"
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/collide.h"
+#include "cdprep/advanced/convex_penetration.h"
+#include "cdprep/advanced/refit_bvh.h"
 #include "cdprep/contacts.h"
-#include "cdprep/convex_penetration.h"
-#include "cdprep/crossing_segments.h"
-#include "cdprep/distance.h"
-#include "cdprep/distance_through.h"
-#include "cdprep/includes_through.h"
-#include "cdprep/overlap_through.h"
-#include "cdprep/refit_bvh.h"
-#include "cdprep/split_overlap.h"
-#include "cdprep/touching_box.h"
-#include "cdprep/touching_capsule.h"
-#include "cdprep/touching_sphere.h"
-#include "cdprep/touching_triangle.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/pairs.h"
+#include "cdprep/parallel.h"
+#include "cdprep/points.h"
+#include "cdprep/study/overlap_through.h"
 #include "support/every_structure.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
@@ -31,6 +20,7 @@
 #include "support/small_hull.h"
 #include "support/tiny_pieces.h"
 
+#include "cdprep/advanced/pair_front.h"
 #include "workspace_storage.h"
 
 namespace {
@@ -79,7 +69,7 @@ void ask_touching(const Model& model, const Shape& shape, Workspace& workspace,
                   std::span<std::uint32_t> triangles) {
     const auto visit = [](std::uint32_t) { return true; };
     const Pose turn = Pose::from_quaternion(5, 1, 2, 3, {0.1, 0, 0}).value();
-    for (const TouchOptions& options : {TouchOptions{}, TouchOptions{turn, Degenerate::skip}}) {
+    for (const ShapeOptions& options : {ShapeOptions{}, ShapeOptions{turn, Degenerate::skip}}) {
         static_cast<void>(touches(model, shape, workspace, options));
         static_cast<void>(touching_triangles(model, shape, workspace, triangles, options));
         static_cast<void>(touching_triangles(model, shape, workspace, triangles.first(5), options));
@@ -110,9 +100,8 @@ TEST(Allocations, NoStructureAllocates) {
              {Structure::octree, Structure::adaptive_octree, Structure::tetra_tree}) {
             for (const LeafTest test : {LeafTest::guigue_devillers, LeafTest::feito_torres}) {
                 const StructureOptions through = {structure, test};
-                found += overlapping_triangles_through(through, a.model, b.model, placement,
-                                                       workspace, pairs);
-                found += any_overlap_through(through, a.model, b.model, placement, workspace);
+                found += overlaps_through({a.model, b.model, placement}, through, workspace, pairs);
+                found += any_overlap_through({a.model, b.model, placement}, through, workspace);
             }
         }
     }
@@ -149,49 +138,50 @@ TEST(Allocations, NoQuestionAllocates) {
     const auto run = [](std::size_t count, Task task) {
         for (std::size_t i = 0; i < count; ++i) task(i);
     };
-    std::vector<PairJob> jobs;
-    for (const Placement& placement : placements) jobs.push_back({&a, &b, placement});
+    std::vector<Pair> jobs;
+    for (const Placement& placement : placements) jobs.emplace_back(a, b, placement);
     jobs.front().cache = &cache;
     std::vector<Collision> collisions(jobs.size());
     std::vector<std::optional<Distance>> distances(jobs.size());
-    std::vector<OverlapAnswer> overlaps(jobs.size());
-    std::vector<MarkedTriangles> marked(jobs.size());
+    std::vector<OverlapList> lists(jobs.size());
+    std::vector<OverlapMarks> marked(jobs.size());
     std::vector<std::size_t> counts(jobs.size());
     const auto near = std::make_unique<bool[]>(jobs.size());
-    overlaps.front().room = pairs;
+    lists.front().room = pairs;
     marked.front() = {bits_a, bits_b};
     std::size_t hits = 0, misses = 0;
     const std::size_t before = allocations;
     for (const Placement& placement : placements) {
-        const bool hit = collide(a, b, placement, workspace, {.body = Body::solid}).hit;
+        const bool hit =
+            collide({a, b, placement, {.body = Body::solid}}, workspace).hit == Answer::yes;
         (hit ? hits : misses) += 1;
-        static_cast<void>(overlapping_triangles(a, b, placement, workspace, pairs));
-        static_cast<void>(
-            overlapping_triangles(a, b, placement, workspace, std::span(pairs).first(10)));
-        visit_overlapping_triangles(a, b, placement, workspace, visit);
-        visit_crossing_segments(a, b, placement, workspace, visit_segment);
+        static_cast<void>(overlaps({a, b, placement}, workspace, pairs));
+        static_cast<void>(overlaps({a, b, placement}, workspace, std::span(pairs).first(10)));
+        visit_overlaps({a, b, placement}, workspace, visit);
+        visit_crossings({a, b, placement}, workspace, visit_segment);
         for (const double tolerance : {0.0, 0.05, 0.2}) {
-            static_cast<void>(triangles_within(a, b, placement, tolerance, workspace, pairs));
-            static_cast<void>(triangles_within(a, b, placement, tolerance, workspace, {}));
-            visit_triangles_within(a, b, placement, tolerance, workspace, visit,
-                                   {Degenerate::skip});
+            static_cast<void>(pairs_within({a, b, placement}, tolerance, workspace, pairs));
+            static_cast<void>(pairs_within({a, b, placement}, tolerance, workspace, {}));
+            visit_pairs_within({a, b, placement, {.degenerate = Degenerate::skip}}, tolerance,
+                               workspace, visit);
         }
-        mark_overlapping_triangles(a, b, placement, workspace, bits_a, bits_b);
-        static_cast<void>(distance(a, b, placement, workspace));
-        static_cast<void>(distance(a, b, placement, workspace, {.relative_error = 0.1}, &cache));
-        static_cast<void>(is_within(a, b, placement, 0.5, workspace, &cache));
-        static_cast<void>(collide(a, b, placement, workspace, {}, &cache));
-        static_cast<void>(split_overlapping_triangles(a, b, placement, workspaces, run, pairs));
-        static_cast<void>(split_overlapping_triangles(a, b, placement, workspaces, run,
-                                                      std::span(pairs).first(10)));
-        static_cast<void>(find_containment(a, b, placement, workspace));
+        mark_overlaps({a, b, placement}, workspace, bits_a, bits_b);
+        static_cast<void>(distance({a, b, placement}, workspace));
+        static_cast<void>(
+            distance({a, b, placement, {}, &cache}, workspace, {.relative_error = 0.1}));
+        static_cast<void>(within({a, b, placement, {}, &cache}, 0.5, workspace));
+        static_cast<void>(collide({a, b, placement, {}, &cache}, workspace));
+        static_cast<void>(split_overlaps({a, b, placement}, workspaces, run, pairs));
+        static_cast<void>(
+            split_overlaps({a, b, placement}, workspaces, run, std::span(pairs).first(10)));
+        static_cast<void>(containment({a, b, placement}, workspace));
     }
-    collide_all(jobs, workspaces, run, collisions);
-    distance_all(jobs, workspaces, run, distances);
-    is_within_all(jobs, 0.5, workspaces, run, std::span(near.get(), jobs.size()));
-    count_overlaps_all(jobs, workspaces, run, counts);
-    overlapping_triangles_all(jobs, workspaces, run, overlaps);
-    mark_overlapping_triangles_all(jobs, workspaces, run, marked);
+    collide_many(jobs, workspaces, run, collisions);
+    distance_many(jobs, workspaces, run, distances);
+    within_many(jobs, 0.5, workspaces, run, std::span(near.get(), jobs.size()));
+    count_overlaps_many(jobs, workspaces, run, counts);
+    overlaps_many(jobs, workspaces, run, lists);
+    mark_overlaps_many(jobs, workspaces, run, marked);
     for (const double x : {0.0, 0.5, 1.0, 7.0}) {
         static_cast<void>(points_inside(a, {x, 0.1, 0.2}, workspace));
         static_cast<void>(closest_point(a, {x, 0.1, 0.2}, workspace));
@@ -208,8 +198,8 @@ TEST(Allocations, NoQuestionAllocates) {
             ask_touching(*model, Sphere{{x, 0, 0}, 1}, workspace, triangles);  // tangent at 0
             ask_touching(*model, capsule, workspace, triangles);
             ask_touching(*model, triangle, workspace, triangles);
-            static_cast<void>(distance_to(*model, capsule, workspace));
-            static_cast<void>(distance_to(*model, triangle, workspace));
+            static_cast<void>(shape_distance(*model, capsule, workspace));
+            static_cast<void>(shape_distance(*model, triangle, workspace));
         }
     }
     EXPECT_EQ(allocations, before);
@@ -225,7 +215,7 @@ TEST(Allocations, NoStructureAllocatesToTellWhatIsInside) {
     const std::size_t before = allocations;
     for (const Structure structure : kStructures) {
         for (const double x : {0.0, 0.5, 1.0, 1.25, 7.0}) {
-            const Inclusion found = includes_through(structure, ring.model, {x, 0, 0}, workspace);
+            const Inclusion found = points_inside(ring.model, {x, 0, 0}, workspace, structure);
             inside += found.answer == Answer::yes ? 1 : 0;
         }
     }
@@ -253,10 +243,10 @@ TEST(Allocations, NoQuestionThroughAHashedOctreeAllocates) {
             for (const LeafTest test : {LeafTest::guigue_devillers, LeafTest::feito_torres}) {
                 const StructureOptions through = {.structure = structure, .leaf_test = test};
                 const bool hit =
-                    any_overlap_through(through, a.model, b.model, placement, workspace);
+                    any_overlap_through({a.model, b.model, placement}, through, workspace);
                 (hit ? hits : misses) += 1;
-                static_cast<void>(overlapping_triangles_through(through, a.model, b.model,
-                                                                placement, workspace, pairs));
+                static_cast<void>(
+                    overlaps_through({a.model, b.model, placement}, through, workspace, pairs));
             }
         }
     }
@@ -291,20 +281,36 @@ TEST(Allocations, NoQuestionThroughPiecesAllocates) {
     const std::size_t before = allocations;
     for (const Placement& placement : placements) {
         for (PieceCache* from : {static_cast<PieceCache*>(nullptr), &cache}) {
-            const bool hit =
-                any_overlap_through(through, a.model, b.model, placement, workspace, {}, from);
+            const bool hit = any_overlap_through(
+                {a.model, b.model, placement, {}, from == nullptr ? nullptr : &from->pair}, through,
+                workspace);
             (hit ? hits : misses) += 1;
-            static_cast<void>(
-                distance_through(through, a.model, b.model, placement, workspace, {}, from));
-            static_cast<void>(distance_through(through, a.model, b.model, placement, workspace,
-                                               {.relative_error = 0.1}, from));
-            static_cast<void>(
-                is_within_through(through, a.model, b.model, placement, 0.5, workspace, from));
+            static_cast<void>(distance({a.model,
+                                        b.model,
+                                        placement,
+                                        {.through = through.structure},
+                                        from == nullptr ? nullptr : &from->pair,
+                                        from == nullptr ? nullptr : &from->front},
+                                       workspace));
+            static_cast<void>(distance({a.model,
+                                        b.model,
+                                        placement,
+                                        {.through = through.structure},
+                                        from == nullptr ? nullptr : &from->pair,
+                                        from == nullptr ? nullptr : &from->front},
+                                       workspace, {.relative_error = 0.1}));
+            static_cast<void>(within({a.model,
+                                      b.model,
+                                      placement,
+                                      {.through = through.structure},
+                                      from == nullptr ? nullptr : &from->pair,
+                                      from == nullptr ? nullptr : &from->front},
+                                     0.5, workspace));
         }
         static_cast<void>(
-            overlapping_triangles_through(through, a.model, b.model, placement, workspace, pairs));
-        static_cast<void>(overlapping_triangles_through(through, a.model, b.model, placement,
-                                                        workspace, std::span(pairs).first(10)));
+            overlaps_through({a.model, b.model, placement}, through, workspace, pairs));
+        static_cast<void>(overlaps_through({a.model, b.model, placement}, through, workspace,
+                                           std::span(pairs).first(10)));
     }
     EXPECT_EQ(allocations, before);
     EXPECT_GT(hits, 2U);
@@ -331,10 +337,10 @@ TEST(Allocations, NoContactAllocates) {
     for (const Placement& placement : placements) {
         for (const Manifold manifold : {Manifold::none, Manifold::four}) {
             for (const OpenModel* other : {&a, &b}) {
-                most = std::max(most, contacts(other->model, b.model, placement, 0.25, workspace,
-                                               room, {.manifold = manifold}));
-                visit_contacts(b.model, other->model, placement, 0.25, workspace, visit,
-                               {.manifold = manifold});
+                most = std::max(most, contacts({other->model, b.model, placement}, workspace, room,
+                                               {.tolerance = 0.25, .manifold = manifold}));
+                visit_contacts({b.model, other->model, placement}, workspace, visit,
+                               {.tolerance = 0.25, .manifold = manifold});
             }
         }
     }

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "cdprep/batch.h"
+#include "cdprep/parallel.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
@@ -19,15 +19,16 @@ struct Jobs {
     OpenModel ball = open_tiny(icosphere(2));
     OpenModel ring = open_tiny(torus(1, 0.25, 20, 10));
     OpenModel soup = open_tiny(coarse_grid_soup(1, 40, 1));
-    std::vector<PairJob> jobs;
+    std::vector<Pair> jobs;
 
-    explicit Jobs(int count) {
+    explicit Jobs(int count, const PairOptions& options = {}) {
         std::mt19937 random(1);
         const std::array<const Model*, 3> models = {&ball.model, &ring.model, &soup.model};
         for (int i = 0; i < count; ++i) {
             const Pose p = random_pose(random, 2), q = random_pose(random, 2);
-            jobs.push_back({models[random() % 3], models[random() % 3],
-                            i % 2 == 0 ? Placement::b_moves(p) : Placement::world(p, q)});
+            const Model &a = *models[random() % 3], &b = *models[random() % 3];
+            jobs.emplace_back(a, b, i % 2 == 0 ? Placement::b_moves(p) : Placement::world(p, q),
+                              options);
         }
     }
 };
@@ -35,7 +36,7 @@ struct Jobs {
 class Batch : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Batch, CollideAndWithinAnswerAsAlone) {
-    Jobs made(300);
+    Jobs made(300, {.body = Body::solid});
     std::vector<Workspace> workspaces(GetParam());
     Workspace workspace;
     std::vector<PairCache> caches(made.jobs.size());
@@ -44,18 +45,18 @@ TEST_P(Batch, CollideAndWithinAnswerAsAlone) {
     for (int again = 0; again < 2; ++again) {
         std::vector<Collision> collisions(made.jobs.size());
         const auto near = std::make_unique<bool[]>(made.jobs.size());
-        collide_all(made.jobs, workspaces, run_threads, collisions, {.body = Body::solid});
-        is_within_all(made.jobs, 0.5, workspaces, run_threads,
-                      std::span(near.get(), made.jobs.size()));
+        collide_many(made.jobs, workspaces, run_threads, collisions);
+        within_many(made.jobs, 0.5, workspaces, run_threads,
+                    std::span(near.get(), made.jobs.size()));
         hits = 0;
         for (std::size_t i = 0; i < made.jobs.size(); ++i) {
-            const PairJob& job = made.jobs[i];
+            const Pair& job = made.jobs[i];
             const Collision alone =
-                collide(*job.a, *job.b, job.placement, workspace, {.body = Body::solid});
+                collide({*job.a, *job.b, job.placement, {.body = Body::solid}}, workspace);
             ASSERT_EQ(collisions[i].hit, alone.hit) << i;
             ASSERT_EQ(collisions[i].containment.answer, alone.containment.answer) << i;
-            ASSERT_EQ(near[i], is_within(*job.a, *job.b, job.placement, 0.5, workspace)) << i;
-            hits += alone.hit ? 1 : 0;
+            ASSERT_EQ(near[i], within({*job.a, *job.b, job.placement}, 0.5, workspace)) << i;
+            hits += alone.hit == Answer::yes ? 1 : 0;
         }
     }
     EXPECT_GT(hits, made.jobs.size() * 3 / 10);
@@ -67,11 +68,12 @@ TEST_P(Batch, DistanceAnswersAsAlone) {
     std::vector<Workspace> workspaces(GetParam());
     Workspace workspace;
     std::vector<std::optional<Distance>> answers(made.jobs.size());
-    distance_all(made.jobs, workspaces, run_threads, answers, {.max_distance = 1});
+    distance_many(made.jobs, workspaces, run_threads, answers, {.max_distance = 1});
     std::size_t none = 0;
     for (std::size_t i = 0; i < made.jobs.size(); ++i) {
-        const PairJob& job = made.jobs[i];
-        const auto alone = distance(*job.a, *job.b, job.placement, workspace, {.max_distance = 1});
+        const Pair& job = made.jobs[i];
+        const auto alone =
+            distance({*job.a, *job.b, job.placement}, workspace, {.max_distance = 1});
         ASSERT_EQ(answers[i].has_value(), alone.has_value()) << i;
         none += alone ? 0 : 1;
         if (!alone) continue;
@@ -90,20 +92,20 @@ TEST_P(Batch, OverlapsAnswerAsAlone) {
     constexpr std::size_t kRoom = 50;  // too short for some
     std::vector<TrianglePair> room(made.jobs.size() * kRoom);
     std::vector<std::uint64_t> bits(made.jobs.size() * 20);
-    std::vector<OverlapAnswer> answers(made.jobs.size());
-    std::vector<MarkedTriangles> marked(made.jobs.size());
+    std::vector<OverlapList> answers(made.jobs.size());
+    std::vector<OverlapMarks> marked(made.jobs.size());
     std::vector<std::size_t> counts(made.jobs.size());
     for (std::size_t i = 0; i < made.jobs.size(); ++i) {
         answers[i].room = std::span(room).subspan(i * kRoom, kRoom);
         marked[i].bits_a = std::span(bits).subspan(i * 20, 10);
         marked[i].bits_b = std::span(bits).subspan(i * 20 + 10, 10);
     }
-    overlapping_triangles_all(made.jobs, workspaces, run_threads, answers);
-    mark_overlapping_triangles_all(made.jobs, workspaces, run_threads, marked);
-    count_overlaps_all(made.jobs, workspaces, run_threads, counts);
+    overlaps_many(made.jobs, workspaces, run_threads, answers);
+    mark_overlaps_many(made.jobs, workspaces, run_threads, marked);
+    count_overlaps_many(made.jobs, workspaces, run_threads, counts);
     std::size_t too_short = 0;
     for (std::size_t i = 0; i < made.jobs.size(); ++i) {
-        const PairJob& job = made.jobs[i];
+        const Pair& job = made.jobs[i];
         const auto alone = all_pairs(*job.a, *job.b, job.placement, workspace);
         ASSERT_EQ(answers[i].count, alone.size()) << i;
         ASSERT_EQ(counts[i], alone.size()) << i;
@@ -112,7 +114,7 @@ TEST_P(Batch, OverlapsAnswerAsAlone) {
         ASSERT_TRUE(std::equal(alone.begin(), alone.begin() + static_cast<std::ptrdiff_t>(kept),
                                answers[i].room.begin()));
         std::vector<std::uint64_t> bits_a(10), bits_b(10);
-        mark_overlapping_triangles(*job.a, *job.b, job.placement, workspace, bits_a, bits_b);
+        mark_overlaps({*job.a, *job.b, job.placement}, workspace, bits_a, bits_b);
         ASSERT_TRUE(std::equal(bits_a.begin(), bits_a.end(), marked[i].bits_a.begin())) << i;
         ASSERT_TRUE(std::equal(bits_b.begin(), bits_b.end(), marked[i].bits_b.begin())) << i;
         too_short += alone.size() > kRoom ? 1 : 0;
@@ -126,10 +128,10 @@ TEST(BatchEdges, WhereThereAreFewerAnswersFewerJobsAreAsked) {
     const Jobs made(20);
     std::vector<Workspace> workspaces(4);
     std::vector<std::size_t> counts(20, 12345);
-    count_overlaps_all(made.jobs, workspaces, run_threads, std::span(counts).first(7));
+    count_overlaps_many(made.jobs, workspaces, run_threads, std::span(counts).first(7));
     EXPECT_NE(counts[6], 12345u);
     EXPECT_EQ(counts[7], 12345u);
-    count_overlaps_all({}, workspaces, run_threads, counts);
+    count_overlaps_many({}, workspaces, run_threads, counts);
     EXPECT_EQ(counts[7], 12345u);
 }
 

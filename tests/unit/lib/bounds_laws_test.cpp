@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
+#include "cdprep/pairs.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
@@ -30,16 +29,16 @@ Answers answers_of(const Model& a, const Model& b, const Placement& placement) {
     Workspace workspace;
     Answers found{};
     found.pairs = all_pairs(a, b, placement, workspace);
-    found.hit = collide(a, b, placement, workspace).hit;
-    const Distance d = distance(a, b, placement, workspace).value();
+    found.hit = collide({a, b, placement}, workspace).hit == Answer::yes;
+    const Distance d = distance({a, b, placement}, workspace).value();
     found.lower = d.lower;
     found.upper = d.upper;
     if (!found.hit) {  // of many contacts any may be named
         found.triangle_a = d.triangle_a;
         found.triangle_b = d.triangle_b;
     }
-    found.within_nearer = is_within(a, b, placement, 0.99 * d.lower, workspace);
-    found.within_farther = is_within(a, b, placement, d.upper, workspace);
+    found.within_nearer = within({a, b, placement}, 0.99 * d.lower, workspace);
+    found.within_farther = within({a, b, placement}, d.upper, workspace);
     return found;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/build_bvh.h"
+#include "cdprep/advanced/build_bvh.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <random>
 #include <thread>
 
-#include "cdprep/collide.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
+#include "cdprep/pairs.h"
 #include "cdprep/pose.h"
 #include "support/brute_force.h"
 #include "support/bvh_boxes.h"
@@ -347,7 +347,8 @@ TEST(BuildBvh, AFastHierarchyGivesTheSameAnswers) {
         const Placement placement = Placement::b_moves(random_pose(random, 2.6));
         const auto expected = all_pairs(best_a.model, best_b.model, placement, workspace);
         EXPECT_EQ(all_pairs(fast_a.model, fast_b.model, placement, workspace), expected);
-        EXPECT_EQ(collide(fast_a.model, fast_b.model, placement, workspace).hit, !expected.empty());
+        EXPECT_EQ(collide({fast_a.model, fast_b.model, placement}, workspace).hit == Answer::yes,
+                  !expected.empty());
         hits += expected.empty() ? 0 : 1;
     }
     EXPECT_GE(hits, kPoses * 3 / 10);

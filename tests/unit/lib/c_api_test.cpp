@@ -10,7 +10,7 @@
 #include <string>
 
 #include "cdprep/cdprep.h"
-#include "cdprep/collide.h"
+#include "cdprep/pairs.h"
 #include "support/c_models.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
@@ -174,7 +174,7 @@ TEST(Workspace, MayLiveInTheCallersMemory) {
     auto workspace = Workspace::in_memory(memory.span());
     ASSERT_TRUE(workspace);
     const Placement still = Placement::b_moves(Pose());
-    EXPECT_TRUE(collide(model.value(), model.value(), still, *workspace).hit);
+    EXPECT_TRUE(collide({model.value(), model.value(), still}, *workspace).hit == Answer::yes);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/cast_ray.h"
+#include "cdprep/points.h"
 
 #include <gtest/gtest.h>
 

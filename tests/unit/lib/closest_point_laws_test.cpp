@@ -11,7 +11,7 @@
 #include "support/exact_distance.h"
 #include "support/open_tiny.h"
 
-#include "cdprep/closest_point.h"
+#include "cdprep/points.h"
 
 namespace cdprep::test {
 namespace {

@@ -28,7 +28,8 @@ std::vector<Contact> all_contacts(const Model& a, const Model& b, const Placemen
         found.push_back(contact);
         return true;
     };
-    visit_contacts(a, b, placement, 0.125, workspace, keep, {.manifold = Manifold::four});
+    visit_contacts({a, b, placement}, workspace, keep,
+                   {.tolerance = 0.125, .manifold = Manifold::four});
     return found;
 }
 

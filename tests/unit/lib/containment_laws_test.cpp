@@ -12,7 +12,8 @@
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
-#include "cdprep/containment.h"
+#include "cdprep/pairs.h"
+#include "cdprep/points.h"
 
 namespace cdprep::test {
 namespace {
@@ -103,8 +104,7 @@ TEST(ContainmentLaws, AgreesWithExactRaysUnderEveryPlacement) {
         const Pose* pose_b = placement.b_is_moved() ? &placement.pose_b() : nullptr;
         const bool a_inside = contained_by_definition(a, pose_a, surface_of(b, pose_b));
         const bool b_inside = contained_by_definition(b, pose_b, surface_of(a, pose_a));
-        const Containment found =
-            find_containment(model_a.model, model_b.model, placement, workspace);
+        const Containment found = containment({model_a.model, model_b.model, placement}, workspace);
         ASSERT_EQ(found.answer == Answer::yes, a_inside || b_inside) << kSeed << ' ' << round;
         ASSERT_NE(found.answer, Answer::unknown) << round;
         if (found.answer == Answer::yes) {
@@ -128,7 +128,7 @@ TEST(ContainmentLaws, AHoleTurnsAnswersIntoUnknown) {
     for (int round = 0; round < 50; ++round) {
         const Pose pose = random_pose(random, 0.25);
         const Containment found =
-            find_containment(outer.model, inner.model, Placement::b_moves(pose), workspace);
+            containment({outer.model, inner.model, Placement::b_moves(pose)}, workspace);
         ASSERT_EQ(found.answer, Answer::unknown) << round;
         ASSERT_FALSE(found.a_inside_b);
         ASSERT_GT(found.winding, 0.5);

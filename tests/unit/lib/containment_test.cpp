@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/containment.h"
+#include "cdprep/pairs.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "cdprep/collide.h"
+#include "cdprep/points.h"
 #include "support/hard_points.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
@@ -141,7 +141,7 @@ Collision solid(const TestMesh& a, const TestMesh& b, const Placement& placement
     const OpenModel model_a = open_tiny(a, {.double_precision = true});
     const OpenModel model_b = open_tiny(b, {.double_precision = true});
     Workspace workspace;
-    return collide(model_a.model, model_b.model, placement, workspace, {.body = Body::solid});
+    return collide({model_a.model, model_b.model, placement, {.body = Body::solid}}, workspace);
 }
 
 // By construction: a small cube inside a large one, under every placement.
@@ -153,7 +153,7 @@ TEST(CollideSolid, NestedSolidsCollideHoweverTheyAreMoved) {
             const TestMesh inner = cube_at(1, 2), outer = cube_at(0, 3);
             const Collision found = swapped ? solid(outer, inner, Placement::world(p, p))
                                             : solid(inner, outer, Placement::world(p, p));
-            ASSERT_TRUE(found.hit);
+            ASSERT_EQ(found.hit, Answer::yes);
             EXPECT_EQ(found.containment.answer, Answer::yes);
             EXPECT_EQ(found.containment.a_inside_b, !swapped);
             EXPECT_EQ(found.containment.winding, 1);
@@ -164,13 +164,14 @@ TEST(CollideSolid, NestedSolidsCollideHoweverTheyAreMoved) {
 TEST(CollideSolid, SurfacesAloneDoNotCollideWhenNested) {
     const OpenModel inner = open_tiny(cube_at(1, 2)), outer = open_tiny(cube_at(0, 3));
     Workspace workspace;
-    EXPECT_FALSE(collide(inner.model, outer.model, Placement::b_moves(Pose()), workspace).hit);
+    EXPECT_FALSE(collide({inner.model, outer.model, Placement::b_moves(Pose())}, workspace).hit ==
+                 Answer::yes);
 }
 
 TEST(CollideSolid, ACavityHoldsNothing) {
     const TestMesh hollow = joined(cube_at(0, 3), reversed(cube_at(1, 2)));
     const Collision found = solid(hollow, cube_at(1.25, 1.75), Placement::b_moves(Pose()));
-    EXPECT_FALSE(found.hit);
+    EXPECT_EQ(found.hit, Answer::no);
     EXPECT_EQ(found.containment.answer, Answer::no);
 }
 
@@ -178,7 +179,7 @@ TEST(CollideSolid, OpenContainersAnswerUnknown) {
     TestMesh open = cube_at(0, 3);
     open.triangles.resize(10);
     const Collision found = solid(open, cube_at(1, 2), Placement::b_moves(Pose()));
-    EXPECT_FALSE(found.hit);
+    EXPECT_EQ(found.hit, Answer::unknown);
     EXPECT_EQ(found.containment.answer, Answer::unknown);
     EXPECT_GT(std::fabs(found.containment.winding), 0.5);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/convex_distance.h"
+#include "cdprep/advanced/convex_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/convex_distance.h"
+#include "cdprep/advanced/convex_distance.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "cdprep/convex_penetration.h"
+#include "cdprep/advanced/convex_penetration.h"
 #include "predicates.h"
 #include "support/exact_hull_pair.h"
 #include "support/hard_hulls.h"

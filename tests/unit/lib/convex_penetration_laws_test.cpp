@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/convex_penetration.h"
+#include "cdprep/advanced/convex_penetration.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/convex_points.h"
+#include "cdprep/advanced/convex_points.h"
 
 #include <gtest/gtest.h>
 

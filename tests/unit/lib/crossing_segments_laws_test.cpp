@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/crossing_segments.h"
+#include "cdprep/pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -118,7 +118,7 @@ std::vector<Crossing> crossings(const Model& a, const Model& b, const Placement&
         found.push_back(crossing);
         return true;
     };
-    EXPECT_TRUE(visit_crossing_segments(a, b, placement, workspace, visit));
+    EXPECT_TRUE(visit_crossings({a, b, placement}, workspace, visit));
     std::sort(found.begin(), found.end(),
               [](const Crossing& x, const Crossing& y) { return x.pair < y.pair; });
     return found;

@@ -5,9 +5,8 @@
 #include <optional>
 #include <random>
 
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/pairs.h"
 #include "support/brute_force_distance.h"
 #include "support/hard_distances.h"
 #include "support/hard_triangles.h"
@@ -69,7 +68,7 @@ TEST(DistanceLaws, TheIntervalHoldsTheTruthAndIsNarrow) {
         const OpenModel a = open_tiny(c.a, {.double_precision = round % 3 == 0});
         const OpenModel b = open_tiny(c.b);
         Workspace workspace;
-        const auto found = distance(a.model, b.model, c.placement, workspace);
+        const auto found = distance({a.model, b.model, c.placement}, workspace);
         ASSERT_TRUE(found);
         const ExactRational truth = brute_force_distance(c.a, c.b, c.placement);
         ASSERT_TRUE(square(found->lower) <= truth) << round << ": " << found->lower;
@@ -78,7 +77,7 @@ TEST(DistanceLaws, TheIntervalHoldsTheTruthAndIsNarrow) {
         EXPECT_LE(found->upper - found->lower, 1e-12 * found->lower + 1e-15 * largest) << round;
         const bool touch = truth.sign() == 0;
         EXPECT_EQ(touch, found->upper == 0);
-        EXPECT_EQ(touch, collide(a.model, b.model, c.placement, workspace).hit);
+        EXPECT_EQ(touch, collide({a.model, b.model, c.placement}, workspace).hit == Answer::yes);
         const double between = std::hypot(found->witness_b.x - found->witness_a.x,
                                           found->witness_b.y - found->witness_a.y,
                                           found->witness_b.z - found->witness_a.z);
@@ -95,12 +94,12 @@ TEST(DistanceLaws, PermittedErrorsAreKept) {
         const Case c = random_case(random, round);
         const OpenModel a = open_tiny(c.a), b = open_tiny(c.b);
         Workspace workspace;
-        const auto best = distance(a.model, b.model, c.placement, workspace);
+        const auto best = distance({a.model, b.model, c.placement}, workspace);
         for (const double error : {1e-6, 1e-3, 0.1, 1.0}) {
             const auto by_ratio =
-                distance(a.model, b.model, c.placement, workspace, {.relative_error = error});
+                distance({a.model, b.model, c.placement}, workspace, {.relative_error = error});
             const auto by_length =
-                distance(a.model, b.model, c.placement, workspace, {.absolute_error = error});
+                distance({a.model, b.model, c.placement}, workspace, {.absolute_error = error});
             for (const auto& found : {by_ratio, by_length}) {
                 ASSERT_TRUE(found);
                 EXPECT_LE(found->lower, best->upper);
@@ -121,7 +120,7 @@ TEST(DistanceLaws, PermittedErrorsSaveWork) {
     const auto boxes = [&](const DistanceOptions& options) {
         QueryCounts counts;
         workspace.count_into(&counts);
-        const auto found = distance(ball.model, ball.model, aside, workspace, options);
+        const auto found = distance({ball.model, ball.model, aside}, workspace, options);
         workspace.count_into(nullptr);
         EXPECT_TRUE(found);
         return counts.box_pairs;
@@ -146,23 +145,23 @@ TEST(DistanceLaws, WithinAgreesWithTheDistance) {
         const Case c = random_case(random, round);
         const OpenModel a = open_tiny(c.a), b = open_tiny(c.b);
         Workspace workspace;
-        const auto found = distance(a.model, b.model, c.placement, workspace);
-        const auto within = [&](double d) {
-            return is_within(a.model, b.model, c.placement, d, workspace);
+        const auto found = distance({a.model, b.model, c.placement}, workspace);
+        const auto near_enough = [&](double d) {
+            return within({a.model, b.model, c.placement}, d, workspace);
         };
-        EXPECT_TRUE(within(found->upper)) << round;
-        EXPECT_TRUE(within(2 * found->upper + 1e-9));
-        EXPECT_EQ(within(0), found->upper == 0);
-        EXPECT_FALSE(within(-1));
-        EXPECT_FALSE(within(std::nan("")));
+        EXPECT_TRUE(near_enough(found->upper)) << round;
+        EXPECT_TRUE(near_enough(2 * found->upper + 1e-9));
+        EXPECT_EQ(near_enough(0), found->upper == 0);
+        EXPECT_FALSE(near_enough(-1));
+        EXPECT_FALSE(near_enough(std::nan("")));
         if (found->lower > 0) {
-            EXPECT_FALSE(within(found->lower * (1 - 1e-9)));
+            EXPECT_FALSE(near_enough(found->lower * (1 - 1e-9)));
         }
-        const auto none = distance(a.model, b.model, c.placement, workspace,
+        const auto none = distance({a.model, b.model, c.placement}, workspace,
                                    {.max_distance = found->lower * 0.999});
         EXPECT_EQ(none.has_value(), found->upper == 0);
         EXPECT_TRUE(
-            distance(a.model, b.model, c.placement, workspace, {.max_distance = found->upper}));
+            distance({a.model, b.model, c.placement}, workspace, {.max_distance = found->upper}));
     }
 }
 
@@ -173,10 +172,10 @@ TEST(DistanceLaws, ATolerancesOwnDistanceCounts) {
     for (const double gap : {1.0, 0.5, 0x1p-10, 0x1p-30, 3 * 0x1p-20}) {
         const Placement placement = Placement::b_moves(
             Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, 1 + gap, 0.25, 0.125}).value());
-        EXPECT_TRUE(is_within(cube.model, cube.model, placement, gap, workspace)) << gap;
+        EXPECT_TRUE(within({cube.model, cube.model, placement}, gap, workspace)) << gap;
         EXPECT_FALSE(
-            is_within(cube.model, cube.model, placement, std::nextafter(gap, 0.0), workspace));
-        const auto found = distance(cube.model, cube.model, placement, workspace);
+            within({cube.model, cube.model, placement}, std::nextafter(gap, 0.0), workspace));
+        const auto found = distance({cube.model, cube.model, placement}, workspace);
         EXPECT_NEAR(found->upper, gap, 1e-14);
     }
 }
@@ -200,7 +199,7 @@ TEST(DistanceLaws, ToleranceIsDecidedToTheLastBit) {
         for (const double tolerance :
              {near, std::nextafter(near, 0.0), std::nextafter(near, 99.0)}) {
             const bool expected = truth <= square(tolerance);
-            ASSERT_EQ(is_within(model_a.model, model_b.model, placement, tolerance, workspace),
+            ASSERT_EQ(within({model_a.model, model_b.model, placement}, tolerance, workspace),
                       expected)
                 << "seed " << kSeed << ", round " << round << ", tolerance " << tolerance;
             hits += expected ? 1 : 0;
@@ -222,11 +221,11 @@ TEST(DistanceLaws, ParallelFacesKeepTheirGapWhenTurned) {
         const OpenModel a = open_tiny(cube, {.double_precision = true});
         const OpenModel b = open_tiny(beside, {.double_precision = true});
         Workspace workspace;
-        const auto still = distance(a.model, b.model, Placement::b_moves(Pose()), workspace);
+        const auto still = distance({a.model, b.model, Placement::b_moves(Pose())}, workspace);
         const ExactRational exact_gap = square(beside.positions[0].x - 1);
         EXPECT_TRUE(square(still->lower) <= exact_gap && exact_gap <= square(still->upper)) << gap;
         const Placement turned = Placement::world(pose, pose);
-        const auto found = distance(a.model, b.model, turned, workspace);
+        const auto found = distance({a.model, b.model, turned}, workspace);
         const ExactRational truth = brute_force_distance(cube, beside, turned);
         EXPECT_TRUE(square(found->lower) <= truth && truth <= square(found->upper)) << gap;
         EXPECT_NEAR(found->upper, gap, 1e-14) << gap;
@@ -246,7 +245,7 @@ TEST(DistanceLaws, TouchingIsZeroAndOneStepIsNot) {
             const OpenModel model_b = open_tiny(b, {.double_precision = true});
             const Placement still = Placement::b_moves(Pose());
             Workspace workspace;
-            const auto found = distance(model_a.model, model_b.model, still, workspace);
+            const auto found = distance({model_a.model, model_b.model, still}, workspace);
             const ExactRational truth = brute_force_distance(a, b, still);
             EXPECT_TRUE(square(found->lower) <= truth && truth <= square(found->upper)) << pair.id;
             EXPECT_EQ(found->upper == 0, truth.sign() == 0) << pair.id;
@@ -270,7 +269,7 @@ TEST(DistanceLaws, CancellationLeavesTheTruthInside) {
              {Placement::b_moves(Pose()),
               Placement::b_moves(
                   Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, gap, 0, 0}).value())}) {
-            const auto found = distance(model_a.model, model_b.model, placement, workspace);
+            const auto found = distance({model_a.model, model_b.model, placement}, workspace);
             const ExactRational truth = brute_force_distance(a, b, placement);
             EXPECT_TRUE(square(found->lower) <= truth && truth <= square(found->upper)) << gap;
             EXPECT_LE(found->upper - found->lower, 1e-12 * found->lower + 1e-9) << gap;
@@ -287,17 +286,17 @@ TEST(DistanceLaws, ASolidInsideAnotherIsNotApart) {
     for (const bool swapped : {false, true}) {
         const Model& a = swapped ? large.model : small.model;
         const Model& b = swapped ? small.model : large.model;
-        const auto surfaces = distance(a, b, still, workspace);
+        const auto surfaces = distance({a, b, still}, workspace);
         EXPECT_NEAR(surfaces->lower, 1, 1e-12);
         const auto solids =
-            distance(a, b, still, workspace, {.max_distance = 0.5, .body = Body::solid});
+            distance({a, b, still, {.body = Body::solid}}, workspace, {.max_distance = 0.5});
         ASSERT_TRUE(solids);
         EXPECT_EQ(solids->lower, 0);
         EXPECT_EQ(solids->upper, 0);
         EXPECT_EQ(solids->witness_a, surfaces->witness_a);
         const Placement aside =
             Placement::b_moves(Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, 7, 0, 0}).value());
-        EXPECT_GT(distance(a, b, aside, workspace, {.body = Body::solid})->lower, 1);
+        EXPECT_GT(distance({a, b, aside, {.body = Body::solid}}, workspace)->lower, 1);
     }
 }
 
@@ -320,7 +319,7 @@ TEST(DistanceLaws, EqualMinimaHaveOneWitness) {
         const OpenModel model_a = open_tiny(a), model_b = open_tiny(b);
         Workspace workspace;
         PairCache cache;
-        const auto first = distance(model_a.model, model_b.model, above, workspace);
+        const auto first = distance({model_a.model, model_b.model, above}, workspace);
         EXPECT_TRUE(exact_squared_distance(corners_of(a, first->triangle_a, nullptr),
                                            corners_of(b, first->triangle_b, &above.pose_b())) ==
                     square(gap));
@@ -328,7 +327,8 @@ TEST(DistanceLaws, EqualMinimaHaveOneWitness) {
         EXPECT_GE(first->upper, gap);
         EXPECT_LE(first->upper - first->lower, 1e-12 * gap + 1e-15 * 8);
         for (int i = 0; i < 3; ++i) {
-            const auto again = distance(model_a.model, model_b.model, above, workspace, {}, &cache);
+            const auto again =
+                distance({model_a.model, model_b.model, above, {}, &cache}, workspace);
             EXPECT_EQ(again->triangle_a, first->triangle_a);
             EXPECT_EQ(again->triangle_b, first->triangle_b);
             EXPECT_EQ(again->upper, first->upper);
@@ -344,13 +344,13 @@ TEST(DistanceLaws, ACacheChangesNoAnswer) {
     PairCache hits;
     for (int round = 0; round < 200; ++round) {
         const Placement placement = Placement::b_moves(random_pose(random, 3));
-        const auto plain = distance(a.model, b.model, placement, workspace);
-        const auto cached = distance(a.model, b.model, placement, workspace, {}, &cache);
+        const auto plain = distance({a.model, b.model, placement}, workspace);
+        const auto cached = distance({a.model, b.model, placement, {}, &cache}, workspace);
         ASSERT_EQ(plain->upper, cached->upper) << round;
         ASSERT_EQ(plain->lower, cached->lower) << round;
         ASSERT_EQ(plain->triangle_a, cached->triangle_a) << round;
-        ASSERT_EQ(is_within(a.model, b.model, placement, 0.5, workspace),
-                  is_within(a.model, b.model, placement, 0.5, workspace, &hits));
+        ASSERT_EQ(within({a.model, b.model, placement}, 0.5, workspace),
+                  within({a.model, b.model, placement, {}, &hits}, 0.5, workspace));
     }
 }
 
@@ -358,9 +358,9 @@ TEST(DistanceLaws, NothingIsFarFromAnEmptyModel) {
     const OpenModel empty = open_tiny(TestMesh{}), cube = open_tiny(unit_cube());
     Workspace workspace;
     const Placement still = Placement::b_moves(Pose());
-    EXPECT_FALSE(distance(empty.model, cube.model, still, workspace));
-    EXPECT_FALSE(distance(cube.model, empty.model, still, workspace));
-    EXPECT_FALSE(is_within(empty.model, empty.model, still, 1e300, workspace));
+    EXPECT_FALSE(distance({empty.model, cube.model, still}, workspace));
+    EXPECT_FALSE(distance({cube.model, empty.model, still}, workspace));
+    EXPECT_FALSE(within({empty.model, empty.model, still}, 1e300, workspace));
 }
 
 TEST(DistanceLaws, SizeDoesNotMatter) {
@@ -369,7 +369,7 @@ TEST(DistanceLaws, SizeDoesNotMatter) {
         const OpenModel a = open_tiny(moved_by(icosphere(2), size, {}), {.double_precision = true});
         const Placement placement = Placement::b_moves(
             Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, 3 * size, 0, 0}).value());
-        const auto found = distance(a.model, a.model, placement, workspace);
+        const auto found = distance({a.model, a.model, placement}, workspace);
         ASSERT_TRUE(found) << size;
         EXPECT_NEAR(found->upper / size, 1, 0.02) << size;
     }
@@ -385,14 +385,14 @@ TEST(DistanceLaws, NothingIsTooFarToMeasure) {
         const Placement placement =
             Placement::b_moves(Pose::from_rows({1, 0, 0, 0, 1, 0, 0, 0, 1, far, 0, 0}).value());
         for (const OpenModel* model : {&dot, &cube}) {
-            const auto found = distance(model->model, model->model, placement, workspace);
+            const auto found = distance({model->model, model->model, placement}, workspace);
             ASSERT_TRUE(found) << far;
             EXPECT_NEAR(found->upper / far, 1, 1e-10) << far;
-            EXPECT_TRUE(is_within(model->model, model->model, placement, far, workspace)) << far;
-            EXPECT_FALSE(is_within(model->model, model->model, placement, far / 2, workspace));
+            EXPECT_TRUE(within({model->model, model->model, placement}, far, workspace)) << far;
+            EXPECT_FALSE(within({model->model, model->model, placement}, far / 2, workspace));
         }
         EXPECT_FALSE(
-            is_within(dot.model, dot.model, placement, std::nextafter(far, 0.0), workspace));
+            within({dot.model, dot.model, placement}, std::nextafter(far, 0.0), workspace));
     }
 }
 

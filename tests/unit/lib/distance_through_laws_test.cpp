@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/distance_through.h"
+#include "cdprep/pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,9 @@
 #include <random>
 #include <vector>
 
-#include "cdprep/overlap_through.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/pair_front.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/study/overlap_through.h"
 #include "support/guarded_pages.h"
 #include "support/hard_distances.h"
 #include "support/hard_triangles.h"
@@ -20,16 +21,23 @@
 #include "support/same_distance.h"
 #include "support/tiny_pieces.h"
 
-// The truth in all of these is what distance(), is_within() and overlapping_triangles() answer,
+// The truth in all of these is what distance(), within() and overlaps() answer,
 // whose own laws compare them with rational numbers.
 
 namespace cdprep::test {
 namespace {
 
+constexpr PairOptions kThroughPieces = {.through = Structure::pieces};
 constexpr StructureOptions kPieces = {.structure = Structure::pieces};
 
 OpenModel open_pieces(const TestMesh& mesh, const TinyOptions& options = {}) {
     return open_tiny(with_piece_tree(bake_tiny(mesh.positions, mesh.triangles, options)));
+}
+
+/// The question through pieces, with a cache that may be null.
+Pair through_pieces(const Model& a, const Model& b, const Placement& placement, PieceCache* cache) {
+    if (cache == nullptr) return {a, b, placement, kThroughPieces};
+    return {a, b, placement, kThroughPieces, &cache->pair, &cache->front};
 }
 
 /// Where models touch, many pairs do: any may answer.
@@ -52,42 +60,40 @@ struct Asked {
     [[nodiscard]] std::vector<TrianglePair> pairs(const StructureOptions& through,
                                                   const Placement& placement) {
         std::vector<TrianglePair> found(10'000);
-        found.resize(
-            overlapping_triangles_through(through, a.model, b.model, placement, workspace, found));
+        found.resize(overlaps_through({a.model, b.model, placement}, through, workspace, found));
         return found;
     }
-    [[nodiscard]] std::vector<TrianglePair> near_pairs(const StructureOptions& through,
+    [[nodiscard]] std::vector<TrianglePair> near_pairs(const PairOptions& options,
                                                        const Placement& placement,
                                                        double tolerance) {
         std::vector<TrianglePair> found(10'000);
-        found.resize(triangles_within_through(through, a.model, b.model, placement, tolerance,
-                                              workspace, found));
+        found.resize(
+            pairs_within({a.model, b.model, placement, options}, tolerance, workspace, found));
         return found;
     }
     /// Every question through pieces as through boxes, with a cache that may be null.
     void expect_same_answers(const Placement& placement, PieceCache* cache) {
-        const Model &x = a.model, &y = b.model;
-        const auto truth = distance(x, y, placement, workspace);
-        expect_alike(truth, distance_through(kPieces, x, y, placement, workspace, {}, cache));
+        const Pair by_boxes = {a.model, b.model, placement};
+        const Pair by_pieces = through_pieces(a.model, b.model, placement, cache);
+        const auto truth = distance(by_boxes, workspace);
+        expect_alike(truth, distance(by_pieces, workspace));
         if (::testing::Test::HasFatalFailure()) return;
         const double upper = truth ? truth->upper : 1;
         for (const double tolerance :
              {0.0, upper, std::nextafter(upper, 0.0), upper / 2, 2 * upper, -1.0}) {
-            ASSERT_EQ(is_within(x, y, placement, tolerance, workspace),
-                      is_within_through(kPieces, x, y, placement, tolerance, workspace, cache))
+            ASSERT_EQ(within(by_boxes, tolerance, workspace),
+                      within(by_pieces, tolerance, workspace))
                 << tolerance;
             ASSERT_EQ(near_pairs({}, placement, tolerance),
-                      near_pairs(kPieces, placement, tolerance))
+                      near_pairs(kThroughPieces, placement, tolerance))
                 << tolerance;
             const DistanceOptions near = {.max_distance = tolerance};
-            expect_alike(distance(x, y, placement, workspace, near),
-                         distance_through(kPieces, x, y, placement, workspace, near, cache));
+            expect_alike(distance(by_boxes, workspace, near), distance(by_pieces, workspace, near));
             if (::testing::Test::HasFatalFailure()) return;
         }
         const auto found = pairs({}, placement);
         ASSERT_EQ(found, pairs(kPieces, placement));
-        ASSERT_EQ(any_overlap_through(kPieces, x, y, placement, workspace, {}, cache),
-                  !found.empty());
+        ASSERT_EQ(any_overlap_through(by_pieces, kPieces, workspace), !found.empty());
         ++asked;
         hits += found.empty() ? 0 : 1;
     }
@@ -187,23 +193,22 @@ TEST(DistanceThroughLaws, AFrontAnswersWhatFollows) {
     const Model &x = pair.a.model, &y = pair.b.model;
     PieceCache cache;
     QueryCounts plain, cached;
-    std::size_t within = 0;
+    std::size_t near = 0;
     constexpr int kSteps = 60;
     for (int i = 0; i < kSteps; ++i) {
         const Placement placement = on_the_way(2.1, 0.0005, i);
         pair.workspace.count_into(&plain);
-        const auto truth = distance_through(kPieces, x, y, placement, pair.workspace);
+        const auto truth = distance({x, y, placement, kThroughPieces}, pair.workspace);
         pair.workspace.count_into(i == 0 ? nullptr : &cached);
-        expect_alike(truth, distance_through(kPieces, x, y, placement, pair.workspace, {}, &cache));
+        expect_alike(truth, distance(through_pieces(x, y, placement, &cache), pair.workspace));
         ASSERT_FALSE(HasFatalFailure()) << i;
         pair.workspace.count_into(nullptr);
-        const bool is_within =
-            is_within_through(kPieces, x, y, placement, 0.1, pair.workspace, &cache);
+        const bool is_within = within(through_pieces(x, y, placement, &cache), 0.1, pair.workspace);
         ASSERT_EQ(is_within, truth->upper <= 0.1) << i;
-        within += is_within ? 1 : 0;
+        near += is_within ? 1 : 0;
     }
-    EXPECT_GT(within, kSteps * 2U / 10);
-    EXPECT_LT(within, kSteps * 8U / 10);
+    EXPECT_GT(near, kSteps * 2U / 10);
+    EXPECT_LT(near, kSteps * 8U / 10);
     EXPECT_GT(cache.front.count, 1U);
     EXPECT_EQ(cache.front.failures, 0U);
     EXPECT_GT(plain.box_pairs, 100U * kSteps);
@@ -219,13 +224,12 @@ TEST(DistanceThroughLaws, AFullFrontIsSearchedBelow) {
     std::uint32_t most = 0, failures = 0;
     for (int i = 0; i < 12; ++i) {
         const Placement placement = on_the_way(2.1, 0.0005, i);
-        const auto truth = distance(x, y, placement, pair.workspace);
+        const auto truth = distance({x, y, placement}, pair.workspace);
         for (const double tolerance : {truth->upper, 0.01}) {
-            ASSERT_EQ(
-                is_within_through(kPieces, x, y, placement, tolerance, pair.workspace, &cache),
-                tolerance == truth->upper);
+            ASSERT_EQ(within(through_pieces(x, y, placement, &cache), tolerance, pair.workspace),
+                      tolerance == truth->upper);
         }
-        expect_alike(truth, distance_through(kPieces, x, y, placement, pair.workspace, {}, &cache));
+        expect_alike(truth, distance(through_pieces(x, y, placement, &cache), pair.workspace));
         ASSERT_FALSE(HasFatalFailure()) << i;
         most = std::max(most, cache.front.count);
         failures = std::max(failures, cache.front.failures);
@@ -242,9 +246,10 @@ TEST(DistanceThroughLaws, AFrontIsLostWhereModelsJump) {
     std::uint32_t most_failures = 0;
     for (int i = 0; i < 200; ++i) {
         const Placement placement = Placement::b_moves(random_pose(random, 2.2));
-        expect_alike(distance(pair.a.model, pair.b.model, placement, pair.workspace),
-                     distance_through(kPieces, pair.a.model, pair.b.model, placement,
-                                      pair.workspace, {}, &cache));
+        expect_alike(distance({pair.a.model, pair.b.model, placement}, pair.workspace),
+                     distance({pair.a.model, pair.b.model, placement, kThroughPieces, &cache.pair,
+                               &cache.front},
+                              pair.workspace));
         ASSERT_FALSE(HasFatalFailure()) << i;
         most_failures = std::max(most_failures, cache.front.failures);
     }
@@ -260,8 +265,9 @@ TEST(DistanceThroughLaws, ParallelFacesKeepTheirGapWhenTurned) {
                    open_pieces(beside, {.double_precision = true})};
         pair.expect_same_answers(Placement::b_moves(Pose()), nullptr);
         pair.expect_same_answers(Placement::world(pose, pose), nullptr);
-        const auto found = distance_through(kPieces, pair.a.model, pair.b.model,
-                                            Placement::b_moves(Pose()), pair.workspace);
+        const auto found =
+            distance({pair.a.model, pair.b.model, Placement::b_moves(Pose()), kThroughPieces},
+                     pair.workspace);
         EXPECT_NEAR(found->upper, gap, 1e-14);
     }
 }
@@ -306,10 +312,10 @@ TEST(DistanceThroughLaws, PermittedErrorsAreKept) {
     Workspace workspace;
     for (int round = 0; round < 50; ++round) {
         const Placement placement = Placement::b_moves(random_pose(random, 5));
-        const auto best = distance(a.model, b.model, placement, workspace);
+        const auto best = distance({a.model, b.model, placement}, workspace);
         for (const double error : {1e-6, 1e-3, 0.1, 1.0}) {
-            const auto found = distance_through(kPieces, a.model, b.model, placement, workspace,
-                                                {.relative_error = error});
+            const auto found = distance({a.model, b.model, placement, kThroughPieces}, workspace,
+                                        {.relative_error = error});
             EXPECT_LE(found->lower, best->upper);
             EXPECT_GE(found->upper, best->lower);
             EXPECT_LE(found->upper, found->lower * (1 + error) + 1e-12);
@@ -323,8 +329,13 @@ TEST(DistanceThroughLaws, ASolidInsideAnotherIsNotApart) {
     const Placement still = Placement::b_moves(Pose());
     PieceCache cache;
     pair.expect_same_answers(still, &cache);
-    const auto solids = distance_through(kPieces, pair.a.model, pair.b.model, still, pair.workspace,
-                                         {.max_distance = 0.5, .body = Body::solid}, &cache);
+    const auto solids = distance({pair.a.model,
+                                  pair.b.model,
+                                  still,
+                                  {.body = Body::solid, .through = Structure::pieces},
+                                  &cache.pair,
+                                  &cache.front},
+                                 pair.workspace, {.max_distance = 0.5});
     ASSERT_TRUE(solids);
     EXPECT_EQ(solids->upper, 0);
 }
@@ -348,16 +359,16 @@ TEST(DistanceThroughLawsDeathTest, QuestionsStopWhereAModelWasNotBakedForThem) {
     const OpenModel plain = open_tiny(unit_cube()), cube = open_pieces(unit_cube());
     Workspace workspace;
     const Placement still = Placement::b_moves(Pose());
-    EXPECT_DEATH((void)distance_through(kPieces, plain.model, cube.model, still, workspace),
+    EXPECT_DEATH((void)distance({plain.model, cube.model, still, kThroughPieces}, workspace),
                  "pieces needs");
-    EXPECT_DEATH((void)is_within_through(kPieces, cube.model, plain.model, still, 1, workspace),
+    EXPECT_DEATH((void)within({cube.model, plain.model, still, kThroughPieces}, 1, workspace),
                  "pieces needs");
     EXPECT_DEATH(
-        (void)triangles_within_through(kPieces, cube.model, plain.model, still, 1, workspace, {}),
+        (void)pairs_within({cube.model, plain.model, still, kThroughPieces}, 1, workspace, {}),
         "pieces needs");
-    EXPECT_DEATH((void)any_overlap_through(kPieces, plain.model, plain.model, still, workspace),
+    EXPECT_DEATH((void)any_overlap_through({plain.model, plain.model, still}, kPieces, workspace),
                  "pieces needs");
-    EXPECT_EQ(distance_through({}, plain.model, cube.model, still, workspace)->upper, 0);
+    EXPECT_EQ(distance({plain.model, cube.model, still}, workspace)->upper, 0);
 }
 
 // By definition: a model without triangles is far from nothing.
@@ -367,13 +378,15 @@ TEST(DistanceThroughLaws, NothingIsFarFromAnEmptyModel) {
     Workspace workspace;
     PieceCache cache;
     const Placement still = Placement::b_moves(Pose());
-    (void)distance_through(kPieces, cube.model, cube.model, still, workspace, {}, &cache);
-    EXPECT_FALSE(distance_through(kPieces, empty.model, cube.model, still, workspace, {}, &cache));
-    EXPECT_FALSE(is_within_through(kPieces, cube.model, empty.model, still, 1, workspace, &cache));
-    EXPECT_EQ(triangles_within_through(kPieces, cube.model, empty.model, still, 1, workspace, {}),
-              0U);
-    EXPECT_FALSE(
-        any_overlap_through(kPieces, empty.model, empty.model, still, workspace, {}, &cache));
+    (void)distance({cube.model, cube.model, still, kThroughPieces, &cache.pair, &cache.front},
+                   workspace);
+    EXPECT_FALSE(distance(
+        {empty.model, cube.model, still, kThroughPieces, &cache.pair, &cache.front}, workspace));
+    EXPECT_FALSE(within({cube.model, empty.model, still, kThroughPieces, &cache.pair, &cache.front},
+                        1, workspace));
+    EXPECT_EQ(pairs_within({cube.model, empty.model, still, kThroughPieces}, 1, workspace, {}), 0U);
+    EXPECT_FALSE(any_overlap_through({empty.model, empty.model, still, {}, &cache.pair}, kPieces,
+                                     workspace));
 }
 
 // On read-only pages, with every section closed that is neither what distance() needs nor named
@@ -397,13 +410,17 @@ TEST(DistanceThroughLaws, PiecesReadOnlyTheSectionsThatTheyName) {
     std::size_t apart = 0;
     for (int i = 0; i < 40; ++i) {
         const Placement placement = Placement::b_moves(random_pose(random, 2));
-        const auto truth = distance(whole.model, whole.model, placement, workspace);
+        const auto truth = distance({whole.model, whole.model, placement}, workspace);
         for (PieceCache* from : {static_cast<PieceCache*>(nullptr), &cache}) {
-            expect_alike(truth,
-                         distance_through(kPieces, model, model, placement, workspace, {}, from));
+            expect_alike(truth, distance({model, model, placement, kThroughPieces,
+                                          from == nullptr ? nullptr : &from->pair,
+                                          from == nullptr ? nullptr : &from->front},
+                                         workspace));
             ASSERT_FALSE(HasFatalFailure());
-            EXPECT_TRUE(
-                is_within_through(kPieces, model, model, placement, truth->upper, workspace, from));
+            EXPECT_TRUE(within(
+                {model, model, placement, kThroughPieces, from == nullptr ? nullptr : &from->pair,
+                 from == nullptr ? nullptr : &from->front},
+                truth->upper, workspace));
         }
         apart += truth->lower > 0 ? 1 : 0;
     }

@@ -9,11 +9,10 @@
 #include <thread>
 #include <vector>
 
-#include "cdprep/batch.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/collide.h"
-#include "cdprep/refit_bvh.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/advanced/refit_bvh.h"
+#include "cdprep/pairs.h"
+#include "cdprep/parallel.h"
+#include "cdprep/points.h"
 #include "support/open_tiny.h"
 #include "support/scratch_folder.h"
 
@@ -52,12 +51,14 @@ std::optional<ReadmeAnswer> readme() {
     if (!arm || !part || !arm_from_part) return std::nullopt;
 
     cdprep::Workspace workspace;
-    auto placement = cdprep::Placement::b_moves(*arm_from_part);
-    bool hit = cdprep::collide(*arm, *part, placement, workspace).hit;
+    auto placement = cdprep::Placement::b_moves(arm_from_part.value());
+    bool hit =
+        cdprep::collide({arm.value(), part.value(), placement}, workspace).hit == Answer::yes;
 
-    cdprep::TrianglePair pairs[1000];
-    std::size_t count = cdprep::overlapping_triangles(*arm, *part, placement, workspace, pairs);
-    return ReadmeAnswer{hit, {pairs, pairs + count}};
+    std::vector<cdprep::TrianglePair> pairs(1000);
+    std::size_t count = cdprep::overlaps({arm.value(), part.value(), placement}, workspace, pairs);
+    pairs.resize(count);
+    return ReadmeAnswer{hit, pairs};
 }
 
 // Two unit cubes, one shifted by 0.1 along x: their sides share area.
@@ -115,7 +116,7 @@ TEST_F(DocExamples, TrianglesWithin) {
         is_near[pair.a] = true;
         return true;
     };
-    cdprep::visit_triangles_within(a, b, placement, 0.25, workspace, visit);
+    cdprep::visit_pairs_within({a, b, placement}, 0.25, workspace, visit);
     EXPECT_EQ(std::count(is_near.begin(), is_near.end(), true), 10);
 }
 
@@ -123,11 +124,10 @@ TEST_F(DocExamples, TrianglesWithin) {
 TEST_F(DocExamples, ParallelForAndBatch) {
     const auto opened = cdprep::Model::open("bracket.cdp.h5");
     ASSERT_TRUE(opened);
-    std::vector<cdprep::PairJob> jobs;
+    std::vector<cdprep::Pair> jobs;
     for (const double x : {0.5, 3.0, 0.5, 3.0}) {
         const auto pose = cdprep::Pose::from_quaternion(1, 0, 0, 0, {x, 0, 0});
-        jobs.push_back(
-            {&opened.value(), &opened.value(), cdprep::Placement::b_moves(pose.value())});
+        jobs.emplace_back(*opened, *opened, cdprep::Placement::b_moves(*pose));
     }
     const auto run = [&](std::size_t count, cdprep::Task task) {
         std::vector<std::jthread> threads;
@@ -135,9 +135,9 @@ TEST_F(DocExamples, ParallelForAndBatch) {
     };
     std::vector<cdprep::Workspace> workspaces(4);
     std::vector<cdprep::Collision> answers(jobs.size());
-    cdprep::collide_all(jobs, workspaces, run, answers);
-    EXPECT_TRUE(answers[0].hit && answers[2].hit);
-    EXPECT_FALSE(answers[1].hit || answers[3].hit);
+    cdprep::collide_many(jobs, workspaces, run, answers);
+    EXPECT_TRUE(answers[0].hit == Answer::yes && answers[2].hit == Answer::yes);
+    EXPECT_TRUE(answers[1].hit == Answer::no && answers[3].hit == Answer::no);
 }
 
 /// Moves the hierarchy along; returns its cost after.

@@ -11,33 +11,23 @@
 #include <type_traits>
 #include <vector>
 
-#include "cdprep/batch.h"
-#include "cdprep/build_adaptive_octree.h"
-#include "cdprep/build_octree.h"
-#include "cdprep/build_tetra_tree.h"
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_features.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/collide.h"
+#include "cdprep/advanced/build_adaptive_octree.h"
+#include "cdprep/advanced/build_octree.h"
+#include "cdprep/advanced/build_tetra_tree.h"
+#include "cdprep/advanced/closest_features.h"
+#include "cdprep/advanced/convex_penetration.h"
+#include "cdprep/advanced/find_list_damage.h"
+#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/advanced/pair_front.h"
+#include "cdprep/advanced/refit_bvh.h"
 #include "cdprep/contacts.h"
-#include "cdprep/convex_penetration.h"
-#include "cdprep/crossing_segments.h"
-#include "cdprep/distance.h"
-#include "cdprep/distance_through.h"
-#include "cdprep/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
-#include "cdprep/includes_through.h"
-#include "cdprep/level_of_detail.h"
-#include "cdprep/model_pieces.h"
-#include "cdprep/overlap_through.h"
-#include "cdprep/refit_bvh.h"
-#include "cdprep/split_overlap.h"
-#include "cdprep/tetra_figures.h"
-#include "cdprep/touching_box.h"
-#include "cdprep/touching_capsule.h"
-#include "cdprep/touching_sphere.h"
-#include "cdprep/touching_triangle.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/hulls.h"
+#include "cdprep/pairs.h"
+#include "cdprep/parallel.h"
+#include "cdprep/points.h"
+#include "cdprep/study/overlap_through.h"
+#include "cdprep/study/tetra_figures.h"
 #include "support/every_structure.h"
 #include "support/float_modes.h"
 #include "support/hard_hulls.h"
@@ -268,15 +258,16 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
             expect_same_in_every_mode(s.name + ": " + name, question);
         };
         each("collide", [&](Asked& out) {
-            out.bytes.add(collide(a, b, s.placement, workspace, {.body = Body::solid}));
+            out.bytes.add(collide({a, b, s.placement, {.body = Body::solid}}, workspace));
             PairCache cache;
-            out.bytes.add(collide(a, b, s.placement, workspace, {}, &cache));
-            out.bytes.add(collide(a, b, s.placement, workspace, {}, &cache));
+            out.bytes.add(collide({a, b, s.placement, {}, &cache}, workspace));
+            out.bytes.add(collide({a, b, s.placement, {}, &cache}, workspace));
         });
-        each("find_containment",
-             [&](Asked& out) { out.bytes.add(find_containment(a, b, s.placement, workspace)); });
+        each("find_containment", [&](Asked& out) {
+            out.bytes.add(containment({a, b, s.placement}, workspace));
+        });
         each("overlapping_triangles", [&](Asked& out) {
-            out.bytes.add(pairs, overlapping_triangles(a, b, s.placement, workspace, pairs));
+            out.bytes.add(pairs, overlaps({a, b, s.placement}, workspace, pairs));
         });
         each("visit_overlapping_triangles", [&](Asked& out) {
             const auto visit = [&](const TrianglePair& pair) {
@@ -284,10 +275,10 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
                 out.bytes.add(pair);
                 return true;
             };
-            out.bytes.add(visit_overlapping_triangles(a, b, s.placement, workspace, visit));
+            out.bytes.add(visit_overlaps({a, b, s.placement}, workspace, visit));
         });
         each("mark_overlapping_triangles", [&](Asked& out) {
-            out.bytes.add(mark_overlapping_triangles(a, b, s.placement, workspace, bits_a, bits_b));
+            out.bytes.add(mark_overlaps({a, b, s.placement}, workspace, bits_a, bits_b));
             out.bytes.add_stored(bits_a);
             out.bytes.add_stored(bits_b);
         });
@@ -297,19 +288,19 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
                 out.bytes.add(crossing);
                 return true;
             };
-            out.bytes.add(visit_crossing_segments(a, b, s.placement, workspace, visit));
+            out.bytes.add(visit_crossings({a, b, s.placement}, workspace, visit));
         });
         each("distance", [&](Asked& out) {
-            out.bytes.add(distance(a, b, s.placement, workspace));
-            out.bytes.add(distance(a, b, s.placement, workspace, {.relative_error = 0.1}));
-            out.bytes.add(distance(a, b, s.placement, workspace, {.body = Body::solid}));
+            out.bytes.add(distance({a, b, s.placement}, workspace));
+            out.bytes.add(distance({a, b, s.placement}, workspace, {.relative_error = 0.1}));
+            out.bytes.add(distance({a, b, s.placement, {.body = Body::solid}}, workspace));
         });
         each("is_within", [&](Asked& out) {
-            out.bytes.add(is_within(a, b, s.placement, near, workspace));
-            out.bytes.add(is_within(a, b, s.placement, exactly, workspace));
+            out.bytes.add(within({a, b, s.placement}, near, workspace));
+            out.bytes.add(within({a, b, s.placement}, exactly, workspace));
         });
         each("triangles_within", [&](Asked& out) {
-            out.bytes.add(pairs, triangles_within(a, b, s.placement, near, workspace, pairs));
+            out.bytes.add(pairs, pairs_within({a, b, s.placement}, near, workspace, pairs));
         });
         each("visit_triangles_within", [&](Asked& out) {
             const auto visit = [&](const TrianglePair& pair) {
@@ -317,7 +308,7 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
                 out.bytes.add(pair);
                 return true;
             };
-            out.bytes.add(visit_triangles_within(a, b, s.placement, near, workspace, visit));
+            out.bytes.add(visit_pairs_within({a, b, s.placement}, near, workspace, visit));
         });
         each("split_overlapping_triangles", [&](Asked& out) {
             const auto run = [&](std::size_t count, Task task) {
@@ -325,17 +316,16 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
                 run_threads(count, task);
                 out.see();
             };
-            out.bytes.add(pairs,
-                          split_overlapping_triangles(a, b, s.placement, workspaces, run, pairs));
+            out.bytes.add(pairs, split_overlaps({a, b, s.placement}, workspaces, run, pairs));
         });
-        each("distance_all", [&](Asked& out) {
-            const PairJob job = {&a, &b, s.placement};
+        each("distance_many", [&](Asked& out) {
+            const Pair job = {a, b, s.placement};
             std::vector<std::optional<Distance>> answers(3);
-            distance_all(std::vector<PairJob>{job, job, job}, workspaces, run_threads, answers);
+            distance_many(std::vector<Pair>{job, job, job}, workspaces, run_threads, answers);
             for (const auto& answer : answers) out.bytes.add(answer);
         });
         each("collide_at_level", [&](Asked& out) {
-            const CoarseCollision found = collide_at_level(a, b, s.placement, 2, workspace);
+            const CoarseCollision found = collide_at_level({a, b, s.placement}, 2, workspace);
             out.bytes.add(found.answer);
             out.bytes.add(found.error_a);
             out.bytes.add(level_error(b, 3));
@@ -343,26 +333,31 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
         each("overlap_through", [&](Asked& out) {
             for (const Structure structure : kStructures) {
                 const StructureOptions through = {.structure = structure};
-                out.bytes.add(pairs, overlapping_triangles_through(through, a, b, s.placement,
-                                                                   workspace, pairs));
-                out.bytes.add(any_overlap_through(through, a, b, s.placement, workspace));
+                out.bytes.add(pairs,
+                              overlaps_through({a, b, s.placement}, through, workspace, pairs));
+                out.bytes.add(any_overlap_through({a, b, s.placement}, through, workspace));
             }
         });
         each("questions through pieces", [&](Asked& out) {
             const StructureOptions through = {.structure = Structure::pieces};
             PieceCache cache;
-            out.bytes.add(any_overlap_through(through, a, b, s.placement, workspace, {}, &cache));
-            out.bytes.add(distance_through(through, a, b, s.placement, workspace, {}, &cache));
-            out.bytes.add(is_within_through(through, a, b, s.placement, near, workspace, &cache));
-            out.bytes.add(pairs, triangles_within_through(through, a, b, s.placement, near,
-                                                          workspace, pairs));
+            out.bytes.add(
+                any_overlap_through({a, b, s.placement, {}, &cache.pair}, through, workspace));
+            out.bytes.add(distance(
+                {a, b, s.placement, {.through = through.structure}, &cache.pair, &cache.front},
+                workspace));
+            out.bytes.add(within(
+                {a, b, s.placement, {.through = through.structure}, &cache.pair, &cache.front},
+                near, workspace));
+            out.bytes.add(pairs, pairs_within({a, b, s.placement, {.through = through.structure}},
+                                              near, workspace, pairs));
         });
     }
 }
 
 /// Adds every answer about one shape.
 template <class Shape>
-void ask_touching(const Model& model, const Shape& shape, const TouchOptions& options,
+void ask_touching(const Model& model, const Shape& shape, const ShapeOptions& options,
                   Workspace& workspace, Asked& out) {
     std::vector<std::uint32_t> triangles(model.triangle_count());
     out.bytes.add(touches(model, shape, workspace, options));
@@ -382,7 +377,7 @@ TEST(FloatModes, ChangeNoAnswerAboutOneModel) {
         const auto each = [&](const char* name, const Question& question) {
             expect_same_in_every_mode(s.name + ": " + name, question);
         };
-        const TouchOptions turned = {.world_from_model = s.placement.pose_b()};
+        const ShapeOptions turned = {.world_from_model = s.placement.pose_b()};
         const std::array<Double3, 3>& p = s.point;
         const double radius = 0.25 * s.scale, reach = 4 * s.scale;
         const Double3 along = {p[1].x * 0.5, -p[1].x, p[1].x};
@@ -390,7 +385,7 @@ TEST(FloatModes, ChangeNoAnswerAboutOneModel) {
             for (const Double3& at : p) {
                 out.bytes.add(points_inside(model, at, workspace));
                 for (const Structure structure : kStructures) {
-                    out.bytes.add(includes_through(structure, model, at, workspace));
+                    out.bytes.add(points_inside(model, at, workspace, structure));
                 }
             }
         });
@@ -422,14 +417,14 @@ TEST(FloatModes, ChangeNoAnswerAboutOneModel) {
             const Sphere sphere = {p[1], radius};
             const Capsule capsule = {p[0], p[1], radius};
             const TriangleShape triangle = {{p[0], p[1], p[2]}};
-            for (const TouchOptions& options : {TouchOptions{}, turned}) {
+            for (const ShapeOptions& options : {ShapeOptions{}, turned}) {
                 ask_touching(model, box, options, workspace, out);
                 ask_touching(model, sphere, options, workspace, out);
                 ask_touching(model, capsule, options, workspace, out);
                 ask_touching(model, triangle, options, workspace, out);
-                const ShapeDistanceOptions placed = {options.world_from_model};
-                out.bytes.add(distance_to(model, capsule, workspace, placed));
-                out.bytes.add(distance_to(model, triangle, workspace, placed));
+                const ShapeOptions placed = {options.world_from_model};
+                out.bytes.add(shape_distance(model, capsule, workspace, placed));
+                out.bytes.add(shape_distance(model, triangle, workspace, placed));
             }
         });
         each("tetra_figures", [&](Asked& out) {
@@ -508,10 +503,10 @@ TEST(FloatModes, ChangeNoContact) {
                 out.bytes.add(contact);
                 return true;
             };
-            out.bytes.add(room,
-                          contacts(a.model, b.model, placement, near, workspace, room, options));
-            out.bytes.add(
-                visit_contacts(a.model, b.model, placement, near, workspace, visit, options));
+            out.bytes.add(room, contacts({a.model, b.model, placement}, workspace, room,
+                                         {.tolerance = near}));
+            out.bytes.add(visit_contacts({a.model, b.model, placement}, workspace, visit,
+                                         {.tolerance = near}));
         });
         const FeatureHull hull_a = feature_hull(a.model, 0), hull_b = feature_hull(b.model, 3);
         expect_same_in_every_mode(at + ", closest_features", [&](Asked& out) {

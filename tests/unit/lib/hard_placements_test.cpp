@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cdprep/collide.h"
-#include "cdprep/split_overlap.h"
+#include "cdprep/pairs.h"
+#include "cdprep/parallel.h"
 #include "support/brute_force.h"
 #include "support/exact_pairs.h"
 #include "support/hard_triangles.h"
@@ -22,8 +22,7 @@ bool threads_agree(const Model& a, const Model& b, const Placement& placement,
     std::vector<TrianglePair> pairs(expected.size());
     for (std::size_t threads = 1; threads <= workspaces.size(); ++threads) {
         const auto workers = std::span(workspaces).first(threads);
-        const std::size_t count =
-            split_overlapping_triangles(a, b, placement, workers, run_threads, pairs);
+        const std::size_t count = split_overlaps({a, b, placement}, workers, run_threads, pairs);
         if (count != expected.size() || pairs != expected) return false;
     }
     return true;
@@ -36,7 +35,9 @@ std::vector<TrianglePair> ask(const HardPlacement& p) {
     const OpenModel b = open_tiny(p.b, {.double_precision = true});
     Workspace workspace;
     const auto pairs = all_pairs(a.model, b.model, p.placement, workspace);
-    EXPECT_EQ(collide(a.model, b.model, p.placement, workspace).hit, !pairs.empty()) << p.name;
+    EXPECT_EQ(collide({a.model, b.model, p.placement}, workspace).hit == Answer::yes,
+              !pairs.empty())
+        << p.name;
     EXPECT_TRUE(threads_agree(a.model, b.model, p.placement, pairs)) << p.name;
     const Placement exchanged = p.placement.a_is_moved()
                                     ? Placement::world(p.placement.pose_b(), p.placement.pose_a())
@@ -102,8 +103,8 @@ void expect_answer(const HardPair& pair) {
     const OpenModel a = open_tiny(p.a, {.double_precision = true});
     const OpenModel b = open_tiny(p.b, {.double_precision = true});
     Workspace workspace;
-    const OverlapOptions proper = {.overlap = Overlap::proper};
-    ASSERT_EQ(overlapping_triangles(a.model, b.model, p.placement, workspace, {}, proper),
+    const PairOptions proper = {.overlap = Overlap::proper};
+    ASSERT_EQ(overlaps({a.model, b.model, p.placement, proper}, workspace, {}),
               pair.proper ? 1U : 0U)
         << p.name;
 }

@@ -4,8 +4,7 @@
 
 #include <random>
 
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
+#include "cdprep/pairs.h"
 #include "support/brute_force_distance.h"
 #include "support/defect_zoo.h"
 #include "support/open_tiny.h"
@@ -44,8 +43,9 @@ TEST(HardSurfacesLaws, AreAnsweredAsByDefinition) {
                 const Placement placement = Placement::b_moves(pose);
                 const auto pairs = all_pairs(a.model, b.model, placement, workspace);
                 EXPECT_EQ(pairs, brute_force_pairs(all[i], all[j], placement));
-                EXPECT_EQ(collide(a.model, b.model, placement, workspace).hit, !pairs.empty());
-                const auto found = distance(a.model, b.model, placement, workspace);
+                EXPECT_EQ(collide({a.model, b.model, placement}, workspace).hit == Answer::yes,
+                          !pairs.empty());
+                const auto found = distance({a.model, b.model, placement}, workspace);
                 const ExactRational truth = brute_force_distance(all[i], all[j], placement);
                 EXPECT_TRUE(square(found->lower) <= truth && truth <= square(found->upper));
                 EXPECT_EQ(found->upper == 0, !pairs.empty());

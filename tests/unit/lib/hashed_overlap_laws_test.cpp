@@ -12,7 +12,7 @@
 #include "support/random_pose.h"
 #include "workspace_storage.h"
 
-#include "cdprep/overlap_through.h"
+#include "cdprep/study/overlap_through.h"
 
 namespace cdprep::test {
 namespace {
@@ -34,23 +34,22 @@ OpenModel open_with_octree(const TestMesh& mesh, const build::OctreeOptions& oct
 
 std::vector<TrianglePair> pairs_through(const StructureOptions& through, const Model& a,
                                         const Model& b, const Placement& placement,
-                                        Workspace& workspace, const OverlapOptions& options = {}) {
+                                        Workspace& workspace, const PairOptions& options = {}) {
     std::vector<TrianglePair> pairs(
-        overlapping_triangles_through(through, a, b, placement, workspace, {}, options));
-    pairs.resize(
-        overlapping_triangles_through(through, a, b, placement, workspace, pairs, options));
+        overlaps_through({a, b, placement, options}, through, workspace, {}));
+    pairs.resize(overlaps_through({a, b, placement, options}, through, workspace, pairs));
     return pairs;
 }
 
 /// Both tests by every search give these pairs, and yes or no says the same.
 void expect_pairs(const Model& a, const Model& b, const Placement& placement, Workspace& workspace,
-                  const std::vector<TrianglePair>& expected, const OverlapOptions& options = {}) {
+                  const std::vector<TrianglePair>& expected, const PairOptions& options = {}) {
     for (const CellSearch search : kSearches) {
         for (const LeafTest test : {LeafTest::guigue_devillers, LeafTest::feito_torres}) {
             const StructureOptions through = hashed(search, test);
             ASSERT_TRUE(pairs_through(through, a, b, placement, workspace, options) == expected)
                 << "search " << static_cast<int>(search) << ", test " << static_cast<int>(test);
-            ASSERT_EQ(any_overlap_through(through, a, b, placement, workspace, options),
+            ASSERT_EQ(any_overlap_through({a, b, placement, options}, through, workspace),
                       !expected.empty());
         }
     }
@@ -118,7 +117,7 @@ TEST(HashedOverlapLaws, AgreesWithTheHierarchyWhateverBoundsTheFileHas) {
         for (int round = 0; round < 12; ++round) {
             const Placement placement = Placement::b_moves(random_pose(random, 1.5));
             for (const Overlap overlap : {Overlap::closed, Overlap::proper}) {
-                const OverlapOptions options = {.overlap = overlap, .degenerate = Degenerate::skip};
+                const PairOptions options = {.overlap = overlap, .degenerate = Degenerate::skip};
                 const auto expected =
                     all_pairs(model_a.model, model_b.model, placement, workspace, options);
                 expect_pairs(model_a.model, model_b.model, placement, workspace, expected, options);
@@ -210,8 +209,8 @@ TEST(HashedOverlapLaws, TheLiteralFormFindsAPartOfThePairs) {
                 ASSERT_TRUE(pairs_through(literal(search), model_a.model, model_b.model, placement,
                                           workspace) == some);
             }
-            ASSERT_EQ(any_overlap_through(literal(CellSearch::mixed), model_a.model, model_b.model,
-                                          placement, workspace),
+            ASSERT_EQ(any_overlap_through({model_a.model, model_b.model, placement},
+                                          literal(CellSearch::mixed), workspace),
                       !some.empty());
             all += expected.size();
             found += some.size();

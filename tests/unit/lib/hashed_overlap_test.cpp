@@ -12,8 +12,8 @@
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
 
-#include "cdprep/overlap_through.h"
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/study/overlap_through.h"
 
 namespace cdprep::test {
 namespace {
@@ -39,9 +39,8 @@ struct TwoModels {
                                                     const Placement& placement) const {
         Workspace workspace;
         std::vector<TrianglePair> pairs(
-            overlapping_triangles_through(structure, a.model, b.model, placement, workspace, {}));
-        pairs.resize(overlapping_triangles_through(structure, a.model, b.model, placement,
-                                                   workspace, pairs));
+            overlaps_through({a.model, b.model, placement}, structure, workspace, {}));
+        pairs.resize(overlaps_through({a.model, b.model, placement}, structure, workspace, pairs));
         return pairs;
     }
     [[nodiscard]] std::vector<TrianglePair> hashed(const Placement& placement,
@@ -177,12 +176,13 @@ TEST(HashedOverlapDeathTest, StopsWhereAModelWasNotBakedForIt) {
     Workspace workspace;
     for (const Structure structure : {Structure::hashed_octree, Structure::hashed_octree_literal}) {
         const StructureOptions through = {.structure = structure};
-        EXPECT_TRUE(any_overlap_through(through, whole.model, whole.model, kAsTheyAre, workspace));
+        EXPECT_TRUE(
+            any_overlap_through({whole.model, whole.model, kAsTheyAre}, through, workspace));
         for (const OpenModel* other : {&plain, &without_tables}) {
-            EXPECT_DEATH((void)any_overlap_through(through, whole.model, other->model, kAsTheyAre,
+            EXPECT_DEATH((void)any_overlap_through({whole.model, other->model, kAsTheyAre}, through,
                                                    workspace),
                          "hashed-octree needs");
-            EXPECT_DEATH((void)any_overlap_through(through, other->model, whole.model, kAsTheyAre,
+            EXPECT_DEATH((void)any_overlap_through({other->model, whole.model, kAsTheyAre}, through,
                                                    workspace),
                          "hashed-octree needs");
         }
@@ -199,9 +199,9 @@ TEST(HashedOverlap, QuestionsAreCounted) {
         QueryCounts counts;
         workspace.count_into(&counts);
         const StructureOptions through = {.structure = structure};
-        ASSERT_GT(overlapping_triangles_through(through, models.a.model, models.b.model, placement,
-                                                workspace, {}),
-                  0U);
+        ASSERT_GT(
+            overlaps_through({models.a.model, models.b.model, placement}, through, workspace, {}),
+            0U);
         EXPECT_GT(counts.potential, 0U);
         EXPECT_LE(counts.potential, models.mesh_b.triangles.size() + 7);
         EXPECT_GT(counts.cells_sought, 0U);

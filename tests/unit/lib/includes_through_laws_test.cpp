@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/includes_through.h"
+#include "cdprep/points.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@
 #include "support/every_structure.h"
 #include "support/exact_winding.h"
 
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
 
 namespace cdprep::test {
 namespace {
@@ -64,7 +64,7 @@ void expect_everywhere(const Model& model, const Double3& q, const Inclusion& tr
                        const std::string& where) {
     Workspace workspace;
     for (const Structure structure : kStructures) {
-        const Inclusion found = includes_through(structure, model, q, workspace);
+        const Inclusion found = points_inside(model, q, workspace, structure);
         EXPECT_TRUE(same(found, truth))
             << name_of(structure) << ", " << where << ": winding " << found.winding << " for "
             << truth.winding << ", on the surface " << found.on_surface << " for "
@@ -186,7 +186,7 @@ double volume_by_counting(Structure structure, const Model& model, int n) {
     for (int i = 0; i < n * n * n; ++i) {
         const Double3 q{edge * (i % n + 0.37) - 2, edge * (i / n % n + 0.61) - 2,
                         edge * (i / n / n + 0.53) - 2};
-        sum += includes_through(structure, model, q, workspace).winding;
+        sum += points_inside(model, q, workspace, structure).winding;
     }
     return sum * edge * edge * edge;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/includes_through.h"
+#include "cdprep/points.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include "support/hard_points.h"
 #include "support/meshes.h"
 
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
 
 namespace cdprep::test {
 namespace {
@@ -29,7 +29,7 @@ public:
     Inclusion at(const Double3& p) {
         const Inclusion expected = points_inside(open_.model, p, workspace_);
         for (const Structure structure : kStructures) {
-            const Inclusion found = includes_through(structure, open_.model, p, workspace_);
+            const Inclusion found = points_inside(open_.model, p, workspace_, structure);
             EXPECT_EQ(found.answer, expected.answer) << name_of(structure);
             EXPECT_EQ(found.on_surface, expected.on_surface) << name_of(structure);
             EXPECT_EQ(found.winding, expected.winding) << name_of(structure);
@@ -40,7 +40,7 @@ public:
     std::uint64_t triangles_for(Structure structure, const Double3& p) {
         QueryCounts counts;
         workspace_.count_into(&counts);
-        (void)includes_through(structure, open_.model, p, workspace_);
+        (void)points_inside(open_.model, p, workspace_, structure);
         workspace_.count_into(nullptr);
         return counts.ray_triangles;
     }
@@ -236,7 +236,7 @@ TEST(IncludesThroughDeathTest, StopsWhereAModelWasNotBakedForIt) {
     Workspace workspace;
     for (const Structure structure : kStructures) {
         if (structure == Structure::bvh) continue;
-        EXPECT_DEATH((void)includes_through(structure, cube.model, {1, 0, 0}, workspace),
+        EXPECT_DEATH((void)points_inside(cube.model, {1, 0, 0}, workspace, structure),
                      " needs section");
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/level_of_detail.h"
+#include "cdprep/advanced/level_of_detail.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 
-#include "cdprep/collide.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep::test {
 namespace {
@@ -71,13 +71,14 @@ TEST(LevelOfDetail, NeverContradictsTheSolids) {
     for (int round = 0; round < kRounds; ++round) {
         const Pose pose = turned_and_apart(random, gap(random));
         const Placement placement = Placement::b_moves(pose);
-        CollideOptions options;
+        PairOptions options;
         options.body = Body::solid;
-        const bool hit = collide(a.model, b.model, placement, workspace, options).hit;
+        const bool hit =
+            collide({a.model, b.model, placement, options}, workspace).hit == Answer::yes;
         Answer before = Answer::unknown;
         for (std::uint32_t level = 0; level <= 4; ++level) {
             const Answer answer =
-                collide_at_level(a.model, b.model, placement, level, workspace).answer;
+                collide_at_level({a.model, b.model, placement}, level, workspace).answer;
             EXPECT_TRUE(answer != Answer::yes || hit) << round << ' ' << level;
             EXPECT_TRUE(answer != Answer::no || !hit) << round << ' ' << level;
             // Deeper facets lie between shallower ones: what is apart stays so.
@@ -98,7 +99,7 @@ TEST(LevelOfDetail, ThreeAnswersOfTwoSpheres) {
     const OpenModel a = with_cones(in_floats(icosphere(4)), 5);
     Workspace workspace;
     const auto answer = [&](double gap, std::uint32_t level) {
-        return collide_at_level(a.model, a.model, shifted({gap, 0.1, 0.2}), level, workspace)
+        return collide_at_level({a.model, a.model, shifted({gap, 0.1, 0.2})}, level, workspace)
             .answer;
     };
     EXPECT_EQ(answer(3.6, 0), Answer::no);
@@ -115,13 +116,13 @@ TEST(LevelOfDetail, OpenOrHollowModelsAreNeverCertainToCollide) {
     const OpenModel a = with_cones(open, 3);
     const OpenModel b = with_cones(in_floats(icosphere(2)), 3);
     Workspace workspace;
-    EXPECT_EQ(collide_at_level(a.model, b.model, shifted({0.1, 0, 0}), 3, workspace).answer,
+    EXPECT_EQ(collide_at_level({a.model, b.model, shifted({0.1, 0, 0})}, 3, workspace).answer,
               Answer::unknown);
-    EXPECT_EQ(collide_at_level(a.model, b.model, shifted({4, 0, 0}), 3, workspace).answer,
+    EXPECT_EQ(collide_at_level({a.model, b.model, shifted({4, 0, 0})}, 3, workspace).answer,
               Answer::no);
     // A torus: its centre is outside.
     const OpenModel ring = with_cones(in_floats(torus(2, 0.5, 24, 12)), 3);
-    EXPECT_EQ(collide_at_level(ring.model, ring.model, shifted({0.1, 0, 0}), 3, workspace).answer,
+    EXPECT_EQ(collide_at_level({ring.model, ring.model, shifted({0.1, 0, 0})}, 3, workspace).answer,
               Answer::unknown);
 }
 
@@ -131,7 +132,7 @@ TEST(LevelOfDetailDeathTest, StopsWhereAModelWasNotBakedForIt) {
     const OpenModel bare = open_tiny(in_floats(icosphere(1)));
     Workspace workspace;
     const Placement near = shifted({0.5, 0, 0});
-    EXPECT_DEATH((void)collide_at_level(sphere.model, bare.model, near, 2, workspace),
+    EXPECT_DEATH((void)collide_at_level({sphere.model, bare.model, near}, 2, workspace),
                  "tetra-tree needs");
     EXPECT_DEATH((void)level_error(bare.model, 2), "tetra-tree needs");
 }
@@ -142,8 +143,8 @@ TEST(LevelOfDetail, OddModels) {
     const OpenModel flat = with_cones(fan(7), 3);  // triangles hold the centre
     Workspace workspace;
     const Placement near = shifted({0.5, 0, 0});
-    EXPECT_EQ(collide_at_level(sphere.model, empty.model, near, 2, workspace).answer, Answer::no);
-    EXPECT_EQ(collide_at_level(sphere.model, flat.model, near, 2, workspace).answer,
+    EXPECT_EQ(collide_at_level({sphere.model, empty.model, near}, 2, workspace).answer, Answer::no);
+    EXPECT_EQ(collide_at_level({sphere.model, flat.model, near}, 2, workspace).answer,
               Answer::unknown);
     EXPECT_EQ(level_error(empty.model, 2), 0);
 }
@@ -157,8 +158,9 @@ TEST(LevelOfDetail, AnyScale) {
             bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}), {.level = 4}));
         Workspace workspace;
         const auto answer = [&](double gap) {
-            return collide_at_level(a.model, a.model,
-                                    shifted({gap * scale, 0.1 * scale, 0.2 * scale}), 4, workspace)
+            return collide_at_level(
+                       {a.model, a.model, shifted({gap * scale, 0.1 * scale, 0.2 * scale})}, 4,
+                       workspace)
                 .answer;
         };
         EXPECT_EQ(answer(2.3), Answer::no) << exponent;

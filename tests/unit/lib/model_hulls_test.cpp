@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/model_hulls.h"
+#include "cdprep/hulls.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
-#include "cdprep/find_list_damage.h"
+#include "cdprep/advanced/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
 #include "find_hull_falsehood.h"
 #include "support/more_sections.h"

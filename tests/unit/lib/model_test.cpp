@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/collide.h"
 #include "cdprep/format/sections.h"
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 #include "support/guarded_pages.h"
 #include "support/open_tiny.h"
 #include "support/scratch_folder.h"
@@ -46,7 +45,7 @@ std::size_t overlaps_of(const Model& model) {
     Workspace workspace;
     std::vector<TrianglePair> pairs(1000);
     const Pose pose = Pose::from_quaternion(1, 0, 0, 0, {0.5, 0.25, 0.125}).value();
-    return overlapping_triangles(model, model, Placement::b_moves(pose), workspace, pairs);
+    return overlaps({model, model, Placement::b_moves(pose)}, workspace, pairs);
 }
 
 fs::path write_cube(const ScratchFolder& scratch) {
@@ -237,7 +236,9 @@ TEST(Model, OpenAndQueryTouchOnlyTheSectionsAskedFor) {
     EXPECT_TRUE(opened.value().source().triangle.empty());
     EXPECT_EQ(opened.value().sections(), wanted);
     Workspace workspace;
-    EXPECT_TRUE(collide(opened.value(), opened.value(), Placement::b_moves(Pose()), workspace).hit);
+    EXPECT_TRUE(
+        collide({opened.value(), opened.value(), Placement::b_moves(Pose())}, workspace).hit ==
+        Answer::yes);
 }
 
 }  // namespace

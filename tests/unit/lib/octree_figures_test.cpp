@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/octree_figures.h"
+#include "cdprep/study/octree_figures.h"
 
 #include <gtest/gtest.h>
 

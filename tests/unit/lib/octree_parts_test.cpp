@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "cdprep/study/overlap_through.h"
 #include "octree_codes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"

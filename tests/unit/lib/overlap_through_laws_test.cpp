@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/overlap_through.h"
+#include "cdprep/study/overlap_through.h"
 
 #include <gtest/gtest.h>
 
@@ -58,10 +58,9 @@ using Pairs = std::vector<TrianglePair>;
 
 Pairs pairs_through(const StructureOptions& through, const Model& a, const Model& b,
                     const Placement& placement, Workspace& workspace,
-                    const OverlapOptions& options = {}) {
-    Pairs pairs(overlapping_triangles_through(through, a, b, placement, workspace, {}, options));
-    pairs.resize(
-        overlapping_triangles_through(through, a, b, placement, workspace, pairs, options));
+                    const PairOptions& options = {}) {
+    Pairs pairs(overlaps_through({a, b, placement, options}, through, workspace, {}));
+    pairs.resize(overlaps_through({a, b, placement, options}, through, workspace, pairs));
     return pairs;
 }
 
@@ -84,7 +83,7 @@ std::string first_difference(const Pairs& pairs, const Pairs& expected) {
 
 /// Every structure, descent and leaf test says what is expected; not each with each.
 void expect_pairs(const Pairs& expected, const Model& a, const Model& b, const Placement& placement,
-                  Workspace& workspace, const OverlapOptions& options = {}) {
+                  Workspace& workspace, const PairOptions& options = {}) {
     for (const Structure structure : kStructures) {
         for (const Descent descent : kDescents) {
             for (const LeafTest leaf_test : kLeafTests) {
@@ -95,7 +94,7 @@ void expect_pairs(const Pairs& expected, const Model& a, const Model& b, const P
                     << name_of(through) << first_difference(pairs, expected);
                 ASSERT_TRUE(pairs == expected)
                     << name_of(through) << first_difference(pairs, expected);
-                ASSERT_EQ(any_overlap_through(through, a, b, placement, workspace, options),
+                ASSERT_EQ(any_overlap_through({a, b, placement, options}, through, workspace),
                           !expected.empty())
                     << name_of(through);
             }
@@ -168,7 +167,7 @@ TEST(OverlapThroughLaws, AgreesWithTheHierarchyInRandomPoses) {
                                               kDescents[static_cast<std::size_t>(round % 4)]};
             ASSERT_EQ(pairs_through(through, a.model, b.model, placement, workspace), expected)
                 << name_of(through) << ", round " << round;
-            ASSERT_EQ(any_overlap_through(through, a.model, b.model, placement, workspace),
+            ASSERT_EQ(any_overlap_through({a.model, b.model, placement}, through, workspace),
                       !expected.empty())
                 << name_of(through) << ", round " << round;
         }
@@ -257,7 +256,7 @@ TEST(OverlapThroughLaws, OptionsMeanWhatTheyMeanForTheHierarchy) {
         const Placement placement = Placement::b_moves(Pose());
         for (const Overlap overlap : {Overlap::closed, Overlap::proper}) {
             for (const Degenerate degenerate : {Degenerate::keep, Degenerate::skip}) {
-                const OverlapOptions options = {overlap, degenerate};
+                const PairOptions options = {.overlap = overlap, .degenerate = degenerate};
                 const Pairs expected = all_pairs(a.model, b.model, placement, workspace, options);
                 expect_pairs(expected, a.model, b.model, placement, workspace, options);
                 (overlap == Overlap::closed && degenerate == Degenerate::keep ? closed : others) +=
@@ -279,9 +278,8 @@ TEST(OverlapThroughLaws, ShortSpansKeepTheSmallest) {
     for (const Structure structure : kStructures) {
         const StructureOptions through = {.structure = structure};
         Pairs some(7);
-        EXPECT_EQ(
-            overlapping_triangles_through(through, a.model, b.model, placement, workspace, some),
-            all.size());
+        EXPECT_EQ(overlaps_through({a.model, b.model, placement}, through, workspace, some),
+                  all.size());
         EXPECT_TRUE(std::equal(some.begin(), some.end(), all.begin()));
     }
 }
@@ -381,7 +379,7 @@ TEST(OverlapThroughLawsDeathTest, QuestionsStopWhereAModelWasNotBakedForThem) {
         const StructureOptions through = {.structure = structure};
         if (structure == Structure::bvh) continue;
         EXPECT_DEATH(
-            (void)any_overlap_through(through, with.model, without.model, still, workspace),
+            (void)any_overlap_through({with.model, without.model, still}, through, workspace),
             " needs section");
         EXPECT_DEATH((void)pairs_through(through, without.model, with.model, still, workspace),
                      " needs section");
@@ -420,7 +418,7 @@ TEST(OverlapThroughLaws, ReadOnlyTheSectionsThatTheyName) {
         const Model& model = opened.value();
         const StructureOptions through = {.structure = structure};
         EXPECT_EQ(pairs_through(through, model, model, placement, workspace), expected);
-        EXPECT_TRUE(any_overlap_through(through, model, model, placement, workspace));
+        EXPECT_TRUE(any_overlap_through({model, model, placement}, through, workspace));
     }
 }
 
@@ -432,10 +430,11 @@ TEST(OverlapThroughLaws, WhetherAnyOverlapNeedsNoNumbersOfTriangles) {
     const OpenModel model = open_tiny(with_octree(plain, {.hashed = true}));
     ASSERT_FALSE(model.model.serves(Ask::overlap));
     Workspace workspace;
+    const Placement still = Placement::b_moves(Pose());
     for (const Structure structure :
          {Structure::bvh, Structure::octree, Structure::hashed_octree}) {
-        EXPECT_TRUE(any_overlap_through({.structure = structure}, model.model, model.model,
-                                        Placement::b_moves(Pose()), workspace));
+        EXPECT_TRUE(any_overlap_through({model.model, model.model, still}, {.structure = structure},
+                                        workspace));
     }
 }
 

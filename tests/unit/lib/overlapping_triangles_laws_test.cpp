@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "cdprep/collide.h"
+#include "cdprep/pairs.h"
 #include "support/brute_force.h"
 #include "support/exact_contact.h"
 #include "support/open_tiny.h"
@@ -36,7 +36,8 @@ TEST(OverlappingTrianglesLaws, AgreesWithBruteForce) {
             const auto pairs = all_pairs(model_a.model, model_b.model, placement, workspace);
             ASSERT_EQ(pairs, brute_force_pairs(a, b, placement))
                 << "seed " << kSeed << ", round " << round;
-            const bool hit = collide(model_a.model, model_b.model, placement, workspace).hit;
+            const bool hit =
+                collide({model_a.model, model_b.model, placement}, workspace).hit == Answer::yes;
             ASSERT_EQ(hit, !pairs.empty());
             touching += pairs.size();
             asked += a.triangles.size() * b.triangles.size();
@@ -120,8 +121,7 @@ TEST(OverlappingTrianglesLaws, EveryFormGivesTheSameSet) {
             visited.push_back(pair);
             return true;
         };
-        EXPECT_TRUE(
-            visit_overlapping_triangles(model_a.model, model_b.model, placement, workspace, visit));
+        EXPECT_TRUE(visit_overlaps({model_a.model, model_b.model, placement}, workspace, visit));
         std::sort(visited.begin(), visited.end());
         ASSERT_EQ(visited, pairs);
 
@@ -130,26 +130,24 @@ TEST(OverlappingTrianglesLaws, EveryFormGivesTheSameSet) {
             expected_a[pair.a / 64] |= std::uint64_t{1} << (pair.a % 64);
             expected_b[pair.b / 64] |= std::uint64_t{1} << (pair.b % 64);
         }
-        ASSERT_EQ(mark_overlapping_triangles(model_a.model, model_b.model, placement, workspace,
-                                             bits_a, bits_b),
-                  pairs.size());
+        ASSERT_EQ(
+            mark_overlaps({model_a.model, model_b.model, placement}, workspace, bits_a, bits_b),
+            pairs.size());
         ASSERT_EQ(bits_a, expected_a);
         ASSERT_EQ(bits_b, expected_b);
         total += pairs.size();
 
         std::size_t seen = 0;
         const auto stop_early = [&](const TrianglePair&) { return ++seen < 5; };
-        EXPECT_EQ(visit_overlapping_triangles(model_a.model, model_b.model, placement, workspace,
-                                              stop_early),
+        EXPECT_EQ(visit_overlaps({model_a.model, model_b.model, placement}, workspace, stop_early),
                   pairs.size() < 5);
         EXPECT_EQ(seen, std::min<std::size_t>(5, pairs.size()));
     }
     EXPECT_GT(total, 1000u);
     std::span<std::uint64_t> nothing;
     const Placement still = Placement::b_moves(Pose());
-    EXPECT_EQ(
-        mark_overlapping_triangles(model_a.model, model_b.model, still, workspace, nothing, bits_b),
-        all_pairs(model_a.model, model_b.model, still, workspace).size());
+    EXPECT_EQ(mark_overlaps({model_a.model, model_b.model, still}, workspace, nothing, bits_b),
+              all_pairs(model_a.model, model_b.model, still, workspace).size());
 }
 
 TEST(OverlappingTrianglesLaws, SwappingTheModelsSwapsThePairs) {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 
 #include <gtest/gtest.h>
 
-#include "cdprep/collide.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 
@@ -15,7 +14,7 @@ Placement shifted(double x, double y, double z) {
 }
 
 std::vector<TrianglePair> ask(const TestMesh& a, const TestMesh& b, const Placement& placement,
-                              const OverlapOptions& options = {}) {
+                              const PairOptions& options = {}) {
     const OpenModel model_a = open_tiny(a);
     const OpenModel model_b = open_tiny(b);
     Workspace workspace;
@@ -50,7 +49,7 @@ TEST(OverlappingTriangles, ShortSpanHoldsTheSmallestPairs) {
     const auto all = all_pairs(sheet.model, sheet.model, same, workspace);
     EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
     std::vector<TrianglePair> some(17);
-    EXPECT_EQ(overlapping_triangles(sheet.model, sheet.model, same, workspace, some), all.size());
+    EXPECT_EQ(overlaps({sheet.model, sheet.model, same}, workspace, some), all.size());
     EXPECT_TRUE(std::equal(some.begin(), some.end(), all.begin()));
 }
 
@@ -58,8 +57,7 @@ TEST(OverlappingTriangles, ShortSpanHoldsTheSmallestPairs) {
 TEST(OverlappingTriangles, EqualTrianglesAllOverlap) {
     const OpenModel copies = open_tiny(copies_of_one_triangle(1000));
     Workspace workspace;
-    EXPECT_EQ(overlapping_triangles(copies.model, copies.model, Placement::b_moves(Pose()),
-                                    workspace, {}),
+    EXPECT_EQ(overlaps({copies.model, copies.model, Placement::b_moves(Pose())}, workspace, {}),
               1'000'000u);
 }
 
@@ -70,10 +68,10 @@ TEST(OverlappingTriangles, NestedShellsStayApart) {
     const OpenModel inside = open_tiny(moved_by(outer, 0.997, {}), {.double_precision = true});
     const OpenModel outside = open_tiny(outer, {.double_precision = true});
     Workspace workspace;
-    EXPECT_EQ(overlapping_triangles(outside.model, inside.model, shifted(0, 0, 0), workspace, {}),
-              0u);
-    const CollideOptions solid = {.body = Body::solid};
-    EXPECT_TRUE(collide(outside.model, inside.model, shifted(0, 0, 0), workspace, solid).hit);
+    EXPECT_EQ(overlaps({outside.model, inside.model, shifted(0, 0, 0)}, workspace, {}), 0u);
+    const PairOptions solid = {.body = Body::solid};
+    EXPECT_TRUE(collide({outside.model, inside.model, shifted(0, 0, 0), solid}, workspace).hit ==
+                Answer::yes);
 }
 
 // B03: parallel sheets one grid step apart, by construction; and none apart.
@@ -81,8 +79,7 @@ TEST(OverlappingTriangles, ParallelSheetsMeetOnlyWhenTheyCoincide) {
     const OpenModel sheet = open_tiny(grid_sheet(150, 150));
     Workspace workspace;
     const auto count = [&](double z) {
-        return overlapping_triangles(sheet.model, sheet.model, shifted(0.25, 0.25, z), workspace,
-                                     {});
+        return overlaps({sheet.model, sheet.model, shifted(0.25, 0.25, z)}, workspace, {});
     };
     EXPECT_EQ(count(0x1p-20), 0u);
     EXPECT_EQ(count(-0x1p-1000), 0u);

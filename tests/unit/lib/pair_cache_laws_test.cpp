@@ -4,9 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 #include "proven_gap.h"
 #include "support/open_tiny.h"
 #include "support/placements.h"
@@ -53,11 +51,11 @@ struct Walker {
     std::size_t asked = 0;
     std::size_t hits = 0;
 
-    void expect_same_pairs(const Placement& placement, const OverlapOptions& options,
+    void expect_same_pairs(const Placement& placement, const PairOptions& options,
                            PairCache& cache) {
         std::vector<TrianglePair> plain(10'000), cached(10'000);
-        plain.resize(overlapping_triangles(a, b, placement, workspace, plain, options));
-        cached.resize(overlapping_triangles(a, b, placement, workspace, cached, options, &cache));
+        plain.resize(overlaps({a, b, placement, options}, workspace, plain));
+        cached.resize(overlaps({a, b, placement, options, &cache}, workspace, cached));
         ASSERT_EQ(plain, cached);
         hits += plain.empty() ? 0 : 1;
         ++asked;
@@ -65,33 +63,33 @@ struct Walker {
 
     /// Asks one of all questions with the cache and without.
     void ask(unsigned question, const Placement& placement, PairCache& cache) {
-        CollideOptions options;
+        PairOptions options;
         if (question % 3 == 1) options.overlap = Overlap::proper;
         if (question % 5 == 1) options.degenerate = Degenerate::skip;
         if (question % 7 == 1) options.body = Body::solid;
         switch (question % 6) {
             case 0: {
-                expect_same(distance(a, b, placement, workspace),
-                            distance(a, b, placement, workspace, {}, &cache));
+                expect_same(distance({a, b, placement}, workspace),
+                            distance({a, b, placement, {}, &cache}, workspace));
                 break;
             }
             case 1: {
                 const double tolerance = 0.03125 * (question % 9);
-                ASSERT_EQ(is_within(a, b, placement, tolerance, workspace),
-                          is_within(a, b, placement, tolerance, workspace, &cache));
+                ASSERT_EQ(within({a, b, placement}, tolerance, workspace),
+                          within({a, b, placement, {}, &cache}, tolerance, workspace));
                 break;
             }
             case 2:
             case 3: {
-                expect_same_pairs(placement, {options.overlap, options.degenerate}, cache);
+                expect_same_pairs(placement, options, cache);
                 break;
             }
             default: {
-                const Collision plain = collide(a, b, placement, workspace, options);
-                const Collision cached = collide(a, b, placement, workspace, options, &cache);
+                const Collision plain = collide({a, b, placement, options}, workspace);
+                const Collision cached = collide({a, b, placement, options, &cache}, workspace);
                 ASSERT_EQ(plain.hit, cached.hit);
                 ASSERT_EQ(plain.containment.answer, cached.containment.answer);
-                hits += plain.hit ? 1 : 0;
+                hits += plain.hit == Answer::yes ? 1 : 0;
                 ++asked;
             }
         }
@@ -142,8 +140,12 @@ TEST(PairCacheLaws, ACacheOfOtherModelsIsHarmless) {
         Walker& walker = walkers[random() % walkers.size()];
         walker.ask(random(), placement, cache);
         ASSERT_FALSE(HasFatalFailure());
-        EXPECT_FALSE(collide(empty.model, ball.model, placement, walker.workspace, {}, &cache).hit);
-        EXPECT_FALSE(collide(ball.model, empty.model, placement, walker.workspace, {}, &cache).hit);
+        EXPECT_FALSE(
+            collide({empty.model, ball.model, placement, {}, &cache}, walker.workspace).hit ==
+            Answer::yes);
+        EXPECT_FALSE(
+            collide({ball.model, empty.model, placement, {}, &cache}, walker.workspace).hit ==
+            Answer::yes);
     }
     for (const Walker& walker : walkers) {
         asked += walker.asked;
@@ -175,8 +177,8 @@ TEST(PairCacheLaws, WhatIsLeftOfAGapIsNoMoreThanTheDistance) {
             PairCache cache;
             const Placement before = placement_of_kind(round, p, q),
                             after = placement_of_kind(round, near, q);
-            const auto old = distance(a.model, a.model, before, workspace, {}, &cache);
-            const auto now = distance(a.model, a.model, after, workspace);
+            const auto old = distance({a.model, a.model, before, {}, &cache}, workspace);
+            const auto now = distance({a.model, a.model, after}, workspace);
             const double left = proven_gap(cache, a.model, a.model, after);
             ASSERT_LE(left, now->upper) << size << ", round " << round;
             if (old->lower <= 4 * share * size) continue;

@@ -10,7 +10,6 @@
 #include <random>
 #include <string>
 
-#include "cdprep/placement.h"
 #include "support/exact_rational.h"
 
 namespace cdprep::test {

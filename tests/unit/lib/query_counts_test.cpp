@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
 
 #include <gtest/gtest.h>
 
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
+#include "cdprep/pairs.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 
@@ -28,7 +27,7 @@ TEST(QueryCounts, SayWhatOnePairOfTrianglesTakes) {
     Workspace workspace;
     QueryCounts counts;
     workspace.count_into(&counts);
-    EXPECT_EQ(overlapping_triangles(a.model, b.model, shifted(0, 0, 0), workspace, {}), 1u);
+    EXPECT_EQ(overlaps({a.model, b.model, shifted(0, 0, 0)}, workspace, {}), 1u);
     EXPECT_EQ(counts.box_pairs, 1u);
     EXPECT_EQ(counts.node_pairs, 1u);
     EXPECT_EQ(counts.leaf_pairs, 1u);
@@ -37,7 +36,7 @@ TEST(QueryCounts, SayWhatOnePairOfTrianglesTakes) {
     EXPECT_EQ(decided(counts), 1u);
 
     workspace.count_into(nullptr);
-    EXPECT_EQ(overlapping_triangles(a.model, b.model, shifted(0, 0, 0), workspace, {}), 1u);
+    EXPECT_EQ(overlaps({a.model, b.model, shifted(0, 0, 0)}, workspace, {}), 1u);
     EXPECT_EQ(counts.box_pairs, 1u);
 }
 
@@ -48,15 +47,14 @@ TEST(QueryCounts, SayWhichStageDecided) {
     Workspace workspace;
     QueryCounts itself;
     workspace.count_into(&itself);
-    const std::size_t pairs =
-        overlapping_triangles(sheet.model, sheet.model, shifted(0, 0, 0), workspace, {});
+    const std::size_t pairs = overlaps({sheet.model, sheet.model, shifted(0, 0, 0)}, workspace, {});
     EXPECT_EQ(itself.by_corner, pairs);
     EXPECT_EQ(itself.by_kernel, 0u);
 
     QueryCounts aside;
     workspace.count_into(&aside);
     const std::size_t covered =
-        overlapping_triangles(sheet.model, sheet.model, shifted(0.3125, 0.1875, 0), workspace, {});
+        overlaps({sheet.model, sheet.model, shifted(0.3125, 0.1875, 0)}, workspace, {});
     EXPECT_EQ(aside.by_corner, 0u);
     EXPECT_GE(aside.by_exact, covered);
     EXPECT_GT(covered, 500u);
@@ -74,8 +72,9 @@ TEST(QueryCounts, AreTakenForEveryQuestionAboutTwoModels) {
         return counts;
     };
     const Placement near = shifted(2.01, 0, 0), crossing = shifted(1, 0, 0);
-    const QueryCounts hit =
-        taken([&] { EXPECT_TRUE(collide(ball.model, ball.model, crossing, workspace).hit); });
+    const QueryCounts hit = taken([&] {
+        EXPECT_TRUE(collide({ball.model, ball.model, crossing}, workspace).hit == Answer::yes);
+    });
     const QueryCounts all = taken(
         [&] { EXPECT_GT(all_pairs(ball.model, ball.model, crossing, workspace).size(), 50u); });
     EXPECT_GT(hit.leaf_pairs, 0u);
@@ -83,20 +82,22 @@ TEST(QueryCounts, AreTakenForEveryQuestionAboutTwoModels) {
     // Nodes hold up to eight boxes, and of most pairs of nodes several boxes are tested.
     EXPECT_LT(all.node_pairs, all.box_pairs);
     EXPECT_GE(64 * all.node_pairs, all.box_pairs);
-    const QueryCounts apart =
-        taken([&] { EXPECT_TRUE(distance(ball.model, ball.model, near, workspace)); });
+    const QueryCounts apart = taken([&] {
+        EXPECT_TRUE(distance({ball.model, ball.model, near}, workspace));
+    });
     EXPECT_GT(apart.measured, 0u);
     EXPECT_LE(apart.measured, apart.triangle_pairs);
     // A gap so narrow that double tells it too widely.
     const OpenModel cube = open_tiny(unit_cube());
     const QueryCounts narrow = taken([&] {
-        EXPECT_TRUE(distance(cube.model, cube.model, shifted(1 + 1e-9, 0.25, 0.125), workspace));
+        EXPECT_TRUE(distance({cube.model, cube.model, shifted(1 + 1e-9, 0.25, 0.125)}, workspace));
     });
     EXPECT_GT(narrow.measured_again, 0u);
-    const QueryCounts within =
-        taken([&] { EXPECT_FALSE(is_within(ball.model, ball.model, near, 0.005, workspace)); });
-    EXPECT_GT(within.box_pairs, 0u);
-    EXPECT_LT(within.box_pairs, apart.box_pairs);
+    const QueryCounts near_enough = taken([&] {
+        EXPECT_FALSE(within({ball.model, ball.model, near}, 0.005, workspace));
+    });
+    EXPECT_GT(near_enough.box_pairs, 0u);
+    EXPECT_LT(near_enough.box_pairs, apart.box_pairs);
 }
 
 }  // namespace

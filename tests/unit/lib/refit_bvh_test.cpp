@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/refit_bvh.h"
+#include "cdprep/advanced/refit_bvh.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <random>
 
-#include "cdprep/collide.h"
 #include "cdprep/format/find_damage.h"
+#include "cdprep/pairs.h"
 #include "support/brute_force.h"
 #include "support/bvh_boxes.h"
 #include "support/open_tiny.h"
@@ -163,7 +163,8 @@ TEST(RefitBvh, AnswersAreThoseOfANewHierarchy) {
         const Placement placement = Placement::b_moves(random_pose(random, 1.9));
         const auto expected = all_pairs(built.model, ring.model, placement, workspace);
         EXPECT_EQ(all_pairs(refitted.model, ring.model, placement, workspace), expected);
-        EXPECT_EQ(collide(refitted.model, ring.model, placement, workspace).hit, !expected.empty());
+        EXPECT_EQ(collide({refitted.model, ring.model, placement}, workspace).hit == Answer::yes,
+                  !expected.empty());
         hits += expected.empty() ? 0 : 1;
     }
     EXPECT_GE(hits, kPoses * 3 / 10);

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "cdprep/distance.h"
-#include "cdprep/runtime_model.h"
+#include "cdprep/advanced/runtime_model.h"
+#include "cdprep/pairs.h"
 #include "support/brute_force.h"
 #include "support/counted_memory.h"
 #include "support/open_tiny.h"
@@ -40,8 +40,8 @@ TEST(RuntimeModel, AHundredFramesAllocateNothingAndAnswerAsBruteForce) {
         }
         const bool is_fitted = object.refit(shape.positions).ok();
         const std::size_t count =
-            overlapping_triangles(object.model(), other.model, placement, workspace, pairs);
-        const auto apart = distance(object.model(), other.model, placement, workspace);
+            overlaps({object.model(), other.model, placement}, workspace, pairs);
+        const auto apart = distance({object.model(), other.model, placement}, workspace);
         EXPECT_EQ(most, before) << "allocated in frame " << frame;
         ASSERT_TRUE(is_fitted);
         ASSERT_LE(count, pairs.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/runtime_model.h"
+#include "cdprep/advanced/runtime_model.h"
 
 #include <gtest/gtest.h>
 
@@ -10,13 +10,11 @@
 #include <optional>
 #include <random>
 
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
+#include "cdprep/advanced/refit_bvh.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
-#include "cdprep/refit_bvh.h"
+#include "cdprep/pairs.h"
+#include "cdprep/points.h"
 #include "support/brute_force.h"
 #include "support/changed_sections.h"
 #include "support/open_tiny.h"
@@ -125,14 +123,14 @@ void expect_same_answers(const Model& moving, const Model& fresh, const Model& o
     std::ranges::sort(expected);
     EXPECT_EQ(pairs, expected);
     for (const Body as : {Body::surface, Body::solid}) {
-        const Collision one = collide(moving, other, placement, workspace, {.body = as});
-        const Collision two = collide(fresh, other, placement, workspace, {.body = as});
+        const Collision one = collide({moving, other, placement, {.body = as}}, workspace);
+        const Collision two = collide({fresh, other, placement, {.body = as}}, workspace);
         EXPECT_EQ(one.hit, two.hit);
         EXPECT_EQ(one.containment.answer, two.containment.answer);
         EXPECT_EQ(one.containment.winding, two.containment.winding);
     }
-    const auto near = distance(moving, other, placement, workspace);
-    const auto exact = distance(fresh, other, placement, workspace);
+    const auto near = distance({moving, other, placement}, workspace);
+    const auto exact = distance({fresh, other, placement}, workspace);
     ASSERT_EQ(near.has_value(), exact.has_value());
     if (near) {  // both intervals hold the exact distance
         EXPECT_LE(near->lower, exact->upper);
@@ -327,10 +325,13 @@ TEST(RuntimeModel, CachesAreNotFooledByARefit) {
         EXPECT_EQ(first.model().header().content_hash == second.model().header().content_hash,
                   std::fabs(gap) < 1e-12);
         for (const Model* model : {&first.model(), &second.model(), &first.model()}) {
-            const bool plain = collide(*model, other.model, placement, workspace).hit;
-            EXPECT_EQ(collide(*model, other.model, placement, workspace, {}, &cache).hit, plain);
-            const auto exact = distance(*model, other.model, placement, workspace);
-            expect_same(distance(*model, other.model, placement, workspace, {}, &cache), exact);
+            const bool plain =
+                collide({*model, other.model, placement}, workspace).hit == Answer::yes;
+            EXPECT_EQ(
+                collide({*model, other.model, placement, {}, &cache}, workspace).hit == Answer::yes,
+                plain);
+            const auto exact = distance({*model, other.model, placement}, workspace);
+            expect_same(distance({*model, other.model, placement, {}, &cache}, workspace), exact);
             hits += plain ? 1 : 0;
         }
     }
@@ -344,7 +345,7 @@ TEST(RuntimeModel, TrianglesAreMarkedDegenerateAsTheyBecomeIt) {
     const OpenModel wall = open_tiny(turned(grid_sheet(3, 3), 0.7), {.double_precision = true});
     Running moving = run(arrays_of(sheet));
     Workspace workspace;
-    const OverlapOptions skip{.degenerate = Degenerate::skip};
+    const PairOptions skip{.degenerate = Degenerate::skip};
     const Placement placement = Placement::b_moves({});
     const auto count = [&] {
         return all_pairs(moving.model(), wall.model, placement, workspace, skip).size();

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/shape_distance.h"
+#include "cdprep/points.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
-#include "cdprep/touching_capsule.h"
-#include "cdprep/touching_triangle.h"
 #include "support/brute_force.h"
 #include "support/exact_distance.h"
 #include "support/open_tiny.h"
@@ -44,7 +43,7 @@ double largest(const TestMesh& mesh, const Pose& pose, const Corners& shape) {
 void expect_truth(const TestMesh& mesh, const Model& model, const TriangleShape& shape,
                   const Pose& pose, Workspace& workspace) {
     const ExactRational truth = nearest(mesh, pose, shape.corner);
-    const auto found = distance_to(model, shape, workspace, {pose});
+    const auto found = shape_distance(model, shape, workspace, {.world_from_model = pose});
     ASSERT_TRUE(found);
     ASSERT_LE(square(found->lower), truth);
     ASSERT_GE(square(found->upper), truth);
@@ -58,9 +57,13 @@ void expect_truth(const TestMesh& mesh, const Model& model, const TriangleShape&
     const ExactRational of_triangle =
         exact_squared_distance(shape.corner, corners_of(mesh, found->triangle, &pose));
     ASSERT_LE(of_triangle, square(found->upper));
-    ASSERT_TRUE(distance_to(model, shape, workspace, {pose, found->upper}));
+    const auto found_within = [&](double limit) {
+        const ShapeOptions options = {.world_from_model = pose, .max_distance = limit};
+        return shape_distance(model, shape, workspace, options).has_value();
+    };
+    ASSERT_TRUE(found_within(found->upper));
     if (found->lower > 0) {
-        ASSERT_FALSE(distance_to(model, shape, workspace, {pose, found->lower * (1 - 1e-6)}));
+        ASSERT_FALSE(found_within(found->lower * (1 - 1e-6)));
     }
 }
 
@@ -70,7 +73,7 @@ void expect_truth_around_edge(const TestMesh& mesh, const Model& model, const Tr
     const Corners segment = {shape.corner[0], shape.corner[1], shape.corner[1]};
     const ExactRational truth = nearest(mesh, pose, segment);
     const Capsule capsule = {segment[0], segment[1], radius};
-    const auto found = distance_to(model, capsule, workspace, {pose});
+    const auto found = shape_distance(model, capsule, workspace, {.world_from_model = pose});
     ASSERT_TRUE(found);
     ASSERT_EQ(found->upper == 0, truth <= square(radius));
     if (found->upper == 0) return;
@@ -104,13 +107,117 @@ TEST(ShapeDistanceLaws, TheIntervalHoldsTheExactDistance) {
             expect_truth(mesh, model.model, shape, pose, workspace);
             const double radius = static_cast<double>(random() % 3);
             expect_truth_around_edge(mesh, model.model, shape, radius, pose, workspace);
-            const auto found = distance_to(model.model, shape, workspace, {pose});
+            const auto found =
+                shape_distance(model.model, shape, workspace, {.world_from_model = pose});
             apart += found->lower > 0 ? 1 : 0;
             ++cases;
         }
     }
     EXPECT_GT(apart, cases * 3 / 10) << "seed 101";
     EXPECT_LT(apart, cases * 8 / 10) << "seed 101";
+}
+
+/// The square of the distance of a point and a box, in exact numbers.
+ExactRational to_box(const Box& box, const Double3& p) {
+    const auto beyond = [](double at, double lower, double upper) {
+        if (at < lower) return ExactNumber(lower) - ExactNumber(at);
+        return at > upper ? ExactNumber(at) - ExactNumber(upper) : ExactNumber(0.0);
+    };
+    const ExactNumber x = beyond(p.x, box.lower.x, box.upper.x);
+    const ExactNumber y = beyond(p.y, box.lower.y, box.upper.y);
+    const ExactNumber z = beyond(p.z, box.lower.z, box.upper.z);
+    return {x * x + y * y + z * z, 1.0};
+}
+
+/// The square of the distance of a triangle and a box: 0 where they touch, else the least of the
+/// triangle's corners and of the box's twelve edges, of which one is attained.
+ExactRational to_box(const Box& box, const Corners& t, bool touch) {
+    if (touch) return {ExactNumber(0.0), 1.0};
+    ExactRational best = to_box(box, t[0]);
+    for (const Double3& p : t) best = std::min(best, to_box(box, p));
+    const auto corner = [&](unsigned at) {
+        return Double3{(at & 1U ? box.upper : box.lower).x, (at & 2U ? box.upper : box.lower).y,
+                       (at & 4U ? box.upper : box.lower).z};
+    };
+    for (unsigned from = 0; from < 8; ++from) {
+        for (const unsigned bit : {1U, 2U, 4U}) {
+            if (from & bit) continue;
+            const Double3 end = corner(from | bit);
+            best = std::min(best, exact_squared_distance({corner(from), end, end}, t));
+        }
+    }
+    return best;
+}
+
+// The oracle: corners and edges of every triangle and of the box in rational numbers.
+TEST(ShapeDistanceLaws, TheIntervalHoldsTheExactDistanceToABox) {
+    std::mt19937 random(211);
+    Workspace workspace;
+    int apart = 0, cases = 0;
+    for (int round = 0; round < 40 && !HasFatalFailure(); ++round) {
+        const bool fine = round % 2 == 0;
+        const TestMesh mesh =
+            fine ? random_soup(random(), 30, 0.3) : coarse_grid_soup(random(), 20, 3);
+        const OpenModel model = open_tiny(mesh, {.double_precision = true});
+        std::uniform_real_distribution<double> place(-4, 4), length(0, 2);
+        const auto rounded = [&](double x) { return fine ? x : std::round(x); };
+        for (int i = 0; i < 6; ++i) {
+            Box box{};
+            for (double Double3::*axis : {&Double3::x, &Double3::y, &Double3::z}) {
+                box.lower.*axis = rounded(place(random));
+                box.upper.*axis = box.lower.*axis + rounded(length(random));
+            }
+            const Pose pose = i % 2 == 0 ? Pose() : random_pose(random, 2);
+            const ShapeOptions options = {.world_from_model = pose};
+            const auto found = shape_distance(model.model, box, workspace, options);
+            ASSERT_TRUE(found);
+            const auto truth_of = [&](std::uint32_t triangle) {
+                const Corners corners = corners_of(mesh, triangle, &pose);
+                const TestMesh one = {{corners.begin(), corners.end()}, {{{0, 1, 2}}}};
+                const OpenModel alone = open_tiny(one, {.double_precision = true});
+                return to_box(box, corners, touches(alone.model, box, workspace));
+            };
+            ExactRational truth = truth_of(0);
+            for (std::uint32_t t = 1; t < mesh.triangles.size(); ++t) {
+                truth = std::min(truth, truth_of(t));
+            }
+            ASSERT_LE(square(found->lower), truth);
+            ASSERT_GE(square(found->upper), truth);
+            ASSERT_EQ(found->upper == 0, truth.sign() == 0);
+            ASSERT_LE(truth_of(found->triangle), square(found->upper));
+            const double size = std::max(8.0, largest(mesh, pose, {}));
+            ASSERT_LE(found->upper - found->lower, 1e-12 * found->lower + 1e-15 * size);
+            ASSERT_LE(to_box(box, found->on_shape), square(1e-15 * size));
+            const Double3 &p = found->on_model, &q = found->on_shape;
+            ASSERT_NEAR(std::hypot(p.x - q.x, p.y - q.y, p.z - q.z), found->upper, 1e-12 * size);
+            apart += found->lower > 0 ? 1 : 0;
+            ++cases;
+        }
+    }
+    EXPECT_GT(apart, cases * 3 / 10) << "seed 211";
+    EXPECT_LT(apart, cases * 8 / 10) << "seed 211";
+}
+
+// By hand: limits at infinity make slabs and quarters; a box that is none has no distance.
+TEST(ShapeDistanceLaws, BoxesMayBeOpen) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const OpenModel model =
+        open_tiny({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}}, {.double_precision = true});
+    Workspace workspace;
+    const auto to = [&](const Box& box) { return shape_distance(model.model, box, workspace); };
+    const auto above = to({{-kInfinity, -kInfinity, 2}, {kInfinity, kInfinity, kInfinity}});
+    ASSERT_TRUE(above);
+    EXPECT_EQ(above->lower, 2);
+    EXPECT_EQ(above->upper, 2);
+    const auto corner = to({{4, 4, -kInfinity}, {kInfinity, kInfinity, kInfinity}});
+    ASSERT_TRUE(corner);
+    EXPECT_LE(corner->lower, 3.5 * std::sqrt(2.0));
+    EXPECT_NEAR(corner->upper, 3.5 * std::sqrt(2.0), 1e-14);
+    const auto all = to({{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}});
+    ASSERT_TRUE(all);
+    EXPECT_EQ(all->upper, 0);
+    EXPECT_FALSE(to({{1, 0, 0}, {0, 1, 1}}));
+    EXPECT_FALSE(to({{0, 0, std::nan("")}, {0, 1, 1}}));
 }
 
 // By hand: five apart on a 3-4-5 grid, at every size.
@@ -121,7 +228,7 @@ TEST(ShapeDistanceLaws, SizeDoesNotMatter) {
             moved_by({{{3, 4, 0}, {9, 9, 0}, {9, 4, 0}}, {{{0, 1, 2}}}}, scale, {0, 0, 0});
         const OpenModel model = open_tiny(mesh, {.double_precision = true});
         const Capsule capsule = {{0, 0, 0}, {0, 0, 0}, 2 * scale};
-        const auto found = distance_to(model.model, capsule, workspace);
+        const auto found = shape_distance(model.model, capsule, workspace);
         ASSERT_TRUE(found) << scale;
         EXPECT_LE(found->lower, 3 * scale);
         EXPECT_GE(found->upper, 3 * scale);

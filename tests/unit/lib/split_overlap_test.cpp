@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "cdprep/split_overlap.h"
+#include "cdprep/parallel.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
@@ -19,10 +19,10 @@ constexpr auto one_after_the_other = [](std::size_t count, Task task) {
 /// Room of `size`, filled by a split question; returns the number of pairs.
 std::size_t split(const Model& a, const Model& b, const Placement& placement, std::size_t workers,
                   ParallelFor run, std::vector<TrianglePair>& room, std::size_t size,
-                  const OverlapOptions& options = {}) {
+                  const PairOptions& options = {}) {
     std::vector<Workspace> workspaces(workers);
     room.assign(size, {7, 7});
-    return split_overlapping_triangles(a, b, placement, workspaces, run, room, options);
+    return split_overlaps({a, b, placement, options}, workspaces, run, room);
 }
 
 // A sphere that touches itself everywhere, and some of it turned: enough pairs for
@@ -75,8 +75,9 @@ TEST(SplitOverlap, EveryOptionAndPlacementIsKept) {
         const Pose q = random_pose(random, 6);
         for (const Placement& placement :
              {Placement::b_moves(p), Placement::a_moves(p), Placement::world(p, q)}) {
-            for (const OverlapOptions& options :
-                 {OverlapOptions{}, OverlapOptions{Overlap::proper, Degenerate::skip}}) {
+            for (const PairOptions& options :
+                 {PairOptions{},
+                  PairOptions{.overlap = Overlap::proper, .degenerate = Degenerate::skip}}) {
                 const auto expected = all_pairs(a.model, b.model, placement, workspace, options);
                 std::vector<TrianglePair> pairs;
                 const std::size_t count = split(a.model, b.model, placement, 4, run_threads, pairs,

@@ -7,15 +7,8 @@
 #include <string_view>
 #include <thread>
 
-#include "cdprep/cast_ray.h"
-#include "cdprep/closest_point.h"
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
-#include "cdprep/touching_box.h"
-#include "cdprep/touching_capsule.h"
-#include "cdprep/touching_sphere.h"
-#include "cdprep/touching_triangle.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/pairs.h"
+#include "cdprep/points.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
@@ -60,16 +53,16 @@ void ask_about_shapes(const Model& a, const Double3& at, Workspace& workspace, A
     answers.touched = {touches(a, box, workspace), touches(a, sphere, workspace),
                        touches(a, capsule, workspace), touches(a, triangle, workspace),
                        ray_hits(a, {at, {-1, 0.5, 0.25}}, workspace)};
-    answers.to_capsule = distance_to(a, capsule, workspace)->upper;
-    answers.to_triangle = distance_to(a, triangle, workspace)->lower;
+    answers.to_capsule = shape_distance(a, capsule, workspace)->upper;
+    answers.to_triangle = shape_distance(a, triangle, workspace)->lower;
 }
 
 Answers ask(const Model& a, const Model& b, const Placement& placement, Workspace& workspace) {
     Answers answers;
     answers.pairs = all_pairs(a, b, placement, workspace);
-    answers.hit = collide(a, b, placement, workspace, {.body = Body::solid}).hit;
-    answers.within = is_within(a, b, placement, 0.25, workspace);
-    const auto found = distance(a, b, placement, workspace);
+    answers.hit = collide({a, b, placement, {.body = Body::solid}}, workspace).hit == Answer::yes;
+    answers.within = within({a, b, placement}, 0.25, workspace);
+    const auto found = distance({a, b, placement}, workspace);
     answers.lower = found->lower;
     answers.upper = found->upper;
     answers.nearest = found->triangle_b;
@@ -146,18 +139,18 @@ std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placem
     std::uint64_t sum = 0;
     switch (kind) {
         case 0:
-            return collide(a, b, placement, workspace).hit ? 1 : 0;
+            return collide({a, b, placement}, workspace).hit == Answer::yes ? 1 : 0;
         case 1: {
-            const Collision found = collide(a, b, placement, workspace, {.body = Body::solid});
-            return folded(found.hit ? 1 : 0, found.containment.winding);
+            const Collision found = collide({a, b, placement, {.body = Body::solid}}, workspace);
+            return folded(found.hit == Answer::yes ? 1 : 0, found.containment.winding);
         }
         case 2:
-            return collide(a, b, placement, workspace, {}, &scratch.cache).hit ? 1 : 0;
+            return collide({a, b, placement, {}, &scratch.cache}, workspace).hit == Answer::yes ? 1
+                                                                                                : 0;
         case 3:
-            return overlapping_triangles(a, b, placement, workspace, {});
+            return overlaps({a, b, placement}, workspace, {});
         case 4: {
-            const std::size_t count =
-                overlapping_triangles(a, b, placement, workspace, scratch.pairs);
+            const std::size_t count = overlaps({a, b, placement}, workspace, scratch.pairs);
             return folded(scratch.pairs, count);
         }
         case 5: {
@@ -165,22 +158,22 @@ std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placem
                 sum += folded(pair.a, pair.b);
                 return true;
             };
-            visit_overlapping_triangles(a, b, placement, workspace, visit);
+            visit_overlaps({a, b, placement}, workspace, visit);
             return sum;
         }
         case 6:
-            mark_overlapping_triangles(a, b, placement, workspace, scratch.bits_a, scratch.bits_b);
+            mark_overlaps({a, b, placement}, workspace, scratch.bits_a, scratch.bits_b);
             for (const std::uint64_t word : scratch.bits_a) sum = 31 * sum + word;
             for (const std::uint64_t word : scratch.bits_b) sum = 31 * sum + word;
             return sum;
         case 7:
-            return folded(distance(a, b, placement, workspace));
+            return folded(distance({a, b, placement}, workspace));
         case 8:
-            return folded(distance(a, b, placement, workspace, {}, &scratch.cache));
+            return folded(distance({a, b, placement, {}, &scratch.cache}, workspace));
         case 9:
-            return is_within(a, b, placement, 0.25, workspace) ? 1 : 0;
+            return within({a, b, placement}, 0.25, workspace) ? 1 : 0;
         case 10:
-            return is_within(a, b, placement, 0.25, workspace, &scratch.cache) ? 1 : 0;
+            return within({a, b, placement, {}, &scratch.cache}, 0.25, workspace) ? 1 : 0;
         case 11: {
             const auto hit = cast_ray(a, {from, {1, 0.5, 0.25}}, workspace);
             return hit ? folded(hit->triangle, hit->t) : 1;
@@ -191,7 +184,7 @@ std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placem
         }
         case 13: {
             const std::size_t count =
-                triangles_within(a, b, placement, 0.0625, workspace, scratch.pairs);
+                pairs_within({a, b, placement}, 0.0625, workspace, scratch.pairs);
             return folded(scratch.pairs, count);
         }
         case 14: {
@@ -199,7 +192,7 @@ std::uint64_t ask(std::size_t kind, const Model& a, const Model& b, const Placem
                 sum += folded(pair.a, pair.b);
                 return true;
             };
-            visit_triangles_within(a, b, placement, 0.125, workspace, visit);
+            visit_pairs_within({a, b, placement}, 0.125, workspace, visit);
             return sum;
         }
         default: {

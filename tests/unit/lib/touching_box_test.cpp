@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/touching_box.h"
+#include "cdprep/points.h"
 
 #include <gtest/gtest.h>
 
@@ -65,7 +65,7 @@ TEST(TouchingBox, LimitsMayBeInfinite) {
 // By hand: the cube's x axis becomes the box's z, two further up.
 TEST(TouchingBox, AnOrientedBoxIsABoxInItsOwnFrame) {
     const Pose box_from_model = Pose::from_rows({0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 2}).value();
-    const TouchOptions in_box{box_from_model};
+    const ShapeOptions in_box{box_from_model};
     // In the box's frame the cube is [0, 1] x [0, 1] x [2, 3].
     EXPECT_FALSE(touched(unit_cube(), Box{{-1, -1, 1}, {2, 2, 2}}, in_box).empty());
     EXPECT_TRUE(touched(unit_cube(), Box{{-1, -1, 0}, {2, 2, 1.5}}, in_box).empty());

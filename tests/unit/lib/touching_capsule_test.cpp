@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/touching_capsule.h"
+#include "cdprep/points.h"
 
 #include <gtest/gtest.h>
 
@@ -63,9 +63,9 @@ TEST(TouchingCapsule, OddRadiiAndEmptyModels) {
     EXPECT_TRUE(touched({}, Capsule{{0, 0, 0}, {3, 4, 0}, 1}).empty());
     Workspace workspace;
     const OpenModel empty = open_tiny(TestMesh{});
-    EXPECT_FALSE(distance_to(empty.model, Capsule{{0, 0, 0}, {3, 4, 0}, 1}, workspace));
+    EXPECT_FALSE(shape_distance(empty.model, Capsule{{0, 0, 0}, {3, 4, 0}, 1}, workspace));
     const OpenModel model = open_tiny(upright());
-    EXPECT_FALSE(distance_to(model.model, Capsule{{0, 0, 0}, {3, 4, 0}, -1}, workspace));
+    EXPECT_FALSE(shape_distance(model.model, Capsule{{0, 0, 0}, {3, 4, 0}, -1}, workspace));
 }
 
 // By hand: five less two, with the limit on either side.
@@ -73,16 +73,16 @@ TEST(TouchingCapsule, DistanceIsLessByTheRadius) {
     const OpenModel model = open_tiny(upright());
     Workspace workspace;
     const Capsule capsule = {{0, 0, -1}, {0, 0, 1}, 2};
-    const auto found = distance_to(model.model, capsule, workspace);
+    const auto found = shape_distance(model.model, capsule, workspace);
     ASSERT_TRUE(found);
     EXPECT_LE(found->lower, 3);
     EXPECT_GE(found->upper, 3);
     EXPECT_NEAR(found->upper - found->lower, 0, 1e-13);
     EXPECT_EQ(found->on_model.x, 3);
     EXPECT_EQ(found->on_shape.x, 0);
-    EXPECT_TRUE(distance_to(model.model, capsule, workspace, {.max_distance = 3}));
-    EXPECT_FALSE(distance_to(model.model, capsule, workspace, {.max_distance = 2.999}));
-    const auto touching = distance_to(model.model, {{0, 0, -1}, {0, 0, 1}, 5}, workspace);
+    EXPECT_TRUE(shape_distance(model.model, capsule, workspace, {.max_distance = 3}));
+    EXPECT_FALSE(shape_distance(model.model, capsule, workspace, {.max_distance = 2.999}));
+    const auto touching = shape_distance(model.model, Capsule{{0, 0, -1}, {0, 0, 1}, 5}, workspace);
     ASSERT_TRUE(touching);
     EXPECT_EQ(touching->upper, 0);
 }

@@ -7,10 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "cdprep/touching_box.h"
-#include "cdprep/touching_capsule.h"
-#include "cdprep/touching_sphere.h"
-#include "cdprep/touching_triangle.h"
+#include "cdprep/points.h"
 #include "support/brute_force.h"
 #include "support/exact_box.h"
 #include "support/exact_distance.h"
@@ -60,7 +57,7 @@ struct Tally {
 /// All three forms and the yes or no, against every triangle.
 template <class Shape>
 void expect_truth(const TestMesh& mesh, const Model& model, const Shape& shape,
-                  const TouchOptions& options, Workspace& workspace, Tally& tally) {
+                  const ShapeOptions& options, Workspace& workspace, Tally& tally) {
     Numbers truth;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const Corners corners = corners_of(mesh, i, &options.world_from_model);
@@ -157,7 +154,7 @@ void for_grid_cases(std::uint32_t seed, int rounds, int reach, Ask ask) {
         const Draw draw{random, [&] { return whole_point(random, reach); },
                         [&] { return static_cast<double>(random() % 4); }};
         for (int i = 0; i < 8 && !testing::Test::HasFatalFailure(); ++i) {
-            TouchOptions options;
+            ShapeOptions options;
             if (i % 2 == 1) options.world_from_model = grid_pose(random);
             if (i % 8 > 5) options.degenerate = Degenerate::skip;
             ask(draw, mesh, model.model, options, workspace);
@@ -185,7 +182,7 @@ void for_fine_cases(std::uint32_t seed, int rounds, double reach, Ask ask) {
             },
             [&] { return scale * size(random) * (random() % 4 == 0 ? 4 : 1); }};
         for (int i = 0; i < 4 && !testing::Test::HasFatalFailure(); ++i) {
-            TouchOptions options;
+            ShapeOptions options;
             if (i % 2 == 1 && round % 5 != 4) {
                 Pose turn = random_pose(random, 0.3);
                 std::array<double, 12> rows{};
@@ -206,14 +203,14 @@ void expect_truth_everywhere(std::uint32_t seed, int grid_rounds, int fine_round
                              Make make) {
     Tally grid, fine;
     for_grid_cases(seed, grid_rounds, reach, [&](const Draw& draw, auto&... rest) {
-        const auto ask = [&](const TestMesh& mesh, const Model& model, const TouchOptions& options,
+        const auto ask = [&](const TestMesh& mesh, const Model& model, const ShapeOptions& options,
                              Workspace& workspace) {
             expect_truth(mesh, model, make(draw), options, workspace, grid);
         };
         ask(rest...);
     });
     for_fine_cases(seed, fine_rounds, reach / 4.5, [&](const Draw& draw, auto&... rest) {
-        const auto ask = [&](const TestMesh& mesh, const Model& model, const TouchOptions& options,
+        const auto ask = [&](const TestMesh& mesh, const Model& model, const ShapeOptions& options,
                              Workspace& workspace) {
             expect_truth(mesh, model, make(draw), options, workspace, fine);
         };
@@ -246,7 +243,7 @@ TEST(TouchingLaws, WildSizesLoseNothing) {
             const double x = number(), y = number(), z = number();
             return Double3{x, y, z};
         };
-        TouchOptions options;
+        ShapeOptions options;
         if (round % 3 == 0) options.world_from_model = random_pose(random, 1);
         const Draw draw{random, point, [&] { return std::fabs(number()); }};
         const auto ask = [&](const auto& shape) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/touching_sphere.h"
+#include "cdprep/points.h"
 
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST(TouchingSphere, InsideIsNotTouching) {
 TEST(TouchingSphere, TheModelMayStandAnywhere) {
     const Pose world_from_model = Pose::from_rows({0, -1, 0, 1, 0, 0, 0, 0, 1, 10, 20, 30}).value();
     const TestMesh corner{{{3, 4, 0}, {9, 9, 0}, {9, 4, 0}}, {{{0, 1, 2}}}};
-    const TouchOptions moved{world_from_model};
+    const ShapeOptions moved{world_from_model};
     EXPECT_EQ(touched(corner, Sphere{{10, 20, 30}, 5}, moved).size(), 1u);
     EXPECT_TRUE(touched(corner, Sphere{{10, 20, 30}, std::nextafter(5.0, 0.0)}, moved).empty());
     EXPECT_TRUE(touched(corner, Sphere{{0, 0, 0}, 5}, moved).empty());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/touching_triangle.h"
+#include "cdprep/points.h"
 
 #include <gtest/gtest.h>
 
@@ -46,13 +46,13 @@ TEST(TouchingTriangle, DistanceTakesTheLowestOfTheNearest) {
     const OpenModel model = open_tiny(copies_of_one_triangle(20));
     Workspace workspace;
     const TriangleShape far = {{{{90, 0, 0}, {91, 0, 0}, {90, 1, 5}}}};
-    const auto found = distance_to(model.model, far, workspace);
+    const auto found = shape_distance(model.model, far, workspace);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->triangle, 0u);
     EXPECT_EQ(found->on_shape, (Double3{90, 0, 0}));
     const OpenModel empty = open_tiny(TestMesh{});
-    EXPECT_FALSE(distance_to(empty.model, far, workspace));
-    EXPECT_FALSE(distance_to(model.model, far, workspace, {.max_distance = -1}));
+    EXPECT_FALSE(shape_distance(empty.model, far, workspace));
+    EXPECT_FALSE(shape_distance(model.model, far, workspace, {.max_distance = -1}));
 }
 
 }  // namespace

@@ -6,8 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "cdprep/distance.h"
-#include "cdprep/triangles_within.h"
+#include "cdprep/pairs.h"
 #include "exact_within.h"
 #include "support/brute_force.h"
 #include "support/exact_distance.h"
@@ -24,10 +23,10 @@ ExactRational square(double x) {
 
 std::vector<TrianglePair> all_within(const Model& a, const Model& b, const Placement& placement,
                                      double tolerance, Workspace& workspace,
-                                     const WithinOptions& options = {}) {
+                                     const PairOptions& options = {}) {
     std::vector<TrianglePair> pairs(
-        triangles_within(a, b, placement, tolerance, workspace, {}, options));
-    pairs.resize(triangles_within(a, b, placement, tolerance, workspace, pairs, options));
+        pairs_within({a, b, placement, options}, tolerance, workspace, {}));
+    pairs.resize(pairs_within({a, b, placement, options}, tolerance, workspace, pairs));
     return pairs;
 }
 
@@ -189,7 +188,7 @@ TEST(TrianglesWithinLaws, EveryFormGivesTheSameSet) {
     for (int round = 0; round < 20; ++round) {
         const Pose pose = random_pose(random, round % 2 == 0 ? 0.5 : 3);
         const Placement placement = Placement::b_moves(pose);
-        const auto apart = distance(a.model, b.model, placement, workspace);
+        const auto apart = distance({a.model, b.model, placement}, workspace);
         std::vector<TrianglePair> before =
             all_pairs(a.model, b.model, placement, workspace, {.degenerate = Degenerate::keep});
         EXPECT_EQ(all_within(a.model, b.model, placement, 0, workspace), before);
@@ -206,7 +205,7 @@ TEST(TrianglesWithinLaws, EveryFormGivesTheSameSet) {
                 return true;
             };
             EXPECT_TRUE(
-                visit_triangles_within(a.model, b.model, placement, tolerance, workspace, visit));
+                visit_pairs_within({a.model, b.model, placement}, tolerance, workspace, visit));
             std::sort(visited.begin(), visited.end());
             ASSERT_EQ(visited, pairs);
             auto swapped =
@@ -216,9 +215,9 @@ TEST(TrianglesWithinLaws, EveryFormGivesTheSameSet) {
             ASSERT_EQ(swapped, pairs);
             std::size_t seen = 0;
             const auto stop_early = [&](const TrianglePair&) { return ++seen < 5; };
-            EXPECT_EQ(visit_triangles_within(a.model, b.model, placement, tolerance, workspace,
-                                             stop_early),
-                      pairs.size() < 5);
+            EXPECT_EQ(
+                visit_pairs_within({a.model, b.model, placement}, tolerance, workspace, stop_early),
+                pairs.size() < 5);
             EXPECT_EQ(seen, std::min<std::size_t>(5, pairs.size()));
             total += pairs.size();
             before = pairs;
@@ -249,7 +248,7 @@ TEST(TrianglesWithinLaws, SkippingLeavesOutDegenerateTriangles) {
                 ++(skip ? skipped : kept);
             }
             ASSERT_EQ(all_within(model.model, model.model, placement, tolerance, workspace,
-                                 {Degenerate::skip}),
+                                 {.degenerate = Degenerate::skip}),
                       expected);
         }
     }
@@ -272,9 +271,8 @@ TEST(TrianglesWithinLaws, AgreesWithIsWithin) {
         Workspace workspace;
         const Placement placement = coarse ? grid_placement(random) : random_placement(random, 1);
         const double tolerance = coarse ? 1 : 0.25;
-        const bool any =
-            triangles_within(a.model, b.model, placement, tolerance, workspace, {}) > 0;
-        ASSERT_EQ(any, is_within(a.model, b.model, placement, tolerance, workspace)) << round;
+        const bool any = pairs_within({a.model, b.model, placement}, tolerance, workspace, {}) > 0;
+        ASSERT_EQ(any, within({a.model, b.model, placement}, tolerance, workspace)) << round;
         hits += any ? 1 : 0;
     }
     EXPECT_GT(hits, kRounds * 3 / 10);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/triangles_within.h"
+#include "cdprep/pairs.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "cdprep/query_counts.h"
+#include "cdprep/advanced/query_counts.h"
 #include "support/brute_force.h"
 #include "support/open_tiny.h"
 
@@ -20,12 +20,12 @@ Placement shifted(double x, double y, double z) {
 }
 
 std::size_t count(const TestMesh& a, const TestMesh& b, const Placement& placement,
-                  double tolerance, const WithinOptions& options = {}) {
+                  double tolerance, const PairOptions& options = {}) {
     const OpenModel model_a = open_tiny(a, {.double_precision = true});
     const OpenModel model_b = open_tiny(b, {.double_precision = true});
     Workspace workspace;
-    return triangles_within(model_a.model, model_b.model, placement, tolerance, workspace, {},
-                            options);
+    return pairs_within({model_a.model, model_b.model, placement, options}, tolerance, workspace,
+                        {});
 }
 
 // By hand: cubes a gap apart along x. The two triangles of either face that looks at the
@@ -63,8 +63,8 @@ TEST(TrianglesWithin, ShortSpanHoldsTheSmallestPairs) {
     const OpenModel sheet = open_tiny(grid_sheet(12, 12));
     Workspace workspace;
     const auto ask = [&](std::span<TrianglePair> room) {
-        return triangles_within(sheet.model, sheet.model, shifted(0.25, 0, 0.5), 0.75, workspace,
-                                room);
+        return pairs_within({sheet.model, sheet.model, shifted(0.25, 0, 0.5)}, 0.75, workspace,
+                            room);
     };
     std::vector<TrianglePair> all(ask({}));
     EXPECT_EQ(ask(all), all.size());
@@ -99,7 +99,8 @@ TEST(TrianglesWithin, DegenerateTrianglesAreWhatTheyAre) {
     EXPECT_EQ(count(floor, thin, still, 3), 1U);
     EXPECT_EQ(count(floor, thin, still, 4), 2U);
     for (const double tolerance : {3.0, 4.0, kInfinity}) {
-        EXPECT_EQ(count(floor, thin, still, tolerance, {Degenerate::skip}), 0U) << tolerance;
+        EXPECT_EQ(count(floor, thin, still, tolerance, {.degenerate = Degenerate::skip}), 0U)
+            << tolerance;
     }
 }
 
@@ -135,7 +136,7 @@ TEST(TrianglesWithin, SmallTolerancesLookAtLittle) {
     QueryCounts counts;
     workspace.count_into(&counts);
     const std::size_t found =
-        triangles_within(ball.model, ball.model, shifted(2.01, 0, 0), 0.02, workspace, {});
+        pairs_within({ball.model, ball.model, shifted(2.01, 0, 0)}, 0.02, workspace, {});
     EXPECT_GT(found, 100U);
     EXPECT_LT(counts.triangle_pairs, 20'000'000U);
     EXPECT_LT(counts.triangle_pairs, 100 * found);

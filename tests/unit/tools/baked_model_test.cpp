@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "cdprep/build_model.h"
+#include "cdprep/advanced/build_model.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/model.h"
 #include "cdprep/pipeline.h"

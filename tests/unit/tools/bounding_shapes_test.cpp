@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "cdprep/collide.h"
+#include "cdprep/pairs.h"
 #include "study/memory_model.h"
 #include "support/random_pose.h"
 #include "unit/tools/soup_of.h"
@@ -101,7 +101,8 @@ TEST(BoundingShapes, NeverMissAndOftenTellApart) {
         const bool by_oriented = may_touch(oriented_box(a), oriented_box(b), pose);
         const bool by_dop = may_touch(dop_a, dop_b, pose);
         apart += by_sphere && by_box && by_oriented && by_dop ? 0 : 1;
-        if (!collide(model_a.model, model_b.model, Placement::b_moves(pose), workspace).hit) {
+        if (collide({model_a.model, model_b.model, Placement::b_moves(pose)}, workspace).hit !=
+            Answer::yes) {
             continue;
         }
         ++hits;

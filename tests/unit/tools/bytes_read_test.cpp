@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cdprep/collide.h"
+#include "cdprep/pairs.h"
 #include "study/memory_model.h"
 #include "unit/tools/soup_of.h"
 
@@ -34,7 +34,7 @@ TEST(BytesRead, OfCasesAreTheMean) {
     const auto ask = [&](std::size_t number) {
         const double x = number == 0 ? 0.5 : 9;  // the other one is far away and reads nothing
         const Pose pose = Pose::from_quaternion(1, 0, 0, 0, {x, 0.25, 0.125}).value();
-        static_cast<void>(collide(cube.model, cube.model, Placement::b_moves(pose), workspace));
+        static_cast<void>(collide({cube.model, cube.model, Placement::b_moves(pose)}, workspace));
     };
     const double one = mean_bytes_read(cube.model, cube.model, workspace, 1, ask);
     EXPECT_GE(one, 2 * (192 + 384) + 2 * 320);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cdprep/study/overlap_through.h"
 #include "study/pair_tables.h"
 #include "study/peer_tables.h"
 #include "study/preparation.h"

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "cdprep/convex_distance.h"
+#include "cdprep/advanced/convex_distance.h"
 #include "contact_side.h"
 #include "exact_within.h"
 #include "support/brute_force.h"
@@ -24,9 +24,10 @@ namespace {
 std::vector<Contact> all_contacts(const Model& a, const Model& b, const Placement& placement,
                                   double tolerance, Structure structure = Structure::bvh) {
     Workspace workspace;
-    const ContactOptions options = {.manifold = Manifold::four, .structure = structure};
-    std::vector<Contact> found(contacts(a, b, placement, tolerance, workspace, {}, options));
-    (void)contacts(a, b, placement, tolerance, workspace, found, options);
+    const ContactOptions options = {.tolerance = tolerance, .manifold = Manifold::four};
+    std::vector<Contact> found(
+        contacts({a, b, placement, {.through = structure}}, workspace, {}, options));
+    (void)contacts({a, b, placement, {.through = structure}}, workspace, found, options);
     return found;
 }
 
@@ -235,8 +236,8 @@ TEST(ContactsLaws, NothingIsAllocated) {
     const std::size_t before = used;
     most = used;
     for (const Structure structure : {Structure::bvh, Structure::pieces}) {
-        EXPECT_GT(contacts(ring.model, ring.model, placement, 0.1, workspace, found,
-                           {.manifold = Manifold::four, .structure = structure}),
+        EXPECT_GT(contacts({ring.model, ring.model, placement, {.through = structure}}, workspace,
+                           found, {.tolerance = 0.1, .manifold = Manifold::four}),
                   10U);
     }
     EXPECT_EQ(used, before);

@@ -22,8 +22,10 @@ Placement shifted(const Double3& by) {
 std::vector<Contact> all_contacts(const Model& a, const Model& b, const Placement& placement,
                                   double tolerance, Manifold manifold = Manifold::four) {
     Workspace workspace;
-    std::vector<Contact> found(contacts(a, b, placement, tolerance, workspace, {}));
-    EXPECT_EQ(contacts(a, b, placement, tolerance, workspace, found, {.manifold = manifold}),
+    std::vector<Contact> found(
+        contacts({a, b, placement}, workspace, {}, {.tolerance = tolerance}));
+    EXPECT_EQ(contacts({a, b, placement}, workspace, found,
+                       {.tolerance = tolerance, .manifold = manifold}),
               found.size());
     return found;
 }
@@ -413,20 +415,23 @@ TEST(Contacts, ManyPairsComeOnceAndInOrder) {
     ASSERT_GT(expected, 8000U);
     Workspace workspace;
     std::vector<Contact> found(expected + 1);
-    ASSERT_EQ(contacts(a.model, b.model, shifted({0, 0, 1}), 20, workspace, found), expected);
+    ASSERT_EQ(contacts({a.model, b.model, shifted({0, 0, 1})}, workspace, found, {.tolerance = 20}),
+              expected);
     for (std::size_t i = 0; i < expected; ++i) {
         ASSERT_EQ(found[i].piece_a, i / b.model.pieces().pieces.size());
         ASSERT_EQ(found[i].piece_b, i % b.model.pieces().pieces.size());
     }
     std::vector<Contact> few(3);
-    EXPECT_EQ(contacts(a.model, b.model, shifted({0, 0, 1}), 20, workspace, few), expected);
+    EXPECT_EQ(contacts({a.model, b.model, shifted({0, 0, 1})}, workspace, few, {.tolerance = 20}),
+              expected);
     EXPECT_EQ(few[2].piece_b, 2U);
     std::size_t visited = 0;
     const auto visit = [&](const Contact& contact) {
         EXPECT_EQ(contact.piece_b, visited);
         return ++visited < 5;
     };
-    EXPECT_FALSE(visit_contacts(a.model, b.model, shifted({0, 0, 1}), 20, workspace, visit));
+    EXPECT_FALSE(visit_contacts({a.model, b.model, shifted({0, 0, 1})}, workspace, visit,
+                                {.tolerance = 20}));
     EXPECT_EQ(visited, 5U);
 }
 

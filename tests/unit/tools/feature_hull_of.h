@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/closest_features.h"
+#include "cdprep/advanced/closest_features.h"
 #include "convex/convex_hull.h"
 #include "support/small_hull.h"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "cdprep/overlapping_triangles.h"
+#include "cdprep/pairs.h"
 #include "study/memory_model.h"
 #include "study/pose_set.h"
 #include "unit/tools/soup_of.h"
@@ -24,7 +24,7 @@ TEST(FloatContacts, HoldTheExactSetAndAreRightWhereCertain) {
     for (const StudyPose& pose : set.poses) {
         const Placement placement = Placement::b_moves(pose.a_from_b);
         std::vector<TrianglePair> exact(20'000);
-        exact.resize(overlapping_triangles(a.model, b.model, placement, workspace, exact));
+        exact.resize(overlaps({a.model, b.model, placement}, workspace, exact));
         std::vector<TrianglePair> left;
         const auto visit = [&](const FloatContact& contact) {
             left.push_back({contact.a, contact.b});

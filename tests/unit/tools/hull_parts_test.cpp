@@ -8,10 +8,10 @@
 #include <random>
 #include <vector>
 
-#include "cdprep/collide.h"
-#include "cdprep/convex_distance.h"
+#include "cdprep/advanced/convex_distance.h"
 #include "cdprep/format/find_damage.h"
-#include "cdprep/model_hulls.h"
+#include "cdprep/hulls.h"
+#include "cdprep/pairs.h"
 #include "convex/find_cover_falsehood.h"
 #include "convex/hull_sections.h"
 #include "find_hull_falsehood.h"
@@ -224,7 +224,8 @@ TEST(HullPartsLaws, MissNoTouch) {
     for (int round = 0; round < kRounds; ++round) {
         const Placement placement = Placement::b_moves(test::random_pose(random, 1.3));
         const bool solids_touch =
-            collide(a.model, b.model, placement, workspace, {.body = Body::solid}).hit;
+            collide({a.model, b.model, placement, {.body = Body::solid}}, workspace).hit ==
+            Answer::yes;
         const bool parts_touch = parts_meet(a.model, b.model, placement);
         EXPECT_TRUE(parts_touch || !solids_touch) << round;
         touching += solids_touch ? 1 : 0;

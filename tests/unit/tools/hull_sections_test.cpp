@@ -15,7 +15,7 @@
 #include "cdprep/format/content_hash.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
-#include "cdprep/model_hulls.h"
+#include "cdprep/hulls.h"
 #include "find_hull_falsehood.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"

@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "cdprep/advanced/level_of_detail.h"
 #include "cdprep/contacts.h"
-#include "cdprep/level_of_detail.h"
-#include "cdprep/model_hulls.h"
-#include "cdprep/overlap_through.h"
+#include "cdprep/hulls.h"
+#include "cdprep/study/overlap_through.h"
 #include "support/open_tiny.h"
 #include "unit/tools/soup_of.h"
 
@@ -17,7 +17,7 @@ std::vector<TrianglePair> pairs_of(const Model& a, const Model& b, const Structu
                                    const Placement& placement) {
     Workspace workspace;
     std::vector<TrianglePair> pairs(10'000);
-    pairs.resize(overlapping_triangles_through(through, a, b, placement, workspace, pairs));
+    pairs.resize(overlaps_through({a, b, placement}, through, workspace, pairs));
     return pairs;
 }
 
@@ -49,7 +49,7 @@ TEST(MemoryModel, AnswersAsAFileDoesThroughEveryPart) {
     EXPECT_EQ(bytes_of(made.value(), {SectionId::triangles}), mesh.triangles.size() * 12);
     EXPECT_EQ(bytes_of(made.value(), {SectionId::triangle_piece}), mesh.triangles.size() * 4);
     Workspace workspace;
-    EXPECT_GT(contacts(model, model, placement, 0.01, workspace, {}), 0U);
+    EXPECT_GT(contacts({model, model, placement}, workspace, {}, {.tolerance = 0.01}), 0U);
 }
 
 TEST(MemoryModel, IsAMeshAgain) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "cdprep/distance.h"
+#include "cdprep/pairs.h"
 #include "study/memory_model.h"
 #include "support/random_pose.h"
 #include "unit/tools/soup_of.h"
@@ -40,7 +40,8 @@ TEST(CellsMayMeet, IsRightButForTheCellsDiagonals) {
             const Pose pose = test::random_pose(random, 4);
             const bool meet = cells_may_meet(cells_a, cells_b, pose, pending);
             const double gap =
-                distance(model_a.model, model_b.model, Placement::b_moves(pose), workspace)->upper;
+                distance({model_a.model, model_b.model, Placement::b_moves(pose)}, workspace)
+                    ->upper;
             if (gap == 0) {
                 EXPECT_TRUE(meet);
                 ++met;

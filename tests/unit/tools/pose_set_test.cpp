@@ -9,8 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "cdprep/collide.h"
-#include "cdprep/distance.h"
+#include "cdprep/pairs.h"
 #include "study/memory_model.h"
 #include "unit/tools/soup_of.h"
 
@@ -44,8 +43,8 @@ TEST(PoseSet, EveryPoseIsInItsStratum) {
     std::size_t touching_hits = 0;
     for (const StudyPose& pose : set.poses) {
         const Placement placement = Placement::b_moves(pose.a_from_b);
-        EXPECT_EQ(collide(a.model, b.model, placement, workspace).hit, pose.hit);
-        const auto apart = distance(a.model, b.model, placement, workspace);
+        EXPECT_EQ(collide({a.model, b.model, placement}, workspace).hit == Answer::yes, pose.hit);
+        const auto apart = distance({a.model, b.model, placement}, workspace);
         EXPECT_EQ(apart->lower, pose.gap_lower);
         EXPECT_EQ(apart->upper, pose.gap_upper);
         EXPECT_EQ(stratum_of(pose.hit, pose.depth / set.diagonal, pose.gap_upper / set.diagonal),

@@ -167,7 +167,7 @@ std::optional<int> winding_at(const std::vector<Corners>& surface, const Double3
     return number;
 }
 
-double distance_to(const std::vector<Corners>& surface, const Double3& p) {
+double shape_distance(const std::vector<Corners>& surface, const Double3& p) {
     double least = std::numeric_limits<double>::infinity();
     for (const Corners& t : surface) least = std::min(least, point_triangle_distance(p, t).lower);
     return least;
@@ -210,7 +210,7 @@ void expect_same_solid(const RepairMesh& before, const RepairMesh& after, double
         }
         if (!decided) continue;
         if (solid[0] != solid[1]) {
-            EXPECT_LE(distance_to(is, p), 2 * step);
+            EXPECT_LE(shape_distance(is, p), 2 * step);
         }
         ++(solid[0] != solid[1] ? samples.outer : samples.inner);
     }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/structure_presets.h"
+#include "cdprep/advanced/structure_presets.h"
 
 namespace cdprep::cli {
 namespace {

@@ -16,10 +16,10 @@
  *   makes it valid; it writes size, tag and defaults. Every other content, zeros too, is refused
  *   with CDPREP_WHY_NOT_INITIALISED. Null stands for the defaults where a parameter is named
  *   `options`.
- * - Arguments are checked before anything is computed: first nulls; then each argument in turn, its
- *   size and tag, values of enumerations, numbers, poses, and fields that have no meaning for the
- *   question; then what the model was baked and opened for; then whether the workspace is in use.
- *   The first mistake is reported. In a batch one wrong entry refuses the whole batch.
+ * - Arguments are checked before anything is computed, in this order: nulls; size and tag;
+ *   values of enumerations; numbers; poses; fields that have no meaning for the question; what
+ *   the model was baked and opened for; whether the workspace is in use. The first mistake is
+ *   reported. In a batch one wrong entry refuses the whole batch.
  * - Numbers are finite and at most 2^1000 in magnitude. NaN is always refused. Infinity is
  *   allowed for max_distance, max_t and the limits of boxes alone. No answer holds NaN, and
  *   none holds infinity.
@@ -38,8 +38,8 @@
  * - Callbacks return; they neither throw nor call longjmp(). A visitor may ask questions with
  *   another workspace. It runs in the caller's floating-point environment, and no environment
  *   changes an answer.
- * - Only a pointer that is closed, or points to something else or to less than is said, can crash
- *   a call. Null is refused. */
+ * - A null, closed or foreign pointer is the only thing that can crash a call, and of these null
+ *   is refused. */
 
 #ifndef CDPREP_EXPORT /* predefine it to reuse another library's scheme */
 #if defined(_WIN32) && defined(CDPREP_BUILDING)

@@ -149,9 +149,9 @@ CDPREP_API int cdprep_touch_visit(const cdprep_shape_query* query, cdprep_worksp
                                   cdprep_triangle_visitor visit, void* context,
                                   cdprep_error* error);
 
-/* How far a sphere, capsule or triangle is from the surface; CDPREP_BOX has no meaning, nor has
- * `degenerate`. `a` of the answer is the model and `b` the shape, on_b for spheres and capsules a
- * point of the centre or segment; triangle_b is CDPREP_NONE.
+/* The distance of a shape from the surface. `degenerate` has no meaning. `a` of the answer is the
+ * model and `b` the shape; on_b of a sphere or capsule is a point of its centre or segment;
+ * triangle_b is CDPREP_NONE.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                      cdprep_nearest* nearest, cdprep_error* error);

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <type_traits>
+
+namespace cdprep {
+
+/// Work in numbered parts, called with each number. Refers to the callable, which may be a lambda
+/// written in the call, and copies nothing; as cheap to copy as two pointers.
+class Task {
+public:
+    template <class Body>
+    requires(!std::is_same_v<Body, Task>) Task(const Body& body)
+    noexcept  // NOLINT(google-explicit-constructor)
+        : context_(&body), call_([](const void* context, std::size_t number) {
+              (*static_cast<const Body*>(context))(number);
+          }) {}
+    void operator()(std::size_t number) const {
+        call_(context_, number);
+    }
+
+private:
+    const void* context_;
+    void (*call_)(const void*, std::size_t);
+};
+
+/// The caller's threads. The library starts none: it calls `run(count, task)`, which calls
+/// task(0) ... task(count - 1), in any order, on any threads, also all on one, and returns when all
+/// are done. `run` may only propagate a task's exception. Query tasks never throw; build_bvh()
+/// tasks may throw std::bad_alloc. Tasks that begin late find little left to do: best is a `run`
+/// whose own thread takes tasks too and waits only for those that have begun. Refers to the
+/// callable, a named object such as a lambda, and copies nothing; the callable must outlive the
+/// call, and options that hold it. `run` runs in the floating-point environment of the caller; tasks
+/// compute in the default one on every thread.
+///
+///     const auto run = [&](std::size_t count, cdprep::Task task) {
+///         std::vector<std::jthread> threads;
+///         for (std::size_t i = 0; i < count; ++i) threads.emplace_back(task, i);
+///     };
+class ParallelFor {
+public:
+    template <class Run>
+    requires(!std::is_same_v<std::remove_const_t<Run>, ParallelFor>) ParallelFor(Run& run)
+    noexcept  // NOLINT(google-explicit-constructor)
+        : context_(const_cast<void*>(static_cast<const void*>(&run))),
+          call_([](void* context, std::size_t count, Task task) {
+              (*static_cast<Run*>(context))(count, task);
+          }) {}
+    void operator()(std::size_t count, Task task) const {
+        call_(context_, count, task);
+    }
+
+private:
+    void* context_;
+    void (*call_)(void*, std::size_t, Task);
+};
+
+/// Runs the tasks one after the other, here.
+inline constexpr auto serial_for = [](std::size_t count, Task task) {
+    for (std::size_t i = 0; i < count; ++i) task(i);
+};
+
+}  // namespace cdprep

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <iterator>
+#include <span>
+#include <vector>
+
+#include "cdprep/advanced/build_adaptive_octree.h"
+#include "cdprep/advanced/build_bvh.h"
+#include "cdprep/advanced/build_image.h"
+#include "cdprep/advanced/build_octree.h"
+#include "cdprep/advanced/build_tetra_tree.h"
+#include "cdprep/format/section_set.h"
+
+namespace cdprep::build {
+
+/// Collects the sections of a model from its arrays, which it does not copy: they stay where
+/// they are until the sections were used. What is not wanted is left out.
+class SectionList {
+public:
+    explicit SectionList(format::SectionSet wanted = format::SectionSet::all()) noexcept
+        : wanted_(wanted) {}
+
+    /// Adds a section that a model has even when it is empty.
+    template <class Elements>
+    void add(format::SectionId id, const Elements& elements) {
+        if (wanted_.contains(id)) sections_.push_back({id, bytes_of(elements)});
+    }
+
+    /// Adds a section that is absent when it is empty.
+    template <class Elements>
+    void add_unless_empty(format::SectionId id, const Elements& elements) {
+        if (std::size(elements) != 0) add(id, elements);
+    }
+
+    /// Adds a section of one element.
+    template <class Element>
+    void add_one(format::SectionId id, const Element& element) {
+        add(id, std::span<const Element, 1>(&element, 1));
+    }
+
+    [[nodiscard]] std::span<const Section> sections() const noexcept {
+        return sections_;
+    }
+
+private:
+    template <class Elements>
+    static std::span<const std::byte> bytes_of(const Elements& elements) {
+        return std::as_bytes(std::span(std::data(elements), std::size(elements)));
+    }
+
+    format::SectionSet wanted_;
+    std::vector<Section> sections_;
+};
+
+/// Adds the arrays of a hierarchy. The sections of oriented boxes and of swept spheres are
+/// absent when they are empty.
+void add_sections(SectionList& list, const Bvh& bvh);
+
+/// Adds the arrays of an octree. Which of its tables and boxes a model has is said by what
+/// the list wants: a mesh without triangles leaves those empty that it has.
+void add_sections(SectionList& list, const Octree& octree);
+void add_sections(SectionList& list, const AdaptiveOctree& octree);  ///< likewise
+void add_sections(SectionList& list, const TetraTree& tetra);        ///< likewise
+
+}  // namespace cdprep::build

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+/// The C++ API: models, poses, and the questions about them. Headers in cdprep/advanced/ and
+/// cdprep/study/ are included by those who need them.
+
+#include "cdprep/ask.h"
+#include "cdprep/build.h"
+#include "cdprep/contacts.h"
+#include "cdprep/hulls.h"
+#include "cdprep/model.h"
+#include "cdprep/pairs.h"
+#include "cdprep/parallel.h"
+#include "cdprep/points.h"
+#include "cdprep/pose.h"
+#include "cdprep/precondition.h"
+#include "cdprep/result.h"
+#include "cdprep/visitor.h"
+#include "cdprep/workspace.h"

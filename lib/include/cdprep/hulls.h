@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "cdprep/advanced/closest_features.h"
+#include "cdprep/advanced/convex_distance.h"
+#include "cdprep/advanced/convex_penetration.h"
+#include "cdprep/advanced/convex_points.h"
+#include "cdprep/model.h"
+
+namespace cdprep {
+
+/// Returns the number, in Model::hulls().hulls, of the hull around the whole of a model, around a
+/// component, an instance or a part; nothing when it has none. `number` is 0 for the
+/// whole. Parts are the last hulls, from number 0 on: no point of the model is outside all
+/// of them. Needs Ask::hulls. O(log n).
+[[nodiscard]] std::optional<std::uint32_t> find_hull(const Model& model, format::HullScope scope,
+                                                     std::uint32_t number = 0) noexcept;
+
+/// Returns the corners of a hull as queries want them, in the file: valid as long as the
+/// model. Needs Ask::hulls. `hull` is below model.hulls().hulls.size(). One of nothing has the
+/// count 0.
+[[nodiscard]] ConvexPoints convex_points(const Model& model, std::uint32_t hull) noexcept;
+
+/// Returns the hull of a convex piece of a model's surface as closest_features() wants it, in the
+/// file: valid as long as the model. Its points are the vertices that pieces().vertices lists for
+/// the piece, in that order; its facets and their corners are numbered within the piece.
+///
+/// `piece` is below model.pieces().pieces.size(), and the model was baked with the effect
+/// "contacts"; of another, which has no pieces().adjacency, the hull has no surface and serves as a
+/// set of points. O(1).
+[[nodiscard]] FeatureHull feature_hull(const Model& model, std::uint32_t piece) noexcept;
+
+}  // namespace cdprep

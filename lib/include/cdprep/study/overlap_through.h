@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "cdprep/pairs.h"
+
+namespace cdprep {
+
+// Variants of one search, for studies that compare them. Answers agree, except through
+// Structure::hashed_octree_literal. overlaps() and collide() use the defaults.
+
+/// The exact test of two triangles. Both always agree.
+enum class LeafTest : std::uint8_t {
+    guigue_devillers,  ///< signs of planes, then of at most two edges (Guigue, Devillers 2003)
+    feito_torres,      ///< six segments against triangles
+};
+
+/// The replacement of a pair of nodes that may overlap.
+enum class Descent : std::uint8_t {
+    larger,   ///< the children of the larger, by size
+    a_first,  ///< A's children against B, until A is a leaf
+    b_first,  ///< A against B's children, until B is a leaf
+    both,     ///< all children of A against all of B
+};
+
+/// The way in which the hashed octree finds the cell of a key.
+enum class CellSearch : std::uint8_t {
+    sorted,   ///< leaves sorted by key, with a top table
+    modulus,  ///< chained table, slot by the key's last bits, from the deepest level up
+    mixed,    ///< the same, slot by a mixed key
+};
+
+/// A structure and the variant of the search through it.
+struct StructureOptions {
+    Structure structure = Structure::bvh;
+    LeafTest leaf_test = LeafTest::guigue_devillers;
+    Descent descent = Descent::both;
+    CellSearch search = CellSearch::mixed;
+};
+
+/// Finds the pairs that overlaps() finds, by `through` instead of pair.options.through: the same
+/// sets in the same order. Slowest where triangles are larger than cells and thousands of pairs
+/// overlap: not all answers can then be remembered, and each is traced to the cells that own it.
+///
+/// Needs Ask::overlap and ask_of() the structure of both models. Never allocates; takes some
+/// 20 KiB of stack.
+[[nodiscard]] std::size_t overlaps_through(const Pair& pair, const StructureOptions& through,
+                                           Workspace& workspace,
+                                           std::span<TrianglePair> room) noexcept;
+
+/// Returns whether any two triangles overlap; stops at the first pair found. Structure::bvh and
+/// Structure::pieces use pair.cache. Needs Ask::collide and ask_of() the structure of both models.
+[[nodiscard]] bool any_overlap_through(const Pair& pair, const StructureOptions& through,
+                                       Workspace& workspace) noexcept;
+
+}  // namespace cdprep
