@@ -12,15 +12,13 @@
 #include "cdprep/format/checksum.h"
 #include "cdprep/format/make_user_block.h"
 #include "cdprep/format/sections.h"
+#include "section_places.h"
 
 namespace cdprep::build {
 namespace {
 
-using format::SectionEntry;
-
 /// Where HDF5 would begin. An image has zeroes there: as many bytes as the header keeps of
 /// them, and as a reader compares.
-constexpr std::uint64_t kFirstSection = format::kUserBlockSize + format::kSectionAlignment;
 constexpr std::array<std::byte, sizeof(format::FileHeader::superblock)> kNoSuperblock{};
 
 Error bad(const std::string& message) {
@@ -41,24 +39,13 @@ std::optional<Error> find_fault(const Section& section) {
                " bytes.");
 }
 
-std::uint64_t aligned(std::uint64_t at, std::uint64_t alignment) {
-    assert(std::has_single_bit(alignment));
-    return (at + alignment - 1) / alignment * alignment;
-}
-
 /// Gives every section its place; returns where the image ends.
 std::uint64_t place(SectionTable& table, std::uint64_t alignment) {
-    std::uint64_t end = kFirstSection;
+    SectionPlaces places(alignment);
     for (std::uint32_t i = 0; i < table.count; ++i) {
-        const std::uint64_t size = table.sections[i].bytes.size();
-        if (size == 0) continue;
-        const bool is_large = size >= format::kPageThreshold;
-        const std::uint64_t wanted =
-            is_large ? std::max(alignment, format::kPageAlignment) : alignment;
-        table.entries[i].offset = aligned(end, wanted);
-        end = table.entries[i].offset + size;
+        table.entries[i].offset = places.next(table.sections[i].bytes.size());
     }
-    return aligned(end, alignment);
+    return places.end();
 }
 
 struct PlacedTable {

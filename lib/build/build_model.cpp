@@ -2,14 +2,18 @@
 #include "cdprep/advanced/build_model.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
+#include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/float_environment.h"
+#include "cdprep/format/sections.h"
 #include "degenerate.h"
 #include "frame_map.h"
 #include "guarded_for.h"
 #include "mesh_fault.h"
+#include "section_places.h"
 
 namespace cdprep::build {
 namespace {
@@ -81,6 +85,42 @@ SectionList ModelArrays::sections(format::SectionSet wanted) const {
     list.add_unless_empty(SectionId::degenerate_bits, degenerate_bits);
     list.add(SectionId::components, components);
     return list;
+}
+
+std::uint64_t image_size_bound(const PlannedModel& planned) noexcept {
+    const std::uint64_t triangles = planned.triangle_count;
+    // Vertices that no triangle uses are left out. A component has a vertex and a triangle.
+    const std::uint64_t vertices = std::min<std::uint64_t>(planned.vertex_count, 3 * triangles);
+    const std::uint64_t components = std::min(vertices, triangles);
+    const format::BvhShape shape = format::bvh_shape(planned.triangle_count);
+    const bool is_single = planned.precision == Precision::single_precision;
+    const bool has_oriented =
+        planned.bounds == BvhBounds::oriented || planned.bounds == BvhBounds::oriented_and_swept;
+    const bool has_swept = planned.bounds > BvhBounds::oriented;
+    struct Most {
+        SectionId id;
+        std::uint64_t elements;
+    };
+    std::array most = {
+        Most{SectionId::positions_f32, is_single ? vertices : 0},
+        Most{SectionId::positions_f64, is_single ? 0 : vertices},
+        Most{SectionId::triangles, triangles},
+        Most{SectionId::source_vertex, vertices},
+        Most{SectionId::source_triangle, triangles},
+        Most{SectionId::bvh_nodes, shape.node_count},
+        Most{SectionId::bvh_leaves, shape.leaf_count},
+        Most{SectionId::oriented_nodes, has_oriented ? shape.node_count : 0},
+        Most{SectionId::swept_nodes, has_swept ? shape.node_count : 0},
+        Most{SectionId::degenerate_bits, (triangles + 63) / 64},
+        Most{SectionId::components, components},
+    };
+    std::ranges::sort(most, {}, &Most::id);
+    SectionPlaces places(ImageOptions{}.section_alignment);
+    for (const Most& section : most) {
+        if (!planned.wanted.contains(section.id)) continue;
+        places.next(section.elements * format::element_size(section.id));
+    }
+    return places.end();
 }
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "cdprep/ask.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model.h"
 #include "support/aligned_bytes.h"
@@ -15,6 +16,7 @@ namespace {
 
 using format::Float3;
 using format::SectionId;
+using format::SectionSet;
 using format::Triangle;
 using test::AlignedBytes;
 using test::TestMesh;
@@ -127,6 +129,65 @@ TEST(BuildModel, OnlyWantedSectionsAreListed) {
     ASSERT_EQ(list.sections().size(), 2U);
     EXPECT_EQ(list.sections()[0].id, SectionId::triangles);
     EXPECT_EQ(list.sections()[1].id, SectionId::bvh_nodes);
+}
+
+/// Triangles that share no vertex; the last is a point.
+TestMesh loose_triangles(int count) {
+    TestMesh mesh = test::random_soup(1, count, 0.3);
+    const Double3 point = mesh.positions.back();
+    for (int i = 1; i <= 3; ++i) *(mesh.positions.end() - i) = point;
+    return mesh;
+}
+
+/// Calls body(planned, size) for every way to build a mesh.
+template <class Body>
+void for_each_plan(const TestMesh& mesh, const Body& body) {
+    for (const BvhBounds bounds : {BvhBounds::aligned, BvhBounds::oriented, BvhBounds::swept_points,
+                                   BvhBounds::swept_rectangles, BvhBounds::oriented_and_swept}) {
+        const auto doubles = build_model(mesh.positions, mesh.triangles, {.bounds = bounds});
+        const auto floats = build_model(floats_of(mesh), mesh.triangles, {.bounds = bounds});
+        for (const SectionSet wanted :
+             {SectionSet::all(), sections_for(Ask::collide), sections_for(Ask::closest)}) {
+            PlannedModel planned = {static_cast<std::uint32_t>(mesh.positions.size()),
+                                    static_cast<std::uint32_t>(mesh.triangles.size()),
+                                    Precision::double_precision, bounds, wanted};
+            body(planned, image_size(doubles.value().sections(wanted).sections()).value());
+            planned.precision = Precision::single_precision;
+            body(planned, image_size(floats.value().sections(wanted).sections()).value());
+        }
+    }
+}
+
+// The law of the bound: proved in section_places.h for the greatest sections that there can be.
+TEST(BuildModel, NoImageIsLargerThanItsBound) {
+    std::size_t rounds = 0;
+    const auto expect_enough = [&](const PlannedModel& planned, std::size_t size) {
+        EXPECT_LE(size, image_size_bound(planned));
+        ++rounds;
+    };
+    for (int count = 0; count < 70; ++count) {
+        for_each_plan(test::random_soup(7, count, 0.3), expect_enough);
+    }
+    TestMesh unused = test::icosphere(2);
+    unused.positions.resize(1000);
+    for (const TestMesh& mesh :
+         {TestMesh{}, unused, test::unit_cube(), test::icosphere(4), test::klein_bottle(9, 9),
+          test::coarse_grid_soup(3, 3000, 2), test::copies_of_one_triangle(2000)}) {
+        for_each_plan(mesh, expect_enough);
+    }
+    EXPECT_EQ(rounds, 77u * 30u);
+}
+
+// By hand: triangles that share nothing are the components, and one is degenerate.
+TEST(BuildModel, TheWorstMeshTakesTheWholeBound) {
+    for (const int count : {1, 8, 64, 65, 3000}) {
+        for_each_plan(loose_triangles(count), [](const PlannedModel& planned, std::size_t size) {
+            EXPECT_EQ(size, image_size_bound(planned));
+        });
+    }
+    EXPECT_EQ(image_size_bound({}), 4096u + 64u) << "a header";
+    constexpr std::uint32_t kMost = format::kMaxTriangles;
+    EXPECT_GT(image_size_bound({kMost, kMost}), std::uint64_t{kMost} * 80) << "wraps around";
 }
 
 // The first bad vertex is named, whatever is wrong with it.

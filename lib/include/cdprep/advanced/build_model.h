@@ -7,8 +7,8 @@
 
 #include "cdprep/advanced/build_bvh.h"
 #include "cdprep/advanced/mesh_arrays.h"
-#include "cdprep/result.h"
 #include "cdprep/advanced/section_list.h"
+#include "cdprep/result.h"
 
 namespace cdprep::build {
 
@@ -37,6 +37,26 @@ struct ModelArrays {
     ///     arrays.sections(sections_for(Ask::overlap | Ask::ray))
     [[nodiscard]] SectionList sections(format::SectionSet wanted = format::SectionSet::all()) const;
 };
+
+/// A model that is yet to be built.
+struct PlannedModel {
+    std::uint32_t vertex_count = 0;  ///< those that no triangle uses count too
+    std::uint32_t triangle_count = 0;
+    Precision precision = Precision::double_precision;
+    BvhBounds bounds = BvhBounds::oriented;
+    format::SectionSet wanted = format::SectionSet::all();
+};
+
+/// Returns a number of bytes that is enough for the image: image_size() of what build_model()
+/// makes of any mesh with these counts, or more. It is that of a mesh that has every vertex in use,
+/// as many components as there can be, and degenerate triangles. O(1); allocates nothing.
+///
+///     std::span<std::byte> room = arena.allocate(build::image_size_bound(planned), 64);
+///     const auto arrays = build::build_model(positions, triangles, {.bounds = planned.bounds});
+///     const auto image = build::build_image(arrays.value().facts,
+///                                           arrays.value().sections(planned.wanted).sections(),
+///                                           room);
+[[nodiscard]] std::uint64_t image_size_bound(const PlannedModel& planned) noexcept;
 
 /// Builds the arrays of a model from a mesh. Questions then answer with the numbers of
 /// `triangles`, and with source_vertex those of `positions`.
