@@ -215,9 +215,9 @@ std::size_t index_size(const Model& model) noexcept {
     return numbers * sizeof(std::uint32_t);
 }
 
-void make_index(cdprep_model& model) noexcept {
-    if (model.index.start == nullptr) return;
-    auto* const numbers = static_cast<std::uint32_t*>(model.index.start);
+void make_index(cdprep_model& model, void* room) noexcept {
+    if (index_size(model.model) == 0) return;
+    auto* const numbers = static_cast<std::uint32_t*>(room);
     const std::uint32_t triangles = model.model.triangle_count();
     model.tree_triangle = {numbers, triangles};
     number_triangles(model);

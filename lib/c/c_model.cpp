@@ -32,13 +32,6 @@ struct Asked {
     OpenOptions open;
 };
 
-int check_asks(Call& call, const Name& name, std::uint32_t ask) noexcept {
-    const auto known = static_cast<std::uint32_t>(known_asks());
-    if ((ask & ~known) == 0) return CDPREP_OK;
-    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name,
-                       "is 0x%x; this version knows only the bits 0x%x.", ask, known);
-}
-
 int read(Call& call, const cdprep_open_options* given, Asked& asked) noexcept {
     const Name name = {"options"};
     if (const int code = read_options(call, name, given, asked.options)) return code;
@@ -83,7 +76,7 @@ int make_model(Call& call, const Asked& asked, Model&& model, const Memory& byte
         return code;
     }
     *to = new (object.start) cdprep_model{std::move(model), object, bytes, index, {}, {}};
-    make_index(**to);
+    make_index(**to, index.start);
     return CDPREP_OK;
 }
 
@@ -196,6 +189,13 @@ const InputType Input<cdprep_open_options>::type = {"cdprep_open_options", 0xcd5
 
 cdprep_open_options Input<cdprep_open_options>::defaults() noexcept {
     return {};
+}
+
+int check_asks(Call& call, const Name& name, std::uint32_t ask) noexcept {
+    const auto known = static_cast<std::uint32_t>(known_asks());
+    if ((ask & ~known) == 0) return CDPREP_OK;
+    return call.refuse(CDPREP_WHY_OUT_OF_RANGE, name,
+                       "is 0x%x; this version knows only the bits 0x%x.", ask, known);
 }
 
 int check_serves(Call& call, const Name& name, const cdprep_model& model, Ask asks) {

@@ -12,7 +12,7 @@
 /// An open model, and what geometry out needs beside it.
 struct cdprep_model {
     cdprep::Model model;
-    cdprep::c::Memory object;  ///< this
+    cdprep::c::Memory object;  ///< this, or none in memory of the caller
     cdprep::c::Memory bytes;   ///< a copy of the file, or none
     cdprep::c::Memory index;   ///< of what follows, or none
     /// By number of the imported file; empty where the model does not serve Ask::corners.
@@ -32,12 +32,15 @@ struct Input<cdprep_open_options> {
 /// One more than the greatest number of a section in a SectionSet.
 inline constexpr std::uint32_t kSectionNumbers = 64;
 
+/// Refuses bits that this version does not know.
+int check_asks(Call& call, const Name& name, std::uint32_t ask) noexcept;
+
 /// Refuses what a model does not serve.
 int check_serves(Call& call, const Name& name, const cdprep_model& model, Ask asks);
 
-/// Fills the two index arrays: the block has index_size() bytes.
+/// Fills the two index arrays: `room` has index_size() bytes, or is null where that is 0.
 [[nodiscard]] std::size_t index_size(const Model& model) noexcept;
-void make_index(cdprep_model& model) noexcept;
+void make_index(cdprep_model& model, void* room) noexcept;
 
 /// The bytes of a section that is open, or none.
 [[nodiscard]] std::span<const std::byte> section_bytes(const Model& model, SectionId id) noexcept;

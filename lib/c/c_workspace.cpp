@@ -65,24 +65,6 @@ int read(Call& call, const cdprep_workspace_options* given, Asked& asked) noexce
     return read_allocator(call, name.of("allocator"), options.allocator, asked.allocator);
 }
 
-int check_memory(Call& call, const Asked& asked, const void* memory, std::size_t size) noexcept {
-    if (memory == nullptr) {
-        if (size == 0) return CDPREP_OK;
-        return call.refuse(CDPREP_WHY_NULL, {"memory"}, "is null, but its size is %zu.", size);
-    }
-    if (size < asked.size) {
-        return call.refuse(CDPREP_WHY_TOO_SMALL, {"size"}, "is %zu; %zu bytes are needed.", size,
-                           asked.size);
-    }
-    if (reinterpret_cast<std::uintptr_t>(memory) % CDPREP_ALIGNMENT != 0) {
-        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"memory"},
-                           "does not start at a multiple of %d.", CDPREP_ALIGNMENT);
-    }
-    if (asked.options.allocator == nullptr) return CDPREP_OK;
-    return call.refuse(CDPREP_WHY_NO_MEANING, Name{"options"}.of("allocator"),
-                       "is set, but the memory is given.");
-}
-
 /// Makes all objects in the block.
 cdprep_workspace* make_in(const Asked& asked, std::byte* block, const Memory& memory) noexcept {
     const std::uint32_t lanes = asked.options.lanes;
@@ -177,7 +159,10 @@ int cdprep_workspace_make(const cdprep_workspace_options* options, void* memory,
         if (const int code = call.need(workspace, {"workspace"})) return code;
         cdprep::c::Asked asked;
         if (const int code = cdprep::c::read(call, options, asked)) return code;
-        if (const int code = cdprep::c::check_memory(call, asked, memory, size)) return code;
+        if (const int code = cdprep::c::check_memory(call, {memory, size}, asked.size,
+                                                     asked.options.allocator)) {
+            return code;
+        }
         cdprep::c::Memory own;
         if (memory == nullptr) {
             if (const int code = allocate(call, asked.allocator, asked.size, own)) return code;

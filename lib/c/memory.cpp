@@ -64,4 +64,24 @@ void release(const Memory& memory) noexcept {
     memory.allocator.release(memory.allocator.context, memory.start, memory.size);
 }
 
+int check_memory(Call& call, const Given& given, std::size_t needed,
+                 const cdprep_allocator* allocator) noexcept {
+    if (given.start == nullptr) {
+        if (given.size == 0) return CDPREP_OK;
+        return call.refuse(CDPREP_WHY_NULL, {"memory"}, "is null, but its size is %zu.",
+                           given.size);
+    }
+    if (given.size < needed) {
+        return call.refuse(CDPREP_WHY_TOO_SMALL, {"size"}, "is %zu; %zu bytes are needed.",
+                           given.size, needed);
+    }
+    if (!is_aligned(given.start)) {
+        return call.refuse(CDPREP_WHY_OUT_OF_RANGE, {"memory"},
+                           "does not start at a multiple of %d.", CDPREP_ALIGNMENT);
+    }
+    if (allocator == nullptr) return CDPREP_OK;
+    return call.refuse(CDPREP_WHY_NO_MEANING, Name{"options"}.of("allocator"),
+                       "is set, but the memory is given.");
+}
+
 }  // namespace cdprep::c

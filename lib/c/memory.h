@@ -25,6 +25,17 @@ int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
 
 void release(const Memory& memory) noexcept;
 
+/// Memory of the caller, from the arguments `memory` and `size`; null for one allocation.
+struct Given {
+    void* start;
+    std::size_t size;
+};
+
+/// Refuses memory that is smaller than `needed` bytes, or misaligned, or given beside an
+/// allocator: that of the options, or null.
+int check_memory(Call& call, const Given& given, std::size_t needed,
+                 const cdprep_allocator* allocator) noexcept;
+
 /// A block that is released unless somebody takes it over, also when an exception is thrown.
 class OwnedMemory {
 public:
