@@ -6,6 +6,7 @@
 #include <span>
 
 #include "support/aligned_bytes.h"
+#include "support/meshes.h"
 
 #include "cdprep/cdprep.h"
 
@@ -30,6 +31,42 @@ public:
     CModel(const CModel&) = delete;
     CModel& operator=(const CModel&) = delete;
     ~CModel() {
+        cdprep_model_close(model_);
+    }
+    [[nodiscard]] const cdprep_model* get() const {
+        return model_;
+    }
+
+private:
+    cdprep_model* model_ = nullptr;
+};
+
+/// Options for building this mesh, of which they keep the arrays' places.
+inline cdprep_build_options build_options_of(const TestMesh& mesh) {
+    cdprep_build_options options;
+    cdprep_build_options_init(&options, sizeof options);
+    if (mesh.positions.empty()) return options;
+    options.positions = &mesh.positions[0].x;
+    options.vertex_count = mesh.positions.size();
+    if (mesh.triangles.empty()) return options;
+    options.triangles = mesh.triangles[0].vertex.data();
+    options.triangle_count = mesh.triangles.size();
+    return options;
+}
+
+/// A model that was built through the C API; ends the test program when that fails.
+class CBuilt {
+public:
+    CBuilt(const cdprep_build_options& options, cdprep_workspace* workspace) {
+        cdprep_error error;
+        if (cdprep_model_build(&options, nullptr, 0, workspace, &model_, &error) != CDPREP_OK) {
+            std::fprintf(stderr, "%s\n", error.message);
+            std::abort();
+        }
+    }
+    CBuilt(const CBuilt&) = delete;
+    CBuilt& operator=(const CBuilt&) = delete;
+    ~CBuilt() {
         cdprep_model_close(model_);
     }
     [[nodiscard]] const cdprep_model* get() const {

@@ -14,6 +14,7 @@
  *     if (cdprep_collide(&pair, workspace, &collision, &error)) puts(error.message); */
 
 #include "cdprep/c/base.h"
+#include "cdprep/c/build.h"
 #include "cdprep/c/contacts.h"
 #include "cdprep/c/model.h"
 #include "cdprep/c/pairs.h"

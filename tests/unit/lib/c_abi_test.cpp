@@ -43,6 +43,15 @@ PLACE(cdprep_open_options, ask, 8);
 PLACE(cdprep_open_options, mode, 12);
 PLACE(cdprep_open_options, name, 16);
 PLACE(cdprep_open_options, allocator, 24);
+SIZE(cdprep_build_options, 64);
+PLACE(cdprep_build_options, ask, 8);
+PLACE(cdprep_build_options, precision, 12);
+PLACE(cdprep_build_options, positions, 16);
+PLACE(cdprep_build_options, positions_f32, 24);
+PLACE(cdprep_build_options, triangles, 32);
+PLACE(cdprep_build_options, vertex_count, 40);
+PLACE(cdprep_build_options, triangle_count, 48);
+PLACE(cdprep_build_options, allocator, 56);
 SIZE(cdprep_model_info, 152);
 PLACE(cdprep_model_info, vertices, 4);
 PLACE(cdprep_model_info, components, 8);
@@ -259,6 +268,7 @@ TEST(CAbi, TagsAreWhatTheyWere) {
     EXPECT_EQ(tag_of(cdprep_point_query_init), 0xcd500007U);
     EXPECT_EQ(tag_of(cdprep_ray_query_init), 0xcd500008U);
     EXPECT_EQ(tag_of(cdprep_shape_query_init), 0xcd500009U);
+    EXPECT_EQ(tag_of(cdprep_build_options_init), 0xcd50000aU);
 }
 
 }  // namespace

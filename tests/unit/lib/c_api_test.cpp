@@ -62,6 +62,23 @@ TEST(CApi, EveryModeOfOpeningGivesTheSameAnswers) {
     }
 }
 
+// The same cube as above, never a file. Floats, as tiny bakes have them.
+TEST(CApi, ABuiltCubeIsAskedLikeABakedOne) {
+    const TestMesh cube = unit_cube();
+    std::vector<float> floats;
+    for (const Double3& p : cube.positions) {
+        for (const double x : {p.x, p.y, p.z}) floats.push_back(static_cast<float>(x));
+    }
+    cdprep_build_options options = build_options_of(cube);
+    options.precision = CDPREP_SINGLE;
+    const CWorkspace workspace;
+    ask_all(CBuilt(options, workspace.get()).get());
+    options.precision = CDPREP_AS_GIVEN;
+    options.positions = nullptr;
+    options.positions_f32 = floats.data();
+    ask_all(CBuilt(options, workspace.get()).get());
+}
+
 // A copy does not depend on what becomes of the bytes, nor on where they begin.
 TEST(CApi, ACopyOutlivesItsBytes) {
     const AlignedBytes file = baked_cube();

@@ -505,9 +505,16 @@ TEST_F(CHostile, RefusalsAreTheSameInEveryFloatingPointEnvironment) {
     cdprep_ray_query short_ray = detail::rays_of({model_.get(), nullptr, 0, nullptr});
     short_ray.rays = &ray;
     const std::array<double, 16> identity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    TestMesh cube = unit_cube();
+    std::memcpy(&cube.positions[6].y, &nan, sizeof nan);
+    const cdprep_build_options wrong_mesh = build_options_of(cube);
+    TestMesh beyond = unit_cube();
+    beyond.positions[5].x = 0x1.ffffff0000001p127;  // more than any float, and just so
+    cdprep_build_options no_float = build_options_of(beyond);
+    no_float.precision = CDPREP_SINGLE;
     std::vector<std::string> expected;
     for (const FloatMode& mode : float_modes()) {
-        std::array<cdprep_error, 5> errors;
+        std::array<cdprep_error, 7> errors;
         (void)run_in(mode, [&] {
             cdprep_collision found;
             std::uint32_t touches = 0;
@@ -519,6 +526,9 @@ TEST_F(CHostile, RefusalsAreTheSameInEveryFloatingPointEnvironment) {
             cdprep_rays_cast(&short_ray, workspace_.get(), &hit, &errors[2]);
             cdprep_shape_distance(&empty, workspace_.get(), &nearest, &errors[3]);
             cdprep_pose_nearest(identity.data(), CDPREP_ROWS, kLeast, &pose, &errors[4]);
+            cdprep_model* built = nullptr;
+            cdprep_model_build(&wrong_mesh, nullptr, 0, workspace_.get(), &built, &errors[5]);
+            cdprep_model_build(&no_float, nullptr, 0, workspace_.get(), &built, &errors[6]);
         });
         std::vector<std::string> told;
         for (const cdprep_error& error : errors) {
@@ -529,6 +539,8 @@ TEST_F(CHostile, RefusalsAreTheSameInEveryFloatingPointEnvironment) {
     }
     EXPECT_TRUE(expected[1].starts_with("query.b[0] ")) << expected[1];
     EXPECT_NE(expected[2].find("so short a direction"), std::string::npos) << expected[2];
+    EXPECT_TRUE(expected[5].starts_with("options.positions[6] ")) << expected[5];
+    EXPECT_TRUE(expected[6].starts_with("options.positions[5] ")) << expected[6];
 }
 
 TEST_F(CHostile, ShapesAreCheckedFieldByField) {
@@ -682,6 +694,251 @@ TEST_F(CHostile, MemoryOfWorkspacesIsChecked) {
     EXPECT_EQ(refused(nullptr, size), CDPREP_WHY_NULL);
     ASSERT_EQ(cdprep_workspace_make(nullptr, at, size, &made, nullptr), CDPREP_OK);
     cdprep_workspace_end(made);
+}
+
+std::vector<Mistake<cdprep_build_options>> build_mistakes() {
+    using B = cdprep_build_options;
+    static const std::array<double, 24> doubles = {};
+    static const std::array<float, 24> floats = {};
+    static std::vector<std::vector<double>> bad_positions;
+    static std::vector<std::vector<float>> bad_floats;
+    static const cdprep_allocator none = {nullptr, nullptr, nullptr};
+    static const std::vector<std::uint32_t> bad_triangles = [] {
+        std::vector<std::uint32_t> all(39, 1);
+        all[38] = 8;
+        return all;
+    }();
+    std::vector<Mistake<B>> all = struct_mistakes<B>("options");
+    const auto add = [&](const char* what, auto make, int why, const char* argument) {
+        all.push_back({what, make, why, argument});
+    };
+    add(
+        "no positions", [](B& b) { b.positions = nullptr; }, CDPREP_WHY_NULL, "options.positions");
+    add(
+        "no triangles", [](B& b) { b.triangles = nullptr; }, CDPREP_WHY_NULL, "options.triangles");
+    add(
+        "both positions", [](B& b) { b.positions_f32 = floats.data(); }, CDPREP_WHY_NO_MEANING,
+        "options.positions_f32");
+    for (const std::uint32_t value : {2U, 77U, UINT32_MAX}) {
+        add(
+            "precision", [=](B& b) { b.precision = value; }, CDPREP_WHY_OUT_OF_RANGE,
+            "options.precision");
+    }
+    for (const std::uint32_t bits : {1U << 6, 1U << 19, 1U << 31, UINT32_MAX}) {
+        add(
+            "unknown bits", [=](B& b) { b.ask = bits; }, CDPREP_WHY_OUT_OF_RANGE, "options.ask");
+    }
+    for (const int bit :
+         {CDPREP_ASK_CONTACTS, CDPREP_ASK_RESPONSE, CDPREP_ASK_HULLS, CDPREP_ASK_PIECES,
+          CDPREP_ASK_INACCESSIBLE, CDPREP_ASK_OCTREE, CDPREP_ASK_ADAPTIVE_OCTREE,
+          CDPREP_ASK_TETRA_TREE, CDPREP_ASK_HASHED_OCTREE}) {
+        const std::uint32_t bits = static_cast<std::uint32_t>(bit) | CDPREP_ASK_COLLIDE;
+        add(
+            "what no build serves", [=](B& b) { b.ask = bits; }, CDPREP_WHY_NOT_BAKED,
+            "options.ask");
+    }
+    for (const std::size_t count : {std::size_t{1} << 31, SIZE_MAX / 24, SIZE_MAX}) {
+        add(
+            "vertices", [=](B& b) { b.vertex_count = count; }, CDPREP_WHY_OUT_OF_RANGE,
+            "options.vertex_count");
+        add(
+            "triangles", [=](B& b) { b.triangle_count = count; }, CDPREP_WHY_OUT_OF_RANGE,
+            "options.triangle_count");
+    }
+    add(
+        "allocator", [](B& b) { b.allocator = &none; }, CDPREP_WHY_NULL, "options.allocator");
+    bad_positions.reserve(8);
+    bad_floats.reserve(8);
+    for (const double bad : {kNan, kInfinity, -kInfinity, 0x1p1001}) {
+        bad_positions.emplace_back(doubles.begin(), doubles.end());
+        bad_positions.back()[23] = bad;
+        const double* const at = bad_positions.back().data();
+        add(
+            "a position", [=](B& b) { b.positions = at; },
+            std::isfinite(bad) ? CDPREP_WHY_OUT_OF_RANGE : CDPREP_WHY_NOT_FINITE,
+            "options.positions[7]");
+        if (std::isfinite(bad)) continue;
+        bad_floats.emplace_back(floats.begin(), floats.end());
+        bad_floats.back()[4] = static_cast<float>(bad);
+        const float* const in_floats = bad_floats.back().data();
+        add(
+            "a float position",
+            [=](B& b) {
+                b.positions = nullptr;
+                b.positions_f32 = in_floats;
+            },
+            CDPREP_WHY_NOT_FINITE, "options.positions_f32[1]");
+    }
+    bad_positions.emplace_back(doubles.begin(), doubles.end());
+    bad_positions.back()[6] = -0x1p128;
+    const double* const too_large = bad_positions.back().data();
+    add(
+        "no float",
+        [=](B& b) {
+            b.positions = too_large;
+            b.precision = CDPREP_SINGLE;
+        },
+        CDPREP_WHY_OUT_OF_RANGE, "options.positions[2]");
+    add(
+        "a vertex that is not there",
+        [](B& b) {
+            b.triangles = bad_triangles.data();
+            b.triangle_count = 13;
+        },
+        CDPREP_WHY_OUT_OF_RANGE, "options.triangles[12]");
+    add(
+        "too few vertices", [](B& b) { b.vertex_count = 7; }, CDPREP_WHY_OUT_OF_RANGE,
+        "options.triangles[2]");
+    add(
+        "no vertices", [](B& b) { b.vertex_count = 0; }, CDPREP_WHY_OUT_OF_RANGE,
+        "options.triangles[0]");
+    return all;
+}
+
+TEST_F(CHostile, BuildOptionsAreCheckedFieldByField) {
+    const TestMesh cube = unit_cube();
+    const cdprep_build_options right = build_options_of(cube);
+    expect_refused(right, build_mistakes(), [&](const cdprep_build_options* options) {
+        auto* model = reinterpret_cast<cdprep_model*>(this);
+        cdprep_error error;
+        const int code = cdprep_model_build(options, nullptr, 0, workspace_.get(), &model, &error);
+        const Outcome told = outcome(code, error, model == nullptr);
+        cdprep_model_close(model);
+        return told;
+    });
+    // What is wrong with the options alone is refused before there is any array.
+    std::size_t sized = 0;
+    for (const Mistake<cdprep_build_options>& mistake : build_mistakes()) {
+        cdprep_build_options wrong = right;
+        mistake.make(wrong);
+        std::size_t size = 77;
+        cdprep_error error;
+        if (cdprep_model_build_size(&wrong, &size, &error) == CDPREP_OK) {
+            EXPECT_NE(std::string(mistake.argument).find_first_of('['), std::string::npos);
+            ++sized;
+            continue;
+        }
+        EXPECT_EQ(error.why, mistake.why) << mistake.what;
+        EXPECT_STREQ(error.argument, mistake.argument) << mistake.what;
+        EXPECT_EQ(size, 0u);
+    }
+    EXPECT_EQ(sized, 11u);
+}
+
+// Each sentence names the field, what was found and what is allowed.
+TEST_F(CHostile, RefusedBuildsSayWhatIsAllowed) {
+    TestMesh cube = unit_cube();
+    const auto said = [&](const cdprep_build_options& options) {
+        cdprep_model* model = nullptr;
+        cdprep_error error;
+        (void)cdprep_model_build(&options, nullptr, 0, workspace_.get(), &model, &error);
+        cdprep_model_close(model);
+        return std::string(error.message);
+    };
+    cdprep_build_options options = build_options_of(cube);
+    options.ask = CDPREP_ASK_OCTREE;
+    EXPECT_EQ(said(options),
+              "options.ask is 0x100000, but no build serves octree. Bake the mesh with "
+              "--structures octree.");
+    options = build_options_of(cube);
+    options.vertex_count = 5;
+    EXPECT_EQ(said(options), "options.triangles[2] has vertex 5, but the mesh has 5 vertices.");
+    cube.positions[3].y = 1e39;
+    options = build_options_of(cube);
+    options.precision = CDPREP_SINGLE;
+    EXPECT_EQ(said(options),
+              "options.positions[3] is 9.9999999999999994e+38; with CDPREP_SINGLE it must be at "
+              "most 3.40282347e+38 in magnitude.");
+    cube.positions[3].y = 0x1p1001;
+    EXPECT_EQ(said(build_options_of(cube)),
+              "options.positions[3] is 2.1430172143725346e+301; it must be a number of at most "
+              "2^1000 in magnitude.");
+}
+
+// An empty mesh is one, and has no arrays.
+TEST_F(CHostile, AnEmptyMeshIsBuilt) {
+    cdprep_build_options options;
+    cdprep_build_options_init(&options, sizeof options);
+    const CBuilt built(options, workspace_.get());
+    cdprep_model_info info{};
+    ASSERT_EQ(cdprep_model_describe(built.get(), &info, nullptr), CDPREP_OK);
+    EXPECT_EQ(info.triangles, 0u);
+    cdprep_pair empty = pair();
+    empty.a = built.get();
+    cdprep_collision found{};
+    ASSERT_EQ(cdprep_collide(&empty, workspace_.get(), &found, nullptr), CDPREP_OK);
+    EXPECT_EQ(found.hit, std::uint32_t{CDPREP_NO});
+}
+
+TEST_F(CHostile, MemoryOfBuildsIsChecked) {
+    const TestMesh cube = unit_cube();
+    cdprep_build_options options = build_options_of(cube);
+    std::size_t size = 0;
+    ASSERT_EQ(cdprep_model_build_size(&options, &size, nullptr), CDPREP_OK);
+    AlignedBytes memory(size + 64);
+    std::byte* const at = memory.span().data();
+    cdprep_error error;
+    const auto refused = [&](void* start, std::size_t room) {
+        auto* made = reinterpret_cast<cdprep_model*>(this);
+        const int code = cdprep_model_build(&options, start, room, workspace_.get(), &made, &error);
+        EXPECT_EQ(made, nullptr);
+        return code == CDPREP_BAD_ARGUMENT ? error.why : 0;
+    };
+    EXPECT_EQ(refused(at, size - 1), CDPREP_WHY_TOO_SMALL);
+    EXPECT_STREQ(error.argument, "size");
+    EXPECT_EQ(refused(at, 0), CDPREP_WHY_TOO_SMALL);
+    for (const std::size_t shift : {1U, 8U, 32U}) {
+        EXPECT_EQ(refused(at + shift, size), CDPREP_WHY_OUT_OF_RANGE);
+        EXPECT_STREQ(error.argument, "memory");
+    }
+    EXPECT_EQ(refused(nullptr, size), CDPREP_WHY_NULL);
+    cdprep_allocator unused = {[](void*, std::size_t, std::size_t) -> void* { return nullptr; },
+                               [](void*, void*, std::size_t) {}, nullptr};
+    options.allocator = &unused;
+    EXPECT_EQ(refused(at, size), CDPREP_WHY_NO_MEANING);
+    EXPECT_STREQ(error.argument, "options.allocator");
+    cdprep_model* made = nullptr;
+    EXPECT_EQ(cdprep_model_build(&options, nullptr, 0, workspace_.get(), &made, nullptr),
+              CDPREP_OVER_BUDGET);
+    // Elsewhere than the block's own start, too.
+    options.allocator = nullptr;
+    ASSERT_EQ(cdprep_model_build(&options, at + 64, size, workspace_.get(), &made, nullptr),
+              CDPREP_OK);
+    cdprep_model_close(made);
+    // Nulls are named as the header names the parameters.
+    EXPECT_EQ(cdprep_model_build(&options, nullptr, 0, nullptr, &made, &error), 2);
+    EXPECT_STREQ(error.argument, "workspace");
+    EXPECT_EQ(cdprep_model_build(&options, nullptr, 0, workspace_.get(), nullptr, &error), 2);
+    EXPECT_STREQ(error.argument, "model");
+    EXPECT_EQ(cdprep_model_build_size(&options, nullptr, &error), 2);
+    EXPECT_STREQ(error.argument, "size");
+    EXPECT_EQ(cdprep_model_build(nullptr, nullptr, 0, nullptr, nullptr, nullptr), 2);
+    EXPECT_EQ(cdprep_model_build_size(nullptr, nullptr, nullptr), 2);
+    cdprep_build_options_init(nullptr, sizeof options);
+}
+
+// A visitor runs within its question, which is using the workspace.
+TEST_F(CHostile, ABuildIsRefusedWhileItsWorkspaceIsInUse) {
+    struct Within {
+        cdprep_build_options options;
+        cdprep_workspace* workspace;
+        cdprep_model* model;
+        int why;
+    };
+    const TestMesh cube = unit_cube();
+    Within within = {build_options_of(cube), workspace_.get(), nullptr, 0};
+    const cdprep_pair given = pair();
+    const auto build = [](void* context, const cdprep_overlap* /*overlap*/) {
+        auto* const w = static_cast<Within*>(context);
+        cdprep_error error;
+        (void)cdprep_model_build(&w->options, nullptr, 0, w->workspace, &w->model, &error);
+        w->why = error.why;
+        return 0;
+    };
+    ASSERT_EQ(cdprep_overlaps_visit(&given, workspace_.get(), build, &within, nullptr), CDPREP_OK);
+    EXPECT_EQ(within.why, CDPREP_WHY_BUSY);
+    EXPECT_EQ(within.model, nullptr);
+    const CBuilt built(within.options, workspace_.get());
 }
 
 // Every question with a null for each of its arguments would be a page; the others share the code.
@@ -928,6 +1185,47 @@ TEST_F(CHostile, FailedOpeningsGiveBackTheirCopy) {
         }
         EXPECT_GT(blocks.given, 3u);
     }
+}
+
+/// Every task, here: an exception that a task threw into it would end the program.
+void run_here(void* /*context*/, std::size_t count, cdprep_task task, const void* work) noexcept {
+    for (std::size_t i = count; i-- > 0;) task(work, i);
+}
+
+// A build fails at its allocations in turn, of which some are made in tasks. 5,120 triangles are
+// two tasks and more.
+TEST_F(CHostile, FailedBuildsGiveEverythingBack) {
+    const TestMesh ball = icosphere(4);
+    Blocks blocks;
+    const cdprep_allocator allocator = {give, take_back, &blocks};
+    cdprep_build_options options = build_options_of(ball);
+    options.allocator = &allocator;
+    cdprep_workspace_options lanes;
+    cdprep_workspace_options_init(&lanes, sizeof lanes);
+    lanes.lanes = 4;
+    lanes.run = run_here;
+    cdprep_workspace* four = nullptr;
+    ASSERT_EQ(cdprep_workspace_make(&lanes, nullptr, 0, &four, nullptr), CDPREP_OK);
+    for (cdprep_workspace* const workspace : {workspace_.get(), four}) {
+        std::size_t failed = 0;
+        int code = CDPREP_OVER_BUDGET;
+        for (std::size_t allowed = 0; code != CDPREP_OK; allowed += 1 + allowed / 64) {
+            ASSERT_LT(allowed, 100000u);
+            cdprep_model* model = nullptr;
+            cdprep_error error;
+            allocations_allowed = allocations + allowed;
+            code = cdprep_model_build(&options, nullptr, 0, workspace, &model, &error);
+            allocations_allowed = SIZE_MAX;
+            EXPECT_EQ(model != nullptr, code == CDPREP_OK) << allowed;
+            EXPECT_TRUE(code == CDPREP_OK || code == CDPREP_OVER_BUDGET) << error.message;
+            failed += code != CDPREP_OK;
+            cdprep_model_close(model);
+            EXPECT_EQ(blocks.taken, blocks.given) << allowed;
+        }
+        EXPECT_GT(failed, 20u);
+    }
+    EXPECT_GE(blocks.given, 2u);
+    cdprep_workspace_end(four);
 }
 
 TEST_F(CHostile, NoQuestionAllocates) {

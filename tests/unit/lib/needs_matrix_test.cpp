@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every set of sections that a bake can have, and every question: the answer of a bake that has
-// everything, or the refusal. There is no third outcome.
+// Every set of sections that a bake or a build can have, and every question: the answer of a bake
+// that has everything, or the refusal. There is no third outcome.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -121,11 +121,16 @@ protected:
     /// Asks everything of a bake with these sections.
     void ask_all(SectionSet sections, Counts& counts) {
         const AlignedBytes outer = only(outer_, sections), inner = only(inner_, sections);
-        const CModel a(outer), b(inner), all_a(outer_), all_b(inner_);
+        const CModel a(outer), b(inner);
+        ask_all(a.get(), b.get(), counts);
+    }
+    /// Asks everything of two models of the same meshes.
+    void ask_all(const cdprep_model* a, const cdprep_model* b, Counts& counts) {
+        const CModel all_a(outer_), all_b(inner_);
         cdprep_model_info info{};
-        ASSERT_EQ(cdprep_model_describe(a.get(), &info, nullptr), CDPREP_OK);
+        ASSERT_EQ(cdprep_model_describe(a, &info, nullptr), CDPREP_OK);
         for (const double x : kPlaces) {
-            const CScene scene = {a.get(), b.get(), x, workspace_.get()};
+            const CScene scene = {a, b, x, workspace_.get()};
             const CScene expected = {all_a.get(), all_b.get(), x, workspace_.get()};
             for (const CQuestion& question : c_questions()) {
                 const CAnswer answer = question.ask(scene);
@@ -154,6 +159,44 @@ TEST_F(NeedsMatrix, EveryBakeGivesTheAnswerOfAWholeOneOrRefuses) {
     EXPECT_GT(all.size(), 30u);
     Counts counts;
     for (const SectionSet sections : all) ask_all(sections, counts);
+    EXPECT_GT(counts.answered, all.size() * 20) << "few questions were answered";
+    EXPECT_GT(counts.refused, all.size() * 20) << "few questions were refused";
+}
+
+/// What builds are asked for: everything, each question alone, and every two of them.
+std::vector<std::uint32_t> builds() {
+    std::vector<std::uint32_t> singles, all = {0};
+    for (const Needs& row : needs()) {
+        const auto ask = static_cast<std::uint32_t>(row.ask);
+        cdprep_build_options options;
+        cdprep_build_options_init(&options, sizeof options);
+        options.ask = ask;
+        std::size_t size = 0;
+        if (cdprep_model_build_size(&options, &size, nullptr) == CDPREP_OK) singles.push_back(ask);
+    }
+    for (const std::uint32_t one : singles) {
+        for (const std::uint32_t other : singles) {
+            if (one <= other) all.push_back(one | other);
+        }
+    }
+    return all;
+}
+
+// The same law for models that were never a file.
+TEST_F(NeedsMatrix, EveryBuildGivesTheAnswerOfAWholeBakeOrRefuses) {
+    const TestMesh outer = cube_of(0, 1), inner = cube_of(0.375, 0.25);
+    const std::vector<std::uint32_t> all = builds();
+    EXPECT_EQ(all.size(), 1u + 10u * 11u / 2u);
+    Counts counts;
+    for (const std::uint32_t ask : all) {
+        cdprep_build_options a = build_options_of(outer), b = build_options_of(inner);
+        a.ask = b.ask = ask;
+        const CBuilt built_a(a, workspace_.get()), built_b(b, workspace_.get());
+        cdprep_model_info info{};
+        ASSERT_EQ(cdprep_model_describe(built_a.get(), &info, nullptr), CDPREP_OK);
+        EXPECT_EQ(info.serves & ask, ask);
+        ask_all(built_a.get(), built_b.get(), counts);
+    }
     EXPECT_GT(counts.answered, all.size() * 20) << "few questions were answered";
     EXPECT_GT(counts.refused, all.size() * 20) << "few questions were refused";
 }

@@ -15,7 +15,7 @@
  * - A struct that starts with cdprep_head is an input that may grow. Only its _init() function
  *   makes it valid; it writes size, tag and defaults. Every other content, zeros too, is refused
  *   with CDPREP_WHY_NOT_INITIALISED. Null stands for the defaults where a parameter is named
- *   `options`.
+ *   `options`, but for those of a build, which hold the mesh.
  * - Arguments are checked before anything is computed, in this order: nulls; size and tag;
  *   values of enumerations; numbers; poses; fields that have no meaning for the question; what
  *   the model was baked and opened for; whether the workspace is in use. The first mistake is
@@ -29,10 +29,10 @@
  *   make, a count of more than memory holds. cdprep_pose_move() and cdprep_model_corners() too
  *   leave their answers as they were.
  * - Lengths are in model units. Limits are inclusive. Numbers of triangles and vertices are
- *   those of the imported file.
+ *   those of the imported file, or of the arrays that a model was built from.
  * - A list has room for some answers; `count` says how many there are. Too little room is no
  *   error: as many as fit are stored. No room at all counts.
- * - No question allocates. Opening a model and making a workspace do.
+ * - No question allocates. Opening or building a model and making a workspace do.
  * - Models are read-only and serve any number of threads. A workspace serves one call at a
  *   time. Nothing else is shared: there is no global state.
  * - Callbacks return; they neither throw nor call longjmp(). A visitor may ask questions with
@@ -61,7 +61,7 @@
 #define CDPREP_VERSION_MAJOR 0
 #define CDPREP_VERSION_MINOR 1
 #define CDPREP_VERSION_PATCH 0
-#define CDPREP_ALIGNMENT 64    /* of memory for cdprep_workspace_make() and _model_open_memory() */
+#define CDPREP_ALIGNMENT 64    /* of memory that _make(), _build() and _open_memory() take */
 #define CDPREP_NONE UINT32_MAX /* a number of a triangle, vertex, face ... where there is none */
 
 /* The first member of every input struct that may grow. Only _init() functions write it. */
@@ -88,7 +88,7 @@ enum {
     CDPREP_WHY_NOT_FINITE = 5,      /* NaN, or infinity where it is not allowed */
     CDPREP_WHY_NOT_RIGID = 6,       /* a pose that scales, shears or mirrors */
     CDPREP_WHY_NO_MEANING = 7,      /* a field that this question cannot use has been set */
-    CDPREP_WHY_NOT_BAKED = 8,       /* the file does not have what the question needs */
+    CDPREP_WHY_NOT_BAKED = 8,       /* the model does not have what the question needs */
     CDPREP_WHY_NOT_OPENED = 9,      /* the file has it, but it was not asked for at opening */
     CDPREP_WHY_TOO_SMALL = 10,      /* memory */
     CDPREP_WHY_STALE = 11,          /* an object that is gone */

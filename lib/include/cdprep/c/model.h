@@ -4,8 +4,8 @@
 
 #include "cdprep/c/base.h"
 
-/* A baked model that is open for questions. It is read-only: all functions may use one model on
- * any number of threads at the same time. */
+/* A baked or built model that is open for questions. It is read-only: all functions may use one
+ * model on any number of threads at the same time. */
 typedef struct cdprep_model cdprep_model;
 
 /* What a model can be asked for, as bits of a set. A file that was baked for something has the
