@@ -223,7 +223,7 @@ public:
 
     void call() {
         error_.code = 99;
-        switch (draw_.below(14)) {
+        switch (draw_.below(15)) {
             case 0:
                 return collide();
             case 1:
@@ -250,6 +250,8 @@ public:
                 return poses();
             case 12:
                 return visit();
+            case 13:
+                return build();
             default:
                 return open();
         }
@@ -637,6 +639,73 @@ private:
         options.spoil(draw_);
         std::size_t size = 99;
         if (!is_answered(cdprep_workspace_size(&options.value, &size, &error_))) MUST(size == 0);
+    }
+
+    /// A mesh of a few triangles, in memory of exactly the size that is said to be enough.
+    void build() {
+        std::array<double, 30> doubles{};
+        std::array<float, 30> floats{};
+        std::array<std::uint32_t, 36> triangles{};
+        const bool is_hostile = draw_.one_in(4);
+        for (std::size_t i = 0; i < doubles.size(); ++i) {
+            doubles[i] = is_hostile && draw_.one_in(8)
+                             ? draw_.number()
+                             : static_cast<std::int8_t>(draw_.byte()) / 32.0;
+            floats[i] = static_cast<float>(doubles[i]);
+        }
+        for (std::uint32_t& vertex : triangles) {
+            vertex = is_hostile && draw_.one_in(20) ? draw_.word() : draw_.below(8);
+        }
+        Longer<cdprep_build_options> given{};
+        cdprep_build_options_init(&given.value, sizeof given.value);
+        cdprep_build_options& b = given.value;
+        if (!draw_.one_in(3)) b.positions = doubles.data();
+        if (draw_.one_in(3)) b.positions_f32 = floats.data();
+        if (!draw_.one_in(20)) b.triangles = triangles.data();
+        b.vertex_count = draw_.below(11);
+        b.triangle_count = draw_.below(13);
+        // A count above that of the array is a lie about memory, but for what no model may have.
+        if (draw_.one_in(30)) b.vertex_count = SIZE_MAX - draw_.byte();
+        if (draw_.one_in(30)) b.triangle_count = (SIZE_MAX >> 1) - draw_.byte();
+        if (draw_.one_in(3)) b.ask = draw_.one_in(2) ? draw_.word() : 1U << draw_.below(32);
+        if (draw_.one_in(3)) b.precision = draw_.below(3);
+        given.spoil(draw_);
+        const cdprep_build_options* const options = draw_.one_in(40) ? nullptr : &b;
+        std::size_t size = 99;
+        const bool is_sized = is_answered(cdprep_model_build_size(options, &size, &error_));
+        MUST(is_sized == (size > 0));
+        const std::size_t less = draw_.one_in(10) ? 1 : 0;
+        AlignedBytes memory(is_sized ? size - less : 0);
+        const bool is_own = !is_sized || draw_.one_in(3);
+        void* const start = is_own ? nullptr : memory.span().data();
+        const std::size_t room = is_own ? draw_.one_in(20) : memory.size();
+        cdprep_model* model = nullptr;
+        const int code = cdprep_model_build(options, start, room, workspace(), &model, &error_);
+        if (!is_answered(code)) {
+            MUST(model == nullptr);
+            return;
+        }
+        MUST(is_sized && (is_own || less == 0));
+        ask(model);
+        cdprep_model_close(model);
+    }
+    /// Every answer about a model that was just built is finite, or it says so.
+    void ask(const cdprep_model* model) {
+        cdprep_pair p;
+        cdprep_pair_init(&p, sizeof p);
+        p.a = model;
+        p.b = draw_.one_in(2) ? model : models_.any(draw_);
+        cdprep_nearest nearest{};
+        cdprep_collision found{};
+        if (!is_answered(cdprep_distance(&p, nullptr, workspace_, &nearest, &error_)))
+            MUST(nearest.found == CDPREP_NO);
+        MUST(is_finite(nearest));
+        (void)is_answered(cdprep_collide(&p, workspace_, &found, &error_));
+        const std::uint32_t triangle = draw_.below(13);
+        cdprep_corners corners{};
+        if (is_answered(cdprep_model_corners(model, &triangle, 1, &corners, &error_))) {
+            for (const auto& point : corners.point) MUST(is_finite(point));
+        }
     }
 
     static constexpr std::uint32_t kRoom = 16;
