@@ -61,6 +61,19 @@ TEST_F(CSamples, ACubeOverlapsItself) {
     EXPECT_TRUE(output.ends_with(" pairs\n")) << output;
 }
 
+// By hand: cubes of side 1, of which one is moved by 0.25 a step, touch at step 4.
+TEST(CSample, BuildsACubeFromArraysAndAsksIt) {
+    EXPECT_EQ(output_of(SAMPLE_BUILD),
+              "12 triangles, closed\n"
+              "x = 0: hit\n"
+              "x = 0.25: hit\n"
+              "x = 0.5: hit\n"
+              "x = 0.75: hit\n"
+              "x = 1: hit\n"
+              "x = 1.25: 0.25 apart\n"
+              "x = 1.5: 0.5 apart\n");
+}
+
 TEST_F(CSamples, AFileThatIsNotThereIsNamed) {
     const std::string output = output_of(std::string(SAMPLE_COLLIDE) + " nothing.cdp.h5 " + path_);
     EXPECT_NE(output.find("CDPREP_UNREADABLE: nothing.cdp.h5"), std::string::npos) << output;
