@@ -13,7 +13,7 @@
 #include <memory>
 #include <vector>
 
-#include "cdprep/parallel.h"
+#include "cdprep/program_threads.h"
 #include "convex/approximate_pieces.h"
 #include "import/import_file.h"
 #include "mesh/point_tree.h"

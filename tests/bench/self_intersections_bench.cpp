@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/parallel.h"
+#include "cdprep/program_threads.h"
 #include "import/import_file.h"
 #include "mesh/self_intersections.h"
 #include "mesh/weld.h"

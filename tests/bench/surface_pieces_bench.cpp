@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/parallel.h"
+#include "cdprep/program_threads.h"
 #include "convex/piece_arrays.h"
 #include "import/import_file.h"
 #include "mesh/normalize.h"

@@ -15,7 +15,7 @@
 #include "interrupt.h"
 #include "load_mesh.h"
 #include "output_path.h"
-#include "parallel.h"
+#include "program_threads.h"
 #include "progress.h"
 #include "report/accuracy_chart.h"
 #include "report/accuracy_report.h"

@@ -9,7 +9,7 @@
 
 #include "cdprep/result.h"
 #include "import/import_file.h"
-#include "parallel.h"
+#include "program_threads.h"
 #include "progress.h"
 #include "study/comparison.h"
 

@@ -15,7 +15,7 @@
 #include "interrupt.h"
 #include "load_mesh.h"
 #include "output_path.h"
-#include "parallel.h"
+#include "program_threads.h"
 #include "progress.h"
 #include "report/pieces_report.h"
 #include "write/pieces_file.h"

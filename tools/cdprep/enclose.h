@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "load_mesh.h"
-#include "parallel.h"
+#include "program_threads.h"
 #include "progress.h"
 #include "report/approximate_report.h"
 

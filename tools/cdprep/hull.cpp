@@ -14,7 +14,7 @@
 #include "load_mesh.h"
 #include "mesh/weld.h"
 #include "output_path.h"
-#include "parallel.h"
+#include "program_threads.h"
 #include "report/hull_report.h"
 #include "write/mesh_file.h"
 

@@ -16,7 +16,7 @@
 #include "find_hull_falsehood.h"
 #include "find_piece_falsehood.h"
 #include "mapped_file.h"
-#include "parallel.h"
+#include "program_threads.h"
 #include "report/info_report.h"
 
 namespace cdprep::cli {

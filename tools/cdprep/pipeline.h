@@ -9,7 +9,7 @@
 #include "cdprep/result.h"
 #include "effects.h"
 #include "import/import_file.h"
-#include "parallel.h"
+#include "program_threads.h"
 #include "report/bake_report.h"
 #include "structures.h"
 

@@ -7,7 +7,7 @@
 
 #include "mesh/inaccessible.h"
 #include "open_for.h"
-#include "parallel.h"
+#include "program_threads.h"
 #include "query.h"
 #include "report/inaccessible_report.h"
 #include "write/coloured_file.h"

@@ -14,7 +14,7 @@
 #include "interrupt.h"
 #include "mesh/repair_goal.h"
 #include "output_path.h"
-#include "parallel.h"
+#include "program_threads.h"
 #include "report/repair_report.h"
 #include "write/mesh_file.h"
 

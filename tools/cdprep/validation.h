@@ -8,7 +8,7 @@
 #include "import/import_file.h"
 #include "input_list.h"
 #include "mesh/find_defects.h"
-#include "parallel.h"
+#include "program_threads.h"
 #include "report/baseline.h"
 #include "report/validation_run.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/parallel.h"
+#include "cdprep/program_threads.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "parallel.h"
+#include "program_threads.h"
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
