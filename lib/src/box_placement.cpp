@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "length_of.h"
+
 // Box tests run in float in the frame of A's boxes, scaled down further when B is
 // the larger model, so that all boxes lie within [-1, 1] and nothing overflows
 // whatever the two extents are. The slack that covers all rounding has two parts.
@@ -124,7 +126,7 @@ float float_reach(double distance) noexcept {
 Outlook outlook(const PlacedBoxes& placed, double tolerance) noexcept {
     constexpr double kRounding = 0x1p-40;
     const double limit = std::ldexp(tolerance, placed.exponent);
-    const double between = std::hypot(placed.shift[0], placed.shift[1], placed.shift[2]);
+    const double between = length_of(placed.shift[0], placed.shift[1], placed.shift[2]);
     const double reach =
         1.7321 * (placed.scale_a + placed.scale_b) + 2 * double{placed.placement.slack};
     if (limit < (between - reach) * (1 - kRounding)) return Outlook::none;

@@ -9,6 +9,7 @@
 #include "cdprep/format/float_environment.h"
 #include "hull_edges.h"
 #include "hull_nearest.h"
+#include "length_of.h"
 #include "point_triangle_distance.h"
 
 // Two features, a vertex or edge of the one hull and a vertex, edge or face of the other, hold the
@@ -152,7 +153,7 @@ private:
     /// A difference of witnesses, a sum of a few of such a size.
     void measure(const Double3& apart, double of) noexcept {
         size = of;
-        upper = std::hypot(apart.x, apart.y, apart.z) * (1 + 4 * kUnit) + 20 * kUnit * of;
+        upper = length_of(apart.x, apart.y, apart.z) * (1 + 4 * kUnit) + 20 * kUnit * of;
     }
 
     /// From a vertex to the edge along which the other's point comes nearer.

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "length_of.h"
+
 // The lower bound trusts no step of the search. Whatever the direction d, the planes
 // across it through A's and B's farthest points lie d . (b - a) / |d| apart: with p - q a
 // corner of the simplex, no point of A is farther along -d from p than the first bound
@@ -193,7 +195,7 @@ double upper_bound(const NearestSimplex& simplex) noexcept {
     // The corners and the weights are off by u, the sums by 3 u, the weights' sum by 4 u.
     const Double3 v = weighted_point(simplex);
     const double error = 20 * kUnit * largest_corner(simplex);
-    return std::hypot(v.x, v.y, v.z) * (1 + 4 * kUnit) + error;
+    return length_of(v.x, v.y, v.z) * (1 + 4 * kUnit) + error;
 }
 
 GjkResult gjk(const MovedHull& a, const MovedHull& b, const GjkGoal& goal, ConvexCache* cache,

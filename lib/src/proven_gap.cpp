@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "box_placement.h"
+#include "length_of.h"
 
 // A gap proved in one pose holds in another, less the longest way that any point of
 // the moving model goes between the two, seen from the other model: at most the way of
@@ -45,7 +46,7 @@ double longest_way(const PairCache& cache, const Pose& now) noexcept {
         most[i] = std::fabs(x * c.x + y * c.y + z * c.z + shift[i]) + std::fabs(x) * h.x +
                   std::fabs(y) * h.y + std::fabs(z) * h.z;
     }
-    return std::hypot(most[0], most[1], most[2]);
+    return length_of(most[0], most[1], most[2]);
 }
 
 /// The box around all of a model: that of its root's boxes.

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+
+namespace cdprep {
+
+/// Returns the length of a finite vector, rounded a few times. It overflows only where the length
+/// does. std::hypot() of three numbers is a template: the linker may keep a copy of it that a
+/// caller compiled with -ffast-math.
+inline double length_of(double x, double y, double z) noexcept {
+    x = std::fabs(x);
+    y = std::fabs(y);
+    z = std::fabs(z);
+    const double most = x < y ? (y < z ? z : y) : (x < z ? z : x);
+    if (most == 0) return 0;
+    return most *
+           std::sqrt((x / most) * (x / most) + (y / most) * (y / most) + (z / most) * (z / most));
+}
+
+}  // namespace cdprep
