@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "c/c_pairs.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <tuple>
 
 #include "c/pair_answers.h"
 #include "c/pair_cache_words.h"
 #include "cdprep/advanced/level_of_detail.h"
 #include "cdprep/pairs.h"
 #include "cdprep/parallel.h"
+#include "smallest.h"
 
 namespace cdprep::c {
 namespace {
@@ -66,6 +69,12 @@ cdprep_crossing crossing_of(const Crossing& crossing) noexcept {
     store(crossing.to, to.ends[1]);
     return to;
 }
+
+struct ByPair {
+    bool operator()(const cdprep_crossing& x, const cdprep_crossing& y) const noexcept {
+        return std::tie(x.pair.a, x.pair.b) < std::tie(y.pair.a, y.pair.b);
+    }
+};
 
 static_assert(sizeof(cdprep_overlap) == sizeof(TrianglePair) &&
               offsetof(cdprep_overlap, b) == offsetof(TrianglePair, b));
@@ -174,19 +183,17 @@ int cdprep_containment(const cdprep_pair* pair, cdprep_workspace* workspace,
                        cdprep_collision* collision, cdprep_error* error) {
     return ask_pair(cdprep::c::kContainment, pair, workspace, collision, "collision", error,
                     nothing_to_check, [&](const AskedPair& asked, Workspace& scratch) {
-                        *collision = cdprep::c::in_c(
-                            false, containment(asked.pair(), scratch));
+                        *collision = cdprep::c::in_c(false, containment(asked.pair(), scratch));
                     });
 }
 
 int cdprep_collide_at_level(const cdprep_pair* pair, uint32_t level, cdprep_workspace* workspace,
                             uint32_t* hit, cdprep_error* error) {
-    return ask_pair(
-        cdprep::c::kCollideAtLevel, pair, workspace, hit, "hit", error, nothing_to_check,
-        [&](const AskedPair& asked, Workspace& scratch) {
-            *hit = cdprep::c::word(
-                collide_at_level(asked.pair(), level, scratch).answer);
-        });
+    return ask_pair(cdprep::c::kCollideAtLevel, pair, workspace, hit, "hit", error,
+                    nothing_to_check, [&](const AskedPair& asked, Workspace& scratch) {
+                        *hit =
+                            cdprep::c::word(collide_at_level(asked.pair(), level, scratch).answer);
+                    });
 }
 
 int cdprep_overlaps(const cdprep_pair* pair, cdprep_workspace* workspace, cdprep_overlap_list* list,
@@ -206,8 +213,7 @@ int cdprep_overlaps_split(const cdprep_pair* pair, cdprep_workspace* workspace,
         [&](Call& call) { return check_list(call, {"list"}, *list); },
         [&](const AskedPair& asked, Workspace& /*scratch*/) {
             const cdprep::c::CallersThreads threads(*workspace);
-            list->count = split_overlaps(asked.pair(),
-                                         workspace->lanes, threads, room_of(*list));
+            list->count = split_overlaps(asked.pair(), workspace->lanes, threads, room_of(*list));
         });
 }
 
@@ -220,9 +226,7 @@ int cdprep_overlaps_visit(const cdprep_pair* pair, cdprep_workspace* workspace,
                             return visit(context, &overlap) != 0;
                         };
                         PairCacheWords cache(asked.cache);
-                        visit_overlaps(
-                            asked.with(cache),
-                            scratch, hand_on);
+                        visit_overlaps(asked.with(cache), scratch, hand_on);
                     });
 }
 
@@ -244,14 +248,15 @@ int cdprep_crossings(const cdprep_pair* pair, cdprep_workspace* workspace,
         cdprep::c::kOverlapsOtherwise, pair, workspace, list, "list", error,
         [&](Call& call) { return check_list(call, {"list"}, *list); },
         [&](const AskedPair& asked, Workspace& scratch) {
-            std::size_t count = 0;
-            const auto take = [&](const cdprep::Crossing& crossing) {
-                if (count < list->room) list->items[count] = cdprep::c::crossing_of(crossing);
-                ++count;
+            const std::span room(list->items, list->room);
+            cdprep::Smallest<cdprep_crossing, cdprep::c::ByPair> smallest(room);
+            const auto keep = [&](const cdprep::Crossing& crossing) {
+                smallest.add(cdprep::c::crossing_of(crossing));
                 return true;
             };
-            visit_crossings(asked.pair(), scratch, take);
-            list->count = count;
+            visit_crossings(asked.pair(), scratch, keep);
+            std::sort(smallest.kept().begin(), smallest.kept().end(), cdprep::c::ByPair());
+            list->count = smallest.count();
         });
 }
 
@@ -263,8 +268,7 @@ int cdprep_crossings_visit(const cdprep_pair* pair, cdprep_workspace* workspace,
                             const cdprep_crossing crossing = cdprep::c::crossing_of(found);
                             return visit(context, &crossing) != 0;
                         };
-                        visit_crossings(asked.pair(),
-                                        scratch, hand_on);
+                        visit_crossings(asked.pair(), scratch, hand_on);
                     });
 }
 
@@ -317,7 +321,6 @@ int cdprep_pairs_within_visit(const cdprep_pair* pair, double tolerance,
                 const cdprep_overlap overlap = cdprep::c::overlap_of(found);
                 return visit(context, &overlap) != 0;
             };
-            visit_pairs_within(asked.pair(),
-                               tolerance, scratch, hand_on);
+            visit_pairs_within(asked.pair(), tolerance, scratch, hand_on);
         });
 }

@@ -11,7 +11,7 @@ namespace {
 bool any_overlap(const Pair& pair, Workspace& workspace) noexcept {
     const Structure through = pair.options.through;
     if (through == Structure::bvh) {
-        return any_contact(*pair.a, *pair.b, pair.placement, workspace, pair.options, pair.cache);
+        return any_contact(pair.a, pair.b, pair.placement, workspace, pair.options, pair.cache);
     }
     return any_overlap_through(pair, {.structure = through}, workspace);
 }
@@ -21,7 +21,7 @@ bool any_overlap(const Pair& pair, Workspace& workspace) noexcept {
 Collision collide(const Pair& pair, Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
     const bool is_solid = pair.options.body == Body::solid;
-    require(*pair.a, *pair.b, is_solid ? Ask::collide | Ask::solid : Ask::collide);
+    require(pair.a, pair.b, is_solid ? Ask::collide | Ask::solid : Ask::collide);
     if (any_overlap(pair, workspace)) return {Answer::yes, {}};
     if (!is_solid) return {};
     const Containment inside = containment(pair, workspace);

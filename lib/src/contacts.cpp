@@ -76,8 +76,8 @@ class ContactSearch {
 public:
     ContactSearch(const Pair& pair, Workspace& workspace, const ContactOptions& options) noexcept
         : pair_(pair),
-          moved_a_(moved_a(*pair.a, pair.placement)),
-          moved_b_(moved_b(*pair.b, pair.placement)),
+          moved_a_(moved_a(pair.a, pair.placement)),
+          moved_b_(moved_b(pair.b, pair.placement)),
           options_(options),
           workspace_(workspace),
           gathered_(workspace.storage().near_pieces) {}
@@ -112,7 +112,7 @@ private:
             if (gathered_.takes(key)) gathered_.add({key, near.a, near.b, touch(near)});
             return true;
         };
-        visit_near_triangles(pair_.options.through, *pair_.a, *pair_.b, pair_.placement,
+        visit_near_triangles(pair_.options.through, pair_.a, pair_.b, pair_.placement,
                              options_.tolerance, workspace_, visit, pair_.options);
     }
     [[nodiscard]] bool touch(const NearTriangles& near) const noexcept {
@@ -134,7 +134,7 @@ private:
 std::size_t contacts(const Pair& pair, Workspace& workspace, std::span<Contact> room,
                      const ContactOptions& options) noexcept {
     const format::FloatEnvironment environment;
-    require(*pair.a, *pair.b, Ask::contacts | ask_of(pair.options.through));
+    require(pair.a, pair.b, Ask::contacts | ask_of(pair.options.through));
     std::size_t count = 0;
     ContactSearch(pair, workspace, options).run([&](const Contact& contact) {
         if (count < room.size()) room[count] = contact;
@@ -147,7 +147,7 @@ std::size_t contacts(const Pair& pair, Workspace& workspace, std::span<Contact> 
 bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options) noexcept {
     format::FloatEnvironment environment;
-    require(*pair.a, *pair.b, Ask::contacts | ask_of(pair.options.through));
+    require(pair.a, pair.b, Ask::contacts | ask_of(pair.options.through));
     return ContactSearch(pair, workspace, options).run([&](const Contact& contact) {
         return environment.outside([&] { return visit(contact); });
     });

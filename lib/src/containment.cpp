@@ -159,9 +159,9 @@ Containment find_inside(const MovedModel& inner, const MovedModel& outer,
 
 Containment containment(const Pair& pair, Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
-    require(*pair.a, *pair.b, Ask::solid);
-    const MovedModel in_a = moved_a(*pair.a, pair.placement);
-    const MovedModel in_b = moved_b(*pair.b, pair.placement);
+    require(pair.a, pair.b, Ask::solid);
+    const MovedModel in_a = moved_a(pair.a, pair.placement);
+    const MovedModel in_b = moved_b(pair.b, pair.placement);
     Workspace::Storage& scratch = workspace.storage();
     const Containment a_in_b = find_inside(in_a, in_b, scratch, true);
     if (a_in_b.answer == Answer::yes) return a_in_b;

@@ -1,16 +1,41 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/pairs.h"
 
+#include <algorithm>
+
 #include "cdprep/format/float_environment.h"
 #include "contact_pairs.h"
 #include "core/require.h"
 #include "edge_on_plane.h"
+#include "smallest.h"
 
 namespace cdprep {
 
+namespace {
+
+struct ByPair {
+    bool operator()(const Crossing& x, const Crossing& y) const noexcept {
+        return x.pair < y.pair;
+    }
+};
+
+}  // namespace
+
+std::size_t crossings(const Pair& pair, Workspace& workspace, std::span<Crossing> room) noexcept {
+    Smallest<Crossing, ByPair> smallest(room);
+    const auto keep = [&](const Crossing& crossing) {
+        smallest.add(crossing);
+        return true;
+    };
+    visit_crossings(pair, workspace, keep);
+    const std::span<Crossing> kept = smallest.kept();
+    std::sort(kept.begin(), kept.end(), ByPair());
+    return smallest.count();
+}
+
 bool visit_crossings(const Pair& pair, Workspace& workspace, Visitor<Crossing> visit) noexcept {
     format::FloatEnvironment environment;
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     require(a, b, Ask::overlap);
     const MovedModel in_a = moved_a(a, pair.placement);
     const MovedModel in_b = moved_b(b, pair.placement);

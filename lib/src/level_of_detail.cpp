@@ -216,7 +216,7 @@ double level_error(const Model& model, std::uint32_t level) noexcept {
 
 CoarseCollision collide_at_level(const Pair& pair, std::uint32_t level,
                                  Workspace& workspace) noexcept {
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     const Placement& placement = pair.placement;
     const format::FloatEnvironment environment;
     require(a, b, Ask::tetra_tree);

@@ -16,7 +16,7 @@ struct NearTriangles {
     Touch touch;
 };
 
-/// visit_triangles_within() in the tree order, through Structure::pieces or, for every other
+/// visit_pairs_within() in the tree order, through Structure::pieces or, for every other
 /// structure, the hierarchies of boxes.
 bool visit_near_triangles(Structure structure, const Model& a, const Model& b,
                           const Placement& placement, double tolerance, Workspace& workspace,

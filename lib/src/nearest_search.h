@@ -14,6 +14,7 @@
 #include "exact_within.h"
 #include "find_contact.h"
 #include "front.h"
+#include "length_of.h"
 #include "proven_gap.h"
 #include "triangle_distance.h"
 
@@ -115,7 +116,7 @@ private:
 template <class Trees>
 void NearestSearch<Trees>::point(const Double3& on_a, const Double3& on_b) noexcept {
     const std::array<double, 3> w = {on_b.x - on_a.x, on_b.y - on_a.y, on_b.z - on_a.z};
-    const double length = std::hypot(w[0], w[1], w[2]);
+    const double length = length_of(w[0], w[1], w[2]);
     // A little short of 1, so that no rounding makes it longer.
     const double scale = (1 - 0x1p-20) / length;
     if (!std::isfinite(scale)) return;
@@ -498,7 +499,7 @@ FrontDistance distance_by_front(const Model& a, const Model& b, const Placement&
 /// nearest.
 template <class Trees>
 std::optional<Distance> inside(const Pair& pair, Workspace& workspace) noexcept {
-    const Pair surfaces(*pair.a, *pair.b, pair.placement, {}, pair.cache, pair.front);
+    const Pair surfaces = {pair.a, pair.b, pair.placement, {}, pair.cache, pair.front};
     std::optional<Distance> walls = distance_by<Trees>(surfaces, workspace, {});
     if (walls) walls->lower = walls->upper = 0;
     return walls;
@@ -507,7 +508,7 @@ std::optional<Distance> inside(const Pair& pair, Workspace& workspace) noexcept 
 template <class Trees>
 std::optional<Distance> distance_by(const Pair& pair, Workspace& workspace,
                                     const DistanceOptions& options) noexcept {
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     const Placement& placement = pair.placement;
     PairCache* const cache = pair.cache;
     PairFront* const front = cache == nullptr ? nullptr : pair.front;

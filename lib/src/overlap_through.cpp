@@ -41,7 +41,7 @@ bool visit_contacts_through(const QuestionThrough& question, ContactVisitor visi
 std::size_t overlaps_through(const Pair& pair, const StructureOptions& through,
                              Workspace& workspace, std::span<TrianglePair> room) noexcept {
     const format::FloatEnvironment environment;
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     require(a, b, Ask::overlap | ask_of(through.structure));
     if (through.structure == Structure::bvh) {
         PairOptions options = pair.options;
@@ -59,7 +59,7 @@ std::size_t overlaps_through(const Pair& pair, const StructureOptions& through,
 bool any_overlap_through(const Pair& pair, const StructureOptions& through,
                          Workspace& workspace) noexcept {
     const format::FloatEnvironment environment;
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     // No triangle is named, so their numbers are not needed.
     require(a, b, Ask::collide | ask_of(through.structure));
     if (through.structure == Structure::bvh) {

@@ -17,7 +17,7 @@ std::size_t overlaps(const Pair& pair, Workspace& workspace,
     if (through != Structure::bvh) {
         return overlaps_through(pair, {.structure = through}, workspace, room);
     }
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     require(a, b, Ask::overlap);
     return keep_smallest_pairs(a, b, workspace, room, [&](auto&& found) {
         for_each_contact(a, b, pair.placement, workspace, pair.options, pair.cache, found);
@@ -26,7 +26,7 @@ std::size_t overlaps(const Pair& pair, Workspace& workspace,
 
 bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisitor visit) noexcept {
     format::FloatEnvironment environment;
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     require(a, b, Ask::overlap);
     return for_each_contact(
         a, b, pair.placement, workspace, pair.options, pair.cache,
@@ -39,7 +39,7 @@ bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisitor visit) n
 std::size_t mark_overlaps(const Pair& pair, Workspace& workspace, std::span<std::uint64_t> bits_a,
                           std::span<std::uint64_t> bits_b) noexcept {
     const format::FloatEnvironment environment;
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     require(a, b, Ask::overlap);
     std::fill(bits_a.begin(), bits_a.end(), 0);
     std::fill(bits_b.begin(), bits_b.end(), 0);

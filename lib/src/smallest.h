@@ -3,12 +3,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <span>
 
 namespace cdprep {
 
-/// Keeps the smallest of those added, as many as fit; T is ordered by <.
-template <class T>
+/// Keeps the smallest of those added by `Less`, as many as fit.
+template <class T, class Less = std::less<>>
 class Smallest {
 public:
     explicit Smallest(std::span<T> kept) noexcept : kept_(kept) {}
@@ -18,8 +19,8 @@ public:
             kept_[count_] = value;
         } else if (!kept_.empty()) {
             // From here on a heap: its front is the greatest kept.
-            if (count_ == kept_.size()) std::make_heap(kept_.begin(), kept_.end());
-            if (value < kept_.front()) replace_greatest(value);
+            if (count_ == kept_.size()) std::make_heap(kept_.begin(), kept_.end(), Less());
+            if (Less()(value, kept_.front())) replace_greatest(value);
         }
         ++count_;
     }
@@ -35,9 +36,9 @@ public:
 
 private:
     void replace_greatest(const T& value) noexcept {
-        std::pop_heap(kept_.begin(), kept_.end());
+        std::pop_heap(kept_.begin(), kept_.end(), Less());
         kept_.back() = value;
-        std::push_heap(kept_.begin(), kept_.end());
+        std::push_heap(kept_.begin(), kept_.end(), Less());
     }
 
     std::span<T> kept_;

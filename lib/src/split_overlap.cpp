@@ -181,7 +181,7 @@ void sort_shared(std::span<TrianglePair> pairs, std::span<Workspace> workspaces,
 std::size_t split_overlaps(const Pair& pair, std::span<Workspace> workspaces,
                            ParallelFor parallel_for, std::span<TrianglePair> pairs) noexcept {
     format::FloatEnvironment environment;
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     require(a, b, Ask::overlap);
     assert(!workspaces.empty());
     const GuardedFor guarded(environment, parallel_for);

@@ -160,7 +160,7 @@ bool visit_near_triangles(Structure structure, const Model& a, const Model& b,
 std::size_t pairs_within(const Pair& pair, double tolerance, Workspace& workspace,
                          std::span<TrianglePair> room) noexcept {
     const format::FloatEnvironment environment;
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     require(a, b, Ask::within | ask_of(pair.options.through));
     return keep_smallest_pairs(a, b, workspace, room, [&](auto&& found) {
         for_each_within(
@@ -172,14 +172,14 @@ std::size_t pairs_within(const Pair& pair, double tolerance, Workspace& workspac
 bool visit_pairs_within(const Pair& pair, double tolerance, Workspace& workspace,
                         PairVisitor visit) noexcept {
     format::FloatEnvironment environment;
-    const Model &a = *pair.a, &b = *pair.b;
+    const Model &a = pair.a, &b = pair.b;
     require(a, b, Ask::within | ask_of(pair.options.through));
-    return for_each_within(
-        pair.options.through, a, b, pair.placement, tolerance, workspace, pair.options,
-        [&](std::uint32_t at_a, std::uint32_t at_b, Touch) {
-            const TrianglePair found = {source_number(a, at_a), source_number(b, at_b)};
-            return environment.outside([&] { return visit(found); });
-        });
+    const auto hand_on = [&](const NearTriangles& near) {
+        const TrianglePair found = {source_number(a, near.a), source_number(b, near.b)};
+        return environment.outside([&] { return visit(found); });
+    };
+    return visit_near_triangles(pair.options.through, a, b, pair.placement, tolerance, workspace,
+                                hand_on, pair.options);
 }
 
 }  // namespace cdprep

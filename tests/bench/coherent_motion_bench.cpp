@@ -85,7 +85,7 @@ Walk walk_from(const Pose& start, std::mt19937& random) {
 
 bool ask(const StructureOptions& through, const Model& a, const Model& b, std::size_t question,
          const Placement& placement, Workspace& workspace, PieceCache* cache) {
-    Pair pair(a, b, placement, {.through = through.structure});
+    Pair pair = {a, b, placement, {.through = through.structure}};
     if (cache != nullptr) pair.cache = &cache->pair, pair.front = &cache->front;
     switch (question) {
         case collides:

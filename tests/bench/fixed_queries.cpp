@@ -58,19 +58,20 @@ std::optional<double> ask_ring(const std::string& question, const Model& ring, W
 /// Returns something of the answer.
 double ask(const std::string& question, const Model& ball, const Model& ring, Workspace& workspace,
            std::vector<TrianglePair>& pairs) {
-    const Placement crossing = turned(0.4);
-    const Placement apart = turned(2.5);
+    const Pair crossing = {ball, ring, turned(0.4)};
+    const Pair apart = {ball, ring, turned(2.5)};
+    const auto hits = [&](const Pair& pair) {
+        return collide(pair, workspace).hit == Answer::yes ? 1.0 : 0.0;
+    };
     if (question == "overlap") {
-        return static_cast<double>(overlaps({ball, ring, crossing}, workspace, pairs));
+        return static_cast<double>(overlaps(crossing, workspace, pairs));
     }
-    if (question == "collide_hit")
-        return collide({ball, ring, crossing}, workspace).hit == Answer::yes ? 1 : 0;
-    if (question == "collide_miss")
-        return collide({ball, ring, apart}, workspace).hit == Answer::yes ? 1 : 0;
-    if (question == "distance") return distance({ball, ring, apart}, workspace)->upper;
-    if (question == "within") return within({ball, ring, apart}, 0.01, workspace) ? 1 : 0;
+    if (question == "collide_hit") return hits(crossing);
+    if (question == "collide_miss") return hits(apart);
+    if (question == "distance") return distance(apart, workspace)->upper;
+    if (question == "within") return within(apart, 0.01, workspace) ? 1 : 0;
     if (question == "pairs_within") {
-        return static_cast<double>(pairs_within({ball, ring, crossing}, 0.02, workspace, pairs));
+        return static_cast<double>(pairs_within(crossing, 0.02, workspace, pairs));
     }
     static std::array<std::uint32_t, 4096> triangles;
     if (const auto answer = ask_ring(question, ring, workspace, triangles)) return *answer;

@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -56,23 +57,13 @@ struct PairOptions {
 ///     cdprep::Pair pair{*arm, *part, cdprep::Placement::b_moves(*pose)};
 ///     bool hit = collide(pair, workspace).hit == cdprep::Answer::yes;
 struct Pair {
-    Pair(const Model& model_a, const Model& model_b, const Placement& placed,
-         const PairOptions& chosen = {}, PairCache* known = nullptr,
-         PairFront* planes = nullptr) noexcept
-        : a(&model_a),
-          b(&model_b),
-          placement(placed),
-          options(chosen),
-          cache(known),
-          front(planes) {}
-
-    const Model* a;
-    const Model* b;
+    std::reference_wrapper<const Model> a;
+    std::reference_wrapper<const Model> b;
     Placement placement;
-    PairOptions options;
-    PairCache* cache;  ///< results of earlier questions about this pair, or null
-    PairFront*
-        front;  ///< the same, for distances through Structure::pieces (pair_front.h); or null
+    PairOptions options = {};
+    PairCache* cache = nullptr;  ///< results of earlier questions about this pair, or null
+    /// The same, for distances through Structure::pieces (pair_front.h); or null.
+    PairFront* front = nullptr;
 };
 
 /// The containment of a part of one model in the other.
@@ -147,6 +138,7 @@ using PairVisitor = Visitor<TrianglePair>;
 /// Calls `visit` with every pair that overlaps() finds, each once, as it is found. Stores and
 /// sorts nothing. The order is the same for equal input on equal processors, otherwise
 /// unspecified. Returns false if `visit` ended the search. Reads options.overlap and degenerate.
+/// Needs Ask::overlap of both models.
 ///
 ///     std::size_t count = 0;
 ///     const auto visit = [&](const cdprep::TrianglePair&) { return ++count < 1000; };
@@ -157,7 +149,7 @@ bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisitor visit) n
 /// element i / 64 for source triangle i. Clears `bits_a` and `bits_b` first. Each must have an
 /// element for every 64 triangles of its model; otherwise nothing is marked in it. Returns the
 /// number of pairs. Faster than overlaps() where many pairs share few triangles. Reads
-/// options.overlap and degenerate.
+/// options.overlap and degenerate. Needs Ask::overlap of both models.
 std::size_t mark_overlaps(const Pair& pair, Workspace& workspace, std::span<std::uint64_t> bits_a,
                           std::span<std::uint64_t> bits_b) noexcept;
 
@@ -171,8 +163,8 @@ struct Crossing {
     Double3 to;    ///< the other end; equal to `from` where the triangles touch in a point
 };
 
-/// Calls `visit` with every pair that overlaps() finds, each once and in no particular order, and
-/// the segment in which the two triangles meet. Returns false if `visit` ended the search.
+/// Finds every pair that overlaps() finds, and the segment in which its two triangles meet.
+/// Returns the number of pairs and stores the first of them in `room`, as overlaps() does.
 ///
 /// Coordinates are those of the placement: A's frame where B moves. The edges that end a segment
 /// are chosen exactly, for the vertices as transform_point() moves them. Each coordinate is then
@@ -183,6 +175,12 @@ struct Crossing {
 ///
 /// Reads options.overlap and degenerate. Needs Ask::overlap of both models. Costs some
 /// microseconds more per pair than overlaps(). Never allocates; takes some 20 KiB of stack.
+[[nodiscard]] std::size_t crossings(const Pair& pair, Workspace& workspace,
+                                    std::span<Crossing> room) noexcept;
+
+/// Calls `visit` with everything that crossings() finds, each once, as it is found, in the order
+/// of visit_overlaps(). Returns false if `visit` ended the search. Reads options.overlap and
+/// degenerate. Needs Ask::overlap of both models.
 bool visit_crossings(const Pair& pair, Workspace& workspace, Visitor<Crossing> visit) noexcept;
 
 /// Limits of a distance. Either permitted error ends the search; 0 asks for all that double can
@@ -252,9 +250,10 @@ struct Distance {
                                        std::span<TrianglePair> room) noexcept;
 
 /// Calls `visit` with every pair that pairs_within() finds, each once, as it is found, in the
-/// order of visit_overlaps(). Returns false if `visit` ended the search.
+/// order of visit_overlaps(). Returns false if `visit` ended the search. Reads what pairs_within()
+/// reads. Needs Ask::within of both models, and options.through its ask_of().
 ///
-///     std::vector<bool> is_near(pair.a->triangle_count());
+///     std::vector<bool> is_near(pair.a.get().triangle_count());
 ///     const auto visit = [&](const cdprep::TrianglePair& found) {
 ///         is_near[found.a] = true;
 ///         return true;

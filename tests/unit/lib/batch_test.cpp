@@ -52,10 +52,10 @@ TEST_P(Batch, CollideAndWithinAnswerAsAlone) {
         for (std::size_t i = 0; i < made.jobs.size(); ++i) {
             const Pair& job = made.jobs[i];
             const Collision alone =
-                collide({*job.a, *job.b, job.placement, {.body = Body::solid}}, workspace);
+                collide({job.a, job.b, job.placement, {.body = Body::solid}}, workspace);
             ASSERT_EQ(collisions[i].hit, alone.hit) << i;
             ASSERT_EQ(collisions[i].containment.answer, alone.containment.answer) << i;
-            ASSERT_EQ(near[i], within({*job.a, *job.b, job.placement}, 0.5, workspace)) << i;
+            ASSERT_EQ(near[i], within({job.a, job.b, job.placement}, 0.5, workspace)) << i;
             hits += alone.hit == Answer::yes ? 1 : 0;
         }
     }
@@ -72,8 +72,7 @@ TEST_P(Batch, DistanceAnswersAsAlone) {
     std::size_t none = 0;
     for (std::size_t i = 0; i < made.jobs.size(); ++i) {
         const Pair& job = made.jobs[i];
-        const auto alone =
-            distance({*job.a, *job.b, job.placement}, workspace, {.max_distance = 1});
+        const auto alone = distance({job.a, job.b, job.placement}, workspace, {.max_distance = 1});
         ASSERT_EQ(answers[i].has_value(), alone.has_value()) << i;
         none += alone ? 0 : 1;
         if (!alone) continue;
@@ -106,7 +105,7 @@ TEST_P(Batch, OverlapsAnswerAsAlone) {
     std::size_t too_short = 0;
     for (std::size_t i = 0; i < made.jobs.size(); ++i) {
         const Pair& job = made.jobs[i];
-        const auto alone = all_pairs(*job.a, *job.b, job.placement, workspace);
+        const auto alone = all_pairs(job.a, job.b, job.placement, workspace);
         ASSERT_EQ(answers[i].count, alone.size()) << i;
         ASSERT_EQ(counts[i], alone.size()) << i;
         ASSERT_EQ(marked[i].count, alone.size()) << i;
@@ -114,7 +113,7 @@ TEST_P(Batch, OverlapsAnswerAsAlone) {
         ASSERT_TRUE(std::equal(alone.begin(), alone.begin() + static_cast<std::ptrdiff_t>(kept),
                                answers[i].room.begin()));
         std::vector<std::uint64_t> bits_a(10), bits_b(10);
-        mark_overlaps({*job.a, *job.b, job.placement}, workspace, bits_a, bits_b);
+        mark_overlaps({job.a, job.b, job.placement}, workspace, bits_a, bits_b);
         ASSERT_TRUE(std::equal(bits_a.begin(), bits_a.end(), marked[i].bits_a.begin())) << i;
         ASSERT_TRUE(std::equal(bits_b.begin(), bits_b.end(), marked[i].bits_b.begin())) << i;
         too_short += alone.size() > kRoom ? 1 : 0;

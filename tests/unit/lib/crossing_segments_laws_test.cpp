@@ -111,16 +111,26 @@ void expect_segment(const Corners& a, const Corners& b, const Crossing& crossing
     expect_point(turned ? crossing.from : crossing.to, *last, where);
 }
 
-std::vector<Crossing> crossings(const Model& a, const Model& b, const Placement& placement) {
+/// What is visited, sorted; lists, long and short, hold the same.
+std::vector<Crossing> all_crossings(const Pair& pair) {
     Workspace workspace;
     std::vector<Crossing> found;
     const auto visit = [&](const Crossing& crossing) {
         found.push_back(crossing);
         return true;
     };
-    EXPECT_TRUE(visit_crossings({a, b, placement}, workspace, visit));
+    EXPECT_TRUE(visit_crossings(pair, workspace, visit));
     std::sort(found.begin(), found.end(),
               [](const Crossing& x, const Crossing& y) { return x.pair < y.pair; });
+    for (const std::size_t room : {std::size_t{0}, found.size() / 3, found.size() + 1}) {
+        std::vector<Crossing> listed(room);
+        EXPECT_EQ(crossings(pair, workspace, listed), found.size());
+        for (std::size_t i = 0; i < std::min(room, found.size()); ++i) {
+            EXPECT_EQ(listed[i].pair, found[i].pair);
+            EXPECT_EQ(listed[i].from, found[i].from);
+            EXPECT_EQ(listed[i].to, found[i].to);
+        }
+    }
     return found;
 }
 
@@ -128,7 +138,7 @@ void expect_all(const TestMesh& a, const TestMesh& b, const Placement& placement
                 const std::string& where, Seen& seen) {
     const OpenModel model_a = open_tiny(a, {.double_precision = true});
     const OpenModel model_b = open_tiny(b, {.double_precision = true});
-    const auto found = crossings(model_a.model, model_b.model, placement);
+    const auto found = all_crossings({model_a.model, model_b.model, placement});
     const auto pairs = boxed_pairs(a, b, placement, triangles_touch_by_segments);
     ASSERT_EQ(found.size(), pairs.size()) << where;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -177,7 +187,7 @@ TEST(CrossingSegments, OfAStandingTriangle) {
     const OpenModel lying = open_tiny(TestMesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{{0, 1, 2}}}});
     const OpenModel standing =
         open_tiny(TestMesh{{{1, 1, -1}, {1, 1, 1}, {-3, -3, 0}}, {{{0, 1, 2}}}});
-    const auto found = crossings(lying.model, standing.model, Placement::b_moves(Pose()));
+    const auto found = all_crossings({lying.model, standing.model, Placement::b_moves(Pose())});
     ASSERT_EQ(found.size(), 1u);
     EXPECT_FALSE(found[0].is_flat);
     const Double3 corner = {0, 0, 0}, inside = {1, 1, 0};

@@ -172,8 +172,9 @@ typedef struct cdprep_crossing_list {
 
 typedef int (*cdprep_crossing_visitor)(void* context, const cdprep_crossing* crossing);
 
-/* All pairs of cdprep_overlaps() with their segments, in no particular order, in the frame that
- * the models are moved to. The ends are chosen exactly and then rounded once (at most half a
+/* All pairs of cdprep_overlaps() with their segments, in the frame that the models are moved to.
+ * The list is in the order of (a, b), and too little room keeps the smallest; visits are in no
+ * particular order. The ends are chosen exactly and then rounded once (at most half a
  * unit in the last place, plus 2^-45): neighbours share them bit for bit. Uses overlap,
  * degenerate. Costs some microseconds a pair more than cdprep_overlaps().
  * Needs: CDPREP_ASK_OVERLAP */
