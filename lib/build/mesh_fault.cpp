@@ -28,7 +28,7 @@ template <class Position>
 bool is_good(const Position& position) {
     const Double3 p = as_double(position);
     // Without branches: nearly all are good.
-    return (is_coordinate(p.x) & is_coordinate(p.y) & is_coordinate(p.z)) != 0;
+    return (int{is_coordinate(p.x)} & int{is_coordinate(p.y)} & int{is_coordinate(p.z)}) != 0;
 }
 
 const char* fault_of(double x) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cassert>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -153,6 +154,12 @@ struct Table {
     std::array<SectionEntry, format::kMaxSections> entries{};
 };
 
+bool shares_memory(std::span<const std::byte> a, std::span<const std::byte> b) {
+    const std::less<> before;
+    return !a.empty() && !b.empty() && before(a.data(), b.data() + b.size()) &&
+           before(b.data(), a.data() + a.size());
+}
+
 bool is_positions(SectionId id) {
     return id == SectionId::positions_f32 || id == SectionId::positions_f64;
 }
@@ -243,6 +250,11 @@ Result<double> RuntimeModel::refit_to(std::span<const Position> positions,
                    " positions, and " + std::to_string(positions.size()) + " were given.");
     }
     const std::span<const Position> used = positions.first(position_count_);
+    if (shares_memory(std::as_bytes(used), image_)) {
+        return bad(
+            "The positions given are in the memory of the run-time model itself, whose order "
+            "is another: give a copy of them.");
+    }
     if (const auto fault = find_bad_position(used)) return *fault;
     const std::span<const std::uint32_t> source = model_.source().vertex;
     if constexpr (std::is_same_v<Position, Float3>) {

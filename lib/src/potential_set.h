@@ -12,7 +12,7 @@ namespace cdprep {
 
 /// A model's own oriented box as one query of another model sees it: six planes that clip
 /// that model's triangles, in its stored coordinates. What lies beyond one of them touches
-/// no triangle in the box; the rest is the talk's potentially colliding set.
+/// no triangle in the box; the rest is the potentially colliding set.
 ///
 /// Without the section `bounds` the root box of the hierarchy stands for it.
 class PotentialSet {

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "cdprep/advanced/build_model.h"
-#include "cdprep/model.h"
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/model.h"
 #include "cdprep/result.h"
 
 namespace cdprep::build {
@@ -68,9 +68,9 @@ public:
     /// surface_cost() of the hierarchy: when it has grown by half, build the model anew.
     ///
     /// Fails with `bad_argument`, and then changes nothing, when there are fewer positions
-    /// than position_count(); when one is NaN, infinite or beyond format::kMaxCoordinate,
-    /// naming the first; and when they are doubles and the model keeps floats. Floats are
-    /// taken by both kinds of models.
+    /// than position_count(); when they are those of model(), which have another order; when
+    /// one is NaN, infinite or beyond format::kMaxCoordinate, naming the first; and when they
+    /// are doubles and the model keeps floats. Floats are taken by both kinds of models.
     ///
     /// A PairCache of this model stays valid: content_hash of the header follows the
     /// positions, and so an older cache only costs time. O(n). Allocates nothing unless it
