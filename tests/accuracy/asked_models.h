@@ -2,14 +2,12 @@
 #pragma once
 
 #include <array>
-#include <cstdlib>
-#include <memory>
 #include <vector>
 
+#include "support/c_models.h"
 #include "support/every_structure.h"
 #include "support/tiny_pieces.h"
 
-#include "cdprep/cdprep.h"
 #include "cdprep/pose.h"
 
 namespace cdprep::test {
@@ -65,43 +63,6 @@ private:
 
     OpenModel open_;
     const char* bounds_;
-};
-
-/// The same file, open through the C API; and a C workspace.
-struct CloseC {
-    void operator()(cdprep_model* model) const {
-        cdprep_model_close(model);
-    }
-};
-using CModel = std::unique_ptr<cdprep_model, CloseC>;
-
-inline CModel open_in_c(std::span<const std::byte> bytes) {
-    cdprep_model* model = nullptr;
-    if (cdprep_model_open_memory(bytes.data(), bytes.size(), nullptr, &model, nullptr) !=
-        CDPREP_OK) {
-        std::abort();
-    }
-    return CModel(model);
-}
-
-class CWorkspace {
-public:
-    CWorkspace() {
-        if (cdprep_workspace_make(nullptr, nullptr, 0, &workspace_, nullptr) != CDPREP_OK) {
-            std::abort();
-        }
-    }
-    CWorkspace(const CWorkspace&) = delete;
-    CWorkspace& operator=(const CWorkspace&) = delete;
-    ~CWorkspace() {
-        cdprep_workspace_end(workspace_);
-    }
-    [[nodiscard]] cdprep_workspace* get() const {
-        return workspace_;
-    }
-
-private:
-    cdprep_workspace* workspace_ = nullptr;
 };
 
 inline cdprep_pose in_c(const Pose& pose) {

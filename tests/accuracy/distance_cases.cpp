@@ -147,7 +147,7 @@ private:
     }
 
     void ask_c_face(const AskedModel& asked_a, const AskedModel& asked_b) {
-        const CModel a = open_in_c(asked_a.bytes()), b = open_in_c(asked_b.bytes());
+        const CModel a(asked_a.bytes()), b(asked_b.bytes());
         const cdprep_pair pair = in_c(a, b, variant_->placement);
         cdprep_nearest between{};
         const int code = cdprep_distance(&pair, nullptr, c_workspace_.get(), &between, nullptr);

@@ -205,7 +205,7 @@ private:
         Tally& tally = of("within");
         const auto is_within = [&](double length) {
             const double tolerance = std::ldexp(length, variant_->exponent);
-            return in_mode([&] { return convex_is_within(a, b, variant_->placement, tolerance); });
+            return in_mode([&] { return convex_within(a, b, variant_->placement, tolerance); });
         };
         tally.expect(is_within(0) == meet(), told());
         if (meet()) return;
@@ -261,7 +261,7 @@ private:
     void ask_c_face(const SmallHull& a, const SmallHull& b) {
         if (a.triangles().empty() || b.triangles().empty()) return;
         const AlignedBytes file_a = with_hulls(baked(a)), file_b = with_hulls(baked(b));
-        const CModel model_a = open_in_c(file_a.span()), model_b = open_in_c(file_b.span());
+        const CModel model_a(file_a), model_b(file_b);
         cdprep_hull_pair pair;
         cdprep_hull_pair_init(&pair, sizeof pair);
         (void)cdprep_hull_find(model_a.get(), CDPREP_HULL_WHOLE, 0, &pair.a, nullptr);

@@ -71,7 +71,7 @@ public:
 private:
     void ask_c_face(const AskedModel& asked, const std::vector<HardPoint>& points,
                     const std::string& change) {
-        const CModel model = open_in_c(asked.bytes());
+        const CModel model(asked.bytes());
         for (const HardPoint& point : points) {
             const std::array<double, 3> at = {point.at.x, point.at.y, point.at.z};
             cdprep_point_query query;

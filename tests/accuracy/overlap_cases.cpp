@@ -92,15 +92,16 @@ private:
         expect_pairs(name, overlapping(truth.proper, {.overlap = Overlap::proper}), truth.proper);
         PairCache cache;
         for (int i = 0; i < 2; ++i) {
-            expect(name, in_mode([&] {
-                             return collide({a, b, placement, {}, &cache}, workspace_);
-                         }).hit == !truth.closed.empty());
+            const Collision found = in_mode([&] {
+                return collide({a, b, placement, {}, &cache}, workspace_);
+            });
+            expect(name, (found.hit == Answer::yes) == !truth.closed.empty());
         }
         if (truth.is_nested) {
             const Collision solid = in_mode([&] {
                 return collide({a, b, placement, {.body = Body::solid}}, workspace_);
             });
-            expect(name, solid.hit && solid.containment.answer == Answer::yes);
+            expect(name, solid.hit == Answer::yes && solid.containment.answer == Answer::yes);
         }
     }
 
@@ -108,12 +109,12 @@ private:
     void ask_tolerances(const Truth& truth) {
         const std::string name = "within 0/" + std::string(a_->bounds());
         const Model &a = a_->model(), &b = b_->model();
-        const Pairs within = listed(truth.closed, [&](std::span<TrianglePair> pairs) {
+        const Pairs near = listed(truth.closed, [&](std::span<TrianglePair> pairs) {
             return in_mode([&] {
                 return pairs_within({a, b, variant_->placement}, 0, workspace_, pairs);
             });
         });
-        expect_pairs(name, within, truth.closed);
+        expect_pairs(name, near, truth.closed);
         expect(name, in_mode([&] {
                          return within({a, b, variant_->placement}, 0, workspace_);
                      }) != truth.closed.empty());
@@ -199,7 +200,7 @@ private:
     }
 
     void ask_c_face(const Truth& truth) {
-        const CModel a = open_in_c(a_->bytes()), b = open_in_c(b_->bytes());
+        const CModel a(a_->bytes()), b(b_->bytes());
         const cdprep_pair pair = in_c(a, b, variant_->placement);
         std::vector<cdprep_overlap> found(truth.closed.size());
         cdprep_overlap_list list = {found.data(), found.size(), 0};

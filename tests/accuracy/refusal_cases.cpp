@@ -74,7 +74,7 @@ void ask_poses(Scoreboard& board) {
         const auto told = [&] { return "B14 " + name; };
         board.of("B14", "refused/pose").expect(!Pose::from_rows(rows).ok(), told);
         const AskedModel cube(unit_cube(), 1);
-        const CModel model = open_in_c(cube.bytes());
+        const CModel model(cube.bytes());
         const CWorkspace workspace;
         cdprep_pair pair = in_c(model, model, Placement::b_moves(Pose()));
         std::copy(rows.begin(), rows.end(), std::begin(pair.pose_b.rows));

@@ -16,18 +16,18 @@ namespace cdprep::test {
 /// outlive it.
 class CModel {
 public:
-    explicit CModel(const AlignedBytes& file, std::uint32_t ask = 0) {
+    explicit CModel(std::span<const std::byte> bytes, std::uint32_t ask = 0) {
         cdprep_open_options options;
         cdprep_open_options_init(&options, sizeof options);
         options.ask = ask;
         cdprep_error error;
-        const std::span<const std::byte> bytes = file.span();
         if (cdprep_model_open_memory(bytes.data(), bytes.size(), &options, &model_, &error) !=
             CDPREP_OK) {
             std::fprintf(stderr, "%s\n", error.message);
             std::abort();
         }
     }
+    explicit CModel(const AlignedBytes& file, std::uint32_t ask = 0) : CModel(file.span(), ask) {}
     CModel(const CModel&) = delete;
     CModel& operator=(const CModel&) = delete;
     ~CModel() {
