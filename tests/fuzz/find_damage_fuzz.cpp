@@ -138,7 +138,7 @@ void ask_hulls(const Model& model) {
             (void)convex_collide(a, b, placement, &cache);
             (void)convex_distance(a, b, placement, {}, &cache);
             (void)convex_distance(a, b, placement);
-            (void)convex_is_within(a, b, placement, 0.125, &cache);
+            (void)convex_within(a, b, placement, 0.125, &cache);
             (void)convex_penetration(a, b, placement, {}, &cache);
         }
     }
