@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "cdprep/advanced/refit_bvh.h"
-#include "cdprep/pairs.h"
-#include "cdprep/parallel.h"
-#include "cdprep/points.h"
+#include "cdprep/cdprep.hpp"
 #include "support/open_tiny.h"
 #include "support/scratch_folder.h"
 
@@ -45,20 +43,19 @@ struct ReadmeAnswer {
 };
 
 std::optional<ReadmeAnswer> readme() {
-    auto arm = cdprep::Model::open("arm.cdp.h5", cdprep::Ask::overlap);
-    auto part = cdprep::Model::open("part.cdp.h5", cdprep::Ask::overlap);
+    auto asks = cdprep::Ask::collide | cdprep::Ask::overlap;
+    auto arm = cdprep::Model::open("arm.cdp.h5", asks),
+         part = cdprep::Model::open("part.cdp.h5", asks);
     auto arm_from_part = cdprep::Pose::from_quaternion(1, 0, 0, 0, {0.1, 0, 0});
     if (!arm || !part || !arm_from_part) return std::nullopt;
 
     cdprep::Workspace workspace;
-    auto placement = cdprep::Placement::b_moves(arm_from_part.value());
-    bool hit =
-        cdprep::collide({arm.value(), part.value(), placement}, workspace).hit == Answer::yes;
+    cdprep::Pair pair{*arm, *part, cdprep::Placement::b_moves(*arm_from_part)};
+    bool hit = collide(pair, workspace).hit == cdprep::Answer::yes;
 
-    std::vector<cdprep::TrianglePair> pairs(1000);
-    std::size_t count = cdprep::overlaps({arm.value(), part.value(), placement}, workspace, pairs);
-    pairs.resize(count);
-    return ReadmeAnswer{hit, pairs};
+    cdprep::TrianglePair room[1000];
+    std::size_t count = overlaps(pair, workspace, room);
+    return ReadmeAnswer{hit, {room, room + count}};
 }
 
 // Two unit cubes, one shifted by 0.1 along x: their sides share area.
