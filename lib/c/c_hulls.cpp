@@ -373,7 +373,7 @@ int cdprep_hulls_within(const cdprep_hull_pair* pair, double tolerance, uint32_t
         },
         [&](const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
             ConvexCache* cache) {
-            *within = cdprep::c::word(convex_is_within(a, b, placement, tolerance, cache));
+            *within = cdprep::c::word(convex_within(a, b, placement, tolerance, cache));
         });
 }
 

@@ -71,8 +71,8 @@ std::optional<ConvexDistance> convex_distance(const ConvexPoints& a, const Conve
                           weighted_sum(found->simplex, &Difference::at_b)};
 }
 
-bool convex_is_within(const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
-                      double tolerance, ConvexCache* cache, QueryCounts* counts) noexcept {
+bool convex_within(const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
+                   double tolerance, ConvexCache* cache, QueryCounts* counts) noexcept {
     const format::FloatEnvironment environment;
     if (tolerance == 0) return convex_collide(a, b, placement, cache, counts);
     if (!(tolerance > 0) || a.count == 0 || b.count == 0) return false;

@@ -80,7 +80,7 @@ struct OpenModel {
     Model model;
 };
 
-/// Only what overlapping_triangles() and collide() read.
+/// Only what overlaps() and collide() read.
 OpenModel open_model(const SourceMesh& mesh, const build::Bvh& bvh) {
     std::vector<Float3> points;
     for (const Double3& p : mesh.positions) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What one large overlap query gains from more threads: 0-based line 76 of
 // dragon-armadillo.pose, and the dragon against itself shifted by 1 % of the diagonal.
-// Each is asked on one thread by overlapping_triangles(), then by
-// split_overlapping_triangles() with 1, 2, 4, ... workers, in turns. The threads are
+// Each is asked on one thread by overlaps(), then by
+// split_overlaps() with 1, 2, 4, ... workers, in turns. The threads are
 // started beforehand and wait for work asleep.
 //
 // Usage: split_overlap_bench BAKES POSES [ROUNDS [MOST_WORKERS]]

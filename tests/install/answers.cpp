@@ -87,7 +87,7 @@ void print_pairs(const Model& a, const Model& b, const Placement& placement, Wor
         print(found->witness_b);
     }
     const Collision solid = collide({a, b, placement, {.body = Body::solid}}, workspace);
-    std::printf(" %d %zu", solid.hit ? 1 : 0,
+    std::printf(" %d %zu", static_cast<int>(solid.hit),
                 pairs_within({a, b, placement}, 0x1p-6, workspace, {}));
     end_line("pair");
     const ConvexPoints hull_a = convex_points(a, 0), hull_b = convex_points(b, 0);

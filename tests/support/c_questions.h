@@ -165,13 +165,18 @@ inline cdprep_shape_query shape_of(const CScene& scene) {
     return query;
 }
 
-template <std::uint32_t kScope>
-CAnswer hulls(const CScene& scene) {
+inline cdprep_hull_pair hulls_of(const CScene& scene, std::uint32_t scope) {
     cdprep_hull_pair pair;
     cdprep_hull_pair_init(&pair, sizeof pair);
-    pair.a = {scene.a, kScope, 0};
-    pair.b = {scene.b, kScope, 0};
+    pair.a = {scene.a, scope, 0};
+    pair.b = {scene.b, scope, 0};
     pair.pose_b.rows[9] = scene.x;
+    return pair;
+}
+
+template <std::uint32_t kScope>
+CAnswer hulls(const CScene& scene) {
+    const cdprep_hull_pair pair = hulls_of(scene, kScope);
     cdprep_nearest found{};
     found.found = 77;
     cdprep_error error;
@@ -322,8 +327,43 @@ inline const std::vector<CQuestion>& c_questions() {
                      return cdprep_contacts(&pair, &options, scene.workspace, list, error);
                  });
          }},
-        {"hulls", CDPREP_ASK_HULLS, hulls<CDPREP_HULL_WHOLE>},
-        {"hulls of pieces", CDPREP_ASK_PIECES | CDPREP_ASK_CORNERS, hulls<CDPREP_HULL_PIECE>},
+        {"hulls distance", CDPREP_ASK_HULLS, hulls<CDPREP_HULL_WHOLE>},
+        {"hulls distance of pieces", CDPREP_ASK_PIECES | CDPREP_ASK_CORNERS,
+         hulls<CDPREP_HULL_PIECE>},
+        {"hull find", CDPREP_ASK_HULLS,
+         [](const CScene& scene) {
+             cdprep_hull found = {scene.a, 77, 77};
+             cdprep_error error;
+             const int code = cdprep_hull_find(scene.a, CDPREP_HULL_WHOLE, 0, &found, &error);
+             const bool is_unknown = found.model == nullptr;
+             found.model = nullptr;  // an address is no answer
+             return told(code, error, is_unknown, found);
+         }},
+        {"hulls collide", CDPREP_ASK_HULLS,
+         [](const CScene& scene) {
+             const cdprep_hull_pair pair = hulls_of(scene, CDPREP_HULL_WHOLE);
+             std::uint32_t hit = 77;
+             cdprep_error error;
+             const int code = cdprep_hulls_collide(&pair, &hit, &error);
+             return told(code, error, hit == CDPREP_UNKNOWN, hit);
+         }},
+        {"hulls within", CDPREP_ASK_HULLS,
+         [](const CScene& scene) {
+             const cdprep_hull_pair pair = hulls_of(scene, CDPREP_HULL_WHOLE);
+             std::uint32_t within = 77;
+             cdprep_error error;
+             const int code = cdprep_hulls_within(&pair, 0.5, &within, &error);
+             return told(code, error, within == CDPREP_UNKNOWN, within);
+         }},
+        {"hulls penetration", CDPREP_ASK_HULLS,
+         [](const CScene& scene) {
+             const cdprep_hull_pair pair = hulls_of(scene, CDPREP_HULL_WHOLE);
+             cdprep_penetration found{};
+             found.found = 77;
+             cdprep_error error;
+             const int code = cdprep_hulls_penetration(&pair, nullptr, &found, &error);
+             return told(code, error, found.found == CDPREP_NO, found);
+         }},
         {"hull mesh of a piece", CDPREP_ASK_PIECES | CDPREP_ASK_CORNERS,
          [](const CScene& scene) {
              static double positions[3 * kRoom];
@@ -339,13 +379,9 @@ inline const std::vector<CQuestion>& c_questions() {
              found.counts[1] = mesh.triangle_count;
              return told(code, error, mesh.triangle_count == 0, found);
          }},
-        {"hull features", CDPREP_ASK_CONTACTS,
+        {"hulls features", CDPREP_ASK_CONTACTS,
          [](const CScene& scene) {
-             cdprep_hull_pair pair;
-             cdprep_hull_pair_init(&pair, sizeof pair);
-             pair.a = {scene.a, CDPREP_HULL_PIECE, 0};
-             pair.b = {scene.b, CDPREP_HULL_PIECE, 0};
-             pair.pose_b.rows[9] = scene.x;
+             const cdprep_hull_pair pair = hulls_of(scene, CDPREP_HULL_PIECE);
              cdprep_closest_features found{};
              found.found = 77;
              cdprep_error error;
@@ -465,14 +501,14 @@ inline const std::vector<CQuestion>& c_questions() {
              if (code == CDPREP_OK) append(answer.bytes, triangles);
              return answer;
          }},
-        {"level error", CDPREP_ASK_TETRA_TREE,
+        {"model level error", CDPREP_ASK_TETRA_TREE,
          [](const CScene& scene) {
              double bound = 77;
              cdprep_error error;
              const int code = cdprep_model_level_error(scene.a, 1, &bound, &error);
              return told(code, error, bound == 0, bound);
          }},
-        {"mass", CDPREP_ASK_RESPONSE,
+        {"model mass", CDPREP_ASK_RESPONSE,
          [](const CScene& scene) {
              cdprep_mass mass{};
              cdprep_error error;

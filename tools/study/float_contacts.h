@@ -11,7 +11,7 @@
 namespace cdprep::study {
 
 /// A pair of triangles that boxes and planes in float do not part: what is left to the exact
-/// stage of overlapping_triangles().
+/// stage of overlaps().
 struct FloatContact {
     std::uint32_t a;  ///< source numbering
     std::uint32_t b;

@@ -92,7 +92,7 @@ Gap StrategyPair::gap(const Placement& placement) {
 }
 
 bool StrategyPair::is_within(const Placement& placement, double tolerance) {
-    if (strategy_.of_hulls) return convex_is_within(*hull_a_, *hull_b_, placement, tolerance);
+    if (strategy_.of_hulls) return convex_within(*hull_a_, *hull_b_, placement, tolerance);
     return within({a_, b_, placement, {.through = strategy_.through.structure}}, tolerance,
                   workspace_);
 }

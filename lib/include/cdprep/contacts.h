@@ -102,7 +102,8 @@ struct ContactOptions {
 using ContactVisitor = Visitor<Contact>;
 
 /// Calls `visit` with every contact that contacts() finds, each once and in the same order. Returns
-/// false if `visit` ended the search.
+/// false if `visit` ended the search. Needs Ask::contacts of both models, and options.through its
+/// ask_of().
 bool visit_contacts(const Pair& pair, Workspace& workspace, ContactVisitor visit,
                     const ContactOptions& options = {}) noexcept;
 

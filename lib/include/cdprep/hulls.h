@@ -15,7 +15,7 @@ namespace cdprep {
 /// Returns the number, in Model::hulls().hulls, of the hull around the whole of a model, around a
 /// component, an instance or a part; nothing when it has none. `number` is 0 for the
 /// whole. Parts are the last hulls, from number 0 on: no point of the model is outside all
-/// of them. Needs Ask::hulls. O(log n).
+/// of them. Needs Ask::hulls. Takes O(log n) time.
 [[nodiscard]] std::optional<std::uint32_t> find_hull(const Model& model, format::HullScope scope,
                                                      std::uint32_t number = 0) noexcept;
 
@@ -28,9 +28,9 @@ namespace cdprep {
 /// file: valid as long as the model. Its points are the vertices that pieces().vertices lists for
 /// the piece, in that order; its facets and their corners are numbered within the piece.
 ///
-/// `piece` is below model.pieces().pieces.size(), and the model was baked with the effect
-/// "contacts"; of another, which has no pieces().adjacency, the hull has no surface and serves as a
-/// set of points. O(1).
+/// `piece` is below model.pieces().pieces.size(). A model that does not serve Ask::contacts has no
+/// pieces().adjacency: the hull then has no surface and serves as a set of points. Needs
+/// Ask::pieces. Takes O(1) time.
 [[nodiscard]] FeatureHull feature_hull(const Model& model, std::uint32_t piece) noexcept;
 
 }  // namespace cdprep

@@ -29,7 +29,8 @@ namespace cdprep {
 ///
 /// One thread works for each workspace, of which there is at least one; `parallel_for` is called
 /// once. Processes min(pairs.size(), answers.size()) pairs. Never allocates. A few microseconds to
-/// start a batch pay from some ten pairs. The same holds for the batches below.
+/// start a batch pay from some ten pairs. The same holds for the batches below. Needs Ask::collide
+/// of both models of a pair; Body::solid also Ask::solid.
 ///
 ///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(pairs.size());
@@ -37,16 +38,17 @@ namespace cdprep {
 void collide_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                   ParallelFor parallel_for, std::span<Collision> answers) noexcept;
 
-/// distance() for many pairs.
+/// distance() for many pairs. Needs Ask::distance of both models of a pair.
 void distance_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                    ParallelFor parallel_for, std::span<std::optional<Distance>> answers,
                    const DistanceOptions& options = {}) noexcept;
 
-/// within() for many pairs.
+/// within() for many pairs. Needs Ask::within of both models of a pair.
 void within_many(std::span<const Pair> pairs, double tolerance, std::span<Workspace> workspaces,
                  ParallelFor parallel_for, std::span<bool> answers) noexcept;
 
-/// overlaps() with an empty room for many pairs: stores the numbers of pairs of triangles.
+/// overlaps() with an empty room for many pairs: stores the numbers of pairs of triangles. Needs
+/// Ask::overlap of both models of a pair.
 void count_overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                          ParallelFor parallel_for, std::span<std::size_t> counts) noexcept;
 
@@ -56,7 +58,7 @@ struct OverlapList {
     std::size_t count = 0;         ///< found, also where the room is too short
 };
 
-/// overlaps() for many pairs.
+/// overlaps() for many pairs. Needs Ask::overlap of both models of a pair.
 void overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                    ParallelFor parallel_for, std::span<OverlapList> answers) noexcept;
 
@@ -67,7 +69,7 @@ struct OverlapMarks {
     std::size_t count = 0;            ///< pairs found
 };
 
-/// mark_overlaps() for many pairs.
+/// mark_overlaps() for many pairs. Needs Ask::overlap of both models of a pair.
 void mark_overlaps_many(std::span<const Pair> pairs, std::span<Workspace> workspaces,
                         ParallelFor parallel_for, std::span<OverlapMarks> answers) noexcept;
 

@@ -34,12 +34,12 @@ struct ClosestPoint {
 /// model is far away. When several triangles are equally near as far as double
 /// can tell, the one with the smallest number answers.
 ///
-/// `query` must be finite. `max_distance` may be infinite and is inclusive:
-/// nothing that near is missed, and what is found has `lower` at most
-/// `max_distance`. The interval always holds the truth (closest_point_laws_test);
-/// it is a few ulp of the triangle's farthest corner wide, more for slivers.
-/// Needs Ask::closest. Never allocates. Visits every node
-/// in the worst case: a point at the centre of a sphere.
+/// `query` must be finite. `max_distance` may be infinite and is inclusive: no nearer point is
+/// missed, and the point found has a `lower` of at most `max_distance`. The interval always holds
+/// the exact distance (closest_point_laws_test). Its width is a few ulp of the triangle's farthest
+/// corner, more for slivers.
+/// Needs Ask::closest. Never allocates. Visits every node in the worst case, such as a point at
+/// the centre of a sphere.
 ///
 ///     if (auto near = cdprep::closest_point(model, {0, 0, 2}, workspace)) {
 ///         std::cout << "triangle " << near->triangle << " at " << near->upper << '\n';
@@ -94,23 +94,21 @@ struct RayOptions {
 
 /// Returns the first point where `ray` meets the surface, or nothing.
 ///
-/// Whether it hits a triangle is exact: the signs of the volumes that origin and
-/// direction, as given, span with the edges. Closed: a ray along an edge or through a
-/// vertex hits, so none slips between neighbours. Both sides count. A ray in a
-/// triangle's plane hits where it enters. `t` and `point` are rounded, and so is what
-/// they decide: which hit is first where two are as good as equal, and what max_t
-/// leaves. Among hits whose t are equal the lowest source triangle answers. A model
-/// without triangles is never hit, nor does a direction of zero hit anything.
+/// Each hit is decided exactly, by the signs of the volumes that origin and direction, as given,
+/// span with the edges. A ray along an edge or through a vertex hits, so that none slips between
+/// neighbours. Both sides of a triangle count. A ray in the plane of a triangle hits where it
+/// enters. `t` and `point` are rounded. They decide which hit is first and what max_t excludes;
+/// of hits with equal t the lowest source triangle answers. A model without triangles is never
+/// hit, and a direction of zero hits nothing.
 ///
-/// Needs Ask::ray, as do the questions below. Costs O(log n) for compact surfaces. Never
-/// allocates.
+/// Needs Ask::ray. Takes O(log n) time for compact surfaces. Never allocates.
 [[nodiscard]] std::optional<RayHit> cast_ray(const Model& model, const Ray& ray,
                                              Workspace& workspace,
                                              const RayOptions& options = {}) noexcept;
 
 /// Returns whether `ray` hits any triangle: cast_ray() would answer. Exact while max_t
-/// is infinite. Stops at the first found: less than cast_ray(), and enough for shadows
-/// and lines of sight.
+/// is infinite. Stops at the first found: it costs less than cast_ray(), and is enough for shadows
+/// and lines of sight. Needs Ask::ray.
 [[nodiscard]] bool ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                             const RayOptions& options = {}) noexcept;
 
@@ -118,15 +116,15 @@ struct RayOptions {
 ///
 /// Returns how many there are and stores the first of them, in the order of t and then
 /// of triangles, in `hits`; an empty span counts. Which triangles are hit is as exact
-/// as cast_ray(). A ray through an edge or vertex hits all triangles there.
+/// as cast_ray(). A ray through an edge or vertex hits all triangles there. Needs Ask::ray.
 [[nodiscard]] std::size_t all_ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                                        std::span<RayHit> hits,
                                        const RayOptions& options = {}) noexcept;
 
 using RayVisitor = Visitor<RayHit>;
 
-/// Calls `visit` with every hit that all_ray_hits() finds, as it is found; the order
-/// means nothing. Returns false when `visit` ended the search.
+/// Calls `visit` with every hit that all_ray_hits() finds, as it is found, in no particular order.
+/// Returns false if `visit` ended the search. Needs Ask::ray.
 bool visit_ray_hits(const Model& model, const Ray& ray, Workspace& workspace, RayVisitor visit,
                     const RayOptions& options = {}) noexcept;
 
@@ -213,7 +211,8 @@ struct ShapeDistance {
 
 /// Returns the distance of `shape` from the surface of `model`: 0, exactly, when they touch; for a
 /// sphere or capsule the distance of its centre or segment less its radius. Nothing when that
-/// exceeds options.max_distance, the shape is one that touches nothing, or the model has no triangles.
+/// exceeds options.max_distance, the shape is one that touches nothing, or the model has no
+/// triangles.
 ///
 /// The interval holds the distance to the vertices as transform_point() moves them. Its width is at
 /// most 1e-12 of the distance plus 1e-15 of the largest coordinate; for spheres and capsules that

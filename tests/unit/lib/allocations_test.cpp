@@ -387,7 +387,7 @@ TEST(Allocations, NoQuestionAboutHullsAllocates) {
         const Placement placement = Placement::b_moves(pose);
         static_cast<void>(convex_collide(a, b, placement, &cache, &counts));
         static_cast<void>(convex_distance(a, b, placement, {}, &cache, &counts));
-        static_cast<void>(convex_is_within(a, b, placement, 0.25, &cache, &counts));
+        static_cast<void>(convex_within(a, b, placement, 0.25, &cache, &counts));
         static_cast<void>(convex_penetration(a, b, placement, {}, &cache, &counts));
     }
     EXPECT_EQ(allocations, before);

@@ -124,11 +124,8 @@ static const char* ask_distance(const cdprep_model* cube, cdprep_workspace* scra
     cdprep_nearest nearest;
     cdprep_error error;
     const int code = cdprep_shape_distance(&far, scratch, &nearest, &error);
-    if (shape == CDPREP_BOX) {
-        MUST(code == CDPREP_BAD_ARGUMENT && error.why == CDPREP_WHY_NO_MEANING);
-        return NULL;
-    }
-    const double exact = shape == CDPREP_TRIANGLE ? 0.25 : 0.125;
+    const int has_radius = shape == CDPREP_SPHERE || shape == CDPREP_CAPSULE;
+    const double exact = has_radius ? 0.125 : 0.25;
     MUST(code == CDPREP_OK && nearest.found == CDPREP_YES);
     MUST(nearest.lower <= exact && exact <= nearest.upper && nearest.triangle_a < 12);
     MUST(nearest.on_a[0] == 1 && nearest.on_b[0] == 1.25 && nearest.triangle_b == CDPREP_NONE);

@@ -46,9 +46,9 @@ void ask(const HullPair& pair, const std::optional<SquaredLength<Number>>& truth
     if (testing::Test::HasFatalFailure()) return;
     for (const double tolerance :
          {distance->lower, distance->upper, std::nearbyint(distance->upper)}) {
-        ASSERT_EQ(convex_is_within(a, b, placement, tolerance, &cache),
+        ASSERT_EQ(convex_within(a, b, placement, tolerance, &cache),
                   compare_length(tolerance, *truth) >= 0);
-        ASSERT_EQ(convex_is_within(b, a, Placement::a_moves(pair.pose), tolerance),
+        ASSERT_EQ(convex_within(b, a, Placement::a_moves(pair.pose), tolerance),
                   compare_length(tolerance, *truth) >= 0);
     }
 }

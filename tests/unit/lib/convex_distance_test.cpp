@@ -79,8 +79,8 @@ TEST(ConvexDistance, OfBoxesIsKnownByHand) {
     EXPECT_DOUBLE_EQ(far->witness_a.x, 1);
     EXPECT_DOUBLE_EQ(far->witness_b.x, 4);
     EXPECT_NEAR(convex_distance(view, view, shifted({3, 4, -4}))->upper, 3, 1e-14);
-    EXPECT_TRUE(convex_is_within(view, view, shifted({3, 4, -4}), 3));
-    EXPECT_FALSE(convex_is_within(view, view, shifted({3, 4, -4}), std::nextafter(3, 0)));
+    EXPECT_TRUE(convex_within(view, view, shifted({3, 4, -4}), 3));
+    EXPECT_FALSE(convex_within(view, view, shifted({3, 4, -4}), std::nextafter(3, 0)));
     const SmallHull small(box_corners(0.25, 0.25, 0.25));
     EXPECT_TRUE(convex_collide(view, small.view(), shifted({0.5, 0, 0})));
     EXPECT_EQ(convex_distance(view, small.view(), shifted({0.5, 0, 0}))->upper, 0);
@@ -93,10 +93,10 @@ TEST(ConvexDistance, LimitIsInclusiveAndNothingIsBeyond) {
     EXPECT_TRUE(convex_distance(view, view, shifted({5, 0, 0}), {.max_distance = 3}));
     EXPECT_FALSE(convex_distance(view, view, shifted({5, 0, 0}), {.max_distance = 2.99}));
     EXPECT_FALSE(convex_distance(view, view, shifted({5, 0, 0}), {.max_distance = -1}));
-    EXPECT_FALSE(convex_is_within(view, view, shifted({0, 0, 0}), -1));
-    EXPECT_FALSE(convex_is_within(view, view, shifted({0, 0, 0}), std::nan("")));
+    EXPECT_FALSE(convex_within(view, view, shifted({0, 0, 0}), -1));
+    EXPECT_FALSE(convex_within(view, view, shifted({0, 0, 0}), std::nan("")));
     EXPECT_TRUE(
-        convex_is_within(view, view, shifted({5, 0, 0}), std::numeric_limits<double>::infinity()));
+        convex_within(view, view, shifted({5, 0, 0}), std::numeric_limits<double>::infinity()));
 }
 
 TEST(ConvexDistance, OfNothingIsNothing) {
@@ -104,7 +104,7 @@ TEST(ConvexDistance, OfNothingIsNothing) {
     const ConvexPoints none;
     EXPECT_FALSE(convex_collide(none, hull.view(), shifted({})));
     EXPECT_FALSE(convex_distance(hull.view(), none, shifted({})));
-    EXPECT_FALSE(convex_is_within(none, none, shifted({}), 1));
+    EXPECT_FALSE(convex_within(none, none, shifted({}), 1));
     EXPECT_FALSE(convex_penetration(none, hull.view(), shifted({})));
 }
 
@@ -236,8 +236,8 @@ TEST(ConvexDistance, PrismsOnOneAxisAreAsFarApartAsTheirCaps) {
     EXPECT_LE(apart->lower, kGap);
     EXPECT_GE(apart->upper, kGap);
     EXPECT_LE(width(*apart), 1e-14);
-    EXPECT_TRUE(convex_is_within(view, view, shifted({0, 0, 1 + kGap}), kGap));
-    EXPECT_FALSE(convex_is_within(view, view, shifted({0, 0, 1 + kGap}), std::nextafter(kGap, 0)));
+    EXPECT_TRUE(convex_within(view, view, shifted({0, 0, 1 + kGap}), kGap));
+    EXPECT_FALSE(convex_within(view, view, shifted({0, 0, 1 + kGap}), std::nextafter(kGap, 0)));
     EXPECT_TRUE(convex_collide(view, view, shifted({0, 0, 1})));
     EXPECT_EQ(convex_distance(view, view, shifted({0, 0, 1}))->upper, 0);
     EXPECT_LE(convex_penetration(view, view, shifted({0, 0, 1}))->upper, 1e-14);
@@ -324,8 +324,8 @@ TEST(ConvexDistance, FineHullsASmallGapApartAreMeasured) {
     ASSERT_TRUE(proof);
     EXPECT_GE(compare_length(small->upper, *proof), 0);
     EXPECT_LE(compare_length(small->lower - 1e-13, *proof), 0);
-    EXPECT_FALSE(convex_is_within(hull.view(), hull.view(), placement, small->lower * (1 - 1e-14)));
-    EXPECT_TRUE(convex_is_within(hull.view(), hull.view(), placement, small->upper));
+    EXPECT_FALSE(convex_within(hull.view(), hull.view(), placement, small->lower * (1 - 1e-14)));
+    EXPECT_TRUE(convex_within(hull.view(), hull.view(), placement, small->upper));
 }
 
 // G11: side 1 and 2^-20, and 2^20 sides apart.

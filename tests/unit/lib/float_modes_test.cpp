@@ -28,6 +28,7 @@
 #include "cdprep/points.h"
 #include "cdprep/study/overlap_through.h"
 #include "cdprep/study/tetra_figures.h"
+#include "support/answer_bytes.h"
 #include "support/every_structure.h"
 #include "support/float_modes.h"
 #include "support/hard_hulls.h"
@@ -39,145 +40,9 @@
 namespace cdprep::test {
 namespace {
 
-/// Answers as bytes, without padding. Takes them as they are: no arithmetic, which a mode would
-/// change.
-class Bytes {
-public:
-    template <class Number>
-    requires std::is_arithmetic_v<Number> || std::is_enum_v<Number>
-    void add(Number number) {
-        const auto* from = reinterpret_cast<const std::byte*>(&number);
-        bytes_.insert(bytes_.end(), from, from + sizeof(Number));
-    }
-    void add(const Double3& p) {
-        add(p.x);
-        add(p.y);
-        add(p.z);
-    }
-    void add(const TrianglePair& pair) {
-        add(pair.a);
-        add(pair.b);
-    }
-    void add(const RayHit& hit) {
-        add(hit.t);
-        add(hit.point);
-        add(hit.triangle);
-    }
-    void add(const Crossing& crossing) {
-        add(crossing.pair);
-        add(crossing.is_flat);
-        add(crossing.from);
-        add(crossing.to);
-    }
-    void add(const Distance& d) {
-        add(d.lower);
-        add(d.upper);
-        add(d.witness_a);
-        add(d.witness_b);
-        add(d.triangle_a);
-        add(d.triangle_b);
-    }
-    void add(const ShapeDistance& d) {
-        add(d.lower);
-        add(d.upper);
-        add(d.on_model);
-        add(d.on_shape);
-        add(d.triangle);
-    }
-    void add(const ClosestPoint& d) {
-        add(d.point);
-        add(d.lower);
-        add(d.upper);
-        add(d.triangle);
-    }
-    void add(const ConvexDistance& d) {
-        add(d.lower);
-        add(d.upper);
-        add(d.witness_a);
-        add(d.witness_b);
-    }
-    void add(const Penetration& d) {
-        add(d.lower);
-        add(d.upper);
-        add(d.normal);
-        add(d.witness_a);
-        add(d.witness_b);
-    }
-    void add(const ClosestFeatures& f) {
-        add(f.a.kind);
-        add(f.a.number);
-        add(f.b.kind);
-        add(f.b.number);
-        add(f.lower);
-        add(f.upper);
-        add(f.witness_a);
-        add(f.witness_b);
-        add(f.parallel);
-    }
-    void add(const Inclusion& found) {
-        add(found.answer);
-        add(found.on_surface);
-        add(found.winding);
-    }
-    void add(const Containment& found) {
-        add(found.answer);
-        add(found.winding);
-        add(found.a_inside_b);
-    }
-    void add(const Collision& found) {
-        add(found.hit);
-        add(found.containment);
-    }
-    void add(const Contact& c) {
-        add(c.piece_a);
-        add(c.piece_b);
-        add(c.point_a);
-        add(c.point_b);
-        add(c.normal);
-        add(c.lower);
-        add(c.upper);
-        add(c.flags);
-        for (std::uint32_t i = 0; i < c.point_count; ++i) add(c.points[i].on_a);
-        for (std::uint32_t i = 0; i < c.point_count; ++i) add(c.points[i].on_b);
-        for (std::uint32_t i = 0; i < c.point_count; ++i) add(c.points[i].distance);
-    }
-    void add(const Pose& pose) {
-        for (const double number : pose.rotation()) add(number);
-        add(pose.translation());
-    }
-    template <class Answer>
-    void add(const std::optional<Answer>& answer) {
-        add(answer.has_value());
-        if (answer) add(*answer);
-    }
-    void add(const std::optional<format::Damage>& damage) {
-        add(damage.has_value());
-    }
-    /// The first of a list, as many as were found.
-    template <class Answer>
-    void add(const std::vector<Answer>& list, std::size_t count) {
-        add(count);
-        for (std::size_t i = 0; i < std::min(count, list.size()); ++i) add(list[i]);
-    }
-    /// Elements as they are stored: of structs without padding.
-    template <class Element>
-    void add_stored(const std::vector<Element>& list) {
-        const auto bytes = std::as_bytes(std::span(list));
-        bytes_.insert(bytes_.end(), bytes.begin(), bytes.end());
-    }
-
-    [[nodiscard]] std::size_t size() const {
-        return bytes_.size();
-    }
-    friend bool operator==(const Bytes&, const Bytes&) = default;
-
-private:
-    std::vector<std::byte> bytes_;
-};
-
 /// One answer's bytes, and the environments that its visitors and hooks ran in.
 struct Asked {
-    Bytes bytes;
+    AnswerBytes bytes;
     std::vector<std::uint64_t> seen;
 
     void see() {
@@ -263,13 +128,13 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
             out.bytes.add(collide({a, b, s.placement, {}, &cache}, workspace));
             out.bytes.add(collide({a, b, s.placement, {}, &cache}, workspace));
         });
-        each("find_containment", [&](Asked& out) {
+        each("containment", [&](Asked& out) {
             out.bytes.add(containment({a, b, s.placement}, workspace));
         });
-        each("overlapping_triangles", [&](Asked& out) {
+        each("overlaps", [&](Asked& out) {
             out.bytes.add(pairs, overlaps({a, b, s.placement}, workspace, pairs));
         });
-        each("visit_overlapping_triangles", [&](Asked& out) {
+        each("visit_overlaps", [&](Asked& out) {
             const auto visit = [&](const TrianglePair& pair) {
                 out.see();
                 out.bytes.add(pair);
@@ -277,12 +142,12 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
             };
             out.bytes.add(visit_overlaps({a, b, s.placement}, workspace, visit));
         });
-        each("mark_overlapping_triangles", [&](Asked& out) {
+        each("mark_overlaps", [&](Asked& out) {
             out.bytes.add(mark_overlaps({a, b, s.placement}, workspace, bits_a, bits_b));
             out.bytes.add_stored(bits_a);
             out.bytes.add_stored(bits_b);
         });
-        each("visit_crossing_segments", [&](Asked& out) {
+        each("visit_crossings", [&](Asked& out) {
             const auto visit = [&](const Crossing& crossing) {
                 out.see();
                 out.bytes.add(crossing);
@@ -295,14 +160,14 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
             out.bytes.add(distance({a, b, s.placement}, workspace, {.relative_error = 0.1}));
             out.bytes.add(distance({a, b, s.placement, {.body = Body::solid}}, workspace));
         });
-        each("is_within", [&](Asked& out) {
+        each("within", [&](Asked& out) {
             out.bytes.add(within({a, b, s.placement}, near, workspace));
             out.bytes.add(within({a, b, s.placement}, exactly, workspace));
         });
-        each("triangles_within", [&](Asked& out) {
+        each("pairs_within", [&](Asked& out) {
             out.bytes.add(pairs, pairs_within({a, b, s.placement}, near, workspace, pairs));
         });
-        each("visit_triangles_within", [&](Asked& out) {
+        each("visit_pairs_within", [&](Asked& out) {
             const auto visit = [&](const TrianglePair& pair) {
                 out.see();
                 out.bytes.add(pair);
@@ -310,7 +175,7 @@ TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
             };
             out.bytes.add(visit_pairs_within({a, b, s.placement}, near, workspace, visit));
         });
-        each("split_overlapping_triangles", [&](Asked& out) {
+        each("split_overlaps", [&](Asked& out) {
             const auto run = [&](std::size_t count, Task task) {
                 out.see();
                 run_threads(count, task);
@@ -456,7 +321,7 @@ TEST(FloatModes, ChangeNoAnswerAboutHulls) {
             expect_same_in_every_mode(hard.id, [&](Asked& out) {
                 out.bytes.add(convex_collide(a, b, hard.placement));
                 out.bytes.add(convex_distance(a, b, hard.placement));
-                out.bytes.add(convex_is_within(a, b, hard.placement, near));
+                out.bytes.add(convex_within(a, b, hard.placement, near));
                 out.bytes.add(convex_penetration(a, b, hard.placement));
                 out.bytes.add(direction_cell(a.point(0)));
                 out.bytes.add(a.point(0));
@@ -495,7 +360,7 @@ TEST(FloatModes, ChangeNoContact) {
         const double near = 0.0625 * scale;
         Workspace workspace;
         std::vector<Contact> room(20);
-        const ContactOptions options = {.manifold = Manifold::four};
+        const ContactOptions options = {.tolerance = near, .manifold = Manifold::four};
         const std::string at = "contacts at 2^" + std::to_string(std::ilogb(scale));
         expect_same_in_every_mode(at, [&](Asked& out) {
             const auto visit = [&](const Contact& contact) {
@@ -503,10 +368,9 @@ TEST(FloatModes, ChangeNoContact) {
                 out.bytes.add(contact);
                 return true;
             };
-            out.bytes.add(room, contacts({a.model, b.model, placement}, workspace, room,
-                                         {.tolerance = near}));
-            out.bytes.add(visit_contacts({a.model, b.model, placement}, workspace, visit,
-                                         {.tolerance = near}));
+            const Pair pair = {a.model, b.model, placement};
+            out.bytes.add(room, contacts(pair, workspace, room, options));
+            out.bytes.add(visit_contacts(pair, workspace, visit, options));
         });
         const FeatureHull hull_a = feature_hull(a.model, 0), hull_b = feature_hull(b.model, 3);
         expect_same_in_every_mode(at + ", closest_features", [&](Asked& out) {

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cdprep/ask.h"
 #include "cdprep/format/sections.h"
 #include "support/c_models.h"
 #include "support/c_questions.h"
+#include "support/cpp_questions.h"
 #include "support/every_structure.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
@@ -149,8 +151,36 @@ protected:
         }
     }
 
+    /// The same in C++, where a refusal stops the program: each question once with each set of
+    /// needs that it lacks, for a test that dies is slow.
+    void ask_all_in_cpp(SectionSet sections, Counts& counts) {
+        const AlignedBytes outer = only(outer_, sections), inner = only(inner_, sections);
+        const Model a = *Model::open(outer.span()), b = *Model::open(inner.span());
+        const Model all_a = *Model::open(outer_.span()), all_b = *Model::open(inner_.span());
+        const Ask serves = a.asks() & b.asks();
+        Workspace workspace;
+        for (const Question& question : questions()) {
+            if (!contains(serves, question.needs)) {
+                const auto lacks = static_cast<std::uint32_t>(without(question.needs, serves));
+                if (!refused_.insert({question.name, lacks}).second) continue;
+                ++counts.refused;
+                EXPECT_DEATH((void)question.ask({a, b, 0.5, workspace}),
+                             "Bake the mesh again with --|Only closed meshes")
+                    << question.name;
+                continue;
+            }
+            for (const double x : kPlaces) {
+                ++counts.answered;
+                EXPECT_TRUE(question.ask({a, b, x, workspace}) ==
+                            question.ask({all_a, all_b, x, workspace}))
+                    << question.name << " at " << x;
+            }
+        }
+    }
+
     AlignedBytes outer_, inner_;
     CWorkspace workspace_;
+    std::set<std::pair<std::string, std::uint32_t>> refused_;
 };
 
 // The law of needs: what a file lacks is refused, and never answered differently.
@@ -161,6 +191,13 @@ TEST_F(NeedsMatrix, EveryBakeGivesTheAnswerOfAWholeOneOrRefuses) {
     for (const SectionSet sections : all) ask_all(sections, counts);
     EXPECT_GT(counts.answered, all.size() * 20) << "few questions were answered";
     EXPECT_GT(counts.refused, all.size() * 20) << "few questions were refused";
+}
+
+TEST_F(NeedsMatrix, InCppTooItAnswersOrStops) {
+    Counts counts;
+    for (const SectionSet sections : bakes()) ask_all_in_cpp(sections, counts);
+    EXPECT_GT(counts.answered, 30 * questions().size());
+    EXPECT_GT(counts.refused, questions().size());
 }
 
 /// What builds are asked for: everything, each question alone, and every two of them.

@@ -154,12 +154,12 @@ TEST(ShapeDistanceLaws, TheIntervalHoldsTheExactDistanceToABox) {
     std::mt19937 random(211);
     Workspace workspace;
     int apart = 0, cases = 0;
-    for (int round = 0; round < 40 && !HasFatalFailure(); ++round) {
+    for (int round = 0; round < 16 && !HasFatalFailure(); ++round) {
         const bool fine = round % 2 == 0;
         const TestMesh mesh =
             fine ? random_soup(random(), 30, 0.3) : coarse_grid_soup(random(), 20, 3);
         const OpenModel model = open_tiny(mesh, {.double_precision = true});
-        std::uniform_real_distribution<double> place(-4, 4), length(0, 2);
+        std::uniform_real_distribution<double> place(-4, 4), length(0, 4);
         const auto rounded = [&](double x) { return fine ? x : std::round(x); };
         for (int i = 0; i < 6; ++i) {
             Box box{};
@@ -207,12 +207,13 @@ TEST(ShapeDistanceLaws, BoxesMayBeOpen) {
     const auto to = [&](const Box& box) { return shape_distance(model.model, box, workspace); };
     const auto above = to({{-kInfinity, -kInfinity, 2}, {kInfinity, kInfinity, kInfinity}});
     ASSERT_TRUE(above);
-    EXPECT_EQ(above->lower, 2);
-    EXPECT_EQ(above->upper, 2);
+    EXPECT_LE(above->lower, 2);
+    EXPECT_GE(above->upper, 2);
+    EXPECT_LE(above->upper - above->lower, 1e-13);
     const auto corner = to({{4, 4, -kInfinity}, {kInfinity, kInfinity, kInfinity}});
     ASSERT_TRUE(corner);
     EXPECT_LE(corner->lower, 3.5 * std::sqrt(2.0));
-    EXPECT_NEAR(corner->upper, 3.5 * std::sqrt(2.0), 1e-14);
+    EXPECT_NEAR(corner->upper, 3.5 * std::sqrt(2.0), 1e-13);
     const auto all = to({{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}});
     ASSERT_TRUE(all);
     EXPECT_EQ(all->upper, 0);

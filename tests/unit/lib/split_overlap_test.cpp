@@ -7,7 +7,7 @@
 #include "support/random_pose.h"
 #include "support/run_threads.h"
 
-// The truth in all of these is overlapping_triangles() on one thread.
+// The truth in all of these is overlaps() on one thread.
 
 namespace cdprep::test {
 namespace {

@@ -256,8 +256,8 @@ TEST(TrianglesWithinLaws, SkippingLeavesOutDegenerateTriangles) {
     EXPECT_LT(kept, (kept + skipped) * 7 / 10);
 }
 
-// is_within() asks whether there is any.
-TEST(TrianglesWithinLaws, AgreesWithIsWithin) {
+// within() asks whether there is any.
+TEST(TrianglesWithinLaws, AgreesWithWithin) {
     std::mt19937 random(75);
     int hits = 0;
     constexpr int kRounds = 400;

@@ -65,7 +65,7 @@ enum class Quality : std::uint8_t {
     best,
     /// For objects rebuilt at run time. Halves, as nearly as full subtrees allow,
     /// across the longest axis. On scans surface_cost() is 5 to 15 % higher, collide() and
-    /// overlapping_triangles() take 2 to 9 % longer in the median and 60 % at worst, the
+    /// overlaps() takes 2 to 9 % longer in the median and 60 % at worst, the
     /// build takes two fifths of the time.
     fast,
 };

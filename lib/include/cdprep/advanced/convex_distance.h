@@ -56,17 +56,19 @@ struct ConvexDistance {
 /// nothing is, it is at most 1e-12 of upper plus 1e-14 of the size of A - B, that is how
 /// far any point of A is from any of B along an axis (convex_distance_laws_test).
 /// Where faces or edges are parallel there are many nearest pairs: one of them answers.
-[[nodiscard]] std::optional<ConvexDistance> convex_distance(
-    const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,
-    const DistanceOptions& options = {}, ConvexCache* cache = nullptr,
-    QueryCounts* counts = nullptr) noexcept;
+[[nodiscard]] std::optional<ConvexDistance> convex_distance(const ConvexPoints& a,
+                                                            const ConvexPoints& b,
+                                                            const Placement& placement,
+                                                            const DistanceOptions& options = {},
+                                                            ConvexCache* cache = nullptr,
+                                                            QueryCounts* counts = nullptr) noexcept;
 
 /// Returns whether two hulls are at most `tolerance` apart: the tolerance belongs to it,
 /// and 0 asks whether they touch. False for a negative tolerance or NaN. Exact: a distance
 /// equal to the tolerance to the last bit is within it, and one step less is not.
-[[nodiscard]] bool convex_is_within(const ConvexPoints& a, const ConvexPoints& b,
-                                    const Placement& placement, double tolerance,
-                                    ConvexCache* cache = nullptr,
-                                    QueryCounts* counts = nullptr) noexcept;
+[[nodiscard]] bool convex_within(const ConvexPoints& a, const ConvexPoints& b,
+                                 const Placement& placement, double tolerance,
+                                 ConvexCache* cache = nullptr,
+                                 QueryCounts* counts = nullptr) noexcept;
 
 }  // namespace cdprep
