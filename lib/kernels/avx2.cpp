@@ -3,6 +3,8 @@
 
 #include "kernels.h"
 
+#include <cassert>
+
 namespace cdprep::kernels {
 namespace {
 
@@ -104,6 +106,7 @@ struct F8 {
     /// first + i for each bit i that is set, one after the other. May write eight.
     static void store_lanes(unsigned bits, unsigned first, unsigned /*second*/,
                             std::uint16_t* to) noexcept {
+        assert(bits < 256);
         const auto* numbers = reinterpret_cast<const __m128i*>(kSetBits.number[bits]);
         const __m128i lanes = _mm_cvtepu8_epi16(_mm_loadl_epi64(numbers));
         const __m128i base = _mm_set1_epi16(static_cast<short>(first));

@@ -3,6 +3,8 @@
 
 #include "kernels.h"
 
+#include <cassert>
+
 namespace cdprep::kernels {
 namespace {
 
@@ -136,6 +138,7 @@ struct F16 {
     /// for bit 8 + i. May write sixteen.
     static void store_lanes(unsigned bits, unsigned first, unsigned second,
                             std::uint16_t* to) noexcept {
+        assert(bits >> kCount == 0);
         const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7);
         const __m512i base = of_rows(first, second);
         const __m512i kept =

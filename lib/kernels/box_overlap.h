@@ -4,6 +4,8 @@
 // once or twice, so that R::kRows rows are tested at once; each with a mask type.
 #pragma once
 
+#include <cassert>
+
 #include "kernels.h"
 
 namespace cdprep::kernels {
@@ -36,6 +38,7 @@ struct Boxes {
 
 template <class F>
 Boxes<F> scaled_boxes(const float* node, float scale) noexcept {
+    assert(node != nullptr && scale >= 0 && scale <= 1);
     Boxes<F> boxes;
     const F factor(0.5F * scale);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -67,6 +70,7 @@ F sum_of(const F* v) noexcept {
 /// B's boxes as the tests along A's axes want them: shifted, with the slack and the tolerance.
 template <class F>
 Boxes<F> turned_to_a(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
+    assert(p.slack >= 0 && p.tolerance >= 0);
     Boxes<F> turned;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const float* r = p.rotation + 3 * axis;
@@ -126,6 +130,7 @@ struct RowPair {
 /// Takes as many rows from a bit set as R tests at once.
 template <class R>
 RowPair take_rows(unsigned& rows) noexcept {
+    assert(rows != 0 && rows >> kLanes == 0);
     const auto first = static_cast<std::size_t>(__builtin_ctz(rows));
     rows &= rows - 1;
     if (R::kRows == 1 || rows == 0) return {first, first};
@@ -160,6 +165,8 @@ typename R::Mask apart(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexc
 /// The pairs of two rows, from eight bits of each; a row that repeats repeats its bits.
 template <class R>
 BoxPairs pairs_in_rows(unsigned found, RowPair at) noexcept {
+    assert(at.first <= at.second && at.second < kLanes);
+    assert(R::kRows == 1 || at.first != at.second || (found & 0xff) == (found >> kLanes & 0xff));
     const BoxPairs first = BoxPairs{found & 0xff} << (kLanes * at.first);
     if (R::kRows == 1) return first;
     return first | BoxPairs{(found >> kLanes) & 0xff} << (kLanes * at.second);
@@ -182,6 +189,7 @@ struct OrientedBoxes {
 
 template <class F>
 void load_oriented(const float* node, float scale, OrientedBoxes<F>& boxes) noexcept {
+    assert(node != nullptr && scale >= 0 && scale <= 1);
     for (std::size_t i = 0; i < 3; ++i) {
         boxes.axis[0][i] = F::load(node + kLanes * i);
         boxes.axis[1][i] = F::load(node + kLanes * (3 + i));
@@ -260,6 +268,7 @@ template <class F, class R, bool kDepths>
 [[gnu::always_inline]] inline BoxPairs keep_oriented(const BoxPlacement& p, const NodeBoxes& a,
                                                      const NodeBoxes& b, BoxPairs pairs,
                                                      BoxSizes& sizes, BoxDepths* depths) noexcept {
+    assert(kDepths == (depths != nullptr));
     OrientedBoxes<R> oriented_a;
     load_oriented(a.oriented, p.scale_a, oriented_a);
     OrientedBoxes<F> unturned_b;
@@ -280,6 +289,7 @@ template <class F, class R, bool kDepths>
         }
         kept |= pairs_in_rows<R>(found, at);
     }
+    assert((kept & ~pairs) == 0);
     if constexpr (kDepths) depths->deepest = deepest.bit();
     return kept;
 }
@@ -290,6 +300,7 @@ template <class F, class R, bool kDepths>
 [[gnu::always_inline]] inline BoxPairs keep_aligned(const BoxPlacement& p, const NodeBoxes& a,
                                                     const NodeBoxes& b, const BoxChoice& choice,
                                                     BoxSizes& sizes, BoxDepths* depths) noexcept {
+    assert(kDepths == (depths != nullptr));
     const Boxes<F> boxes_b = scaled_boxes<F>(b.boxes, p.scale_b);
     const Boxes<F> turned_b = turned_to_a(boxes_b, p);
     unsigned live = choice.of_b;
@@ -332,6 +343,7 @@ BoxPairs overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const N
     const bool one_row = (choice.of_b & (choice.of_b - 1)) == 0;
     if (oriented && one_row) {
         // Turning the axis-aligned boxes would cost more than it saves.
+        assert(choice.of_b != 0);
         const auto row = static_cast<unsigned>(__builtin_ctz(choice.of_b));
         const BoxPairs pairs = BoxPairs{choice.of_a} << (kLanes * row);
         return keep_oriented<F, R, false>(p, a, b, pairs, sizes, nullptr);

@@ -3,6 +3,8 @@
 // they have defined the lanes: a type F of eight floats with its mask type; lanes are boxes.
 #pragma once
 
+#include <cassert>
+
 #include "box_overlap.h"
 
 namespace cdprep::kernels {
@@ -61,8 +63,11 @@ void place_among_cells_of(const BoxPlacement& p, const NodeBoxes& b,
 template <class F>
 void cells_met_of(const BoxesAmongCells& b, const OctantPlanes& cells, unsigned of_b,
                   std::uint8_t* met) noexcept {
+    assert(of_b >> kLanes == 0 && !(cells.half < 0));
     unsigned halves[3][2];
     for (std::size_t i = 0; i < 3; ++i) {
+        // Rising, unless a damaged grid is out of range of float.
+        assert(!(cells.plane[i][0] > cells.plane[i][1] || cells.plane[i][1] > cells.plane[i][2]));
         const F lower = F::load(b.lower[i]);
         const F upper = F::load(b.upper[i]);
         const F middle(cells.plane[i][1]);

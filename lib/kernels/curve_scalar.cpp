@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "curve.h"
 
+#include <cassert>
+
 namespace cdprep::kernels {
 namespace {
 
@@ -24,10 +26,12 @@ std::uint32_t gathered(std::uint64_t x) noexcept {
 }
 
 std::uint64_t code(std::uint32_t x, std::uint32_t y, std::uint32_t z) noexcept {
+    assert(((x | y | z) >> 21) == 0);
     return spread(x) | spread(y) << 1 | spread(z) << 2;
 }
 
 void cell(std::uint64_t code, std::uint32_t* to) noexcept {
+    assert(code >> 63 == 0);
     for (int axis = 0; axis < 3; ++axis) to[axis] = gathered(code >> axis);
 }
 

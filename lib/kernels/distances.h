@@ -3,6 +3,8 @@
 // alone, after leaf_contacts.h.
 #pragma once
 
+#include <cassert>
+
 #include "leaf_contacts.h"
 
 namespace cdprep::kernels {
@@ -34,6 +36,12 @@ R squared_gap(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
 /// Axes are at right angles up to 2^-21, and squares, sums and the root round: a
 /// length of gaps is too great by less than this, in relative terms.
 inline constexpr float kGapRounding = 1 - 0x1p-18F;
+
+/// Reach::direction is of a length below 1; this allows for its rounding.
+[[maybe_unused]] inline bool is_within_unit(const float* direction) noexcept {
+    const float* d = direction;
+    return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= 1 + 0x1p-20F;
+}
 
 /// Where boxes lie along a direction: the middle, and how far they reach from it.
 template <class F>
@@ -69,6 +77,7 @@ Span<F> span_of(const OrientedBoxes<F>& boxes, const float* direction) noexcept 
 template <class F>
 void store_begins(const Span<F>& span, const BoxPlacement& p, const Reach& reach,
                   float* begins) noexcept {
+    assert(is_within_unit(reach.direction) && is_within_unit(reach.direction_in_b));
     const float* d = reach.direction;
     const float shift = p.shift[0] * d[0] + p.shift[1] * d[1] + p.shift[2] * d[2];
     ((span.middle - span.half) + F(shift - 2 * p.slack)).store(begins);
@@ -78,6 +87,7 @@ void store_begins(const Span<F>& span, const BoxPlacement& p, const Reach& reach
 template <class F, class R>
 BoxPairs near_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
                        const BoxChoice& choice, const Reach& reach, BoxPairFloats& gaps) noexcept {
+    assert(reach.limit >= 0);
     const Boxes<F> boxes_b = scaled_boxes<F>(b.boxes, p.scale_b);
     const Boxes<R> boxes_a = scaled_boxes<R>(a.boxes, p.scale_a);
     const Boxes<R> turned_a = turned_to_b(boxes_a, p);
@@ -355,6 +365,7 @@ std::size_t keep_near(std::size_t candidates, std::size_t kept, const Reach& rea
         gap.lower.store_all(lower);
         for (std::size_t i = 0; i < lanes_used<W>(first, candidates); ++i) {
             if (lower[i] > reach.limit) continue;
+            assert(kept < kMostPairs);
             const unsigned candidate = scratch.candidate[first + i];
             scratch.gap[kept++] = {lower[i], static_cast<std::uint8_t>(candidate >> 6),
                                    static_cast<std::uint8_t>(candidate & 7),
@@ -373,6 +384,7 @@ template <class F, class R>
                                                           const Reach& reach,
                                                           std::size_t candidates,
                                                           LeafScratch& scratch) noexcept {
+    assert(is_within_unit(reach.direction));
     MetLeaves met = meet<F>(placement, pair, index, reach.limit, scratch);
     if (met.rows == 0) return candidates;
     const LeafShift& leaf = met.leaf;
@@ -407,9 +419,11 @@ template <class F, class R, class W>
 std::size_t triangles_within_of(const LeafPlacement& placement, const LeafPair* pairs,
                                 std::size_t count, const Reach& reach,
                                 LeafScratch& scratch) noexcept {
+    assert(count <= kLeafBatch);
     std::size_t kept = 0;
     for (std::size_t first = 0; first < count;) {
         const std::size_t last = end_of_run(pairs, first, count);
+        assert(last > first);  // one pair has its places whatever the numbers are
         std::size_t candidates = 0;
         for (; first < last; ++first) {
             candidates =

@@ -3,10 +3,15 @@
 // one by one and in one order: the answers are the same for every table, to the last bit.
 #pragma once
 
+#include <cassert>
+
 #include "kernels.h"
 
 namespace cdprep::kernels {
 namespace {
+
+/// The number of a point has 32 bits.
+[[maybe_unused]] constexpr std::size_t kMostBlocks = (std::size_t{1} << 32) / kLanes;
 
 /// The highest of each lane, and the first block that has it.
 template <class D8>
@@ -41,6 +46,7 @@ struct HighestOfLane {
 template <class D8>
 std::uint32_t farthest_of(const double* blocks, std::size_t count,
                           const double* direction) noexcept {
+    assert(count > 0 && count <= kMostBlocks);
     const D8 dx(direction[0]), dy(direction[1]), dz(direction[2]);
     HighestOfLane<D8> highest;
     D8 number(0.0);
@@ -61,6 +67,7 @@ inline constexpr double kValueError = 6 * 0x1p-53;
 template <class D8>
 FarthestPoint farthest_moved_of(const double* blocks, std::size_t count,
                                 const MovedDirection& from) noexcept {
+    assert(count > 0 && count <= kMostBlocks);
     const double* r = from.rotation;
     const double* t = from.translation;
     const D8 error(kValueError);
@@ -89,6 +96,7 @@ FarthestPoint farthest_moved_of(const double* blocks, std::size_t count,
     for (std::size_t lane = 1; lane < kLanes; ++lane) {
         if (bounds[lane] > best.bound) best.bound = bounds[lane];
     }
+    assert(!(best.bound < best.value));
     return best;
 }
 

@@ -12,7 +12,7 @@
 /// another one after the other), so everything it settles is settled with a
 /// proven margin: the answers of the queries are the same for every table.
 ///
-/// A kernel source includes this header, the vendor's intrinsics, and the bodies
+/// A kernel source includes this header, the vendor's intrinsics, <cassert>, and the bodies
 /// that all share (box_overlap.h, cells_met.h, leaf_contacts.h, ...). Those stand in an
 /// unnamed namespace: an inline function with a name that the linker sees could be
 /// emitted with AVX2 inside and then be the copy it keeps for everyone.

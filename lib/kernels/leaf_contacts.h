@@ -4,10 +4,15 @@
 // or more, each with its mask type. placed_leaves.h bounds the rounding.
 #pragma once
 
+#include <cassert>
+
 #include "placed_leaves.h"
 
 namespace cdprep::kernels {
 namespace {
+
+/// Pairs of triangles in a batch: the room for candidates and for answers.
+[[maybe_unused]] constexpr std::size_t kMostPairs = kLeafBatch * kLanes * kLanes;
 
 /// A's triangles where they stand to B's leaf.
 template <class R>
@@ -249,6 +254,7 @@ struct LanePairs {
     /// long as all the rest. Lanes past the last candidate may hold anything.
     LanePairs(const LeafScratch& scratch, const std::uint16_t* candidate, const LeafPair& pair,
               std::size_t index) noexcept {
+        assert(index < kLeafBatch);
         const typename W::Index at = W::load_index(candidate);
         a = picked<W>(scratch.a.leaf[place_of(pair.number_a)], low_bits(at));
         b = picked<W>(scratch.b.leaf[place_of(pair.number_b)], low_bits(shifted_right(at, 3)));
@@ -263,12 +269,14 @@ struct LanePairs {
 /// How many of the lanes from `first` on hold candidates.
 template <class W>
 std::size_t lanes_used(std::size_t first, std::size_t end) noexcept {
+    assert(first < end);
     return end - first < W::kCount ? end - first : std::size_t{W::kCount};
 }
 
 /// Lanes past the last candidate are to repeat it where they say what is gathered.
 template <class W>
 void fill_up(std::uint16_t* candidate, std::size_t count) noexcept {
+    assert(count <= kMostPairs);
     if (count == 0) return;
     for (std::size_t i = 0; i < W::kCount; ++i) candidate[count + i] = candidate[count - 1];
 }
@@ -284,6 +292,7 @@ std::size_t judge_all(std::size_t candidates, std::size_t found, LeafScratch& sc
         const unsigned used = (1U << lanes_used<W>(first, candidates)) - 1;
         for (unsigned rest = (verdict.crossing | verdict.unknown) & used; rest != 0;
              rest &= rest - 1) {
+            assert(found < kMostPairs);
             const auto i = static_cast<unsigned>(__builtin_ctz(rest));
             const unsigned candidate = scratch.candidate[first + i];
             scratch.found[found++] = {static_cast<std::uint8_t>(candidate >> 6),
@@ -300,6 +309,7 @@ std::size_t judge_all(std::size_t candidates, std::size_t found, LeafScratch& sc
 template <class R>
 std::size_t append_rows(unsigned pair, RowPair at, unsigned found, unsigned used_a,
                         std::uint16_t* candidate, std::size_t count) noexcept {
+    assert(pair < kLeafBatch && count <= kMostPairs && used_a >> kLanes == 0);
     const bool one_row = R::kRows == 1 || at.second == at.first;
     const unsigned kept = found & (one_row ? used_a : used_a | used_a << kLanes);
     const unsigned first = pair << 6 | static_cast<unsigned>(at.first) << 3;
@@ -355,6 +365,7 @@ struct NeighboursLeftOut {
     /// Triangles of A left out beside one of B. Eight bits a row.
     template <class R>
     [[nodiscard]] unsigned lanes(const LeafPair& pair, RowPair at) const noexcept {
+        assert(corners != nullptr);
         const std::uint32_t* a = corners + std::size_t{pair.number_a} * 3 * kLanes;
         const std::uint32_t* b = corners + std::size_t{pair.number_b} * 3 * kLanes;
         typename R::Mask shared = R::none();
@@ -377,6 +388,7 @@ template <class F, class R, class LeftOut>
 std::size_t find_candidates(const LeafPlacement& placement, const LeafPair* pairs,
                             std::size_t first, std::size_t last, const LeftOut& left_out,
                             LeafScratch& scratch) noexcept {
+    assert(first < last && last <= kLeafBatch);
     MetLeaves met[kLeafBatch];
     for (std::size_t i = first; i < last; ++i) {
         met[i] = meet<F>(placement, pairs[i], i, 0, scratch);
@@ -406,9 +418,11 @@ template <class F, class R, class W, class LeftOut>
 std::size_t find_contacts_but(const LeafPlacement& placement, const LeafPair* pairs,
                               std::size_t count, const LeftOut& left_out,
                               LeafScratch& scratch) noexcept {
+    assert(count <= kLeafBatch);
     std::size_t found = 0;
     for (std::size_t first = 0; first < count;) {
         const std::size_t last = end_of_run(pairs, first, count);
+        assert(last > first);  // one pair has its places whatever the numbers are
         const std::size_t candidates =
             find_candidates<F, R>(placement, pairs, first, last, left_out, scratch);
         if (last - first == 1) {

@@ -14,6 +14,8 @@
 // subnormal numbers to zero; components are at most 4, so 1e-35 covers it.
 #pragma once
 
+#include <cassert>
+
 #include "box_overlap.h"
 #include "kernels.h"
 
@@ -105,6 +107,7 @@ void describe(const F corner[3][3], Rows& rows) noexcept {
 /// Corner i of the stored leaf, around its middle, in the model's units.
 template <class F>
 void load_corner(const float* leaf, const LeafFrame& frame, std::size_t i, F* corner) noexcept {
+    assert(i < 3 && (frame.takes_origin == 0 || frame.takes_origin == 1));
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const float middle = leaf[kLeafOrigin + axis] * frame.takes_origin;
         corner[axis] = F::load(leaf + kLanes * (3 * i + axis)) - F(middle);
@@ -159,6 +162,7 @@ inline std::size_t place_of(std::uint32_t number) noexcept {
 
 /// Whether a leaf was placed for this question; notes that it will be.
 inline bool is_placed(PlacedLeaves& leaves, std::uint32_t number, std::uint64_t question) noexcept {
+    assert(question > 0 && question >> 32 == 0);  // LeafScratch::begin() was called
     std::uint64_t& holds = leaves.holds[place_of(number)];
     const std::uint64_t wanted = question << 32 | number;
     const bool placed = holds == wanted;
@@ -185,6 +189,7 @@ struct LeafShift {
 
 inline LeafShift shift_of(const LeafPlacement& p, const LeafPair& pair,
                           const double* middle_b) noexcept {
+    assert(p.error >= 0 && p.a.box_scale >= 0 && p.b.box_scale >= 0);
     double middle_a[3];
     middle_in_a(p, pair.a, middle_a);
     LeafShift leaf;
@@ -228,6 +233,7 @@ struct MetLeaves {
 template <class F>
 MetLeaves meet(const LeafPlacement& p, const LeafPair& pair, std::size_t index, float margin,
                LeafScratch& scratch) noexcept {
+    assert(index < kLeafBatch && margin >= 0);
     const std::size_t at = place_of(pair.number_b);
     Rows& b = scratch.b.leaf[at].row;
     if (!is_placed(scratch.b, pair.number_b, scratch.question)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "kernels.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace cdprep::kernels {
@@ -90,6 +91,7 @@ struct F8 {
     /// first + i for each bit i that is set, one after the other. May write eight.
     static void store_lanes(unsigned bits, unsigned first, unsigned /*second*/,
                             std::uint16_t* to) noexcept {
+        assert(bits >> kCount == 0);
         for (unsigned i = 0; i < kCount; ++i) {
             *to = static_cast<std::uint16_t>(first + i);
             to += (bits >> i) & 1;

@@ -29,6 +29,8 @@
 // itself where the radii are summed and squared: its caller has made it larger.
 #pragma once
 
+#include <cassert>
+
 #include "distances.h"
 
 namespace cdprep::kernels {
@@ -47,6 +49,7 @@ struct SweptSpheres {
 
 template <int kSides, class F>
 void load_swept(const float* node, float scale, SweptSpheres<F>& spheres) noexcept {
+    assert(node != nullptr && scale >= 0 && scale <= 1);
     for (std::size_t i = 0; i < 3; ++i) {
         spheres.centre[i] = F::load(node + kLanes * i) * F(scale);
     }
@@ -275,6 +278,7 @@ BoxPairs keep_swept(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& 
         const unsigned out = bits(swept_apart<kSides>(nodes.a, nodes.face_a, nodes.b, at));
         kept |= pairs_in_rows<R>(bits_of_rows(pairs, at) & ~out, at);
     }
+    assert((kept & ~pairs) == 0);
     return kept;
 }
 
@@ -284,6 +288,7 @@ template <int kSides, class F, class R>
 BoxPairs overlapping_swept_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
                               const BoxChoice& choice, BoxSizes& sizes) noexcept {
     if ((choice.of_b & (choice.of_b - 1)) == 0) {
+        assert(choice.of_b != 0);
         const auto row = static_cast<unsigned>(__builtin_ctz(choice.of_b));
         const BoxPairs pairs = BoxPairs{choice.of_a} << (kLanes * row);
         return keep_swept<kSides, F, R>(p, a, b, pairs, sizes);

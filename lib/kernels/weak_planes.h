@@ -16,6 +16,8 @@
 // below 64 v (s_a + s_b + |t|).
 #pragma once
 
+#include <cassert>
+
 #include "kernels.h"
 
 namespace cdprep::kernels {
@@ -28,6 +30,9 @@ inline constexpr float kPlaneSlack = 3;
 template <class R>
 std::size_t weak_planes_of(const BoxPlacement& placement, const PlaneRows& planes,
                            std::size_t count, float limit, std::uint16_t* numbers) noexcept {
+    // Lanes past the last plane are read too.
+    assert(planes.stride % 16 == 0 && count <= planes.stride && planes.stride <= 0x10000);
+    assert(limit >= 0 && placement.slack >= 0);
     const float* rotation = placement.rotation;
     const R least(limit + kPlaneSlack * placement.slack);
     std::size_t weak = 0;
