@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <cassert>
+
 #include "c/c_pairs.h"
 #include "c/pair_answers.h"
 #include "share_out.h"
@@ -65,6 +67,7 @@ int ask_pairs(const Batch<Answer>& batch, CheckOptions&& check_options, Check&& 
         const std::span<Workspace> lanes = batch.workspace->lanes;
         const CallersThreads threads(*batch.workspace);
         share_jobs(batch.count, lanes.size(), threads, [&](std::size_t i, std::size_t lane) {
+            assert(lane < lanes.size());
             AskedPair asked;
             Call again(nullptr);
             const cdprep_pair* const pair = element(batch.pairs, i);

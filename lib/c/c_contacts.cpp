@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <tuple>
 
 #include "c/c_pairs.h"
@@ -45,6 +46,7 @@ cdprep_feature in_c(const ContactFeature& feature) noexcept {
 }
 
 cdprep_contact in_c(const Contact& contact) noexcept {
+    assert(contact.point_count <= kManifold && contact.lower <= contact.upper);
     cdprep_contact to{};
     to.piece_a = contact.piece_a;
     to.piece_b = contact.piece_b;
@@ -102,6 +104,7 @@ public:
     explicit Deepest(std::span<cdprep_contact> room) noexcept : room_(room) {}
 
     void add(const cdprep_contact& contact) noexcept {
+        assert(kept_ <= room_.size() && kept_ <= count_);
         ++count_;
         if (kept_ < room_.size()) {
             room_[kept_++] = contact;

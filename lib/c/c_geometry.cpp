@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 #include <string_view>
 
@@ -36,6 +37,7 @@ public:
         for (std::uint32_t i = 0; i < parent_.size(); ++i) parent_[i] = i;
     }
     [[nodiscard]] std::uint32_t find(std::uint32_t vertex) noexcept {
+        assert(vertex < parent_.size());
         while (parent_[vertex] != vertex) {
             parent_[vertex] = parent_[parent_[vertex]];
             vertex = parent_[vertex];
@@ -113,6 +115,7 @@ bool is_degenerate(const Model& model, std::uint32_t tree_triangle) noexcept {
 }
 
 cdprep_corners corners_of(const cdprep_model& model, std::uint32_t triangle) noexcept {
+    assert(triangle < model.tree_triangle.size());
     const Model& m = model.model;
     const std::uint32_t at = model.tree_triangle[triangle];
     cdprep_corners corners{};
@@ -217,6 +220,7 @@ std::size_t index_size(const Model& model) noexcept {
 
 void make_index(cdprep_model& model, void* room) noexcept {
     if (index_size(model.model) == 0) return;
+    assert(room != nullptr);
     auto* const numbers = static_cast<std::uint32_t*>(room);
     const std::uint32_t triangles = model.model.triangle_count();
     model.tree_triangle = {numbers, triangles};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <cassert>
 #include <optional>
 
 #include "c/c_pairs.h"
@@ -180,6 +181,7 @@ int ask_hulls(const cdprep_hull_pair* pair, Answer* answer, const char* answer_n
 cdprep_nearest in_c(const std::optional<ConvexDistance>& found) noexcept {
     cdprep_nearest to{};
     if (!found) return to;
+    assert(found->lower <= found->upper);
     to.found = CDPREP_YES;
     to.triangle_a = to.triangle_b = CDPREP_NONE;
     to.lower = found->lower;
@@ -192,6 +194,7 @@ cdprep_nearest in_c(const std::optional<ConvexDistance>& found) noexcept {
 cdprep_penetration in_c(const std::optional<Penetration>& found) noexcept {
     cdprep_penetration to{};
     if (!found) return to;
+    assert(found->lower <= found->upper);
     to.found = CDPREP_YES;
     to.lower = found->lower;
     to.upper = found->upper;
@@ -212,6 +215,7 @@ cdprep_feature in_c(const Model& model, const FeatureHull& hull,
         return source_vertex_of(model, hull.points.corners[corner]);
     };
     if (feature.kind == FeatureKind::vertex) {
+        assert(feature.number < hull.points.count);
         to.vertex[0] = vertex_of(feature.number);
         return to;
     }
@@ -220,6 +224,7 @@ cdprep_feature in_c(const Model& model, const FeatureHull& hull,
         return to;
     }
     const bool is_edge = feature.kind == FeatureKind::edge;
+    assert((is_edge ? feature.number / 3 : feature.number) < hull.facets.size());
     const std::uint32_t first = is_edge ? feature.number % 3 : 0;
     const auto& corner = hull.facets[is_edge ? feature.number / 3 : feature.number].corner;
     for (std::uint32_t i = 0; i < (is_edge ? 2U : 3U); ++i) {
@@ -329,6 +334,7 @@ int cdprep_hull_mesh(const cdprep_hull* hull, cdprep_mesh* mesh, cdprep_error* e
             cdprep::c::write_piece(model, hull->number, *mesh);
         } else {
             const auto at = find_hull(model, cdprep::format::HullScope{hull->scope}, hull->number);
+            assert(at.has_value());  // check_exists() found it
             cdprep::c::write_hull(model, *at, *mesh);
         }
         return CDPREP_OK;

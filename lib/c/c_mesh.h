@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -62,11 +63,13 @@ public:
         return triangles_ < mesh_.triangle_room;
     }
     void add_vertex(const Double3& position, std::uint32_t number) noexcept {
+        assert(has_room_for_vertex());
         store(position, mesh_.positions + 3 * vertices_);
         if (mesh_.vertices != nullptr) mesh_.vertices[vertices_] = number;
         ++vertices_;
     }
     void add_triangle(const std::array<std::uint32_t, 3>& vertex) noexcept {
+        assert(has_room_for_triangle());
         for (std::size_t i = 0; i < 3; ++i) mesh_.triangles[3 * triangles_ + i] = vertex[i];
         ++triangles_;
     }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <limits>
 #include <tuple>
 
@@ -102,12 +103,14 @@ Structure structure_of(std::uint32_t through) noexcept {
     constexpr std::array kStructures = {
         Structure::bvh,           Structure::octree,     Structure::adaptive_octree,
         Structure::hashed_octree, Structure::tetra_tree, Structure::pieces};
+    assert(through < kStructures.size());
     return kStructures[through];
 }
 
 Ask needs_of(std::uint32_t through) noexcept {
     constexpr std::array kNeeds = {Ask::nothing,       Ask::octree,     Ask::adaptive_octree,
                                    Ask::hashed_octree, Ask::tetra_tree, Ask::pieces};
+    assert(through < kNeeds.size());
     return kNeeds[through];
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstdint>
 #include <span>
 #include <type_traits>
@@ -69,10 +70,12 @@ struct AskedPair {
     cdprep_cache* cache = nullptr;
 
     [[nodiscard]] Pair pair() const noexcept {
+        assert(a != nullptr && b != nullptr);
         return {*a, *b, placement, options};
     }
     /// The same with a cache, where the answer is found through the BVH.
     [[nodiscard]] Pair with(PairCacheWords& words) const noexcept {
+        assert(a != nullptr && b != nullptr);
         const bool uses_cache = options.through == Structure::bvh;
         return {*a, *b, placement, options, uses_cache ? words.get() : nullptr};
     }
@@ -156,6 +159,7 @@ int ask_pair(const PairQuestion& question, const cdprep_pair* pair, cdprep_works
         if (const int code = read_pair(call, {"pair"}, question, pair, asked)) return code;
         InUse use;
         if (const int code = use.begin(call, *workspace)) return code;
+        assert(!workspace->lanes.empty());
         if constexpr (std::is_invocable_v<Asker, Call&, const AskedPair&, Workspace&>) {
             return ask(call, asked, workspace->lanes[0]);
         } else {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -167,8 +168,10 @@ int ask_each(const Query* query, cdprep_workspace* workspace, Answer* answers,
         if (const int code = use.begin(call, *workspace)) return code;
         const std::span<Workspace> lanes = workspace->lanes;
         const CallersThreads threads(*workspace);
-        share_jobs(read.count, lanes.size(), threads,
-                   [&](std::size_t i, std::size_t lane) { ask(answers[i], read, i, lanes[lane]); });
+        share_jobs(read.count, lanes.size(), threads, [&](std::size_t i, std::size_t lane) {
+            assert(lane < lanes.size());
+            ask(answers[i], read, i, lanes[lane]);
+        });
         return CDPREP_OK;
     });
 }
@@ -180,6 +183,7 @@ Double3 point_of(const double* numbers) noexcept {
 cdprep_closest_point in_c(const std::optional<ClosestPoint>& found) noexcept {
     cdprep_closest_point to{};
     if (!found) return to;
+    assert(found->lower <= found->upper);
     to.found = CDPREP_YES;
     to.triangle = found->triangle;
     store(found->point, to.point);
@@ -195,6 +199,7 @@ cdprep_ray_hit in_c(const RayHit& hit) noexcept {
 }
 
 Ray ray_of(const cdprep_ray_query& query, std::size_t i) noexcept {
+    assert(i < query.count);
     return {point_of(query.rays[i].origin), point_of(query.rays[i].direction)};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <cassert>
 #include <limits>
 #include <type_traits>
 
@@ -111,6 +112,7 @@ Shape shape_of(const cdprep_shape_query& query) noexcept {
         case CDPREP_CAPSULE:
             return Capsule{point_of(query.a), point_of(query.b), query.radius};
         default:
+            assert(query.shape == CDPREP_TRIANGLE);
             return TriangleShape{{point_of(query.a), point_of(query.b), point_of(query.c)}};
     }
 }
@@ -165,6 +167,7 @@ int ask_shape(const cdprep_shape_query* query, cdprep_workspace* workspace, Answ
         }
         InUse use;
         if (const int code = use.begin(call, *workspace)) return code;
+        assert(!workspace->lanes.empty());
         ask(asked, model.model, workspace->lanes[0]);
         return CDPREP_OK;
     });
@@ -173,6 +176,7 @@ int ask_shape(const cdprep_shape_query* query, cdprep_workspace* workspace, Answ
 cdprep_nearest in_c(const std::optional<ShapeDistance>& found) noexcept {
     cdprep_nearest to{};
     if (!found) return to;
+    assert(found->lower <= found->upper);
     to.found = CDPREP_YES;
     to.triangle_a = found->triangle;
     to.triangle_b = CDPREP_NONE;

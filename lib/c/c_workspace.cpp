@@ -2,6 +2,7 @@
 #include "c/c_workspace.h"
 
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <iterator>
 #include <memory>
@@ -40,7 +41,9 @@ struct Layout {
           counts(objects + aligned(lanes * sizeof(Workspace))),
           scratch(counts + aligned(lanes * sizeof(QueryCounts))),
           scratch_size(aligned(Workspace::size())),
-          size(scratch + lanes * scratch_size) {}
+          size(scratch + lanes * scratch_size) {
+        assert(lanes > 0 && lanes <= kMostLanes);
+    }
 
     std::size_t objects;
     std::size_t counts;
@@ -69,6 +72,8 @@ int read(Call& call, const cdprep_workspace_options* given, Asked& asked) noexce
 cdprep_workspace* make_in(const Asked& asked, std::byte* block, const Memory& memory) noexcept {
     const std::uint32_t lanes = asked.options.lanes;
     const Layout layout(lanes);
+    assert(layout.size == asked.size);
+    assert(reinterpret_cast<std::uintptr_t>(block) % CDPREP_ALIGNMENT == 0);
     auto* const objects = reinterpret_cast<Workspace*>(block + layout.objects);
     auto* const counts = reinterpret_cast<QueryCounts*>(block + layout.counts);
     for (std::uint32_t i = 0; i < lanes; ++i) {
@@ -117,6 +122,7 @@ cdprep_workspace_options Input<cdprep_workspace_options>::defaults() noexcept {
 }
 
 int InUse::begin(Call& call, cdprep_workspace& workspace) noexcept {
+    assert(workspace_ == nullptr);
     if (workspace.in_use.exchange(true, std::memory_order_acquire)) {
         return call.refuse(CDPREP_WHY_BUSY, {"workspace"}, "is in use by another call.");
     }
@@ -125,6 +131,7 @@ int InUse::begin(Call& call, cdprep_workspace& workspace) noexcept {
 }
 
 void CallersThreads::operator()(std::size_t count, Task task) const {
+    assert(count <= kMostLanes);
     std::array<std::atomic<bool>, kMostLanes> begun{};
     const Handed handed = {task, count, &begun};
     if (workspace_.run != nullptr && count > 1) {

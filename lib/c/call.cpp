@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdarg>
 #include <cstdio>
 #include <cstring>
@@ -28,6 +29,7 @@ public:
 private:
     template <class Value>
     void print(const char* format, Value value) noexcept {
+        assert(at_ < text_.size());
         const int length = std::snprintf(text_.data() + at_, text_.size() - at_, format, value);
         if (length > 0) at_ = std::min(text_.size() - 1, at_ + static_cast<std::size_t>(length));
     }
@@ -49,6 +51,7 @@ Argument spelt(const Name& name) noexcept {
 }
 
 void copy_text(std::string_view from, char* to, std::size_t room) noexcept {
+    assert(room > 0);
     const std::size_t length = std::min(from.size(), room - 1);
     std::memcpy(to, from.data(), length);
     to[length] = 0;
@@ -69,6 +72,7 @@ int Call::refuse(std::int32_t why, const Name& name, const char* message, ...) n
     std::array<char, sizeof error_->message> sentence{};
     const int length = std::snprintf(sentence.data(), sentence.size(), "%s ", spelt(name).data());
     const std::size_t begin = length > 0 ? static_cast<std::size_t>(length) : 0;
+    assert(begin < sentence.size());  // a name is shorter than a message
     std::va_list values;
     va_start(values, message);
     std::vsnprintf(sentence.data() + begin, sentence.size() - begin, message, values);
@@ -85,6 +89,7 @@ int Call::refuse_with(std::int32_t why, const Name& name, std::string_view sente
 }
 
 int Call::fail(int code, std::string_view sentence) noexcept {
+    assert(code != CDPREP_OK);
     if (error_ == nullptr) return code;
     error_->code = code;
     error_->why = 0;

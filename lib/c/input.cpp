@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "c/input.h"
 
+#include <cassert>
 #include <cmath>
 
 #include "cdprep/format/float_environment.h"
@@ -76,6 +77,7 @@ int check_field(Call& call, const Name& name, const Field& field, const void* gi
         default:
             break;
     }
+    assert(field.count > 0 && field.offset % alignof(double) == 0);
     for (std::uint32_t i = 0; i < field.count; ++i) {
         double number = 0;
         std::memcpy(&number, at(given, field.offset + i * sizeof number), sizeof number);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "c/memory.h"
 
+#include <cassert>
 #include <cstdint>
 #include <new>
 
@@ -36,6 +37,7 @@ int read_allocator(Call& call, const Name& name, const cdprep_allocator* given,
 
 int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
              Memory& memory) noexcept {
+    assert(allocator.allocate != nullptr && allocator.release != nullptr);
     memory = {allocator, nullptr, size};
     if (size == 0) return CDPREP_OK;
     memory.start = allocator.allocate(allocator.context, size, CDPREP_ALIGNMENT);
@@ -56,11 +58,13 @@ OwnedMemory::~OwnedMemory() {
 
 int OwnedMemory::allocate(Call& call, const cdprep_allocator& allocator,
                           std::size_t size) noexcept {
+    assert(memory_.start == nullptr);  // else nobody would release the first block
     return c::allocate(call, allocator, size, memory_);
 }
 
 void release(const Memory& memory) noexcept {
     if (memory.start == nullptr) return;
+    assert(memory.allocator.release != nullptr);
     memory.allocator.release(memory.allocator.context, memory.start, memory.size);
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "c/pair_answers.h"
 
+#include <cassert>
+
 #include "c/pair_cache_words.h"
 #include "cdprep/pairs.h"
 
@@ -32,6 +34,7 @@ cdprep_collision in_c(bool hit, const Containment& containment) noexcept {
 cdprep_nearest in_c(const std::optional<Distance>& found) noexcept {
     cdprep_nearest to{};
     if (!found) return to;
+    assert(found->lower <= found->upper);
     to.found = CDPREP_YES;
     to.triangle_a = found->triangle_a;
     to.triangle_b = found->triangle_b;

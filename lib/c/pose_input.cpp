@@ -2,6 +2,7 @@
 #include "c/pose_input.h"
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <iterator>
 
@@ -54,6 +55,7 @@ int read_pose(Call& call, const Name& name, const cdprep_pose* given, Pose& pose
 
 int read_placement(Call& call, const Name& name, std::uint32_t moving, const cdprep_pose& pose_a,
                    const cdprep_pose& pose_b, Placement& placement) {
+    assert(moving <= CDPREP_MOVE_BOTH);
     Pose a, b;
     if (const int code = read_rigid(call, name.of("pose_a"), pose_a, a)) return code;
     if (const int code = read_rigid(call, name.of("pose_b"), pose_b, b)) return code;
