@@ -2,6 +2,7 @@
 #include "cdprep/precondition.h"
 
 #include <atomic>
+#include <cassert>
 #include <cstdio>
 #include <cstdlib>
 
@@ -24,11 +25,13 @@ PreconditionHandler set_precondition_handler(PreconditionHandler handler) noexce
 }
 
 void stop_with(const char* sentence) noexcept {
+    assert(sentence != nullptr);
     handler_of_program.load()(sentence);
     std::abort();
 }
 
 void refuse(const Model& model, Ask asks) noexcept {
+    assert(!model.serves(asks));
     stop_with(model.refusal(asks)->message.c_str());
 }
 

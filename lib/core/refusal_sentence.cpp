@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/refusal_sentence.h"
 
+#include <cassert>
+
 #include "cdprep/format/sections.h"
 
 namespace cdprep {
@@ -22,6 +24,7 @@ std::string names_of(SectionSet sections) {
         if (!names.empty()) names += ", ";
         names += name_of(id);
     }
+    assert(!names.empty());
     return names;
 }
 
@@ -38,6 +41,7 @@ std::string way_out(const Needs& row, const Contents& contents, Refusal::Reason 
 
 std::string refusal_sentence(std::string_view file, Ask asks, const Contents& contents,
                              Refusal::Reason reason) {
+    assert(asks != Ask::nothing);
     const std::string begin = std::string(file) + ": ";
     for (const Needs& row : needs()) {
         if (!contains(asks, row.ask)) continue;
