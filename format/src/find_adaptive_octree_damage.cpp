@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 
 #include "cdprep/format/content_hash.h"
@@ -95,6 +96,7 @@ Found find_bad_leaf(const Parts& parts, std::uint64_t i, const AdaptiveOctreeNod
     if (node.first != next.reference) {
         return parts.nodes.damage(DamageKind::bad_order, i, node.first, next.reference);
     }
+    assert(next.reference <= parts.references.count());
     const std::uint64_t room = parts.references.count() - next.reference;
     if (node.count == 0 || node.count > room) {
         return parts.nodes.damage(DamageKind::bad_order, i, node.count, room);
@@ -199,6 +201,7 @@ private:
         const bool is_good =
             children == 0 ? split == Point{0, 0, 0} : is_good_split(box, split, children);
         if (!is_good) return parts_.nodes.damage(DamageKind::bad_box, index, index, 0);
+        assert(children == 0 || depth_ < path_.size());
         if (children != 0) path_[depth_++] = {box, split, node.first, children};
         return std::nullopt;
     }

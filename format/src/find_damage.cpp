@@ -2,6 +2,7 @@
 #include "cdprep/format/find_damage.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 
@@ -36,6 +37,7 @@ constexpr std::int32_t kMaxFrameExponent = 1100;
 
 template <class T>
 T read(Bytes file, std::uint64_t at) noexcept {
+    assert(at <= file.size() && sizeof(T) <= file.size() - at);
     T value;
     std::memcpy(&value, file.data() + at, sizeof value);
     return value;
@@ -202,6 +204,7 @@ struct Content {
 
     template <class T>
     [[nodiscard]] T element(std::uint64_t index) const noexcept {
+        assert(index < entry.count && entry.element_size == sizeof(T));
         return read<T>(file, place(index));
     }
     [[nodiscard]] std::uint64_t place(std::uint64_t index) const noexcept {
@@ -368,6 +371,7 @@ Found find_bad_leaf(const Content& content) {
 /// Whether sphere `box` may be walked: an axis near unit length, nothing negative, and
 /// no side that its kind does not have.
 bool is_swept_sphere(const SweptNode& node, std::uint32_t box, SweptKind kind) noexcept {
+    assert(box < kBvhWidth);
     constexpr float kUnitTolerance = 0x1p-10F;
     bool good = node.radius[box] >= 0;
     for (std::uint32_t k = 0; k < 2; ++k) {
@@ -546,6 +550,8 @@ Found find_missing(Bytes file) {
 }
 
 Bytes section_bytes(Bytes file, const SectionEntry& entry) noexcept {
+    assert(entry.offset <= file.size() &&
+           entry.count <= (file.size() - entry.offset) / entry.element_size);
     return file.subspan(static_cast<std::size_t>(entry.offset),
                         static_cast<std::size_t>(entry.count * entry.element_size));
 }

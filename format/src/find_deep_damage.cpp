@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -22,6 +23,7 @@ using Bytes = std::span<const std::byte>;
 template <class T>
 std::vector<T> copy_of(Bytes file, SectionId id) {
     const std::optional<SectionEntry> entry = find_section(file, id);
+    assert(!entry || entry->count == 0 || entry->element_size == sizeof(T));
     std::vector<T> elements(entry ? static_cast<std::size_t>(entry->count) : 0);
     if (!elements.empty()) {
         std::memcpy(elements.data(), file.data() + entry->offset, elements.size() * sizeof(T));
@@ -87,6 +89,7 @@ bool box_holds_triangles(const Tree& tree, const BvhNode& node, std::uint32_t bo
     const std::uint64_t last = std::min<std::uint64_t>(first + kBvhWidth, tree.triangles.size());
     for (std::uint64_t i = first; i < last; ++i) {
         for (const std::uint32_t vertex : tree.triangles[i].vertex) {
+            assert(vertex < tree.positions.size());
             if (!box_holds(tree, node, box, tree.positions[vertex])) return false;
         }
     }
@@ -133,6 +136,7 @@ double stored_in_leaf(const Tree& tree, const Double3& p, std::size_t axis) {
 }
 
 bool leaf_matches(const Tree& tree, const BvhLeaf& leaf, std::uint64_t first) {
+    assert(leaf.count > 0 && leaf.count <= tree.triangles.size() - first);
     const bool exact = (tree.header.flags & model_exact_leaves) != 0;
     const double scale = exact ? std::ldexp(1.0, tree.header.frame_exponent) : 1;
     for (std::uint32_t lane = 0; lane < kBvhWidth; ++lane) {
@@ -313,6 +317,7 @@ Found find_repeated(Bytes file, SectionId id) {
     const auto list = copy_of<std::uint32_t>(file, id);
     std::vector<bool> seen(list.size(), false);
     for (std::size_t i = 0; i < list.size(); ++i) {
+        assert(list[i] < list.size());
         if (seen[list[i]]) {
             return Damage{DamageKind::bad_fact, id, place_of(file, id, i), list[i], i};
         }
@@ -328,6 +333,7 @@ Found find_twice_held(Bytes file) {
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         for (std::uint32_t k = 0; k < leaves[i].count; ++k) {
             const std::size_t at = std::size_t{leaves[i].first_triangle} + k;
+            assert(at < seen.size());
             if (seen[at]) {
                 return Damage{DamageKind::bad_fact, SectionId::piece_leaves,
                               place_of(file, SectionId::piece_leaves, i), at, i};
@@ -350,6 +356,7 @@ Tree piece_tree(Bytes file, const Tree& tree) {
     for (const PieceLeaf& leaf : leaves) {
         for (std::uint32_t lane = 0; lane < kBvhWidth; ++lane) {
             const std::uint32_t at = leaf.first_triangle + std::min(lane, leaf.count - 1);
+            assert(leaf.count > 0 && at < listed.size());
             pieces.triangles.push_back(tree.triangles[listed[at]]);
         }
     }

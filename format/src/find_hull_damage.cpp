@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "cdprep/format/hulls.h"
@@ -67,6 +68,7 @@ struct Next {
 /// Parts that begin where they should, and end inside their section.
 Found find_bad_run(const Parts& parts, std::uint64_t i, std::uint64_t first, std::uint64_t count,
                    std::uint64_t& next, std::uint64_t room) noexcept {
+    assert(next <= room);
     if (first != next) return parts.hulls.damage(DamageKind::bad_order, i, first, next);
     if (count > room - next) {
         return parts.hulls.damage(DamageKind::bad_index, i, count, room - next);

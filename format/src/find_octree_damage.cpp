@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "cdprep/format/content_hash.h"
@@ -117,6 +118,7 @@ Found find_bad_leaf(const Parts& parts, std::uint64_t i, const OctreeNode& node,
     if (node.first != next.reference) {
         return parts.nodes.damage(DamageKind::bad_order, i, node.first, next.reference);
     }
+    assert(next.reference <= parts.references.count());
     const std::uint64_t room = parts.references.count() - next.reference;
     if (node.count == 0 || node.count > room) {
         return parts.nodes.damage(DamageKind::bad_order, i, node.count, room);
@@ -178,6 +180,7 @@ Found find_bad_sorted_leaf(const Parts& parts) noexcept {
 /// The numbers of leaves before each cell, which the codes on either side prove.
 Found find_bad_top(const Parts& parts) noexcept {
     const std::uint32_t level = parts.grid[0].top_level;
+    assert(level <= kOctreeBits);
     const std::uint64_t cells = std::uint64_t{1} << (3 * level);
     if (parts.top.count() != cells + 1) {
         return parts.top.damage(DamageKind::bad_count, 0, parts.top.count(), cells + 1);
@@ -201,6 +204,7 @@ Found find_bad_top(const Parts& parts) noexcept {
 Found find_bad_table(const Parts& parts, const SectionView<std::uint32_t>& table,
                      std::uint64_t (*slot_of)(std::uint64_t, std::uint32_t) noexcept) noexcept {
     const std::uint32_t bits = parts.grid[0].slot_bits;
+    assert(bits < 64);
     const std::uint64_t slots = std::uint64_t{1} << bits;
     const std::uint64_t nodes = parts.nodes.count();
     if (table.count() != slots + nodes) {

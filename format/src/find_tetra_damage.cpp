@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 
 #include "cdprep/format/content_hash.h"
@@ -116,6 +117,7 @@ Found find_bad_leaf(const Parts& parts, std::uint64_t i, const TetraNode& node,
     const auto bad = [&](std::uint64_t found, std::uint64_t limit) {
         return parts.nodes.damage(DamageKind::bad_order, i, found, limit);
     };
+    assert(next.reference <= parts.references.count());
     const std::uint64_t room = parts.references.count() - next.reference;
     if (node.flags != 0) return bad(node.flags, 0);
     if (node.first != next.reference) return bad(node.first, next.reference);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/format/make_user_block.h"
 
+#include <cassert>
 #include <cstring>
 
 #include "cdprep/format/checksum.h"
@@ -37,6 +38,7 @@ struct HashedSection {
 
 std::uint64_t content_hash(const FileHeader& header,
                            std::span<const SectionEntry> sections) noexcept {
+    assert(sections.size() <= kMaxSections);
     const HashedFacts facts = {header.version,
                                header.required_features,
                                header.vertex_count,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
+
 #include "cdprep/format/octree.h"
 #include "section_view.h"
 
@@ -29,6 +31,7 @@ inline std::optional<Damage> find_gap(std::span<const std::byte> file,
 inline std::optional<Damage> find_bad_list(const SectionView<std::uint32_t>& references,
                                            std::uint64_t first, std::uint64_t count,
                                            std::uint64_t triangle_count) noexcept {
+    assert(first <= references.count() && count <= references.count() - first);
     std::uint64_t least = 0;
     for (std::uint64_t i = first; i < first + count; ++i) {
         const std::uint32_t triangle = references[i] & ~kSharedReference;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cassert>
 #include <cstring>
 #include <optional>
 #include <span>
@@ -24,12 +25,14 @@ struct SectionView {
         entry.id = id;
         const std::optional<SectionEntry> found = find_section(of, id);
         if (found && wanted.contains(id)) entry = *found;
+        assert(entry.count == 0 || entry.element_size == sizeof(T));
     }
     [[nodiscard]] std::uint64_t count() const noexcept {
         return entry.count;
     }
     /// Requires index < count().
     [[nodiscard]] T operator[](std::uint64_t index) const noexcept {
+        assert(index < count());
         T value;
         std::memcpy(&value, file.data() + entry.offset + index * sizeof value, sizeof value);
         return value;

@@ -2,6 +2,7 @@
 #include "cdprep/format/sections.h"
 
 #include <array>
+#include <cassert>
 #include <cstring>
 
 #include "elements.h"
@@ -32,6 +33,7 @@ const SectionKind* find_section_kind(SectionId id) noexcept {
 }
 
 FileHeader read_header(std::span<const std::byte> file) noexcept {
+    assert(file.size() >= sizeof(FileHeader));
     FileHeader header;
     std::memcpy(&header, file.data(), sizeof header);
     return header;
@@ -39,6 +41,7 @@ FileHeader read_header(std::span<const std::byte> file) noexcept {
 
 std::optional<SectionEntry> find_section(std::span<const std::byte> file, SectionId id) noexcept {
     const FileHeader header = read_header(file);
+    assert(header.section_count <= kMaxSections);
     for (std::uint32_t i = 0; i < header.section_count; ++i) {
         SectionEntry entry;
         std::memcpy(&entry, file.data() + kSectionTableOffset + i * sizeof entry, sizeof entry);
