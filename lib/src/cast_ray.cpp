@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "cdprep/format/float_environment.h"
@@ -115,6 +116,7 @@ public:
         return ray_triangle(line_, still_.corners(triangle));
     }
     [[nodiscard]] RayHit hit(double t, std::uint32_t source) const noexcept {
+        assert(t >= 0);
         const Double3& o = line_.origin;
         const Double3& d = line_.step;
         return {std::ldexp(t, stretch_), {o.x + t * d.x, o.y + t * d.y, o.z + t * d.z}, source};
@@ -143,6 +145,7 @@ bool for_each_hit(const Model& model, const RayQuery& query, Workspace& workspac
         return verdict;
     };
     const auto look_at = [&](const TriangleRun& run) {
+        assert(run.first <= run.last && run.last <= model.triangle_count());
         for (std::uint32_t i = run.first; i < run.last; ++i) {
             const std::optional<double> t = query.meet(i);
             if (t && *t <= query.limit() && !found(*t, i)) return false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -392,6 +393,7 @@ struct CornerSet {
         for (std::size_t i = 0; i < simplex.count; ++i) add(simplex.corner[i].*side);
     }
     void add(std::uint32_t number) noexcept {
+        assert(count < corner.size() || has(number));
         if (!has(number)) corner[count++] = number;
     }
     [[nodiscard]] bool has(std::uint32_t number) const noexcept {
@@ -441,6 +443,7 @@ Station nearest_face(const Ground& ground, const Double3& point) noexcept {
 Station station_over(const Ground& ground, const CornerSet& set, const Double3& gap,
                      const Double3& witness) noexcept {
     const HullEdges& edges = ground.edges();
+    assert(set.count > 0);
     const FacetPlace corner = place_of(edges, set.corner[0]);
     if (set.count == 1) return {FeatureKind::vertex, corner};
     std::optional<Station> edge;
@@ -574,12 +577,14 @@ private:
 
     void remember(const Station& at, std::size_t side) const noexcept {
         if (cache_ == nullptr) return;
+        assert(at.place.corner < 3);
         cache_->is_set = true;
         cache_->kind[side] = at.kind;
         cache_->edge[side] = 3 * at.place.facet + at.place.corner;
     }
     static ClosestFeatures answer(const Found& a, const Found& b, const DistanceBounds& bounds,
                                   const Double3& on_a, const Double3& on_b) noexcept {
+        assert(bounds.lower <= bounds.upper);
         return {a.feature,
                 b.feature,
                 bounds.lower,

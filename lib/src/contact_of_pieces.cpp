@@ -2,6 +2,7 @@
 #include "contact_of_pieces.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +21,10 @@ constexpr std::size_t kMostWays = 256;
 VertexSet vertices_of(const NearestSimplex& simplex, std::uint32_t Difference::*side,
                       std::span<const std::uint32_t> corners) {
     VertexSet set;
-    for (std::size_t i = 0; i < simplex.count; ++i) set.add(corners[simplex.corner[i].*side]);
+    for (std::size_t i = 0; i < simplex.count; ++i) {
+        assert(simplex.corner[i].*side < corners.size());
+        set.add(corners[simplex.corner[i].*side]);
+    }
     return set;
 }
 
@@ -70,9 +74,9 @@ private:
         return triangle_features();
     }
     [[nodiscard]] Meeting triangle_features() const noexcept {
-        const TreePair pair = near_.touch ? TreePair{near_.a, near_.b}
-                                          : nearest_triangles(a_, b_, {near_.a, near_.b},
-                                                              question_.degenerate);
+        const TreePair pair =
+            near_.touch ? TreePair{near_.a, near_.b}
+                        : nearest_triangles(a_, b_, {near_.a, near_.b}, question_.degenerate);
         const ConvexPoints of_a = a_.points_of(pair.a), of_b = b_.points_of(pair.b);
         const TwoHulls triangles(of_a, of_b, *question_.placement);
         const auto nearest = hull_nearest(triangles.a, triangles.b, {}, nullptr, question_.counts);
@@ -85,6 +89,7 @@ private:
         const auto& vertex = side.model().model->mesh().triangles[triangle].vertex;
         const auto place = [&](std::uint32_t number) {
             const auto* at = std::find(vertex.begin(), vertex.end(), number);
+            assert(at != vertex.end());
             return static_cast<std::uint32_t>(at - vertex.begin());
         };
         if (set.count == 1) return {FeatureKind::vertex, triangle, place(set.vertex[0])};
@@ -202,6 +207,7 @@ private:
                    a.point(a.farthest(direction, 0)) - b.point(b.farthest(-direction, 0)));
     }
     [[nodiscard]] WayOut way_out(const Double3& direction) const noexcept {
+        assert(dot(direction, direction) > 0);
         const MovedHull a = a_.hull(), b = b_.hull();
         const Double3 origin = a_.corner(0);
         const auto of_a = a.proven(direction, origin, a.farthest(direction, 0));

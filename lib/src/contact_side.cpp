@@ -2,6 +2,7 @@
 #include "contact_side.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "cdprep/hulls.h"
@@ -45,6 +46,7 @@ ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece) noexcept
                                &format::Piece::first_triangle)),
       contained_((model.model->pieces().pieces[piece].flags & format::piece_contained) != 0),
       hull_(feature_hull(*model.model, piece)) {
+    assert(!triangles_.empty());
     place();
 }
 
@@ -65,6 +67,7 @@ void ContactSide::place() noexcept {
 }
 
 ConvexPoints ContactSide::points_of(std::uint32_t triangle) const noexcept {
+    assert(triangle < model_->model->triangle_count());
     ConvexPoints points = hull_.points;
     points.corners = model_->model->mesh().triangles[triangle].vertex;
     points.count = 3;

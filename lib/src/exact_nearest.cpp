@@ -2,6 +2,7 @@
 #include "exact_nearest.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -34,6 +35,7 @@ struct Places {
 };
 
 Places places_of(const Difference* corner, std::size_t count, int at_most) {
+    assert(count > 0 && count <= 4);
     Places places;
     places.lowest = at_most;
     for (std::size_t i = 0; i < count; ++i) {
@@ -75,6 +77,7 @@ std::array<double, 4> parts_of_one(const std::array<Approximate, 4>& numbers) {
         parts[i] = std::fabs(std::ldexp(x.value, std::max(x.exponent - most, -2000)));
         sum += parts[i];
     }
+    assert(sum > 0);
     for (double& part : parts) part /= sum;
     return parts;
 }
@@ -111,6 +114,7 @@ public:
             }
         }
         // No face of it is nearest: the origin lies inside.
+        assert(count_ == 4);
         return {{0, 1, 2, 3}, count_, true};
     }
     [[nodiscard]] const Direction& direction() const {
@@ -264,6 +268,7 @@ struct SquaredDistance {
 };
 
 SquaredDistance squared_distance(const Places& places, std::size_t count) {
+    assert(count >= 1 && count <= 3);
     const WidePlace& p = places.at[0];
     const WideInteger<2 * kSquare> one = WideInteger<2 * kSquare>::from_double(1, 0);
     if (count == 1) return {one * dot(p, p), one};
@@ -303,6 +308,7 @@ ExactNearest exact_nearest(const MovedHull& a, const MovedHull& b, const Nearest
         if (goal == ExactGoal::verdict && sign_along(simplex.direction(), added, nullptr) > 0) {
             return result;
         }
+        assert(result.count < result.corner.size());
         result.corner[result.count++] = added;
         if (counts != nullptr) ++counts->exact_steps;
     }

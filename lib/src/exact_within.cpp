@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -116,6 +117,7 @@ bool near_any_edges(const Figure& a, const Figure& b, const Square& limit) noexc
 }
 
 Figure figure(std::span<const Double3> points, int lowest) noexcept {
+    assert(!points.empty() && points.size() <= 3);
     Figure result;
     result.count = points.size();
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -218,6 +220,7 @@ Bounds in_double(std::span<const Double3> points, const Corners& t) noexcept {
 
 bool is_within_in_integers(std::span<const Double3> points, const Corners& t,
                            double distance) noexcept {
+    assert(distance >= 0 && std::isfinite(distance));
     const int lowest = std::min({lowest_bit_of(points), lowest_bit_of(t), lowest_bit(distance)});
     const Figure a = figure(points, lowest);
     const Figure b = figure(t, lowest);

@@ -2,6 +2,7 @@
 #include "front.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "nearest_simplex.h"
@@ -145,6 +146,7 @@ Front::Ball Front::ball_around_b(const TreePlace& place) const noexcept {
 
 void Front::store(std::uint32_t number, const PendingPair& pair,
                   const Plane& plane) const noexcept {
+    assert(number < kFrontRoom);
     const auto set = [&](std::size_t row, const Double3& from) {
         const Direction f = floats(from);
         for (std::size_t i = 0; i < 3; ++i) at(row + i, number) = f[i];
@@ -177,6 +179,7 @@ void Front::begin() noexcept {
 }
 
 std::size_t Front::find_weak(float limit) noexcept {
+    assert(kept_.count > 0 && kept_.count <= kFrontRoom);
     const bool has_grown =
         kept_.begun_with > 0 && kept_.count > 2 * kept_.begun_with + kMoreBeforeAnew;
     if (has_grown) begin();
@@ -254,6 +257,7 @@ bool Front::split(std::uint32_t number, const PendingPair& pair, const Plane& pl
         const std::uint32_t to = box == 0 ? number : kept_.count++;
         store(to, child, of_child);
         if (of_child.gap > double{limit}) continue;
+        assert(waiting < scratch_.weak_planes.size());
         scratch_.weak_planes[waiting++] = static_cast<std::uint16_t>(to);
     }
     return true;

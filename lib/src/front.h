@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -112,6 +113,7 @@ FrontEnd Front::open_near(const float& limit, Open&& open) noexcept {
     }
     while (waiting > 0) {
         const std::uint32_t number = scratch_.weak_planes[--waiting];
+        assert(number < kept_.count);
         const PendingPair pair = PendingPair::unpacked(kept_.pair[number]);
         const Plane plane = part(number, pair, limit);
         if (plane.gap > double{limit}) {

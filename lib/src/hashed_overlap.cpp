@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 
 #include "cell_contacts.h"
@@ -52,6 +53,7 @@ using MeetingCounts = std::array<std::uint8_t, format::kBvhWidth>;
 
 /// Bit j goes to the lowest of byte j: times a set of A's boxes, all pairs with those.
 kernels::BoxPairs spread_to_rows(unsigned of_b) noexcept {
+    assert(of_b >> format::kBvhWidth == 0);
     // Byte j keeps bit j alone, and then 1 where that is set.
     const kernels::BoxPairs bits =
         kernels::BoxPairs{of_b} * 0x0101010101010101U & 0x8040201008040201U;
@@ -208,6 +210,7 @@ private:
 
 template <class Contacts>
 CellBlock KeyedWalk<Contacts>::block_around(unsigned boxes) const noexcept {
+    assert(boxes != 0);
     CellPlace least;
     CellPlace most;
     std::uint32_t widest = 0;
@@ -259,6 +262,7 @@ std::size_t KeyedWalk<Contacts>::find_cells(const TestedBoxes& side,
 template <class Contacts>
 std::size_t KeyedWalk<Contacts>::open(const KeyedCell& cell, KeyedCell* met,
                                       std::size_t count) noexcept {
+    assert(cell.level < parts_.deepest());
     const CellBlock block = {cell.first, cell.level + 1};
     std::array<std::uint8_t, 8> boxes;
     const unsigned children = parts_.children(cell.part);
@@ -330,6 +334,7 @@ std::size_t KeyedWalk<Contacts>::push_met(std::span<const KeyedCell> cells,
         if (counts[box] == 0) continue;
         met |= 1U << box;
         const TreePlace child{first_below.height, first_below.index + box};
+        assert(depth < scratch_.pending.size());
         std::size_t at = depth++;
         for (; at > begin &&
                counts[PendingPair::unpacked(scratch_.pending[at - 1]).a.index - first_below.index] >
@@ -368,11 +373,13 @@ template <class Contacts>
 void KeyedWalk<Contacts>::gather(std::span<const KeyedCell> cells) noexcept {
     // Depth first: seven siblings wait on each level.
     std::array<KeyedCell, 8 * (format::kOctreeBits + 1)> pending;
+    assert(cells.size() <= 8);
     std::size_t depth = 0;
     for (const KeyedCell& cell : cells) pending[depth++] = cell;
     while (depth > 0) {
         const KeyedCell cell = pending[--depth];
         if (!parts_.is_single_leaf(cell.part)) {
+            assert(depth + 8 <= pending.size());
             depth = open(cell, pending.data(), depth);
             continue;
         }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <span>
 
@@ -131,6 +132,7 @@ public:
 private:
     template <class Visit>
     bool any_below_facet(const TetraCone& cone, double radius, Visit& visit) const noexcept {
+        assert(cone.level <= format::kMaxTetraLevel);
         const double factor = radius / (1U << cone.level);
         Double3 sum = {0, 0, 0};
         for (const Generator& g : cone.generator) {

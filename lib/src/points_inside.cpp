@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -141,6 +142,7 @@ std::span<const std::uint32_t> listed(std::span<const std::uint32_t> references,
 /// The leaf that holds the cone of a key of the deepest level, or null.
 const format::TetraNode* find_leaf(const Model& model, std::uint32_t key) noexcept {
     const format::TetraTree& tree = *model.tetra_tree().tree;
+    assert(format::tetra_level(key) == tree.level);
     const std::uint32_t top_key = key >> (2 * (tree.level - tree.top_level));
     const std::uint32_t entry = model.tetra_tree().top[top_key - (8U << (2 * tree.top_level))];
     if (entry == 0) return nullptr;
@@ -211,6 +213,7 @@ void walk_row(const Tree& tree, const Double3& q, Crossings& crossings) noexcept
         const Double3 split = tree.split(cell);
         const unsigned row = (q.y > split.y ? 2U : 0U) | (q.z > split.z ? 4U : 0U);
         const unsigned lanes = tree.lanes(cell);
+        assert(depth + static_cast<unsigned>(std::popcount(lanes >> row & 3)) <= open.size());
         if ((lanes >> row >> 1 & 1) != 0) {
             open[depth++] = {tree.child(cell, row | 1), {split.x, piece.x1}};
         }
@@ -229,6 +232,7 @@ Inclusion through_cells(const Tree& tree, const Model& model, const Double3& q,
 
 /// The level of the largest cell that holds one finest cell and not the other.
 std::uint32_t level_between(std::uint64_t code, std::uint64_t other) noexcept {
+    assert(code != other);
     const auto differ = static_cast<std::uint32_t>(std::bit_width(code ^ other) - 1);
     return format::kOctreeBits - differ / 3;
 }
@@ -245,6 +249,7 @@ FoundCell find_cell(const Model& model, std::uint64_t code) noexcept {
     const auto codes = model.octree().leaf_codes;
     const auto top = model.octree().top;
     const std::uint64_t cell = code >> (3 * (format::kOctreeBits - model.octree().grid->top_level));
+    assert(cell + 1 < top.size());
     const auto behind =
         std::upper_bound(codes.begin() + top[cell], codes.begin() + top[cell + 1], code);
     std::uint32_t empty = 0;

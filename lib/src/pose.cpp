@@ -2,6 +2,7 @@
 #include "cdprep/pose.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -134,6 +135,7 @@ double gram_error(const std::array<double, 9>& r, std::size_t i, std::size_t j) 
 /// The inverse of the transpose: cofactors over the determinant.
 std::array<double, 9> inverse_transpose(const std::array<double, 9>& m) {
     const double d = determinant(m);
+    assert(d > 0);
     std::array<double, 9> inverse{};
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t row = 3 * ((i + 1) % 3), next_row = 3 * ((i + 2) % 3);
@@ -161,6 +163,7 @@ std::array<double, 9> nearest_rotation(std::array<double, 9> m) {
         }
         if (change <= 0x1p-52) break;
     }
+    assert(worst_rotation_error(m) <= Pose::kRotationTolerance);
     return m;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <initializer_list>
 
@@ -31,6 +32,7 @@ double along(const HalfLine& ray, const Double3& p) {
     for (std::size_t i = 1; i < 3; ++i) {
         if (std::fabs(d[i]) > std::fabs(d[axis])) axis = i;
     }
+    assert(d[axis] != 0);
     return (at[axis] - o[axis]) / d[axis];
 }
 

@@ -2,6 +2,7 @@
 #include "triangle_contact.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "integer_points.h"
 #include "predicates.h"
@@ -67,6 +68,7 @@ struct Lone {
 /// Not for three equal signs. A zero counts to whichever side leaves one corner
 /// alone.
 Lone find_lone(const Signs& s) {
+    assert(s[0] != s[1] || s[1] != s[2]);
     const auto where = [&s](int sign) {
         return static_cast<std::size_t>(std::find(s.begin(), s.end(), sign) - s.begin());
     };
@@ -126,6 +128,7 @@ View view_of(const Triangle<Point>& t) {
 template <class Point>
 bool edge_separates(View view, const Triangle<Point>& a, const Triangle<Point>& b, int limit) {
     const int turn = orient_seen(view, a[0], a[1], a[2]);
+    assert(turn != 0);
     for (std::size_t i = 0; i < 3; ++i) {
         const Point& from = a[i];
         const Point& to = a[(i + 1) % 3];
@@ -210,6 +213,7 @@ template <class Point>
 bool touches_in_plane(const Segment<Point>& s, const Triangle<Point>& t) {
     const View view = view_of(t);
     const int turn = orient_seen(view, t[0], t[1], t[2]);
+    assert(turn != 0);
     bool inside = true;
     for (std::size_t i = 0; i < 3; ++i) {
         const Segment<Point> edge{t[i], t[(i + 1) % 3]};
@@ -254,6 +258,7 @@ bool segments_touch(const Segment<Point>& s, const Segment<Point>& t) {
 template <class Point>
 bool degenerate_touch(const Triangle<Point>& a, bool a_is_flat, const Triangle<Point>& b,
                       bool b_is_flat) {
+    assert(a_is_flat || b_is_flat);
     if (a_is_flat && b_is_flat) return segments_touch(span_of(a), span_of(b));
     return a_is_flat ? segment_touches(span_of(a), b) : segment_touches(span_of(b), a);
 }

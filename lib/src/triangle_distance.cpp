@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -273,6 +274,7 @@ Double3 common_point(const Corners& a, const Corners& b) noexcept {
 TriangleDistance triangle_distance(const Corners& a, const Corners& b, bool tight) noexcept {
     const int exponent = exponent_of(a, b);
     const TriangleDistance first = measured<double>(a, b, exponent, kDoubleError);
+    assert(first.lower <= first.upper);
     if (!tight || is_tight(first)) return first;
     const TriangleDistance second = measured<DoubleDouble>(a, b, exponent, kDoubleDoubleError);
     return second.upper - second.lower < first.upper - first.lower ? second : first;
