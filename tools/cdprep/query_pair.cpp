@@ -101,6 +101,7 @@ public:
         options_.body = arguments.as == "solid" ? Body::solid : Body::surface;
         options_.overlap = arguments.contact == "proper" ? Overlap::proper : Overlap::closed;
         options_.degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
+        options_.through = through.structure;
         if (arguments.counts) workspace_.count_into(&counts_);
     }
 
@@ -112,14 +113,8 @@ public:
             case Question::distance:
                 return answers.add(timed([&] {
                     cache_ = before;
-                    return report::DistanceAnswer{
-                        number, distance({a_,
-                                          b_,
-                                          placement,
-                                          {.body = options_.body, .through = through_.structure},
-                                          &cache_.pair,
-                                          &cache_.front},
-                                         workspace_, errors_)};
+                    return report::DistanceAnswer{number,
+                                                  distance(pair(placement), workspace_, errors_)};
                 }));
             case Question::within:
                 return answers.add(timed([&] {
@@ -133,7 +128,7 @@ public:
             return answers.add(timed([&] {
                 return report::CoarseAnswer{
                     number,
-                    collide_at_level({a_, b_, placement}, *arguments_.level_of_detail, workspace_)};
+                    collide_at_level(pair(placement), *arguments_.level_of_detail, workspace_)};
             }));
         }
         answers.add(timed([&] {
@@ -161,6 +156,10 @@ public:
     }
 
 private:
+    [[nodiscard]] Pair pair(const Placement& placement) {
+        return {a_, b_, placement, options_, &cache_.pair, &cache_.front};
+    }
+
     template <class Ask>
     std::invoke_result_t<Ask> timed(Ask ask) {
         return stopwatch_.timed(arguments_.repeat, arguments_.timings, ask);
@@ -192,13 +191,11 @@ private:
     /// As collide() answers. Whether a solid is inside the other is always found through
     /// the hierarchy of boxes.
     Collision find_collision(const Placement& placement) {
-        if (through_.structure == Structure::bvh) {
-            return collide({a_, b_, placement, options_, &cache_.pair}, workspace_);
-        }
-        const Pair pair = {a_, b_, placement, options_, &cache_.pair};
-        if (any_overlap_through(pair, through_, workspace_)) return {Answer::yes, {}};
+        const Pair asked = pair(placement);
+        if (through_.structure == Structure::bvh) return collide(asked, workspace_);
+        if (any_overlap_through(asked, through_, workspace_)) return {Answer::yes, {}};
         if (options_.body == Body::surface) return {};
-        const Containment inside = containment(pair, workspace_);
+        const Containment inside = containment(asked, workspace_);
         return {inside.answer, inside};
     }
 
@@ -208,14 +205,11 @@ private:
         report::WithinAnswer answer;
         answer.pose = number;
         if (!arguments_.pairs && !arguments_.count) {
-            answer.within = within(
-                {a_, b_, placement, {.through = through_.structure}, &cache_.pair, &cache_.front},
-                tolerance, workspace_);
+            answer.within = within(pair(placement), tolerance, workspace_);
             return answer;
         }
         answer.count = keep_pairs([&](std::span<TrianglePair> room) {
-            return pairs_within({a_, b_, placement, {.through = through_.structure}}, tolerance,
-                                workspace_, room);
+            return pairs_within(pair(placement), tolerance, workspace_, room);
         });
         answer.within = *answer.count > 0;
         if (arguments_.pairs) answer.pairs = std::span(pairs_).first(*answer.count);
@@ -223,9 +217,8 @@ private:
     }
 
     std::size_t find_pairs(const Placement& placement) {
-        const PairOptions options = options_;
         return keep_pairs([&](std::span<TrianglePair> room) {
-            return overlaps_through({a_, b_, placement, options}, through_, workspace_, room);
+            return overlaps_through({a_, b_, placement, options_}, through_, workspace_, room);
         });
     }
 
@@ -248,7 +241,7 @@ private:
             crossings_.push_back(crossing);
             return true;
         };
-        visit_crossings({a_, b_, placement, options_}, workspace_, keep);
+        visit_crossings(pair(placement), workspace_, keep);
         std::sort(crossings_.begin(), crossings_.end(),
                   [](const Crossing& x, const Crossing& y) { return x.pair < y.pair; });
         return crossings_.size();
