@@ -69,7 +69,7 @@ int check_exists(Call& call, const Name& name, const cdprep_hull& hull) noexcept
 /// The corners of a hull that exists.
 ConvexPoints points_of(const cdprep_hull& hull) noexcept {
     const Model& model = hull.model->model;
-    if (hull.scope == CDPREP_HULL_PIECE) return feature_hull(model, hull.number).points;
+    if (hull.scope == CDPREP_HULL_PIECE) return piece_points(model, hull.number);
     const auto at = find_hull(model, format::HullScope{hull.scope}, hull.number);
     return at ? convex_points(model, *at) : ConvexPoints{};
 }
@@ -251,14 +251,14 @@ cdprep_closest_features in_c(const AskedHulls& asked, const FeatureHull& a, cons
 /// Stores corners and facets of a piece's hull. Unlike questions about its features this does not
 /// need the adjacency of its facets.
 void write_piece(const Model& model, std::uint32_t piece, cdprep_mesh& mesh) noexcept {
-    const FeatureHull hull = feature_hull(model, piece);
+    const ConvexPoints points = piece_points(model, piece);
     const auto facets =
         part_of_piece(model.pieces().facets, model, piece, &format::Piece::first_facet);
-    mesh.vertex_count = hull.points.count;
+    mesh.vertex_count = points.count;
     mesh.triangle_count = facets.size();
     MeshWriter writer(mesh);
-    for (std::uint32_t i = 0; i < hull.points.count && writer.has_room_for_vertex(); ++i) {
-        writer.add_vertex(hull.points.point(i), source_vertex_of(model, hull.points.corners[i]));
+    for (std::uint32_t i = 0; i < points.count && writer.has_room_for_vertex(); ++i) {
+        writer.add_vertex(points.point(i), source_vertex_of(model, points.corners[i]));
     }
     for (std::size_t i = 0; i < facets.size() && writer.has_room_for_triangle(); ++i) {
         writer.add_triangle(facets[i].corner);

@@ -8,16 +8,23 @@
 
 namespace cdprep {
 
-FeatureHull feature_hull(const Model& model, std::uint32_t piece) noexcept {
+ConvexPoints piece_points(const Model& model, std::uint32_t piece) noexcept {
     require(model, Ask::pieces);
     assert(piece < model.pieces().pieces.size());
-    FeatureHull hull;
-    hull.points.corners =
+    ConvexPoints points;
+    points.corners =
         part_of_piece(model.pieces().vertices, model, piece, &format::Piece::first_vertex);
-    hull.points.count = static_cast<std::uint32_t>(hull.points.corners.size());
-    hull.points.floats = model.mesh().positions_f32;
-    hull.points.doubles = model.mesh().positions_f64;
-    if (model.pieces().adjacency.size() != model.pieces().facets.size()) return hull;
+    points.count = static_cast<std::uint32_t>(points.corners.size());
+    points.floats = model.mesh().positions_f32;
+    points.doubles = model.mesh().positions_f64;
+    return points;
+}
+
+FeatureHull feature_hull(const Model& model, std::uint32_t piece) noexcept {
+    require(model, Ask::contacts);
+    assert(model.pieces().adjacency.size() == model.pieces().facets.size());
+    FeatureHull hull;
+    hull.points = piece_points(model, piece);
     hull.facets = part_of_piece(model.pieces().facets, model, piece, &format::Piece::first_facet);
     hull.adjacency =
         part_of_piece(model.pieces().adjacency, model, piece, &format::Piece::first_facet);

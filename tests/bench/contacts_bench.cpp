@@ -138,7 +138,7 @@ public:
         shape_.setMargin(0);
         for (std::uint32_t i = 0; i < model.pieces().pieces.size(); ++i) {
             auto hull = std::make_unique<btConvexHullShape>();
-            const ConvexPoints points = feature_hull(model, i).points;
+            const ConvexPoints points = piece_points(model, i);
             for (std::uint32_t k = 0; k < points.count; ++k) {
                 hull->addPoint(bullet_vector(points.point(k)), false);
             }

@@ -298,8 +298,10 @@ inline const std::vector<Question>& questions() {
          [](const Scene& scene) { return told(find_hull(scene.a, format::HullScope::whole)); }},
         {"convex_points", Ask::hulls,
          [](const Scene& scene) { return told(convex_points(scene.a, 0).count); }},
-        {"feature_hull", Ask::pieces,
-         [](const Scene& scene) { return told(feature_hull(scene.a, 0).points.count); }},
+        {"piece_points", Ask::pieces,
+         [](const Scene& scene) { return told(piece_points(scene.a, 0).count); }},
+        {"feature_hull", Ask::contacts,
+         [](const Scene& scene) { return told(feature_hull(scene.a, 0).facets.size()); }},
     };
     return all;
 }

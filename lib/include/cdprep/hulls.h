@@ -24,13 +24,15 @@ namespace cdprep {
 /// count 0.
 [[nodiscard]] ConvexPoints convex_points(const Model& model, std::uint32_t hull) noexcept;
 
-/// Returns the hull of a convex piece of a model's surface as closest_features() wants it, in the
-/// file: valid as long as the model. Its points are the vertices that pieces().vertices lists for
-/// the piece, in that order; its facets and their corners are numbered within the piece.
-///
-/// `piece` is below model.pieces().pieces.size(). A model that does not serve Ask::contacts has no
-/// pieces().adjacency: the hull then has no surface and serves as a set of points. Needs
-/// Ask::pieces. Takes O(1) time.
+/// Returns the corners of the hull of a convex piece of a model's surface as queries want them, in
+/// the file: valid as long as the model. They are the vertices that pieces().vertices lists for the
+/// piece, in that order. `piece` is below model.pieces().pieces.size(). Needs Ask::pieces. Takes
+/// O(1) time.
+[[nodiscard]] ConvexPoints piece_points(const Model& model, std::uint32_t piece) noexcept;
+
+/// Returns the same hull with its surface, as closest_features() wants it. Its points are those of
+/// piece_points(); its facets and their corners are numbered within the piece. Needs
+/// Ask::contacts. Takes O(1) time.
 [[nodiscard]] FeatureHull feature_hull(const Model& model, std::uint32_t piece) noexcept;
 
 }  // namespace cdprep

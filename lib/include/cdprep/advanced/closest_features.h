@@ -19,7 +19,7 @@ enum class FeatureKind : std::uint8_t { vertex, edge, face };
 /// A convex hull with its surface.
 struct FeatureHull {
     ConvexPoints points;  ///< all of them corners
-    /// A closed surface over the points; none of a segment or a point.
+    /// A closed surface over the points; empty for a segment or a point alone.
     std::span<const format::PieceFacet> facets;
     std::span<const format::PieceAdjacency> adjacency;  ///< per facet
 };
