@@ -156,7 +156,6 @@ std::uint32_t word(Answer answer) noexcept {
 
 }  // namespace cdprep::c
 
-using cdprep::Model;
 using cdprep::TrianglePair;
 using cdprep::Workspace;
 using cdprep::c::ask_pair;

@@ -203,8 +203,8 @@ Ray ray_of(const cdprep_ray_query& query, std::size_t i) noexcept {
     return {point_of(query.rays[i].origin), point_of(query.rays[i].direction)};
 }
 
-static_assert(sizeof(cdprep_ray_hit) == sizeof(RayHit) &&
-              alignof(cdprep_ray_hit) == alignof(RayHit));
+static_assert(sizeof(cdprep_ray_hit) == sizeof(RayHit));
+static_assert(alignof(cdprep_ray_hit) == alignof(RayHit));
 
 /// The hits that C++ stored in the room of a list, in the form of C.
 void turn_into_c(cdprep_ray_hit* hits, std::size_t count) noexcept {

@@ -98,8 +98,8 @@ int Call::fail(int code, std::string_view sentence) noexcept {
     return code;
 }
 
-int Call::refuse_null(const Name& name) noexcept {
-    return refuse(CDPREP_WHY_NULL, name, "is null.");
+void Call::refuse_null(const Name& name) noexcept {
+    (void)refuse(CDPREP_WHY_NULL, name, "is null.");
 }
 
 }  // namespace cdprep::c

@@ -45,11 +45,13 @@ public:
 
     /// Refuses a null pointer.
     int need(const void* pointer, const Name& name) noexcept {
-        return pointer != nullptr ? CDPREP_OK : refuse_null(name);
+        if (pointer != nullptr) return CDPREP_OK;
+        refuse_null(name);
+        return CDPREP_BAD_ARGUMENT;
     }
 
 private:
-    int refuse_null(const Name& name) noexcept;
+    void refuse_null(const Name& name) noexcept;
 
     cdprep_error* error_;
 };
