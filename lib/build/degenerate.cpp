@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include "cdprep/format/float_environment.h"
 #include "cdprep/advanced/mesh_arrays.h"
+#include "cdprep/format/float_environment.h"
 #include "chunks.h"
 #include "frame_map.h"
 #include "guarded_for.h"

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "cdprep/advanced/disjoint_sets.h"
-#include "cdprep/format/float_environment.h"
 #include "cdprep/advanced/mesh_arrays.h"
+#include "cdprep/format/float_environment.h"
 
 namespace cdprep::build {
 namespace {

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "cdprep/advanced/build_bvh.h"
-#include "cdprep/points.h"
-#include "cdprep/pairs.h"
 #include "cdprep/advanced/convex_penetration.h"
 #include "cdprep/hulls.h"
+#include "cdprep/pairs.h"
+#include "cdprep/points.h"
 
 namespace {
 

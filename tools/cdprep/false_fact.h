@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "cdprep/model.h"
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/model.h"
 
 namespace cdprep::cli {
 

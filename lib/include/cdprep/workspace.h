@@ -12,15 +12,15 @@ struct QueryCounts;
 
 /// Scratch memory for queries, owned by the caller: queries never allocate.
 ///
-/// One workspace serves any number of queries, models and questions, one at a
-/// time; threads need one each. Allocates once, when made; about 880 KiB, of which
-/// questions through octrees and tetra-trees alone touch the half.
+/// One workspace serves any number of models and questions, one at a time; each thread needs its
+/// own. It allocates about 880 KiB once, when it is made. Half of that is for octrees and
+/// tetra-trees alone.
 class Workspace {
 public:
     Workspace();
 
-    /// A workspace in the caller's memory, which outlives it; allocates nothing.
-    /// Nothing when the memory is smaller than size() or not aligned to alignment().
+    /// Makes a workspace in the caller's memory, which outlives it. Allocates nothing. Returns
+    /// nothing if the memory is smaller than size() or not aligned to alignment().
     [[nodiscard]] static std::optional<Workspace> in_memory(std::span<std::byte> memory) noexcept;
     [[nodiscard]] static std::size_t size() noexcept;       ///< bytes
     [[nodiscard]] static std::size_t alignment() noexcept;  ///< bytes, a power of two
@@ -29,9 +29,8 @@ public:
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    /// From now on, adds to `*counts` what queries that count (query_counts.h)
-    /// do with this workspace; null ends that. Where it is off it costs 0.2 % of a
-    /// query (instructions counted by callgrind).
+    /// Adds the work of the following queries with this workspace to `*counts` (query_counts.h);
+    /// null stops that. Costs 0.2 % of the instructions of a query when it is off.
     void count_into(QueryCounts* counts) noexcept;
 
     struct Storage;  ///< private to the library

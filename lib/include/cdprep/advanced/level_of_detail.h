@@ -19,25 +19,23 @@ struct CoarseCollision {
     double error_b = 0;
 };
 
-/// Returns how far the outer and the inner facets of a level are apart at most, along any
-/// ray from the tetra-tree's centre, model units: the error of a model at that level. Falls
-/// as the level rises, to what the leaves have. 0 for a model without triangles. Needs
-/// Ask::tetra_tree. O(cones of the level).
+/// Returns the error of a model at a level: the greatest distance of the outer and the inner facet
+/// of a cone, along any ray from the tetra-tree's centre, model units. It falls as the level rises,
+/// down to that of the leaves. A model without triangles has 0. Needs Ask::tetra_tree. Takes
+/// O(cones of the level) time.
 ///
-/// Level 0 has one outer and one inner facet an octant, level l four times as many as level
-/// l - 1, where the tree is that deep; a cone that is not split stays as it is. The outer
-/// facet of a cone cuts it off at its greatest radius, the inner at its least
-/// (format::TetraNode): between them lie all triangles of the cone.
+/// Level 0 has one outer and one inner facet per octant. Each further level splits every cone of
+/// the tree into four; a leaf stays as it is. The outer facet cuts a cone at its greatest radius,
+/// the inner one at its least (format::TetraNode). All triangles of the cone lie between them.
 [[nodiscard]] double level_error(const Model& model, std::uint32_t level) noexcept;
 
-/// Returns whether two solids collide, as far as one level of their tetra-trees tells.
-/// Reads no options. Needs Ask::tetra_tree of both models.
+/// Returns whether two solids collide, as far as one level of their tetra-trees proves it. Reads no
+/// options. Needs Ask::tetra_tree of both models.
 ///
-/// Conservative: `no` when no two cones meet that are cut off at their outer facets; this
-/// is right for open models too, as for surfaces. `yes` when a point is found below the
-/// inner facets of both, or below those of one at the other's centre: only for closed
-/// models whose centre is inside. Such points are sought at centres and under facets, so
-/// `yes` may be missed where it is true. Never allocates. O(pairs of cones that meet).
+/// `no`: no two cones meet within their outer facets. This also holds for surfaces and for open
+/// models. `yes`: a point lies below the inner facets of both models, which are closed and contain
+/// their centres. The search tries centres and points under facets, so that it may miss a `yes`.
+/// Never allocates. Takes O(pairs of cones that meet) time.
 [[nodiscard]] CoarseCollision collide_at_level(const Pair& pair, std::uint32_t level,
                                                Workspace& workspace) noexcept;
 

@@ -31,8 +31,8 @@ private:
 /// tasks may throw std::bad_alloc. Tasks that begin late find little left to do: best is a `run`
 /// whose own thread takes tasks too and waits only for those that have begun. Refers to the
 /// callable, a named object such as a lambda, and copies nothing; the callable must outlive the
-/// call, and options that hold it. `run` runs in the floating-point environment of the caller; tasks
-/// compute in the default one on every thread.
+/// call, and options that hold it. `run` runs in the floating-point environment of the caller;
+/// tasks compute in the default one on every thread.
 ///
 ///     const auto run = [&](std::size_t count, cdprep::Task task) {
 ///         std::vector<std::jthread> threads;

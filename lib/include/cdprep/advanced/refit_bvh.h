@@ -5,18 +5,16 @@
 
 namespace cdprep::build {
 
-/// Moves a hierarchy along with its triangles: new positions, the same order. Returns
-/// its surface_cost() now.
+/// Fits a hierarchy to new positions of its triangles, in the same order. Returns its
+/// surface_cost().
 ///
-/// Everything is what a build that came to this order would have made: the frame is
-/// that of the new positions, boxes hold their triangles in exact arithmetic again,
-/// leaves are exact where all coordinates are floats. It does not depend on what the
-/// positions were, nor on options.parallel_for. Oriented boxes are fitted anew or, without
-/// options.oriented, dropped. options.quality does not matter.
+/// The result equals that of a build with this order. The frame is that of the new positions,
+/// boxes contain their triangles exactly, and leaves are exact if all coordinates are floats. It
+/// depends neither on the old positions nor on options.parallel_for. Oriented boxes are fitted
+/// anew, or dropped if options.bounds has none. Ignores options.quality.
 ///
-/// `bvh` must come from build_bvh() or rebuild_bvh() over `triangles`; positions are
-/// as there. The order is as good as when it was built for motions that leave
-/// neighbours neighbours; the cost, kept from the build, tells when to rebuild:
+/// `bvh` comes from build_bvh() or rebuild_bvh() over `triangles`; positions are as there. The
+/// order stays good while neighbours stay neighbours. The cost tells when to rebuild:
 ///
 ///     double cost = refit_bvh(bvh, positions, triangles);
 ///     if (cost > 1.5 * cost_when_built) {
@@ -24,8 +22,8 @@ namespace cdprep::build {
 ///         cost_when_built = surface_cost(bvh);
 ///     }
 ///
-/// O(n). Allocates nothing when done before with the same options, but for 80 bytes per
-/// 4,096 triangles with oriented boxes.
+/// Takes O(n) time. A repeated call with the same options allocates nothing, except 80 bytes per
+/// 4,096 triangles for oriented boxes.
 double refit_bvh(Bvh& bvh, std::span<const format::Double3> positions,
                  std::span<const format::Triangle> triangles, const BvhOptions& options = {});
 
