@@ -165,8 +165,10 @@ AlignedBytes with_contacts(const AlignedBytes& file) {
             piece_of[model.pieces().triangles[t]] = i;
         }
     }
-    std::vector<TinySection> sections =
-        piece_tree_sections(model, model.pieces().pieces, model.pieces().triangles);
+    std::vector<TinySection> sections;
+    if (model.pieces().nodes.empty()) {
+        sections = piece_tree_sections(model, model.pieces().pieces, model.pieces().triangles);
+    }
     sections.push_back(as_section<format::PieceAdjacency>(SectionId::piece_adjacency, adjacency));
     sections.push_back(as_section<std::uint8_t>(SectionId::edge_convexity, convexity));
     sections.push_back(as_section<std::uint32_t>(SectionId::triangle_piece, piece_of));
