@@ -166,7 +166,7 @@ AlignedBytes with_contacts(const AlignedBytes& file) {
         }
     }
     std::vector<TinySection> sections;
-    if (model.pieces().nodes.empty()) {
+    if (!model.sections().contains(SectionId::piece_nodes)) {
         sections = piece_tree_sections(model, model.pieces().pieces, model.pieces().triangles);
     }
     sections.push_back(as_section<format::PieceAdjacency>(SectionId::piece_adjacency, adjacency));
