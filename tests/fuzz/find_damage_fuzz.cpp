@@ -36,19 +36,8 @@ namespace {
 using namespace cdprep;  // NOLINT(google-build-using-namespace): a program of its own
 
 constexpr std::uint32_t kMostTriangles = 4096;  ///< keeps one input below a second
-
-bool can_answer(const Model& model) {
-    return model.triangle_count() <= kMostTriangles &&
-           model.mesh().triangles.size() == model.triangle_count() &&
-           model.bvh().nodes.size() == model.bvh().shape.node_count &&
-           (model.triangle_count() == 0 || !model.mesh().positions_f32.empty() ||
-            !model.mesh().positions_f64.empty());
-}
-
-/// What questions about two models need besides.
-bool can_answer_pairs(const Model& model) {
-    return model.bvh().leaves.size() == model.bvh().shape.leaf_count;
-}
+/// The questions about two models through their boxes.
+constexpr Ask kPairs = Ask::collide | Ask::solid | Ask::overlap | Ask::distance | Ask::within;
 
 void ask_pair(const Model& model, Workspace& workspace) {
     static std::vector<TrianglePair> pairs(256);
@@ -81,6 +70,11 @@ void ask_shapes(const Model& model, Workspace& workspace) {
     (void)touching_triangles(model, Sphere{{0, 0, 0}, 0.5}, workspace, numbers);
     (void)touching_triangles(model, capsule, workspace, numbers);
     (void)shape_distance(model, capsule, workspace);
+    (void)shape_distance(model, Box{{0.5, 0, 2}, {0.5, 1, 3}}, workspace);
+}
+
+void ask_rays(const Model& model, Workspace& workspace) {
+    (void)cast_ray(model, {{0.5, 0.25, -3}, {0.125, 0, 1}}, workspace);
     (void)ray_hits(model, {{0, 0, 5}, {0.1, 0, -1}}, workspace);
 }
 
@@ -92,8 +86,11 @@ void ask_structures(const Model& model, Workspace& workspace) {
     for (const Structure structure :
          {Structure::octree, Structure::adaptive_octree, Structure::hashed_octree,
           Structure::hashed_octree_literal, Structure::tetra_tree}) {
-        (void)points_inside(model, {0.5, 0.5, 0.5}, workspace, structure);
-        if (!can_answer_pairs(model)) continue;
+        if (!model.serves(ask_of(structure))) continue;
+        if (model.serves(Ask::inside)) {
+            (void)points_inside(model, {0.5, 0.5, 0.5}, workspace, structure);
+        }
+        if (!model.serves(kPairs)) continue;
         for (const Placement& placement : {turned, Placement::b_moves(Pose())}) {
             for (const CellSearch search :
                  {CellSearch::sorted, CellSearch::modulus, CellSearch::mixed}) {
@@ -111,6 +108,7 @@ void ask_structures(const Model& model, Workspace& workspace) {
             (void)any_overlap_through({model, model, turned}, through, workspace);
         }
     }
+    if (!model.serves(Ask::tetra_tree)) return;
     for (const std::uint32_t level : {0U, 3U, format::kMaxTetraLevel}) {
         (void)collide_at_level({model, model, turned}, level, workspace);
         (void)level_error(model, level);
@@ -224,20 +222,13 @@ void ask_contacts(const Model& model, Workspace& workspace) {
 /// Every hull of some against the next ones. Caches go from one question to the next about
 /// other hulls, and begin at an edge that no hull has.
 void ask_features(const Model& model) {
-    using format::Piece;
     constexpr std::size_t kMostHulls = 6;
     constexpr std::uint32_t kMostPoints = 128;
-    if (model.pieces().adjacency.size() != model.pieces().facets.size()) return;
     std::vector<FeatureHull> hulls;
-    for (std::size_t i = 0; i < std::min(model.pieces().pieces.size(), kMostHulls); ++i) {
-        ConvexPoints points;
-        points.corners = part(model, model.pieces().vertices, &Piece::first_vertex, i);
-        points.count = static_cast<std::uint32_t>(points.corners.size());
-        points.floats = model.mesh().positions_f32;
-        points.doubles = model.mesh().positions_f64;
-        if (points.count > kMostPoints) continue;
-        hulls.push_back({points, part(model, model.pieces().facets, &Piece::first_facet, i),
-                         part(model, model.pieces().adjacency, &Piece::first_facet, i)});
+    const std::size_t count = std::min(model.pieces().pieces.size(), kMostHulls);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const FeatureHull hull = feature_hull(model, i);
+        if (hull.points.count <= kMostPoints) hulls.push_back(hull);
     }
     FeatureCache cache = {true, {FeatureKind::face, FeatureKind::edge}, {0xffffffffU, 0}};
     for (const FeatureHull& a : hulls) {
@@ -251,33 +242,34 @@ void ask_features(const Model& model) {
 
 void ask(const Model& model) {
     static Workspace workspace;
-    if (can_answer_pairs(model)) {
-        ask_pair(model, workspace);
-        ask_through_pieces(model, workspace);
+    if (model.serves(kPairs)) ask_pair(model, workspace);
+    if (model.serves(kPairs | Ask::pieces)) ask_through_pieces(model, workspace);
+    if (model.serves(Ask::contacts)) {
         ask_contacts(model, workspace);
+        ask_features(model);
     }
     ask_structures(model, workspace);
-    ask_hulls(model);
-    ask_pieces(model);
-    ask_features(model);
+    if (model.serves(Ask::hulls)) ask_hulls(model);
+    if (model.serves(Ask::pieces | Ask::corners)) ask_pieces(model);
     (void)octree_figures(model);
     (void)adaptive_octree_figures(model);
     (void)tetra_figures(model);
-    (void)cast_ray(model, {{0.5, 0.25, -3}, {0.125, 0, 1}}, workspace);
-    ask_shapes(model, workspace);
-    (void)closest_point(model, {0.25, 0.5, 2}, workspace);
-    (void)points_inside(model, {0.5, 0.5, 0.5}, workspace);
+    if (model.serves(Ask::ray)) ask_rays(model, workspace);
+    if (model.serves(Ask::touch)) ask_shapes(model, workspace);
+    if (model.serves(Ask::closest)) (void)closest_point(model, {0.25, 0.5, 2}, workspace);
+    if (model.serves(Ask::inside)) (void)points_inside(model, {0.5, 0.5, 0.5}, workspace);
     for (std::uint32_t i = 0; i < 4; ++i) (void)model.name(SectionId::group_names, i);
 }
 
 void judge(const test::AlignedBytes& bytes) {
     const auto opened = Model::open(bytes.span());
-    if (opened && can_answer(opened.value())) {
-        ask(opened.value());
-        (void)find_list_damage(bytes.span(), opened.value());
-        (void)find_hull_falsehood(bytes.span(), opened.value());
+    if (!opened) return;
+    if (opened->triangle_count() <= kMostTriangles) {
+        ask(*opened);
+        (void)find_list_damage(bytes.span(), *opened);
+        (void)find_hull_falsehood(bytes.span(), *opened);
     }
-    if (opened) (void)format::find_deep_damage(bytes.span());
+    (void)format::find_deep_damage(bytes.span());
 }
 
 }  // namespace
