@@ -8,10 +8,11 @@
 #include "kernels.h"
 
 namespace cdprep::kernels {
-namespace {
 
 /// The number of a point has 32 bits.
-[[maybe_unused]] constexpr std::size_t kMostBlocks = (std::size_t{1} << 32) / kLanes;
+inline constexpr std::size_t kMostBlocks = (std::size_t{1} << 32) / kLanes;
+
+namespace {
 
 /// The highest of each lane, and the first block that has it.
 template <class D8>

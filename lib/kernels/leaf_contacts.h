@@ -9,10 +9,11 @@
 #include "placed_leaves.h"
 
 namespace cdprep::kernels {
-namespace {
 
 /// Pairs of triangles in a batch: the room for candidates and for answers.
-[[maybe_unused]] constexpr std::size_t kMostPairs = kLeafBatch * kLanes * kLanes;
+inline constexpr std::size_t kMostPairs = kLeafBatch * kLanes * kLanes;
+
+namespace {
 
 /// A's triangles where they stand to B's leaf.
 template <class R>
