@@ -67,7 +67,7 @@ struct Layout {
         : index(image + image_size), size(index + indexed * sizeof(std::uint32_t)) {}
 };
 
-/// Checked options of a build, but for the contents of arrays.
+/// Checked options of a build. The contents of arrays are checked later.
 struct Planned {
     cdprep_build_options options{};
     cdprep_allocator allocator{};

@@ -61,7 +61,7 @@ TEST_F(CSamples, ACubeOverlapsItself) {
     EXPECT_TRUE(output.ends_with(" pairs\n")) << output;
 }
 
-// By hand: cubes of side 1, of which one is moved by 0.25 a step, touch at step 4.
+// By hand: a cube of side 1 moves by 0.25 a step and touches another until step 4.
 TEST(CSample, BuildsACubeFromArraysAndAsksIt) {
     EXPECT_EQ(output_of(SAMPLE_BUILD),
               "12 triangles, closed\n"

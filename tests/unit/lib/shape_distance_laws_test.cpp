@@ -129,8 +129,8 @@ ExactRational to_box(const Box& box, const Double3& p) {
     return {x * x + y * y + z * z, 1.0};
 }
 
-/// The square of the distance of a triangle and a box: 0 where they touch, else the least of the
-/// triangle's corners and of the box's twelve edges, of which one is attained.
+/// The square of the distance of a triangle and a box: 0 if they touch. Otherwise a corner of the
+/// triangle or one of the box's twelve edges attains it.
 ExactRational to_box(const Box& box, const Corners& t, bool touch) {
     if (touch) return {ExactNumber(0.0), 1.0};
     ExactRational best = to_box(box, t[0]);
@@ -198,7 +198,7 @@ TEST(ShapeDistanceLaws, TheIntervalHoldsTheExactDistanceToABox) {
     EXPECT_LT(apart, cases * 8 / 10) << "seed 211";
 }
 
-// By hand: limits at infinity make slabs and quarters; a box that is none has no distance.
+// By hand: infinite limits make half-spaces and wedges. An empty box has no distance.
 TEST(ShapeDistanceLaws, BoxesMayBeOpen) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const OpenModel model =
