@@ -9,6 +9,7 @@
 #include "core/require.h"
 #include "smallest.h"
 #include "sort_numbers.h"
+#include "touching_shapes.h"
 #include "walk_model.h"
 
 namespace cdprep {
@@ -23,15 +24,19 @@ inline MovedModel placed(const Model& model, const Pose& world_from_model) noexc
     return {model, is_identity(world_from_model) ? nullptr : &world_from_model};
 }
 
+/// The class that compares a shape with the boxes of a model: made from a MovedModel and the
+/// shape. judge(node) says which boxes the shape may touch and which it holds entirely;
+/// touches(corners) decides exactly. The file of each shape names its own as `Type`.
+template <class S>
+struct AmongBoxesOf;
+
 /// Calls `found` with every triangle, tree order, that touches the shape, until it
-/// returns false; returns false when it did. Shape is made from a MovedModel and what
-/// the caller asked about; shape.judge(node) says which boxes it may touch and which it
-/// holds entirely, shape.touches(corners) decides exactly.
-template <class Shape, class Asked, class Found>
-bool for_each_touching(const Model& model, const Asked& asked, Workspace& workspace,
+/// returns false; returns false when it did.
+template <class S, class Found>
+bool for_each_touching(const Model& model, const S& asked, Workspace& workspace,
                        const ShapeOptions& options, Found&& found) noexcept {
     const MovedModel moved = placed(model, options.world_from_model);
-    const Shape shape(moved, asked);
+    const typename AmongBoxesOf<S>::Type shape(moved, asked);
     const bool skips = options.degenerate == Degenerate::skip;
     const auto look_at = [&](const TriangleRun& run, bool certain) {
         for (std::uint32_t i = run.first; i < run.last; ++i) {
@@ -47,22 +52,23 @@ bool for_each_touching(const Model& model, const Asked& asked, Workspace& worksp
         [&](const TriangleRun& run) { return look_at(run, true); });
 }
 
-template <class Shape, class Asked>
-bool any_touching(const Model& model, const Asked& asked, Workspace& workspace,
-                  const ShapeOptions& options) noexcept {
+template <class S>
+bool TouchingShape<S>::any(const Model& model, const S& shape, Workspace& workspace,
+                           const ShapeOptions& options) noexcept {
     const format::FloatEnvironment environment;
     require(model, Ask::touch);
-    return !for_each_touching<Shape>(model, asked, workspace, options,
-                                     [](std::uint32_t) { return false; });
+    return !for_each_touching(model, shape, workspace, options,
+                              [](std::uint32_t) { return false; });
 }
 
-template <class Shape, class Asked>
-std::size_t all_touching(const Model& model, const Asked& asked, Workspace& workspace,
-                         std::span<std::uint32_t> triangles, const ShapeOptions& options) noexcept {
+template <class S>
+std::size_t TouchingShape<S>::all(const Model& model, const S& shape, Workspace& workspace,
+                                  std::span<std::uint32_t> room,
+                                  const ShapeOptions& options) noexcept {
     const format::FloatEnvironment environment;
     require(model, Ask::touch);
-    Smallest<std::uint32_t> smallest(triangles);
-    for_each_touching<Shape>(model, asked, workspace, options, [&](std::uint32_t i) {
+    Smallest<std::uint32_t> smallest(room);
+    for_each_touching(model, shape, workspace, options, [&](std::uint32_t i) {
         smallest.add(source_number(model, i));
         return true;
     });
@@ -70,12 +76,12 @@ std::size_t all_touching(const Model& model, const Asked& asked, Workspace& work
     return smallest.count();
 }
 
-template <class Shape, class Asked>
-bool visit_touching(const Model& model, const Asked& asked, Workspace& workspace,
-                    TriangleVisitor visit, const ShapeOptions& options) noexcept {
+template <class S>
+bool TouchingShape<S>::visit(const Model& model, const S& shape, Workspace& workspace,
+                             TriangleVisitor visit, const ShapeOptions& options) noexcept {
     format::FloatEnvironment environment;
     require(model, Ask::touch);
-    return for_each_touching<Shape>(model, asked, workspace, options, [&](std::uint32_t i) {
+    return for_each_touching(model, shape, workspace, options, [&](std::uint32_t i) {
         const std::uint32_t source = source_number(model, i);
         return environment.outside([&] { return visit(source); });
     });

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "touching_shapes.h"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -201,20 +199,12 @@ BoxVerdict BoxShape::judge_along_box(const format::BvhNode& node) const noexcept
 
 }  // namespace
 
-bool touches_shape(const Model& model, const Box& box, Workspace& workspace,
-                   const ShapeOptions& options) noexcept {
-    return any_touching<BoxShape>(model, box, workspace, options);
-}
+template <>
+struct AmongBoxesOf<Box> {
+    using Type = BoxShape;
+};
 
-std::size_t triangles_at(const Model& model, const Box& box, Workspace& workspace,
-                         std::span<std::uint32_t> room, const ShapeOptions& options) noexcept {
-    return all_touching<BoxShape>(model, box, workspace, room, options);
-}
-
-bool visit_triangles_at(const Model& model, const Box& box, Workspace& workspace,
-                        TriangleVisitor visit, const ShapeOptions& options) noexcept {
-    return visit_touching<BoxShape>(model, box, workspace, visit, options);
-}
+template struct TouchingShape<Box>;
 
 std::optional<ShapeDistance> measure(const Model& model, const Box& box, Workspace& workspace,
                                      const ShapeOptions& options) noexcept {
@@ -225,12 +215,11 @@ std::optional<ShapeDistance> measure(const Model& model, const Box& box, Workspa
     const MovedModel moved = placed(model, options.world_from_model);
     const Box3 part = facing(whole, moved);
     std::optional<ShapeDistance> best;
-    for_each_touching<BoxShape>(model, box, workspace,
-                                {.world_from_model = options.world_from_model},
-                                [&](std::uint32_t i) {
-                                    best = touching_box_at(moved, part, i);
-                                    return false;
-                                });
+    for_each_touching(model, box, workspace, {.world_from_model = options.world_from_model},
+                      [&](std::uint32_t i) {
+                          best = touching_box_at(moved, part, i);
+                          return false;
+                      });
     if (best) return best;
     double lower = kInfinity;
     for (const auto& face : kBoxFaces) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "touching_shapes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -100,20 +98,12 @@ private:
 
 }  // namespace
 
-bool touches_shape(const Model& model, const Capsule& capsule, Workspace& workspace,
-                   const ShapeOptions& options) noexcept {
-    return any_touching<CapsuleShape>(model, capsule, workspace, options);
-}
+template <>
+struct AmongBoxesOf<Capsule> {
+    using Type = CapsuleShape;
+};
 
-std::size_t triangles_at(const Model& model, const Capsule& capsule, Workspace& workspace,
-                         std::span<std::uint32_t> room, const ShapeOptions& options) noexcept {
-    return all_touching<CapsuleShape>(model, capsule, workspace, room, options);
-}
-
-bool visit_triangles_at(const Model& model, const Capsule& capsule, Workspace& workspace,
-                        TriangleVisitor visit, const ShapeOptions& options) noexcept {
-    return visit_touching<CapsuleShape>(model, capsule, workspace, visit, options);
-}
+template struct TouchingShape<Capsule>;
 
 std::optional<ShapeDistance> measure(const Model& model, const Capsule& capsule,
                                      Workspace& workspace, const ShapeOptions& options) noexcept {
@@ -123,12 +113,11 @@ std::optional<ShapeDistance> measure(const Model& model, const Capsule& capsule,
     const MovedModel moved = placed(model, options.world_from_model);
     const Corners segment = {capsule.from, capsule.to, capsule.to};
     std::optional<ShapeDistance> found;
-    for_each_touching<CapsuleShape>(model, capsule, workspace,
-                                    {.world_from_model = options.world_from_model},
-                                    [&](std::uint32_t i) {
-                                        found = touching_at(moved, segment, i);
-                                        return false;
-                                    });
+    for_each_touching(model, capsule, workspace, {.world_from_model = options.world_from_model},
+                      [&](std::uint32_t i) {
+                          found = touching_at(moved, segment, i);
+                          return false;
+                      });
     if (found) return found;
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double limit = std::nextafter(options.max_distance + capsule.radius, kInfinity);

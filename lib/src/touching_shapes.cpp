@@ -4,6 +4,11 @@
 namespace cdprep {
 namespace {
 
+template <class S>
+TouchingShape<S> touching(const S&) noexcept {
+    return {};
+}
+
 /// Returns ask(shape) of the shape that is held. Shapes are trivial, so one always is; std::visit
 /// could throw.
 template <class Ask>
@@ -18,22 +23,23 @@ auto ask_of_each(const Shape& shape, Ask ask) noexcept {
 
 bool touches(const Model& model, const Shape& shape, Workspace& workspace,
              const ShapeOptions& options) noexcept {
-    return ask_of_each(
-        shape, [&](const auto& held) { return touches_shape(model, held, workspace, options); });
+    return ask_of_each(shape, [&](const auto& held) {
+        return touching(held).any(model, held, workspace, options);
+    });
 }
 
 std::size_t touching_triangles(const Model& model, const Shape& shape, Workspace& workspace,
                                std::span<std::uint32_t> room,
                                const ShapeOptions& options) noexcept {
     return ask_of_each(shape, [&](const auto& held) {
-        return triangles_at(model, held, workspace, room, options);
+        return touching(held).all(model, held, workspace, room, options);
     });
 }
 
 bool visit_touching_triangles(const Model& model, const Shape& shape, Workspace& workspace,
                               TriangleVisitor visit, const ShapeOptions& options) noexcept {
     return ask_of_each(shape, [&](const auto& held) {
-        return visit_triangles_at(model, held, workspace, visit, options);
+        return touching(held).visit(model, held, workspace, visit, options);
     });
 }
 

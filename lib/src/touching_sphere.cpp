@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "touching_shapes.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -61,20 +59,12 @@ private:
 
 }  // namespace
 
-bool touches_shape(const Model& model, const Sphere& sphere, Workspace& workspace,
-                   const ShapeOptions& options) noexcept {
-    return any_touching<SphereShape>(model, sphere, workspace, options);
-}
+template <>
+struct AmongBoxesOf<Sphere> {
+    using Type = SphereShape;
+};
 
-std::size_t triangles_at(const Model& model, const Sphere& sphere, Workspace& workspace,
-                         std::span<std::uint32_t> room, const ShapeOptions& options) noexcept {
-    return all_touching<SphereShape>(model, sphere, workspace, room, options);
-}
-
-bool visit_triangles_at(const Model& model, const Sphere& sphere, Workspace& workspace,
-                        TriangleVisitor visit, const ShapeOptions& options) noexcept {
-    return visit_touching<SphereShape>(model, sphere, workspace, visit, options);
-}
+template struct TouchingShape<Sphere>;
 
 std::optional<ShapeDistance> measure(const Model& model, const Sphere& sphere, Workspace& workspace,
                                      const ShapeOptions& options) noexcept {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "touching_shapes.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -81,20 +79,12 @@ private:
 
 }  // namespace
 
-bool touches_shape(const Model& model, const TriangleShape& triangle, Workspace& workspace,
-                   const ShapeOptions& options) noexcept {
-    return any_touching<TriangleAmongBoxes>(model, triangle, workspace, options);
-}
+template <>
+struct AmongBoxesOf<TriangleShape> {
+    using Type = TriangleAmongBoxes;
+};
 
-std::size_t triangles_at(const Model& model, const TriangleShape& triangle, Workspace& workspace,
-                         std::span<std::uint32_t> room, const ShapeOptions& options) noexcept {
-    return all_touching<TriangleAmongBoxes>(model, triangle, workspace, room, options);
-}
-
-bool visit_triangles_at(const Model& model, const TriangleShape& triangle, Workspace& workspace,
-                        TriangleVisitor visit, const ShapeOptions& options) noexcept {
-    return visit_touching<TriangleAmongBoxes>(model, triangle, workspace, visit, options);
-}
+template struct TouchingShape<TriangleShape>;
 
 std::optional<ShapeDistance> measure(const Model& model, const TriangleShape& triangle,
                                      Workspace& workspace, const ShapeOptions& options) noexcept {
@@ -103,12 +93,11 @@ std::optional<ShapeDistance> measure(const Model& model, const TriangleShape& tr
     if (!(options.max_distance >= 0)) return std::nullopt;
     const MovedModel moved = placed(model, options.world_from_model);
     std::optional<ShapeDistance> found;
-    for_each_touching<TriangleAmongBoxes>(model, triangle, workspace,
-                                          {.world_from_model = options.world_from_model},
-                                          [&](std::uint32_t i) {
-                                              found = touching_at(moved, triangle.corner, i);
-                                              return false;
-                                          });
+    for_each_touching(model, triangle, workspace, {.world_from_model = options.world_from_model},
+                      [&](std::uint32_t i) {
+                          found = touching_at(moved, triangle.corner, i);
+                          return false;
+                      });
     if (found) return found;
     return nearest_to_shape(moved, triangle.corner, options.max_distance, workspace.storage());
 }
