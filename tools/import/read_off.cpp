@@ -2,6 +2,7 @@
 #include "import/read_off.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -142,6 +143,80 @@ private:
     std::optional<Fault> fault_;
 };
 
+/// Reads a body whose rows are not lines: numbers alone, of which there must be exactly as many as
+/// the header counts ask for. A file with colours or normals must read by lines.
+class FreeFormReader {
+public:
+    FreeFormReader(const Header& header, const char* end)
+        : header_(header), at_(header.body), end_(end) {}
+
+    std::optional<PolygonChunk> read() {
+        if (!header_.prefix.empty()) return std::nullopt;
+        for (std::uint64_t i = 0; i < header_.vertices; ++i) {
+            if (!read_vertex()) return std::nullopt;
+        }
+        for (std::uint64_t i = 0; i < header_.faces; ++i) {
+            if (!read_face()) return std::nullopt;
+        }
+        if (next_row(at_, end_) != end_) return std::nullopt;
+        return std::move(chunk_);
+    }
+
+private:
+    bool read_vertex() {
+        std::array<double, 3> p{};
+        for (double& coordinate : p) {
+            at_ = next_row(at_, end_);
+            const Number number = parse_number(at_, end_);
+            if (!number.next) return false;
+            coordinate = number.value;
+            chunk_.single_precision &= number.single;
+            at_ = number.next;
+        }
+        chunk_.positions.push_back({p[0], p[1], p[2]});
+        return true;
+    }
+
+    bool read_index(std::int64_t& index) {
+        at_ = next_row(at_, end_);
+        const WholeNumber number = parse_whole_number(at_, end_);
+        if (!number.next) return false;
+        index = number.value;
+        at_ = number.next;
+        return true;
+    }
+
+    bool read_face() {
+        std::int64_t size = 0;
+        if (!read_index(size) || size < 0) return false;
+        for (std::int64_t i = 0; i < size; ++i) {
+            std::int64_t index = 0;
+            if (!read_index(index)) return false;
+            chunk_.add_corner(index, index);
+        }
+        chunk_.end_face(static_cast<std::size_t>(size));
+        return true;
+    }
+
+    const Header& header_;
+    const char* at_;
+    const char* end_;
+    PolygonChunk chunk_;
+};
+
+/// A file that reads neither by lines nor as numbers alone fails as by lines, which most are.
+Result<mesh::TriangleSoup> read_free_form(const SourceFile& file, const Header& header,
+                                          const ImportOptions& options, Error by_lines) {
+    const char* const end = file.bytes().data() + file.bytes().size();
+    std::optional<PolygonChunk> chunk = FreeFormReader(header, end).read();
+    if (!chunk) return by_lines;
+    std::vector<PolygonChunk> chunks;
+    chunks.push_back(*std::move(chunk));
+    return join_chunks(
+        file, std::move(chunks),
+        {.memory_bytes = options.memory_bytes, .parallel_for = options.parallel_for});
+}
+
 Error too_short(const SourceFile& file, const Header& header, std::uint64_t rows) {
     const std::string end = "; the file is cut off, or its header is wrong";
     if (rows < header.vertices) {
@@ -166,7 +241,7 @@ Result<mesh::TriangleSoup> read_off(const SourceFile& file, const ImportOptions&
         split_rows(file.bytes().substr(header_bytes), options.parallel_for);
     const std::uint64_t count = rows.empty() ? 0 : rows.back().first_row + rows.back().row_count;
     if (count < header.vertices || count - header.vertices < header.faces) {
-        return too_short(file, header, count);
+        return read_free_form(file, header, options, too_short(file, header, count));
     }
     std::vector<PolygonChunk> chunks(rows.size());
     std::vector<std::optional<Fault>> faults(rows.size());
@@ -174,7 +249,8 @@ Result<mesh::TriangleSoup> read_off(const SourceFile& file, const ImportOptions&
         faults[i] = OffChunkReader(header, rows[i], chunks[i]).read();
     });
     for (const std::optional<Fault>& fault : faults) {
-        if (fault) return file.unreadable_line(fault->at, fault->what);
+        if (!fault) continue;
+        return read_free_form(file, header, options, file.unreadable_line(fault->at, fault->what));
     }
     return join_chunks(
         file, std::move(chunks),

@@ -55,6 +55,28 @@ TEST(ReadOff, IgnoresWhatFollowsTheLastFace) {
     EXPECT_EQ(soup("OFF\n4 2 0\n" + kBody + "3 1 2 3\nrubbish\n").triangles, kThree);
 }
 
+TEST(ReadOff, RowsMayBeWrappedOrJoined) {
+    for (const char* text : {"OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1\n2 3\n",
+                             "OFF\n4 2 0\n0 0\n0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4\n0 1\n# c\n2 3",
+                             "OFF\n4 2 0\n0 0 0 1 0 0 1 1 0 0 1 0\n3 0 1 2 4 0 1 2 3\n"}) {
+        const TriangleSoup s = soup(text);
+        EXPECT_EQ(s.positions, kSquare) << text;
+        EXPECT_EQ(s.triangles, kThree) << text;
+        EXPECT_TRUE(s.single_precision) << text;
+    }
+}
+
+// Wrapped rows are read only where every number has its place: a number too many or too few
+// anywhere would move all that follow.
+TEST(ReadOff, WrappedRowsThatDoNotAddUpAreUnreadable) {
+    const std::string wrapped = "OFF\n4 2 0\n0 0\n0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2";
+    EXPECT_EQ(soup(wrapped + " 3\n").triangles, kThree);
+    EXPECT_NE(sentence(wrapped), "");
+    EXPECT_NE(sentence(wrapped + " 3 7\n"), "");
+    EXPECT_NE(sentence(wrapped + " x\n"), "");
+    EXPECT_NE(sentence("C" + wrapped + " 3\n"), "");
+}
+
 // The count is that of a real file; nothing may be allocated by it.
 TEST(ReadOff, CountsThatTheFileIsTooShortForAreUnreadable) {
     EXPECT_EQ(sentence("OFF\n353535235358 6 0\n" + kBody),
