@@ -240,6 +240,42 @@ def check_units(program, reader, folder):
     must(near(found["centre"], [0.02, -0.005, 0.07]), f"centre {found['centre']}")
 
 
+def check_given_units(program, reader, folder):
+    """--unit and --up-axis hold where the file says nothing, and that is said where they miss."""
+    bolt = SAMPLES / "bolt.obj"
+    for kind in ROBOTS:
+        output = folder / f"bolt_mm.{kind}"
+        report = decompose(program, bolt, "-o", output, "--parts", 2, "--unit", "mm")
+        must(abs(report["mass"] - 0.005) < 0.0001, f"{kind}: {report['mass']} kg")
+        if kind == "urdf":
+            check_urdf(output, [f"piece_{i}" for i in range(report["pieces"])], report["mass"])
+        else:
+            must(near([read_with(reader, output)["mass"]], [report["mass"]]), f"{kind}: mass")
+    source = folder / "upright.obj"
+    source.write_text(box((0.0, 0.0, 0.0), (2.0, 3.0, 4.0)))
+    for kind in ROBOTS:
+        output = folder / f"unknown.{kind}"
+        for options, code in ((["--unit", "mm"], 0), ([], 0), (["--strict"], 1)):
+            output.unlink(missing_ok=True)
+            done = run(program, "decompose", source, "-o", output, "--parts", "1", *options)
+            warns = "does not say its unit" in done.stderr and "--unit" in done.stderr
+            must(done.returncode == code and warns == ("--unit" not in options),
+                 f"{kind} {options}: exit {done.returncode}, {done.stderr}")
+            must(output.exists() == (code == 0), f"{kind} {options}: {output.name}")
+            must(options or "2 x 3 x 4 m and 24000 kg" in done.stderr, done.stderr)
+    # What is up is +z for simulators: of a box of 2 x 3 x 4, the 3 of y.
+    for axis, size, centre in (("y", [2, 4, 3], [1, -2, 1.5]), ("z", [2, 3, 4], [1, 1.5, 2])):
+        output = folder / "upright.sdf"
+        decompose(program, source, "-o", output, "--parts", 1, "--unit", "m", "--up-axis", axis)
+        found = read_with(reader, output)
+        must(near(found["centre"], centre), f"{axis} up: centre {found['centre']}")
+        corners = [[float(x) for x in line.split()[1:]]
+                   for line in (folder / "upright_piece_0.obj").read_text().splitlines()
+                   if line.startswith("v ")]
+        extent = [max(c[i] for c in corners) - min(c[i] for c in corners) for i in range(3)]
+        must(extent == size, f"{axis} up: {extent}")
+
+
 def check_nodes_stay_apart(program, reader, folder):
     """Two boxes with a face in common are one box: only for who asks for that."""
     for word in ("o", "g"):
@@ -432,7 +468,8 @@ def check_asked_wrongly(program, folder):
         refused(4, "no folder", bolt, "--parts", 3, "-o", folder / "no folder" / f"x.{kind}")
     nothing = folder / "nothing.obj"
     nothing.write_text("v 0 0 0\n")
-    report = decompose(program, nothing, "--parts", 3, "-o", folder / "nothing_out.glb")
+    report = decompose(program, nothing, "--parts", 3, "--allow-empty", "-o",
+                       folder / "nothing_out.glb")
     must(report["pieces"] == 0, f"{report}")
 
 
@@ -442,6 +479,7 @@ def main():
         folder = pathlib.Path(scratch)
         check_box_weighs_as_by_hand(program, reader, folder)
         check_units(program, reader, folder)
+        check_given_units(program, reader, folder)
         check_nodes_stay_apart(program, reader, folder)
         check_every_format(program, reader, folder, SAMPLES / "bolt.obj", ["--parts", 5])
         check_limits(program, reader, folder)

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "command.h"
-#include "import_limits.h"
+#include "import_arguments.h"
 #include "interrupt.h"
 #include "load_mesh.h"
 #include "output_path.h"
@@ -41,7 +41,7 @@ struct Arguments {
     std::string progress = "auto";
     std::size_t threads = 0;
     LoadOptions load;
-    ImportLimits import;
+    ImportArguments import;
 };
 
 /// Tells how far the study is and about how long it goes on.
@@ -220,7 +220,7 @@ void add_accuracy(CLI::App& app, Exit& exit) {
     add_weld(*command, arguments->load.weld_distance);
     add_jobs(*command, arguments->threads);
     add_progress(*command, arguments->progress);
-    add_import_limits(*command, arguments->import);
+    add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "command.h"
-#include "import_limits.h"
+#include "import_arguments.h"
 #include "interrupt.h"
 #include "pipeline.h"
 #include "progress.h"
@@ -29,7 +29,7 @@ struct Arguments {
     std::string bounds = "auto";
     std::size_t threads = 0;
     bool timings = false;
-    ImportLimits import;
+    ImportArguments import;
     StructureArguments structures;
     BakeOptions options;
 };
@@ -211,7 +211,7 @@ void add_bake(CLI::App& app, Exit& exit) {
     command->add_flag("--timings", arguments->timings, "Show how long each stage took");
     add_report_format(*command, arguments->format);
     add_progress(*command, arguments->progress);
-    add_import_limits(*command, arguments->import);
+    add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 

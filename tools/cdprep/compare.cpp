@@ -10,7 +10,7 @@
 
 #include "command.h"
 #include "comparison.h"
-#include "import_limits.h"
+#include "import_arguments.h"
 #include "interrupt.h"
 #include "output_path.h"
 #include "pair_poses.h"
@@ -42,7 +42,7 @@ struct Arguments {
     std::string pairs = "fitting";
     std::string format = "text";
     std::string progress = "auto";
-    ImportLimits import;
+    ImportArguments import;
     ComparisonOptions options;
 };
 
@@ -172,7 +172,7 @@ void add_compare(CLI::App& app, Exit& exit) {
                         "A program that asks other libraries the same (tests/bench/peers)");
     add_jobs(*command, options.threads);
     add_progress(*command, arguments->progress);
-    add_import_limits(*command, arguments->import);
+    add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 

@@ -11,13 +11,14 @@
 #include "convex/enclosing_hull.h"
 #include "convex/surface_pieces.h"
 #include "enclose.h"
-#include "import_limits.h"
+#include "import_arguments.h"
 #include "interrupt.h"
 #include "load_mesh.h"
 #include "output_path.h"
 #include "program_threads.h"
 #include "progress.h"
 #include "report/pieces_report.h"
+#include "report/printable.h"
 #include "write/pieces_file.h"
 
 namespace cdprep::cli {
@@ -43,7 +44,7 @@ struct Arguments {
     std::string format = "text";
     std::string progress = "auto";
     std::size_t threads = 0;
-    ImportLimits import;
+    ImportArguments import;
     LoadOptions load;
     EncloseOptions enclose;
 };
@@ -116,10 +117,17 @@ Exit run_enclose(const Arguments& arguments, Progress& progress) {
         }
         return fail("decompose", found.error());
     }
+    if (found->error) {
+        if (is_json) std::cout << report::approximate_json(*found);
+        std::cerr << "cdprep decompose: " << report::printable(*found->error) << '\n';
+        return static_cast<Exit>(found->exit);
+    }
     const bool is_as_asked = found.value().result.is_as_asked;
     if (!is_as_asked) found.value().exit = static_cast<int>(Exit::findings);
     std::cout << (is_json ? report::approximate_json(found.value())
                           : report::approximate_text(found.value()));
+    const std::string warning = report::unit_warning(*found);
+    if (!warning.empty()) std::cerr << "cdprep decompose: " << report::printable(warning) << '\n';
     return is_as_asked ? Exit::success : Exit::findings;
 }
 
@@ -131,9 +139,9 @@ bool is_enclosing(const Arguments& arguments) {
 /// An option that would change nothing was meant for something.
 std::optional<Error> find_idle_option(const CLI::App& command, const Arguments& arguments) {
     constexpr std::array<const char*, 2> kOfSurface = {"--tolerance", "--order"};
-    constexpr std::array<const char*, 6> kOfEnclosing = {"--max-vertices", "--work",
-                                                         "--to-surface",   "--merge-components",
-                                                         "--density",      "--no-visual"};
+    constexpr std::array<const char*, 7> kOfEnclosing = {
+        "--max-vertices", "--work",      "--to-surface", "--merge-components",
+        "--density",      "--no-visual", "--strict"};
     const auto find_given = [&](std::span<const char* const> names) -> const char* {
         const auto at = std::find_if(names.begin(), names.end(),
                                      [&](const char* name) { return command.count(name) > 0; });
@@ -241,13 +249,15 @@ void add_decompose(CLI::App& app, Exit& exit) {
         ->capture_default_str();
     command->add_flag("!--no-visual", enclosed.has_visual,
                       ".urdf and .sdf show nothing, instead of a copy of the mesh");
+    command->add_flag("--strict", enclosed.strict,
+                      "Write no .urdf, .sdf or .mjcf of a mesh whose unit nobody says: exit 1");
     command->add_flag("--table", arguments->table, "Report every piece");
     add_normalize(*command, arguments->load.normalize);
     add_weld(*command, arguments->load.weld_distance);
     add_jobs(*command, arguments->threads);
     add_report_format(*command, arguments->format);
     add_progress(*command, arguments->progress);
-    add_import_limits(*command, arguments->import);
+    add_import_arguments(*command, arguments->import);
     command->callback([command, arguments, &exit] { exit = run(*command, *arguments); });
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "body_mass.h"
+#include "command.h"
 #include "interrupt.h"
 #include "mesh/topology.h"
 #include "mesh/weld.h"
@@ -55,11 +56,30 @@ convex::ApproximateOptions search_options(const EncloseOptions& options) {
     return how;
 }
 
-/// Writes the pieces, and for simulators what the mesh weighs and looks like.
-Result<Done> write_pieces(const mesh::Mesh& mesh, bool is_closed, double metres_per_unit,
-                          const EncloseOptions& options, report::ApproximateReport& report) {
-    const std::vector<convex::ApproximatePiece>& pieces = report.result.pieces;
+bool is_for_simulators(const fs::path& output) {
+    return !output.empty() && write::has_mass(*write::hulls_format_of(output));
+}
+
+/// Turns what is up to +z, as simulators have it: coordinates change places and signs.
+void turn_z_up(std::vector<format::Double3>& points, format::UpAxis up) {
+    for (format::Double3& p : points) {
+        if (up == format::UpAxis::y) p = {p.x, -p.z, p.y};
+        if (up == format::UpAxis::x) p = {-p.z, p.y, p.x};
+    }
+}
+
+/// Writes the pieces, and for simulators what the mesh weighs and looks like, in metres, +z up.
+Result<Done> write_pieces(mesh::Mesh mesh, bool is_closed, const EncloseOptions& options,
+                          report::ApproximateReport& report) {
+    std::vector<convex::ApproximatePiece> pieces = report.result.pieces;
     const write::HullsFormat format = *write::hulls_format_of(options.output);
+    const double metres_per_unit = report.metres_per_unit;
+    if (write::has_mass(format)) {
+        turn_z_up(mesh.positions, report.up_axis);
+        for (convex::ApproximatePiece& piece : pieces) {
+            turn_z_up(piece.hull.points, report.up_axis);
+        }
+    }
     std::vector<write::HullArrays> hulls;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const convex::ConvexHull& hull = pieces[i].hull;
@@ -123,6 +143,14 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     const mesh::TriangleSoup& soup = loaded.value();
     const mesh::Mesh mesh = mesh::weld(soup, {options.load.weld_distance}).mesh;
     if (is_interrupted()) return interrupted(input);
+    if (options.strict && is_for_simulators(options.output) && soup.metres_per_unit == 0) {
+        report::ApproximateReport refused;
+        refused.input = input.string();
+        refused.error = input.string() + ": does not say its unit, which " +
+                        options.output.string() + " needs. Give --unit.";
+        refused.exit = static_cast<int>(Exit::findings);
+        return refused;
+    }
 
     progress.show(0, name + ": enclose");
     const Clock::time_point begin = Clock::now();
@@ -143,17 +171,23 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     report.triangles = mesh.triangles.size();
     report.to_surface = options.to_surface;
     report.has_table = options.has_table;
+    report.metres_per_unit = soup.metres_per_unit;
+    report.up_axis = soup.up_axis;
+    report.is_for_simulators = is_for_simulators(options.output);
     mesh::Box box;
     for (const mesh::Double3& p : mesh.positions) box.add(p);
-    report.diagonal = mesh.positions.empty() ? 0 : box.diagonal();
+    if (!mesh.positions.empty()) {
+        report.diagonal = box.diagonal();
+        report.size = {box.upper.x - box.lower.x, box.upper.y - box.lower.y,
+                       box.upper.z - box.lower.z};
+    }
     const mesh::Topology topology = mesh::find_topology(mesh);
     for (const format::Component& component : topology.components) {
         if ((component.flags & format::component_balanced) == 0) ++report.open_components;
     }
     if (options.output.empty()) return report;
     progress.show(0, name + ": write");
-    const Result<Done> written =
-        write_pieces(mesh, topology.closed, soup.metres_per_unit, options, report);
+    const Result<Done> written = write_pieces(mesh, topology.closed, options, report);
     if (!written) return written.error();
     return report;
 }

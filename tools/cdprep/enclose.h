@@ -24,6 +24,7 @@ struct EncloseOptions {
     double density = 1000;   ///< kilograms per cubic metre: of water
     bool has_visual = true;  ///< URDF and SDF show the mesh itself
     bool has_table = false;
+    bool strict = false;  ///< refuses to take an unknown unit as the metre
     LoadOptions load;
 };
 

@@ -9,7 +9,7 @@
 #include "convex/enclosing_hull.h"
 #include "convex/mesh_hulls.h"
 #include "enclose.h"
-#include "import_limits.h"
+#include "import_arguments.h"
 #include "interrupt.h"
 #include "load_mesh.h"
 #include "mesh/weld.h"
@@ -39,7 +39,7 @@ struct Arguments {
     std::uint32_t max_vertices = 0;
     std::string format = "text";
     std::size_t threads = 0;
-    ImportLimits import;
+    ImportArguments import;
 };
 
 /// What a hull is called: in an OBJ file a name is one word.
@@ -160,7 +160,7 @@ void add_hull(CLI::App& app, Exit& exit) {
         ->capture_default_str();
     add_jobs(*command, arguments->threads);
     add_report_format(*command, arguments->format);
-    add_import_limits(*command, arguments->import);
+    add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 

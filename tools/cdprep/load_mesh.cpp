@@ -20,6 +20,10 @@ Error refused(const std::filesystem::path& input, const mesh::TriangleSoup& soup
     if (bad.kind == mesh::BadNumber::Kind::not_finite) {
         message += "vertex " + std::to_string(bad.vertex) +
                    " has a coordinate that is not finite; every one must be";
+    } else if (bad.found >= 0 && bad.found < bad.first) {
+        message += "triangle " + std::to_string(bad.triangle) + " uses vertex " +
+                   std::to_string(bad.found) + ", but the " + std::to_string(bad.limit) +
+                   " vertices of such a file are counted from " + std::to_string(bad.first);
     } else {
         message += "triangle " + std::to_string(bad.triangle) + " uses vertex " +
                    std::to_string(bad.found) + ", but the file has " + std::to_string(bad.limit) +

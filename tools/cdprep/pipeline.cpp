@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,7 +11,6 @@
 #include "baked_arrays.h"
 #include "baked_findings.h"
 #include "cdprep/advanced/build_bvh.h"
-#include "cdprep/format/checksum.h"
 #include "convex/find_bounds.h"
 #include "convex/mass_properties.h"
 #include "convex/piece_arrays.h"
@@ -70,20 +68,12 @@ private:
     std::deque<report::StageTime> times_;  ///< a deque: references to its elements stay
 };
 
-std::uint64_t hash_of_file(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::vector<char> bytes(std::filesystem::file_size(path));
-    file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    return format::checksum(std::as_bytes(std::span(bytes)));
-}
-
 /// What the stages after welding find, each on its own.
 struct Findings {
     build::Bvh bvh;
     mesh::Topology topology;
     format::Bounds bounds{};
     std::optional<format::MassProperties> mass;
-    std::uint64_t source_hash = 0;
     report::ValidationReport defects;
 };
 
@@ -97,7 +87,6 @@ Findings examine(const mesh::TriangleSoup& soup, const mesh::Mesh& mesh,
     double& tree_s = stages.add("  tree");
     double& topology_s = stages.add("  topology");
     double& bounds_s = stages.add("  bounds");
-    double& hash_s = stages.add("  source hash");
     double& defects_s = stages.add("  defects");
     const auto timed = [](double& seconds, auto work) {
         return [&seconds, work] {
@@ -121,7 +110,6 @@ Findings examine(const mesh::TriangleSoup& soup, const mesh::Mesh& mesh,
                   }
               }),
         timed(bounds_s, [&] { found.bounds = convex::find_bounds(mesh); }),
-        timed(hash_s, [&] { found.source_hash = hash_of_file(input); }),
         timed(defects_s,
               [&] {
                   found.defects = find_for_bake(input.string(), soup, mesh, threads.parallel_for());
@@ -171,13 +159,14 @@ Mended mend(mesh::TriangleSoup& soup, const std::string& preset, const Threads& 
             std::move(repaired.report)};
 }
 
-std::string provenance_of(const BakeOptions& options, std::uint64_t source_hash) {
+std::string provenance_of(const BakeOptions& options, const mesh::TriangleSoup& soup) {
     return report::provenance_json(
         {CDPREP_VERSION, options.effects.names, options.normalize, options.weld_distance,
          options.repair, options.piece_tolerance, report::bounds_name(options.bounds),
          settings_of(options.structures), options.structures.has_hulls(),
          options.structures.hulls.max_vertices, options.structures.hulls.parts,
-         options.structures.hulls.max_error, source_hash});
+         options.structures.hulls.max_error, options.import.metres_per_unit, options.import.up_axis,
+         soup.source_hash, soup.other_files});
 }
 
 /// Builds what was chosen over a mesh in tree order, whose numbers the structures then
@@ -334,7 +323,7 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
             found.bounds,
             found.mass,
             {found.defects.defects.verdicts, kept_findings(found.defects, mended.report),
-             provenance_of(options, found.source_hash), mended.triangle_from}};
+             provenance_of(options, soup), mended.triangle_from}};
     });
     if (!options.structures.names.empty()) {
         Structures built = stages.run("structures", [&] {

@@ -11,6 +11,7 @@
 
 #include "command.h"
 #include "import/import_file.h"
+#include "import_arguments.h"
 #include "interrupt.h"
 #include "mesh/repair_goal.h"
 #include "output_path.h"
@@ -34,6 +35,7 @@ struct Arguments {
     std::string steps;
     std::string format = "text";
     std::size_t threads = 0;
+    ImportArguments import;
     mesh::RepairOptions options;
 };
 
@@ -112,7 +114,7 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     const Threads threads(arguments.threads);
     options.parallel_for = threads.parallel_for();
     options.interrupted = is_interrupted;
-    import::ImportOptions limits;
+    import::ImportOptions limits = arguments.import.options();
     limits.parallel_for = threads.parallel_for();
     const Result<mesh::TriangleSoup> soup = import::import_file(arguments.input, limits);
     if (!soup) return soup.error();
@@ -198,6 +200,7 @@ void add_repair(CLI::App& app, Exit& exit) {
         ->capture_default_str();
     add_jobs(*command, arguments->threads);
     add_report_format(*command, arguments->format);
+    add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "command.h"
-#include "import_limits.h"
+#include "import_arguments.h"
 #include "input_list.h"
 #include "interrupt.h"
 #include "progress.h"
@@ -54,7 +54,7 @@ struct Arguments {
     std::size_t threads = 0;
     bool null = false;
     bool no_crossings = false;
-    ImportLimits import;
+    ImportArguments import;
     ValidationOptions options;
 };
 
@@ -315,7 +315,7 @@ void add_validate(CLI::App& app, Exit& exit) {
     add_jobs(*command, arguments->threads);
     command->add_flag("--timings", arguments->options.run.timings, "Report how long stages took");
     add_progress(*command, arguments->progress);
-    add_import_limits(*command, arguments->import);
+    add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
 

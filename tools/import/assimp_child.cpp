@@ -181,16 +181,16 @@ Error out_of_time(const SourceFile& file, const ImportOptions& options) {
                             " s that are allowed. Raise --import-time to read it");
 }
 
-/// A file that wants hundreds of times its own size lies about what it holds.
 Error out_of_memory(const SourceFile& file, std::uint64_t input_bytes,
                     const ImportOptions& options) {
-    constexpr std::uint64_t kHonestRatio = 200;  // text formats through assimp stay below 100
     const std::uint64_t input = std::max<std::uint64_t>(input_bytes, file.bytes().size());
-    const std::string limit = std::to_string(options.memory_bytes >> 20) + " MiB";
-    if (options.memory_bytes / kHonestRatio > input) {
+    const std::uint64_t honest = honest_memory(input);
+    if (honest < options.memory_bytes) {
         return file.unreadable("has " + std::to_string(input) + " bytes but asks for more than " +
-                               limit + " of memory: a count in it is wrong");
+                               std::to_string(honest >> 20) +
+                               " MiB of memory: a count in it is wrong");
     }
+    const std::string limit = std::to_string(options.memory_bytes >> 20) + " MiB";
     return file.over_budget("the import needs more than the " + limit +
                             " of memory that are allowed. Raise --import-memory to read it");
 }

@@ -86,8 +86,8 @@ T element(std::span<const std::byte> part, std::size_t i) noexcept {
 
 struct Arrays {
     SceneHeader header;
-    std::span<const std::byte> meshes, nodes, node_meshes, materials, vertices, sizes, corners,
-        text;
+    std::span<const std::byte> meshes, nodes, node_meshes, materials, files, vertices, sizes,
+        corners, text;
 };
 
 std::optional<Arrays> find_arrays(std::span<const std::byte> bytes) noexcept {
@@ -101,7 +101,8 @@ std::optional<Arrays> find_arrays(std::span<const std::byte> bytes) noexcept {
                        cursor.take<SceneNode>(h.node_count, a.nodes) &&
                        cursor.take<std::uint32_t>(h.node_mesh_count, a.node_meshes) &&
                        cursor.take<std::uint32_t>(h.material_count, a.materials) &&
-                       cursor.take<std::array<float, 3>>(h.vertex_count, a.vertices) &&
+                       cursor.take<std::uint32_t>(h.file_count, a.files) &&
+                       cursor.take<std::array<double, 3>>(h.vertex_count, a.vertices) &&
                        cursor.take<std::uint32_t>(h.face_count, a.sizes) &&
                        cursor.take<std::uint32_t>(h.corner_count, a.corners) &&
                        cursor.take<char>(h.text_bytes, a.text) && cursor.at_end();
@@ -129,7 +130,8 @@ public:
         : file_(file), arrays_(arrays), options_(options) {}
 
     Result<mesh::TriangleSoup> flatten() {
-        if (!place_meshes() || !place_nodes() || !take_material_names()) {
+        if (!place_meshes() || !place_nodes() || !take_names(arrays_.materials, materials_) ||
+            !take_names(arrays_.files, other_files_)) {
             return file_.unreadable("the importing child's result is inconsistent");
         }
         if (auto excess = find_excess()) return *std::move(excess);
@@ -202,11 +204,11 @@ private:
         return true;
     }
 
-    bool take_material_names() {
-        for (std::size_t i = 0; i < arrays_.header.material_count; ++i) {
+    bool take_names(std::span<const std::byte> sizes, std::vector<std::string>& names) {
+        for (std::size_t i = 0; i < sizes.size() / sizeof(std::uint32_t); ++i) {
             std::string name;
-            if (!take_text(element<std::uint32_t>(arrays_.materials, i), name)) return false;
-            materials_.push_back(std::move(name));
+            if (!take_text(element<std::uint32_t>(sizes, i), name)) return false;
+            names.push_back(std::move(name));
         }
         return true;
     }
@@ -232,13 +234,12 @@ private:
         const MeshPlace& place = meshes_[use.mesh];
         const Affine& model_from_node = model_from_node_[use.node];
         PolygonChunk chunk;
-        chunk.single_precision = model_from_node == kIdentity;
+        chunk.single_precision = model_from_node == kIdentity && place.counts.is_single == 1;
         chunk.positions.reserve(place.counts.vertex_count);
         for (std::uint64_t i = 0; i < place.counts.vertex_count; ++i) {
-            const auto p = element<std::array<float, 3>>(arrays_.vertices, place.first_vertex + i);
-            const Double3 stored = {p[0], p[1], p[2]};
-            chunk.positions.push_back(chunk.single_precision ? stored
-                                                             : apply(model_from_node, stored));
+            const auto stored = element<Double3>(arrays_.vertices, place.first_vertex + i);
+            chunk.positions.push_back(
+                model_from_node == kIdentity ? stored : apply(model_from_node, stored));
         }
         read_faces(place, mirrors(model_from_node), chunk);
         const bool named = place.counts.material < materials_.size();
@@ -290,6 +291,7 @@ private:
     }
 
     void describe(mesh::TriangleSoup& soup) const {
+        for (const std::string& name : other_files_) soup.other_files.push_back({name, 0});
         soup.metres_per_unit =
             std::isfinite(arrays_.header.metres_per_unit) && arrays_.header.metres_per_unit > 0
                 ? arrays_.header.metres_per_unit
@@ -341,6 +343,7 @@ private:
     std::vector<std::uint32_t> parents_;
     std::vector<Affine> model_from_node_;
     std::vector<std::string> materials_;
+    std::vector<std::string> other_files_;
     std::size_t text_used_ = 0;
 };
 

@@ -3,9 +3,13 @@
 
 #include <exception>
 #include <new>
+#include <optional>
+#include <span>
 #include <string>
 
+#include "cdprep/format/checksum.h"
 #include "import/assimp_child.h"
+#include "import/other_kind.h"
 #include "import/read_obj.h"
 #include "import/read_off.h"
 #include "import/read_ply.h"
@@ -33,14 +37,48 @@ Result<mesh::TriangleSoup> read(const SourceFile& file, const std::filesystem::p
     return import_in_child(file, path, options);
 }
 
+std::uint64_t hash_of(const SourceFile& file) {
+    return format::checksum(std::as_bytes(std::span(file.bytes())));
+}
+
+/// Notes what was read by its hash, so that another buffer is another source.
+std::optional<Error> note_files(const SourceFile& file, const std::filesystem::path& path,
+                                const ImportOptions& options, mesh::TriangleSoup& soup) {
+    soup.source_hash = hash_of(file);
+    for (mesh::InputFile& other : soup.other_files) {
+        const Result<SourceFile> opened =
+            SourceFile::open(path.parent_path() / other.name, options.file_bytes);
+        if (!opened) return opened.error();
+        other.hash = hash_of(*opened);
+    }
+    return std::nullopt;
+}
+
+Error empty(const SourceFile& file, const mesh::TriangleSoup& soup) {
+    const std::size_t points = soup.positions.size();
+    return file.unreadable("has no triangle" +
+                           (points == 0   ? std::string(" and no vertex")
+                            : points == 1 ? std::string(", only 1 vertex")
+                                          : ", only " + std::to_string(points) + " vertices") +
+                           ". Give --allow-empty to go on all the same");
+}
+
 }  // namespace
 
 Result<mesh::TriangleSoup> import_file(const std::filesystem::path& path,
                                        const ImportOptions& options) {
     try {
-        const Result<SourceFile> file = SourceFile::open(path, options.file_bytes);
-        if (!file) return file.error();
-        return read(file.value(), path, options);
+        const Result<SourceFile> opened = SourceFile::open(path, options.file_bytes);
+        if (!opened) return opened.error();
+        const SourceFile& file = opened.value();
+        if (const auto kind = find_other_kind(file.bytes(), path)) return file.unreadable(*kind);
+        Result<mesh::TriangleSoup> soup = read(file, path, options);
+        if (!soup) return soup;
+        if (soup->triangles.empty() && !options.allow_empty) return empty(file, *soup);
+        if (const auto error = note_files(file, path, options, *soup)) return *error;
+        if (options.metres_per_unit) soup->metres_per_unit = *options.metres_per_unit;
+        if (options.up_axis) soup->up_axis = *options.up_axis;
+        return soup;
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::over_budget,
                      path.string() + ": there is not enough memory to read it."};

@@ -178,7 +178,8 @@ private:
         bad_triangles.push_back({.kind = BadNumber::Kind::index_out_of_range,
                                  .triangle = static_cast<std::uint32_t>(number),
                                  .found = corner->found,
-                                 .limit = static_cast<std::int64_t>(soup_.positions.size())});
+                                 .limit = static_cast<std::int64_t>(soup_.positions.size()),
+                                 .first = first_index_});
     }
 
     mesh::TriangleSoup& soup_;

@@ -2,8 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace cdprep::import {
+
+/// ".obj" of "arm.OBJ"; "" without one.
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
 /// Whether a name ends as mesh files do, in any case of letters: what a search through
 /// folders takes up. Endings that other kinds of files share, such as .stp and .raw, are

@@ -32,10 +32,11 @@ struct SceneHeader {
     std::uint64_t node_count;       ///< SceneNode, parents before children, depth first
     std::uint64_t node_mesh_count;  ///< uint32: mesh numbers, of one node after the other
     std::uint64_t material_count;   ///< uint32: bytes of each name
-    std::uint64_t vertex_count;     ///< three floats, of one mesh after the other
+    std::uint64_t vertex_count;     ///< three doubles, of one mesh after the other
     std::uint64_t face_count;       ///< uint32: corners of each face
     std::uint64_t corner_count;     ///< uint32: vertices of the mesh, from 0
-    std::uint64_t text_bytes;       ///< names of nodes, then of materials; or the message
+    std::uint64_t file_count;       ///< uint32: bytes of the name of each file but the first
+    std::uint64_t text_bytes;       ///< names of nodes, materials, files; or the message
 };
 
 struct SceneMesh {
@@ -43,8 +44,16 @@ struct SceneMesh {
     std::uint64_t face_count;
     std::uint64_t corner_count;
     std::uint32_t material;
-    std::uint32_t reserved;  ///< zero
+    std::uint32_t is_single;  ///< 1: every coordinate is a float without loss
 };
+
+/// The most memory that a file of so many bytes can fill: text formats through assimp stay below a
+/// hundred times their size. What asks for more lies about what it holds.
+[[nodiscard]] constexpr std::uint64_t honest_memory(std::uint64_t input_bytes) noexcept {
+    constexpr std::uint64_t kProgram = std::uint64_t{512} << 20;
+    constexpr std::uint64_t kRatio = 200;
+    return kProgram + kRatio * input_bytes;
+}
 
 inline constexpr std::uint32_t kNoParent = 0xffffffff;
 
@@ -56,7 +65,7 @@ struct SceneNode {
     std::uint32_t reserved;  ///< zero
 };
 
-static_assert(sizeof(SceneHeader) == 96 && std::is_trivially_copyable_v<SceneHeader>);
+static_assert(sizeof(SceneHeader) == 104 && std::is_trivially_copyable_v<SceneHeader>);
 static_assert(sizeof(SceneMesh) == 32 && std::is_trivially_copyable_v<SceneMesh>);
 static_assert(sizeof(SceneNode) == 144 && std::is_trivially_copyable_v<SceneNode>);
 

@@ -27,12 +27,19 @@ struct BadNumber {
     std::uint32_t triangle = 0;  ///< source number
     std::int64_t found = 0;      ///< the index as the file has it
     std::int64_t limit = 0;      ///< how many vertices there are
+    std::int64_t first = 0;      ///< the number of the first vertex, as the format counts
 };
 
 /// Named runs over source triangles: groups or materials. Names are UTF-8.
 struct NamedRuns {
     std::vector<format::NamedRun> runs;
     std::vector<std::string> names;
+};
+
+/// A file that an import read.
+struct InputFile {
+    std::string name;        ///< relative to the folder of the file asked for
+    std::uint64_t hash = 0;  ///< format::checksum() of its bytes
 };
 
 /// What a mesh file held: corners as the file gave them, flattened to one list.
@@ -53,7 +60,9 @@ struct TriangleSoup {
     std::vector<std::string> instance_names;  ///< node paths, "root/arm/hand"
     NamedRuns groups;
     NamedRuns materials;
-    double metres_per_unit = 0;  ///< 0: the file does not say
+    std::uint64_t source_hash = 0;       ///< format::checksum() of the file asked for
+    std::vector<InputFile> other_files;  ///< that it refers to and that were read, by name
+    double metres_per_unit = 0;          ///< 0: nobody says
     format::UpAxis up_axis = format::UpAxis::unknown;
     std::vector<BadNumber> bad_numbers;  ///< at most 1000, lowest first
     std::uint64_t bad_number_count = 0;  ///< all of them

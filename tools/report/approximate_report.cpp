@@ -6,6 +6,7 @@
 
 #include "report/fixed.h"
 #include "report/printable.h"
+#include "report/space_name.h"
 
 namespace cdprep::report {
 namespace {
@@ -35,7 +36,30 @@ Json table_json(const ApproximateReport& report) {
     return rows;
 }
 
+/// "0.034 x 0.016 x 0.016 m".
+std::string size_text(const ApproximateReport& report) {
+    const double scale = report.metres_per_unit > 0 ? report.metres_per_unit : 1;
+    std::string text;
+    for (const double length : report.size) {
+        text += (text.empty() ? "" : " x ") + in_six_digits(length * scale);
+    }
+    return text + " m";
+}
+
+bool is_turned(const ApproximateReport& report) {
+    return report.is_for_simulators &&
+           (report.up_axis == format::UpAxis::x || report.up_axis == format::UpAxis::y);
+}
+
 }  // namespace
+
+std::string unit_warning(const ApproximateReport& report) {
+    if (!report.is_for_simulators || report.metres_per_unit > 0) return {};
+    return report.input + ": does not say its unit; " + report.output + " takes it as metres, " +
+           size_text(report) +
+           (report.mass ? " and " + in_six_digits(*report.mass) + " kg" : std::string()) +
+           ". Give --unit.";
+}
 
 std::string approximate_text(const ApproximateReport& report) {
     const convex::ApproximatePieces& result = report.result;
@@ -59,6 +83,10 @@ std::string approximate_text(const ApproximateReport& report) {
     if (!result.is_as_asked) text += "  not as tight, or not as few, as asked\n";
     if (report.left_out > 0) {
         text += "  " + std::to_string(report.left_out) + " flat pieces were not written\n";
+    }
+    if (report.is_for_simulators) text += "  size " + size_text(report) + "\n";
+    if (is_turned(report)) {
+        text += std::string("  turned: ") + axis_name(report.up_axis) + " is up, written as +z\n";
     }
     if (report.mass) {
         text += "  mass " + in_six_digits(*report.mass) + " kg, of ";
@@ -94,6 +122,9 @@ std::string approximate_json(const ApproximateReport& report) {
         json["measured_to"] = report.to_surface ? "surface" : "solid";
         json["open_components"] = report.open_components;
         json["diagonal"] = report.diagonal;
+        json["size"] = report.size;
+        json["metres_per_unit"] = report.metres_per_unit;
+        json["up_axis"] = axis_name(report.up_axis);
         json["proof"] = {{"triangles", result.proof.triangles},
                          {"fragments", result.proof.fragments},
                          {"tests", result.proof.tests},

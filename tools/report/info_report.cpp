@@ -8,6 +8,7 @@
 #include "cdprep/format/sections.h"
 #include "report/baked_hulls.h"
 #include "report/bounds_name.h"
+#include "report/space_name.h"
 #include "report/structure_report.h"
 #include "report/verdict_words.h"
 
@@ -20,19 +21,6 @@ std::uint64_t byte_count(const format::SectionEntry& entry) {
 
 const char* precision(const Model& model) {
     return model.mesh().positions_f64.empty() ? "f32" : "f64";
-}
-
-const char* up_axis(const Model& model) {
-    switch (model.header().up_axis) {
-        case format::UpAxis::x:
-            return "x";
-        case format::UpAxis::y:
-            return "y";
-        case format::UpAxis::z:
-            return "z";
-        default:
-            return "unknown";
-    }
 }
 
 bool is_normalized(const Model& model) {
@@ -99,6 +87,8 @@ std::string info_text(const std::string& file, const Model& model,
                        std::to_string(model.triangle_count()) + " triangles, " +
                        std::to_string(model.vertex_count()) + " vertices, " +
                        std::to_string(model.record().components.size()) + " components\n";
+    text += "unit: " + unit_name(model.header().metres_per_unit) +
+            ", up axis: " + axis_name(model.header().up_axis) + "\n";
     text += std::string("surface questions: exact; positions ") + precision(model) + "\n";
     if (model.triangle_count() == 0) {
         text += "solid questions: nothing is inside, there are no triangles\n";
@@ -141,7 +131,7 @@ std::string info_json(const std::string& file, const Model& model,
         {"closed", model.is_balanced()},
         {"normalized", is_normalized(model)},
         {"metres_per_unit", model.header().metres_per_unit},
-        {"up_axis", up_axis(model)},
+        {"up_axis", axis_name(model.header().up_axis)},
         {"bounds", bounds_name(bounds_of(model))},
         {"serves", served_names(model)},
         {"guarantees",

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "report/space_name.h"
 #include "report/structure_name.h"
 
 namespace cdprep::report {
@@ -62,6 +63,12 @@ std::string provenance_json(const Provenance& provenance) {
     if (provenance.hull_vertices > 0) options["hull_vertices"] = provenance.hull_vertices;
     if (provenance.parts) options["parts"] = *provenance.parts;
     if (provenance.max_error) options["max_error"] = *provenance.max_error;
+    if (provenance.metres_per_unit) options["metres_per_unit"] = *provenance.metres_per_unit;
+    if (provenance.up_axis) options["up_axis"] = axis_name(*provenance.up_axis);
+    for (const mesh::InputFile& file : provenance.other_files) {
+        json["source"]["files"].push_back(
+            {{"name", file.name}, {"xxh3_64", hexadecimal(file.hash)}});
+    }
     return json.dump();
 }
 

@@ -7,12 +7,13 @@
 #include <string>
 #include <vector>
 
+#include "mesh/mesh.h"
 #include "report/structure_settings.h"
 
 namespace cdprep::report {
 
 /// Where a bake comes from: everything that decides its bytes, and nothing else
-/// (no path, no time, no host).
+/// (no time, no host, no path but those by which the input refers to others).
 struct Provenance {
     std::string tool_version;
     std::vector<std::string> effects;  ///< sorted
@@ -25,8 +26,11 @@ struct Provenance {
     bool has_hulls = false;
     std::uint32_t hull_vertices = 0;  ///< 0: exact hulls
     std::optional<std::size_t> parts;
-    std::optional<double> max_error;  ///< of parts
-    std::uint64_t source_hash = 0;    ///< format::checksum() of the input file
+    std::optional<double> max_error;           ///< of parts
+    std::optional<double> metres_per_unit;     ///< given, in place of what the file says
+    std::optional<format::UpAxis> up_axis;     ///< likewise
+    std::uint64_t source_hash = 0;             ///< format::checksum() of the input file
+    std::vector<mesh::InputFile> other_files;  ///< that it refers to and that were read
 };
 
 /// Canonical JSON: keys sorted, no blanks, shortest numbers.

@@ -11,9 +11,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "cdprep/format/checksum.h"
 #include "import/import_file.h"
 #include "support/scratch_folder.h"
 
@@ -117,11 +119,79 @@ TEST_F(AssimpChild, WhatItCannotReadIsOneSentence) {
     }
 }
 
+TEST_F(AssimpChild, EveryFileThatWasReadIsHashed) {
+    const std::string nodes = R"({"name":"root","mesh":0})";
+    std::string bytes = triangle_buffer();
+    std::filesystem::create_directory(scratch_.path() / "parts");
+    write("parts/b.bin", bytes);
+    const std::filesystem::path path = write("s.gltf", gltf(nodes, "parts/b.bin"));
+    const auto before = import_file(path);
+    bytes[0] ^= 1;
+    write("parts/b.bin", bytes);
+    const auto after = import_file(path);
+    ASSERT_TRUE(before.ok() && after.ok());
+    ASSERT_EQ(before->other_files.size(), 1u);
+    EXPECT_EQ(before->other_files[0].name, "parts/b.bin");
+    EXPECT_EQ(after->other_files[0].hash, format::checksum(std::as_bytes(std::span(bytes))));
+    EXPECT_NE(before->other_files[0].hash, after->other_files[0].hash);
+    EXPECT_EQ(before->source_hash, after->source_hash);
+}
+
+/// Position 1 of three zeros or buffered ones is replaced by (0, 1, 0).
+std::string sparse_gltf(const std::string& base, const std::string& count) {
+    return R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],)"
+           R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)"
+           R"("accessors":[{)" +
+           base + R"("componentType":5126,"count":)" + count +
+           R"(,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":1,"componentType":5125},)"
+           R"("values":{"bufferView":2}}}],"bufferViews":[{"buffer":0,"byteLength":36},)"
+           R"({"buffer":0,"byteOffset":40,"byteLength":4},{"buffer":0,"byteOffset":24,)"
+           R"("byteLength":12}],"buffers":[{"byteLength":48,"uri":"b.bin"}]})";
+}
+
+TEST_F(AssimpChild, SparseAccessorsReplaceSomeElements) {
+    write("b.bin", triangle_buffer());  // the index at byte 40 is 1
+    const auto over_zeros = import_file(write("z.gltf", sparse_gltf("", "3")));
+    ASSERT_TRUE(over_zeros.ok()) << over_zeros.error().message;
+    EXPECT_EQ(over_zeros->positions, (std::vector<Double3>{{0, 0, 0}, {0, 1, 0}, {0, 0, 0}}));
+    const auto over_others = import_file(write("o.gltf", sparse_gltf(R"("bufferView":0,)", "3")));
+    ASSERT_TRUE(over_others.ok()) << over_others.error().message;
+    EXPECT_EQ(over_others->positions, (std::vector<Double3>{{0, 0, 0}, {0, 1, 0}, {0, 1, 0}}));
+    EXPECT_FALSE(import_file(write("one.gltf", sparse_gltf("", "1"))).ok());  // element 1 of 1
+}
+
+TEST_F(AssimpChild, ASparseAccessorAsksForNoMoreThanTheFileCanHold) {
+    write("b.bin", triangle_buffer());
+    const auto result = import_file(write("s.gltf", sparse_gltf("", "100000000")));
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().code, ErrorCode::unreadable) << result.error().message;
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    EXPECT_NE(result.error().message.find("a count in it is wrong"), std::string::npos)
+        << result.error().message;
+#endif
+}
+
+TEST_F(AssimpChild, ExtensionsThatChangeTheGeometryAreRefusedByName) {
+    write("b.bin", triangle_buffer());
+    std::string text = gltf(R"({"name":"root","mesh":0})", "b.bin");
+    text.insert(1, R"("extensionsRequired":["KHR_draco_mesh_compression"],)");
+    const auto packed = import_file(write("s.gltf", text));
+    ASSERT_FALSE(packed.ok());
+    EXPECT_NE(packed.error().message.find("KHR_draco_mesh_compression"), std::string::npos);
+    const auto instanced = import_file(write(
+        "i.gltf",
+        gltf(R"({"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{}}}})", "b.bin")));
+    ASSERT_FALSE(instanced.ok());
+    EXPECT_NE(instanced.error().message.find("EXT_mesh_gpu_instancing"), std::string::npos);
+}
+
 TEST_F(AssimpChild, AMissingBufferAndACycleAreUnreadable) {
     const std::string nodes = R"({"name":"root","mesh":0})";
     const auto missing = import_file(write("s.gltf", gltf(nodes, "none.bin")));
     ASSERT_FALSE(missing.ok());
     EXPECT_EQ(missing.error().code, ErrorCode::unreadable);
+    EXPECT_NE(missing.error().message.find("none.bin"), std::string::npos)
+        << missing.error().message;
     write("b.bin", triangle_buffer());
     const auto cyclic = import_file(
         write("s.gltf", gltf(R"({"children":[1],"mesh":0},{"children":[0]})", "b.bin")));

@@ -23,6 +23,7 @@ struct MeshPart {
     std::vector<std::array<double, 3>> vertices;
     std::vector<std::vector<std::uint32_t>> faces;
     std::uint32_t material = 0;
+    bool is_single = true;
 };
 
 struct NodePart {
@@ -48,6 +49,7 @@ public:
             counts.face_count = mesh.faces.size();
             for (const auto& face : mesh.faces) counts.corner_count += face.size();
             counts.material = mesh.material;
+            counts.is_single = mesh.is_single ? 1 : 0;
             add(counts);
             header.vertex_count += counts.vertex_count;
             header.face_count += counts.face_count;
@@ -68,7 +70,7 @@ public:
         for (const std::string& name : materials) add(static_cast<std::uint32_t>(name.size()));
         for (const MeshPart& mesh : meshes) {
             for (const auto& p : mesh.vertices) {
-                for (const double x : p) add(static_cast<float>(x));
+                for (const double x : p) add(x);
             }
         }
         for (const MeshPart& mesh : meshes) {

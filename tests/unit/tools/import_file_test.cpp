@@ -8,9 +8,11 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "cdprep/format/checksum.h"
 #include "support/scratch_folder.h"
 #include "support/shared_models.h"
 
@@ -39,16 +41,95 @@ const std::string kPly =
     "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
     "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
 
-TEST_F(ImportFile, TheContentDecidesWhateverTheName) {
+void expect_one_triangle(const Result<TriangleSoup>& result, const std::string& name) {
+    ASSERT_TRUE(result.ok()) << name << ": " << result.error().message;
+    EXPECT_EQ(result.value().triangles.size(), 1u) << name;
+    EXPECT_EQ(result.value().positions.size(), 3u) << name;
+}
+
+TEST_F(ImportFile, TheContentDecidesWhereTheEndingIsUnknown) {
     for (const std::string& content : {kObj, kOff, kStl, kPly}) {
-        for (const char* name :
-             {"a.obj", "a.off", "a.stl", "a.ply", "a.OBJ", "a.txt", "a", "a.glb"}) {
-            const auto result = import_file(write(name, content));
-            ASSERT_TRUE(result.ok()) << name << ": " << result.error().message;
-            EXPECT_EQ(result.value().triangles.size(), 1u) << name;
-            EXPECT_EQ(result.value().positions.size(), 3u) << name;
+        for (const char* name : {"a.txt", "a", "a.dat", ".obj"}) {
+            expect_one_triangle(import_file(write(name, content)), name);
         }
     }
+}
+
+TEST_F(ImportFile, AKnownEndingWinsOverContentThatIsNoFormatsOwn) {
+    expect_one_triangle(import_file(write("a.OBJ", kObj)), "a.OBJ");
+    for (const std::string& content : {kOff, kStl}) {
+        const auto result = import_file(write("a.obj", content));
+        ASSERT_FALSE(result.ok());
+        EXPECT_EQ(result.error().code, ErrorCode::unreadable);
+    }
+    expect_one_triangle(import_file(write("a.obj", kPly)), "a PLY named a.obj");
+    // Its first line, a lone v, is OBJ too.
+    const auto nff = import_file(
+        write("a.nff",
+              "v\nfrom 0 3 10\nat 0 0 0\nup 0 1 0\nangle 60\nhither 0\nresolution 64 48\n"
+              "f 1 1 1 .8 .8 20 0 1\np 4\n-7 -1 -7\n-7 -1 7\n7 -1 7\n7 -1 -7\n"));
+    ASSERT_TRUE(nff.ok()) << nff.error().message;
+    EXPECT_EQ(nff->triangles.size(), 2u);
+}
+
+TEST_F(ImportFile, WithoutATriangleNothingIsReadUnlessAllowed) {
+    const std::filesystem::path points = write("points.obj", "v 0 0 0\nv 1 0 0\n");
+    const auto refused = import_file(points);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_EQ(refused.error().code, ErrorCode::unreadable);
+    EXPECT_NE(refused.error().message.find("no triangle, only 2 vertices"), std::string::npos)
+        << refused.error().message;
+    ImportOptions options;
+    options.allow_empty = true;
+    const auto accepted = import_file(points, options);
+    ASSERT_TRUE(accepted.ok());
+    EXPECT_EQ(accepted->positions.size(), 2u);
+}
+
+TEST_F(ImportFile, SaysWhatAFileIsThatIsNoMesh) {
+    const std::map<std::string, std::string> said_of = {
+        {"version https://git-lfs.github.com/spec/v1\noid sha256:1\n", "Git LFS"},
+        {"\n <!doctype HTML><html></html>", "web page"},
+        {"<HTML><body/></HTML>", "web page"},
+        {std::string(4096, 'x') + "\x89HDF\r\n\x1a\n", "baked model"},
+        {"#usda 1.0\n", "USD"},
+        {"#VRML V2.0 utf8\n", "VRML"}};
+    for (const auto& [content, said] : said_of) {
+        for (const char* name : {"a.obj", "a.stl", "a.gltf", "a"}) {
+            const auto result = import_file(write(name, content));
+            ASSERT_FALSE(result.ok()) << name;
+            EXPECT_NE(result.error().message.find(said), std::string::npos)
+                << result.error().message;
+        }
+    }
+    const auto usd = import_file(write("a.usdz", "PK rubbish"));
+    ASSERT_FALSE(usd.ok());
+    EXPECT_NE(usd.error().message.find("USD"), std::string::npos) << usd.error().message;
+}
+
+TEST_F(ImportFile, UnitAndUpAxisAreThoseGiven) {
+    ImportOptions options;
+    options.metres_per_unit = 0.001;
+    options.up_axis = format::UpAxis::z;
+    const std::filesystem::path path = write("a.obj", kObj);
+    const auto given = import_file(path, options);
+    const auto unknown = import_file(path);
+    ASSERT_TRUE(given.ok() && unknown.ok());
+    EXPECT_EQ(given->metres_per_unit, 0.001);
+    EXPECT_EQ(given->up_axis, format::UpAxis::z);
+    EXPECT_EQ(given->positions, unknown->positions);
+    EXPECT_EQ(unknown->metres_per_unit, 0);
+    EXPECT_EQ(unknown->up_axis, format::UpAxis::unknown);
+}
+
+TEST_F(ImportFile, TheSourceHashIsThatOfTheBytes) {
+    const auto first = import_file(write("a.obj", kObj));
+    const auto second = import_file(write("b.obj", kObj + "\n"));
+    ASSERT_TRUE(first.ok() && second.ok());
+    EXPECT_EQ(first->source_hash,
+              format::checksum(std::as_bytes(std::span(kObj.data(), kObj.size()))));
+    EXPECT_NE(second->source_hash, first->source_hash);
+    EXPECT_TRUE(first->other_files.empty());
 }
 
 TEST_F(ImportFile, WhatIsNoReadableFileIsOneSentence) {

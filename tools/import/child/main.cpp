@@ -14,6 +14,9 @@
 #include <string>
 
 #include "cdprep/format/float_environment.h"
+#include "input_files.h"
+#include "memory_limit.h"
+#include "read_3mf.h"
 #include "read_assimp.h"
 #include "read_gltf.h"
 #include "scene.h"
@@ -24,19 +27,6 @@ namespace {
 constexpr int kExitWritten = 0;
 constexpr int kExitUnwritten = 1;
 
-// Address sanitizers reserve terabytes, so their builds run without the limit.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kLimitMemory = false;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool kLimitMemory = false;
-#else
-constexpr bool kLimitMemory = true;
-#endif
-#else
-constexpr bool kLimitMemory = true;
-#endif
-
 bool set_limit(__rlimit_resource_t resource, std::uint64_t value) {
     const rlimit limit{value, value};
     return ::setrlimit(resource, &limit) == 0;
@@ -44,22 +34,30 @@ bool set_limit(__rlimit_resource_t resource, std::uint64_t value) {
 
 bool set_limits(std::uint64_t memory_bytes, std::uint64_t cpu_seconds) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // do not outlive the parent
-    if (kLimitMemory && !set_limit(RLIMIT_AS, memory_bytes)) return false;
+    if (!set_memory_limit(memory_bytes)) return false;
     return set_limit(RLIMIT_CPU, cpu_seconds) && set_limit(RLIMIT_CORE, 0) &&
            set_limit(RLIMIT_FSIZE, memory_bytes);
 }
 
+Scene read_scene(const std::string& path, InputFiles& files) {
+    if (is_3mf(path)) return read_3mf(path, files);
+    if (std::optional<Scene> scene = read_gltf(path, files)) return *std::move(scene);
+    return read_assimp(path, files);
+}
+
 bool import_scene(const std::string& path) {
-    std::uint64_t input_bytes = 0;
+    InputFiles files(path);
     try {
-        if (const std::optional<Scene> scene = read_gltf(path, input_bytes)) {
-            return write_scene(*scene, input_bytes);
-        }
-        return write_scene(read_assimp(path, input_bytes), input_bytes);
+        const Scene scene = read_scene(path, files);
+        const std::string missing = files.missing_meshes();
+        if (missing.empty()) return write_scene(scene, files);
+        return write_failure(
+            SceneOutcome::unreadable,
+            "refers to " + missing + ", which cannot be read or is outside its folder", files);
     } catch (const std::bad_alloc&) {
-        return write_failure(SceneOutcome::out_of_memory, "", input_bytes);
+        return write_failure(SceneOutcome::out_of_memory, "", files);
     } catch (const std::exception& problem) {
-        return write_failure(SceneOutcome::unreadable, problem.what(), input_bytes);
+        return write_failure(SceneOutcome::unreadable, problem.what(), files);
     }
 }
 

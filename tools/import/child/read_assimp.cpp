@@ -98,9 +98,12 @@ void describe_space(const aiMetadata& metadata, Scene& scene) {
 
 }  // namespace
 
-Scene read_assimp(const std::string& path, std::uint64_t& input_bytes) {
-    Assimp::Importer importer;
-    importer.SetIOHandler(new FolderFiles(path, input_bytes));  // the importer owns it
+Scene read_assimp(const std::string& path, InputFiles& files) {
+    // Never destroyed: some of its scenes crash when they are, and the process ends anyway.
+    Assimp::Importer& importer = *new Assimp::Importer;
+    importer.SetIOHandler(new FolderFiles(files));  // the importer owns it
+    // A head alone is a model; the rest of the body need not be there.
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
     importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
     const aiScene* const found = importer.ReadFile(path, 0);

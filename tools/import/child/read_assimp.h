@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "scene.h"
@@ -10,6 +9,6 @@ namespace cdprep::import {
 
 /// Reads any format that assimp knows. Throws what assimp throws; a file that it
 /// refuses is a std::runtime_error with its reason.
-[[nodiscard]] Scene read_assimp(const std::string& path, std::uint64_t& input_bytes);
+[[nodiscard]] Scene read_assimp(const std::string& path, InputFiles& files);
 
 }  // namespace cdprep::import

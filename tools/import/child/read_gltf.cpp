@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "folder_files.h"
+#include "input_files.h"
 #include "json_value.h"
 
 namespace cdprep::import {
@@ -36,12 +36,13 @@ enum Component : std::uint64_t {
     throw std::runtime_error(why);
 }
 
-std::string read_bytes(const std::filesystem::path& path, std::uint64_t& input_bytes) {
-    std::string bytes(std::filesystem::file_size(path), '\0');
+std::string read_bytes(const std::filesystem::path& path, InputFiles& files) {
+    const std::uint64_t size = std::filesystem::file_size(path);
+    files.note_opened(path, size);
+    std::string bytes(size, '\0');
     std::ifstream stream(path, std::ios::binary);
     stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!stream) fail("a file of it cannot be read");
-    input_bytes += bytes.size();
+    if (!stream) fail(path.filename().string() + " cannot be read whole");
     return bytes;
 }
 
@@ -193,24 +194,15 @@ Matrix local_transform(const JsonValue& node) {
 class GltfReader {
 public:
     GltfReader(const std::filesystem::path& path, const JsonValue& root, std::string_view binary,
-               std::uint64_t& input_bytes)
-        : path_(path), root_(root), binary_(binary), input_bytes_(input_bytes) {}
+               InputFiles& files)
+        : path_(path), root_(root), binary_(binary), files_(files) {}
 
-    [[nodiscard]] bool is_supported() const {
-        if (!root_["asset"]["version"].text().starts_with("2.")) return false;
-        for (const JsonValue& name : root_["extensionsRequired"].items()) {
-            const std::string& text = name.text();
-            if (text != "KHR_mesh_quantization" && !text.starts_with("KHR_materials") &&
-                !text.starts_with("KHR_texture")) {
-                return false;
-            }
-        }
-        const std::vector<JsonValue>& accessors = root_["accessors"].items();
-        return std::none_of(accessors.begin(), accessors.end(),
-                            [](const JsonValue& a) { return a["sparse"].exists(); });
+    [[nodiscard]] bool is_version_2() const {
+        return root_["asset"]["version"].text().starts_with("2.");
     }
 
     Scene read() {
+        check_extensions();
         read_buffers();
         for (std::size_t i = 0; i < root_["materials"].items().size(); ++i) {
             scene_.materials.push_back(name_of("materials", i, "material_"));
@@ -229,6 +221,25 @@ public:
     }
 
 private:
+    /// Refuses what would change the geometry and is not read: packed meshes and instances. How a
+    /// surface looks and what stands beside it does not matter.
+    void check_extensions() const {
+        for (const JsonValue& name : root_["extensionsRequired"].items()) {
+            const std::string& text = name.text();
+            const bool is_harmless =
+                text == "KHR_mesh_quantization" || text == "KHR_lights_punctual" ||
+                text.starts_with("KHR_materials") || text.starts_with("KHR_texture") ||
+                text.starts_with("EXT_texture");
+            if (!is_harmless) fail("it needs the extension " + text + ", which is not read");
+        }
+        for (const JsonValue& node : root_["nodes"].items()) {
+            const std::string_view instancing = "EXT_mesh_gpu_instancing";
+            if (node["extensions"][instancing].exists()) {
+                fail("it has instances by " + std::string(instancing) + ", which are not read");
+            }
+        }
+    }
+
     [[nodiscard]] std::string name_of(std::string_view list, std::size_t i,
                                       const char* otherwise) const {
         const std::string& name = root_[list][i]["name"].text();
@@ -248,11 +259,13 @@ private:
                 const std::size_t comma = std::min(uri.find(','), uri.size() - 1);
                 owned_.push_back(decode_base64(std::string_view(uri).substr(comma + 1)));
             } else {
-                const std::filesystem::path file = path_.parent_path() / decode_percent(uri);
-                if (!FolderFiles(path_, input_bytes_).Exists(file.c_str())) {
-                    fail("buffer " + number + " cannot be opened, or is not in the file's folder");
+                const std::string name = decode_percent(uri);
+                const auto file = files_.find(path_.parent_path() / name);
+                if (!file) {
+                    fail("buffer " + number + ", " + name +
+                         ", cannot be opened or is not in the file's folder");
                 }
-                owned_.push_back(read_bytes(file, input_bytes_));
+                owned_.push_back(read_bytes(*file, files_));
             }
             buffers_.push_back(owned_.back());
         }
@@ -267,30 +280,25 @@ private:
         std::uint64_t count = 0;
         std::uint64_t stride = 0;
         std::uint64_t component = 0;
-        bool normalized = false;
     };
 
-    /// Finds an accessor's elements of `width` components and proves that all of
-    /// them lie in their buffer.
-    [[nodiscard]] Accessor find(std::uint64_t number, std::string_view type,
+    /// Finds `count` elements of `width` components where `place` says, an accessor or a part of a
+    /// sparse one, and proves that all of them lie in their buffer.
+    [[nodiscard]] Accessor find(const std::string& name, const JsonValue& place,
+                                std::uint64_t component, std::uint64_t count,
                                 std::uint64_t width) const {
-        const JsonValue& accessor = root_["accessors"][number];
-        const std::string name = "accessor " + std::to_string(number);
-        if (!accessor.exists()) fail(name + " does not exist");
-        if (accessor["type"].text() != type) fail(name + " is no " + std::string(type));
         Accessor result;
-        result.component = accessor["componentType"].count("componentType", 0);
-        result.count = accessor["count"].count("count", 0);
-        result.normalized = accessor["normalized"].is_true();
+        result.component = component;
+        result.count = count;
         const std::uint64_t element = width * size_of(result.component);
-        if (!accessor["bufferView"].exists()) fail(name + " has no data");
-        const JsonValue& view = root_["bufferViews"][accessor["bufferView"].count("bufferView", 0)];
+        if (!place["bufferView"].exists()) fail(name + " has no data");
+        const JsonValue& view = root_["bufferViews"][place["bufferView"].count("bufferView", 0)];
         const std::uint64_t buffer = view["buffer"].count("buffer", buffers_.size());
         if (buffer >= buffers_.size()) fail(name + " is in a buffer that does not exist");
         result.stride = view["byteStride"].count("byteStride", element);
         if (result.stride < element) fail(name + " has elements that overlap");
-        const std::uint64_t offset = view["byteOffset"].count("byteOffset", 0) +
-                                     accessor["byteOffset"].count("byteOffset", 0);
+        const std::uint64_t offset =
+            view["byteOffset"].count("byteOffset", 0) + place["byteOffset"].count("byteOffset", 0);
         const std::uint64_t size = buffers_[buffer].size();
         const bool fits =
             offset <= size && (result.count == 0 || size - offset >= element) &&
@@ -312,20 +320,60 @@ private:
         if (primitive["material"].exists()) {
             mesh.material = static_cast<std::uint32_t>(primitive["material"].count("material", 0));
         }
-        const Accessor points = find(position.count("POSITION", 0), "VEC3", 3);
-        const std::uint64_t bytes = size_of(points.component);
-        mesh.vertices.reserve(points.count);
-        for (std::uint64_t i = 0; i < points.count; ++i) {
-            std::array<float, 3> p{};
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                p[axis] =
-                    load_component(points.component, points.at + i * points.stride + axis * bytes,
-                                   points.normalized);
-            }
-            mesh.vertices.push_back(p);
-        }
-        add_triangles(mode, read_indices(primitive, points.count), mesh);
+        mesh.vertices = read_points(position.count("POSITION", 0));
+        add_triangles(mode, read_indices(primitive, mesh.vertices.size()), mesh);
         return mesh;
+    }
+
+    /// The elements of an accessor of positions; zeros, where it is sparse and has no others.
+    [[nodiscard]] std::vector<std::array<double, 3>> read_points(std::uint64_t number) const {
+        const JsonValue& accessor = root_["accessors"][number];
+        const std::string name = "accessor " + std::to_string(number);
+        if (!accessor.exists()) fail(name + " does not exist");
+        if (accessor["type"].text() != "VEC3") fail(name + " is no VEC3");
+        const std::uint64_t component = accessor["componentType"].count("componentType", 0);
+        const std::uint64_t count = accessor["count"].count("count", 0);
+        const JsonValue& sparse = accessor["sparse"];
+        std::vector<std::array<double, 3>> points;
+        if (accessor["bufferView"].exists() || !sparse.exists()) {
+            const Accessor all = find(name, accessor, component, count, 3);
+            points.reserve(count);
+            for (std::uint64_t i = 0; i < count; ++i) points.push_back(point(accessor, all, i));
+        } else {
+            points.resize(count);
+        }
+        if (sparse.exists()) replace_some(name, accessor, points);
+        return points;
+    }
+
+    void replace_some(const std::string& name, const JsonValue& accessor,
+                      std::vector<std::array<double, 3>>& points) const {
+        const JsonValue& sparse = accessor["sparse"];
+        const std::uint64_t count = sparse["count"].count("count", 0);
+        const Accessor numbers = find(
+            name, sparse["indices"], sparse["indices"]["componentType"].count("type", 0), count, 1);
+        const Accessor values =
+            find(name, sparse["values"], accessor["componentType"].count("type", 0), count, 3);
+        for (std::uint64_t i = 0; i < count; ++i) {
+            const std::uint32_t at = load_index(numbers.component, numbers.at + i * numbers.stride);
+            if (at >= points.size()) {
+                fail(name + " replaces element " + std::to_string(at) + " of " +
+                     std::to_string(points.size()));
+            }
+            points[at] = point(accessor, values, i);
+        }
+    }
+
+    static std::array<double, 3> point(const JsonValue& accessor, const Accessor& values,
+                                       std::uint64_t i) {
+        const bool normalized = accessor["normalized"].is_true();
+        const char* const at = values.at + i * values.stride;
+        const std::uint64_t bytes = size_of(values.component);
+        std::array<double, 3> p{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            p[axis] = load_component(values.component, at + axis * bytes, normalized);
+        }
+        return p;
     }
 
     [[nodiscard]] std::vector<std::uint32_t> read_indices(const JsonValue& primitive,
@@ -338,7 +386,15 @@ private:
             }
             return indices;
         }
-        const Accessor list = find(primitive["indices"].count("indices", 0), "SCALAR", 1);
+        const std::uint64_t number = primitive["indices"].count("indices", 0);
+        const JsonValue& accessor = root_["accessors"][number];
+        const std::string name = "accessor " + std::to_string(number);
+        if (!accessor.exists()) fail(name + " does not exist");
+        if (accessor["type"].text() != "SCALAR") fail(name + " is no SCALAR");
+        if (accessor["sparse"].exists()) fail(name + " of indices is sparse, which is not read");
+        const Accessor list =
+            find(name, accessor, accessor["componentType"].count("componentType", 0),
+                 accessor["count"].count("count", 0), 1);
         indices.reserve(list.count);
         for (std::uint64_t i = 0; i < list.count; ++i) {
             indices.push_back(load_index(list.component, list.at + i * list.stride));
@@ -438,7 +494,7 @@ private:
     const std::filesystem::path& path_;
     const JsonValue& root_;
     std::string_view binary_;
-    std::uint64_t& input_bytes_;
+    InputFiles& files_;
     std::vector<std::string> owned_;
     std::vector<std::string_view> buffers_;
     std::vector<std::uint32_t> first_primitive_;
@@ -478,7 +534,7 @@ std::optional<Parts> split_glb(std::string_view bytes) {
 
 }  // namespace
 
-std::optional<Scene> read_gltf(const std::filesystem::path& path, std::uint64_t& input_bytes) {
+std::optional<Scene> read_gltf(const std::filesystem::path& path, InputFiles& files) {
     constexpr std::string_view kMagic = "glTF";
     std::ifstream stream(path, std::ios::binary);
     std::string start(64, '\0');
@@ -487,16 +543,13 @@ std::optional<Scene> read_gltf(const std::filesystem::path& path, std::uint64_t&
     const bool is_glb = start.starts_with(kMagic);
     if (!is_glb && (first == std::string::npos || start[first] != '{')) return std::nullopt;
 
-    std::uint64_t own_bytes = 0;
-    const std::string bytes = read_bytes(path, own_bytes);
+    const std::string bytes = read_bytes(path, files);
     std::optional<Parts> parts = is_glb ? split_glb(bytes) : Parts{bytes, {}};
     if (!parts) return std::nullopt;
     const JsonValue root = JsonValue::parse(parts->json);
-    GltfReader reader(path, root, parts->binary, own_bytes);
-    if (!reader.is_supported()) return std::nullopt;
-    Scene scene = reader.read();
-    input_bytes += own_bytes;
-    return scene;
+    GltfReader reader(path, root, parts->binary, files);
+    if (!reader.is_version_2()) return std::nullopt;
+    return reader.read();
 }
 
 }  // namespace cdprep::import

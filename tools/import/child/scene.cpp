@@ -57,13 +57,13 @@ private:
     bool good_ = true;
 };
 
-SceneHeader describe(const Scene& scene, std::uint64_t input_bytes) {
+SceneHeader describe(const Scene& scene, const InputFiles& files) {
     SceneHeader header{};
     header.magic = kSceneMagic;
     header.outcome = SceneOutcome::read;
     header.up_axis = static_cast<std::uint32_t>(scene.up_axis);
     header.metres_per_unit = scene.metres_per_unit;
-    header.input_bytes = input_bytes;
+    header.input_bytes = files.bytes();
     header.mesh_count = scene.meshes.size();
     header.node_count = scene.nodes.size();
     header.material_count = scene.materials.size();
@@ -77,17 +77,19 @@ SceneHeader describe(const Scene& scene, std::uint64_t input_bytes) {
         header.text_bytes += node.name.size();
     }
     for (const std::string& name : scene.materials) header.text_bytes += name.size();
+    header.file_count = files.opened().size();
+    for (const std::string& name : files.opened()) header.text_bytes += name.size();
     return header;
 }
 
 }  // namespace
 
-bool write_scene(const Scene& scene, std::uint64_t input_bytes) {
+bool write_scene(const Scene& scene, const InputFiles& files) {
     ResultWriter writer;
-    writer.add_one(describe(scene, input_bytes));
+    writer.add_one(describe(scene, files));
     for (const Scene::Mesh& mesh : scene.meshes) {
         writer.add_one(SceneMesh{mesh.vertices.size(), mesh.sizes.size(), mesh.corners.size(),
-                                 mesh.material, 0});
+                                 mesh.material, mesh.is_single ? 1U : 0U});
     }
     for (const Scene::Node& node : scene.nodes) {
         writer.add_one(SceneNode{node.parent_from_node, node.parent,
@@ -98,19 +100,23 @@ bool write_scene(const Scene& scene, std::uint64_t input_bytes) {
     for (const std::string& name : scene.materials) {
         writer.add_one(static_cast<std::uint32_t>(name.size()));
     }
+    for (const std::string& name : files.opened()) {
+        writer.add_one(static_cast<std::uint32_t>(name.size()));
+    }
     for (const Scene::Mesh& mesh : scene.meshes) writer.add(std::span(mesh.vertices));
     for (const Scene::Mesh& mesh : scene.meshes) writer.add(std::span(mesh.sizes));
     for (const Scene::Mesh& mesh : scene.meshes) writer.add(std::span(mesh.corners));
     for (const Scene::Node& node : scene.nodes) writer.add_text(node.name);
     for (const std::string& name : scene.materials) writer.add_text(name);
+    for (const std::string& name : files.opened()) writer.add_text(name);
     return writer.finish();
 }
 
-bool write_failure(SceneOutcome outcome, std::string_view why, std::uint64_t input_bytes) {
+bool write_failure(SceneOutcome outcome, std::string_view why, const InputFiles& files) {
     SceneHeader header{};
     header.magic = kSceneMagic;
     header.outcome = outcome;
-    header.input_bytes = input_bytes;
+    header.input_bytes = files.bytes();
     header.text_bytes = why.size();
     ResultWriter writer;
     writer.add_one(header);

@@ -9,16 +9,18 @@
 
 #include "cdprep/format/file_header.h"
 #include "import/scene_bytes.h"
+#include "input_files.h"
 
 namespace cdprep::import {
 
 /// What an importer found, before it goes to the parent.
 struct Scene {
     struct Mesh {
-        std::vector<std::array<float, 3>> vertices;
+        std::vector<std::array<double, 3>> vertices;
         std::vector<std::uint32_t> sizes;    ///< corners per face
         std::vector<std::uint32_t> corners;  ///< any number, in range or not
         std::uint32_t material = 0xffffffff;
+        bool is_single = true;  ///< every coordinate is a float without loss
     };
     struct Node {
         std::string name;
@@ -34,10 +36,10 @@ struct Scene {
 };
 
 /// Writes the scene to the parent's descriptor, as scene_bytes.h says.
-[[nodiscard]] bool write_scene(const Scene& scene, std::uint64_t input_bytes);
+[[nodiscard]] bool write_scene(const Scene& scene, const InputFiles& files);
 
 /// Writes that there is none, and why.
 [[nodiscard]] bool write_failure(SceneOutcome outcome, std::string_view why,
-                                 std::uint64_t input_bytes);
+                                 const InputFiles& files);
 
 }  // namespace cdprep::import

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+#include "scene.h"
+
+namespace cdprep::import {
+
+/// Whether the name ends like one of the 3D Manufacturing Format and the file is an archive.
+[[nodiscard]] bool is_3mf(const std::filesystem::path& path);
+
+/// Reads the meshes of 3MF (core specification 1.3, production extension) that its build items
+/// place. Throws std::runtime_error with the reason when a part is missing, when an object has
+/// another geometry than triangles, or when the file needs an extension that is not read.
+///
+/// Over libzip and pugixml, not assimp or lib3mf: assimp 5.2 gives empty scenes for valid files;
+/// lib3mf rounds numbers to floats and refuses triangles that use a corner twice.
+[[nodiscard]] Scene read_3mf(const std::filesystem::path& path, InputFiles& files);
+
+}  // namespace cdprep::import
