@@ -22,6 +22,7 @@
 #include "report_output.h"
 #include "study/accuracy.h"
 #include "study_input.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -211,10 +212,10 @@ void add_accuracy(CLI::App& app, Exit& exit) {
         ->add_option("--ladder", arguments->ladders,
                      "These alone: geometry, distance, predicates, storage, coherence")
         ->delimiter(',')
-        ->check(CLI::IsMember(
+        ->check(one_of(
             std::vector<std::string>(study::kLadderNames.begin(), study::kLadderNames.end())));
     command->add_option("--format", arguments->format, "text, json, csv, svg or html")
-        ->check(CLI::IsMember(std::vector<std::string>(kFormats.begin(), kFormats.end())))
+        ->check(one_of(std::vector<std::string>(kFormats.begin(), kFormats.end())))
         ->capture_default_str();
     add_normalize(*command, arguments->load.normalize);
     add_weld(*command, arguments->load.weld_distance);

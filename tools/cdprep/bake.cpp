@@ -13,6 +13,8 @@
 #include "pipeline.h"
 #include "progress.h"
 #include "report/bounds_name.h"
+#include "report/printable.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -29,6 +31,7 @@ struct Arguments {
     std::string bounds = "auto";
     std::size_t threads = 0;
     bool timings = false;
+    bool dry_run = false;
     ImportArguments import;
     StructureArguments structures;
     BakeOptions options;
@@ -55,6 +58,10 @@ Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
     std::set<fs::path> inputs;
     for (const fs::path& input : arguments.inputs) inputs.insert(spelled_out(input));
     std::vector<fs::path> outputs;
+    if (arguments.output == "-") {
+        return Error{ErrorCode::bad_argument,
+                     "-o -: a bake is no text and does not go to standard output. Name a file."};
+    }
     for (const fs::path& input : arguments.inputs) {
         const fs::path output = output_for(arguments, input);
         const auto [at, is_new] = input_of.try_emplace(spelled_out(output), input);
@@ -97,7 +104,7 @@ report::BakeReport failed_bake(const fs::path& input, const fs::path& output, co
 
 void print(const report::BakeReport& report, const Arguments& arguments) {
     if (report.error) {
-        std::cerr << "cdprep bake: " << *report.error << '\n';
+        std::cerr << "cdprep bake: " << report::printable(*report.error) << '\n';
     } else if (arguments.format == "text") {
         std::cout << report::bake_text(
             report, arguments.timings ? report::Timings::show : report::Timings::hide);
@@ -153,6 +160,13 @@ Exit run(Arguments& arguments) {
     if (!style) return fail("bake", style.error());
     const Result<std::vector<fs::path>> outputs = outputs_for(arguments);
     if (!outputs) return fail("bake", outputs.error());
+    if (arguments.dry_run) {
+        for (std::size_t i = 0; i < outputs->size(); ++i) {
+            std::cout << report::printable(arguments.inputs[i].string()) << " would become "
+                      << report::printable((*outputs)[i].string()) << '\n';
+        }
+        return Exit::success;
+    }
     if (!arguments.output_folder.empty()) {
         std::error_code error;
         fs::create_directories(arguments.output_folder, error);
@@ -189,12 +203,12 @@ void add_bake(CLI::App& app, Exit& exit) {
         ->add_option("--repair", arguments->options.repair,
                      "Mend first, as 'cdprep repair --preset' does: safe, closed or solid. "
                      "Numbers are then those of the mended mesh; the file has the old ones too")
-        ->check(CLI::IsMember({"safe", "closed", "solid"}));
+        ->check(one_of({"safe", "closed", "solid"}));
     command
         ->add_option("--piece-tolerance", arguments->options.piece_tolerance,
                      "With the effect pieces: let vertices be this much above the triangles of "
                      "their convex piece, in model units as baked; 0: exact")
-        ->check(is_length())
+        ->check(zero_or_more())
         ->capture_default_str();
     command->add_flag("--strict", arguments->options.strict,
                       "Bake nothing of which 'cdprep validate' finds a warning or more: exit 1");
@@ -204,11 +218,12 @@ void add_bake(CLI::App& app, Exit& exit) {
                      "(nothing), obb (oriented boxes), pss, lss or rss (spheres swept over a "
                      "point, a line, a rectangle), obb+rss, or auto: obb+rss for distance and "
                      "within, else obb. No answer depends on it")
-        ->check(CLI::IsMember({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
+        ->check(one_of({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
         ->capture_default_str();
     add_structure_options(*command, arguments->structures);
     add_jobs(*command, arguments->threads);
     command->add_flag("--timings", arguments->timings, "Show how long each stage took");
+    command->add_flag("--dry-run", arguments->dry_run, "Say what would become what, and stop");
     add_report_format(*command, arguments->format);
     add_progress(*command, arguments->progress);
     add_import_arguments(*command, arguments->import);

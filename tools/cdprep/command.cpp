@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "report/printable.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -35,16 +36,6 @@ Exit fail(const char* command, const Error& error) {
     return exit_for(error.code);
 }
 
-CLI::Validator is_length() {
-    return {[](std::string& word) -> std::string {
-                double length = 0;
-                const bool is_number = CLI::detail::lexical_cast(word, length);
-                if (is_number && std::isfinite(length) && length >= 0) return "";
-                return "'" + report::printable(word) + "' is not a finite number of 0 or more.";
-            },
-            ""};
-}
-
 void add_input(CLI::App& command, std::filesystem::path& input) {
     command.add_option("input", input, "OBJ, STL, PLY, OFF, glTF, ... file")->required();
 }
@@ -55,18 +46,18 @@ void add_normalize(CLI::App& command, bool& normalize) {
 
 void add_weld(CLI::App& command, double& distance) {
     command.add_option("--weld", distance, "Merge vertices this close, in model units")
-        ->check(is_length())
+        ->check(zero_or_more())
         ->capture_default_str();
 }
 
 void add_jobs(CLI::App& command, std::size_t& threads) {
     command.add_option("-j,--jobs", threads, "Threads; 0: one per processor")
-        ->check(CLI::Range(0, kMostThreads));
+        ->check(whole_from(0, kMostThreads));
 }
 
 void add_report_format(CLI::App& command, std::string& format) {
     command.add_option("--format", format, "text or json")
-        ->check(CLI::IsMember({"text", "json"}))
+        ->check(one_of({"text", "json"}))
         ->capture_default_str();
 }
 

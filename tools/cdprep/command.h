@@ -36,10 +36,6 @@ template <class Report>
     return report;
 }
 
-/// For options that are a length in model units: a finite number, 0 or more. Refuses in
-/// one sentence what is none.
-[[nodiscard]] CLI::Validator is_length();
-
 /// Options that commands share, each in one wording. What they store into lives as long as
 /// the command.
 void add_input(CLI::App& command, std::filesystem::path& input);

@@ -17,6 +17,7 @@
 #include "report/comparison_page.h"
 #include "report/comparison_report.h"
 #include "report_output.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -132,19 +133,19 @@ void add_compare(CLI::App& app, Exit& exit) {
         ->required();
     command->add_option("-o,--output", arguments->output, "Default: standard output");
     command->add_option("--format", arguments->format, "text, json, csv or html")
-        ->check(CLI::IsMember({"text", "json", "csv", "html"}))
+        ->check(one_of({"text", "json", "csv", "html"}))
         ->capture_default_str();
     command
         ->add_option("--tables", arguments->tables,
                      "Which, with commas: 1, 2, 3, 4, talk. Default: all")
         ->delimiter(',')
-        ->check(CLI::IsMember({"1", "2", "3", "4", "talk"}));
+        ->check(one_of({"1", "2", "3", "4", "talk"}));
     ComparisonOptions& options = arguments->options;
     command
         ->add_option("--pairs", arguments->pairs,
                      "Of Table 4: paper, the pairs that it has; all, every two models; fitting, "
                      "the first when every model is one of the paper's")
-        ->check(CLI::IsMember({"fitting", "paper", "all"}))
+        ->check(one_of({"fitting", "paper", "all"}))
         ->capture_default_str();
     command->add_flag("--quick", options.quick,
                       "A look: few poses, one round, pairs that have each model once (--pairs "
@@ -155,9 +156,9 @@ void add_compare(CLI::App& app, Exit& exit) {
             ->add_option("--per-stratum", options.per_stratum,
                          "How many poses a pair in each of five strata, from deep to far. Default: "
                          "20; quick: 3")
-            ->check(CLI::Range(std::size_t{1}, kMostPoses));
+            ->check(whole_from(1, kMostPoses));
     command->add_option("--rounds", options.rounds, "Measured how often. Default: 5; quick: 1")
-        ->check(CLI::Range(std::size_t{1}, kMostRounds));
+        ->check(whole_from(1, kMostRounds));
     CLI::Option* const seed =
         command->add_option("--seed", options.seed, "Of the poses")->capture_default_str();
     command

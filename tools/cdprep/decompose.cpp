@@ -19,6 +19,7 @@
 #include "progress.h"
 #include "report/pieces_report.h"
 #include "report/printable.h"
+#include "usage.h"
 #include "write/pieces_file.h"
 
 namespace cdprep::cli {
@@ -206,33 +207,33 @@ void add_decompose(CLI::App& app, Exit& exit) {
         ->add_option("--tolerance", arguments->tolerance,
                      "Let vertices be this much above the triangles of their piece, in model "
                      "units; what was needed is proved and stated")
-        ->check(is_length())
+        ->check(zero_or_more())
         ->excludes(exact);
     command
         ->add_option("--order", arguments->order,
                      "How pieces come about: greedy (patches merge; fewest pieces), depth-first, "
                      "breadth-first or cresting (patches grow)")
-        ->check(CLI::IsMember({"greedy", "depth-first", "breadth-first", "cresting"}))
+        ->check(one_of({"greedy", "depth-first", "breadth-first", "cresting"}))
         ->capture_default_str();
     EncloseOptions& enclosed = arguments->enclose;
     command
         ->add_option("--max-error", enclosed.max_error,
                      "Enclose, with as few pieces as stick out by no more than this, in model "
                      "units")
-        ->check(is_length())
+        ->check(zero_or_more())
         ->excludes(exact);
     command
         ->add_option("--parts", enclosed.parts,
                      "Enclose in at most so many pieces that stick out as little as is found")
-        ->check(CLI::PositiveNumber)
+        ->check(whole_from(1))
         ->excludes(exact);
     command->add_option("--max-parts", enclosed.max_parts, "An engine's limit, before --max-error")
-        ->check(CLI::PositiveNumber)
+        ->check(whole_from(1))
         ->excludes(exact);
     command
         ->add_option("--max-vertices", enclosed.max_vertices,
                      "An engine's limit of vertices a piece, at least 4")
-        ->check(CLI::Range(convex::kFewestEnclosingVertices, 1U << 30U));
+        ->check(whole_from(convex::kFewestEnclosingVertices, 1U << 30U));
     command
         ->add_option("--work", enclosed.work,
                      "How much may be looked at in all, some ten nanoseconds of a core each; when "
@@ -245,7 +246,7 @@ void add_decompose(CLI::App& app, Exit& exit) {
     command
         ->add_option("--density", enclosed.density,
                      "Kilograms per cubic metre, for the mass in .urdf, .sdf, .mjcf")
-        ->check(CLI::PositiveNumber)
+        ->check(above_zero())
         ->capture_default_str();
     command->add_flag("!--no-visual", enclosed.has_visual,
                       ".urdf and .sdf show nothing, instead of a copy of the mesh");

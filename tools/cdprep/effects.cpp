@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "effects.h"
+#include "report/nearest_word.h"
 
 #include <algorithm>
 #include <sstream>
@@ -41,7 +42,7 @@ SectionSet sections_of_structures() {
 Error unknown_effect(const std::string& name) {
     std::string message = "--effects: unknown effect '" + name + "'. Choose from";
     for (const std::string& known : all_names()) message += " " + known + ",";
-    return {ErrorCode::bad_argument, message + " or all."};
+    return {ErrorCode::bad_argument, message + " or all." + report::suggestion(name, all_names())};
 }
 
 std::vector<std::string> split(const std::string& list) {

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "report/explain.h"
+#include "report/rule_settings.h"
 
 namespace cdprep::cli {
 namespace {
@@ -23,10 +24,7 @@ Exit run(const Arguments& arguments) {
     }
     const auto rule = mesh::find_rule(arguments.rule);
     if (!rule) {
-        return fail("explain", {ErrorCode::bad_argument,
-                                "'" + arguments.rule +
-                                    "' is no rule. 'cdprep explain' lists all, by id and by "
-                                    "name."});
+        return fail("explain", {ErrorCode::bad_argument, report::unknown_rule(arguments.rule)});
     }
     const mesh::RuleText& text = mesh::text_of(*rule);
     std::cout << (is_json ? report::explain_json({&text, 1}) : report::explain_text(text));

@@ -16,6 +16,7 @@
 #include "output_path.h"
 #include "program_threads.h"
 #include "report/hull_report.h"
+#include "usage.h"
 #include "write/mesh_file.h"
 
 namespace cdprep::cli {
@@ -112,9 +113,9 @@ Result<report::HullReport> find_hulls(const Arguments& arguments) {
         const report::HullFigures& figures = report.hulls.back();
         output.add((*hulls)[i].hull, figures.name, soup.single_precision && figures.exact);
     }
-    const Result<Done> written = write::write_mesh_file(
-        arguments.output, format.value(),
-        {output.positions, output.triangles, output.single_precision, output.parts});
+    const Result<Done> written =
+        write_mesh(arguments.output, format.value(),
+                   {output.positions, output.triangles, output.single_precision, output.parts});
     if (!written) return written.error();
     return report;
 }
@@ -124,13 +125,13 @@ Exit run(const Arguments& arguments) {
     const bool is_json = arguments.format == "json";
     if (!found) {
         if (is_json) {
-            std::cout << report::hull_json(
-                failed<report::HullReport>(arguments.input, found.error()));
+            report_stream(arguments.output)
+                << report::hull_json(failed<report::HullReport>(arguments.input, found.error()));
         }
         return fail("hull", found.error());
     }
-    std::cout << (is_json ? report::hull_json(found.value())
-                          : report::hull_text(found.value(), kLinesShown));
+    report_stream(arguments.output) << (is_json ? report::hull_json(found.value())
+                                                : report::hull_text(found.value(), kLinesShown));
     return Exit::success;
 }
 
@@ -151,12 +152,12 @@ void add_hull(CLI::App& app, Exit& exit) {
     command
         ->add_option("--max-vertices", arguments->max_vertices,
                      "Enclose the exact hull in one with at most so many vertices; 4 or more")
-        ->check(CLI::Range(convex::kFewestEnclosingVertices, format::kMaxTriangles));
+        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles));
     command
         ->add_option("--per", arguments->scope,
                      "One hull for the whole mesh, for each component of triangles that share "
                      "vertices, or for each node of the file")
-        ->check(CLI::IsMember({"whole", "component", "node"}))
+        ->check(one_of({"whole", "component", "node"}))
         ->capture_default_str();
     add_jobs(*command, arguments->threads);
     add_report_format(*command, arguments->format);

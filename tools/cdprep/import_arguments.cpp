@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "import_arguments.h"
+#include "usage.h"
 
 #include <chrono>
 #include <map>
@@ -31,24 +32,24 @@ void add_import_arguments(CLI::App& command, ImportArguments& arguments) {
     command
         .add_option("--unit", arguments.unit,
                     "Unit of the mesh: mm, cm, m, in or ft. Default: what the file says")
-        ->check(CLI::IsMember({"mm", "cm", "m", "in", "ft"}));
+        ->check(one_of({"mm", "cm", "m", "in", "ft"}));
     command
         .add_option("--up-axis", arguments.up_axis,
                     "Axis that points up: y or z. Default: what the file says")
-        ->check(CLI::IsMember({"y", "z"}));
+        ->check(one_of({"y", "z"}));
     command.add_flag("--allow-empty", arguments.allow_empty, "Accept files without a triangle");
     command
         .add_option("--import-memory", arguments.memory_bytes,
                     "Most memory an import may use, such as 2GB")
         ->transform(CLI::AsSizeValue(false))
-        ->check(CLI::Range(std::uint64_t{1}, kMostBytes));
+        ->check(whole_from(1, kMostBytes));
     command
         .add_option("--import-file-size", arguments.file_bytes,
                     "Largest file to import, such as 4GB")
         ->transform(CLI::AsSizeValue(false))
-        ->check(CLI::Range(std::uint64_t{1}, kMostBytes));
+        ->check(whole_from(1, kMostBytes));
     command.add_option("--import-time", arguments.seconds, "Most seconds an import may take")
-        ->check(CLI::Range(1, kMostSeconds));
+        ->check(whole_from(1, kMostSeconds));
 }
 
 }  // namespace cdprep::cli

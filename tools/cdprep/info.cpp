@@ -16,6 +16,7 @@
 #include "find_hull_falsehood.h"
 #include "find_piece_falsehood.h"
 #include "mapped_file.h"
+#include "open_for.h"
 #include "program_threads.h"
 #include "report/info_report.h"
 
@@ -44,7 +45,7 @@ Exit run(const Arguments& arguments) {
     const std::span<const std::byte> bytes = mapped.value().bytes();
     const std::string file = arguments.file.string();
     const Result<Model> opened = Model::open(bytes, {.name = file});
-    if (!opened) return fail("info", opened.error());
+    if (!opened) return fail("info", baked_first(arguments.file, opened.error()));
     if (arguments.deep) {
         auto damage = format::find_deep_damage(bytes);
         if (!damage) damage = find_list_damage(bytes, opened.value());

@@ -9,6 +9,7 @@
 
 #include "cdprep/format/limits.h"
 #include "mesh/weld.h"
+#include "report/place_text.h"
 
 namespace cdprep::cli {
 namespace {
@@ -22,12 +23,13 @@ Error refused(const std::filesystem::path& input, const mesh::TriangleSoup& soup
                    " has a coordinate that is not finite; every one must be";
     } else if (bad.found >= 0 && bad.found < bad.first) {
         message += "triangle " + std::to_string(bad.triangle) + " uses vertex " +
-                   std::to_string(bad.found) + ", but the " + std::to_string(bad.limit) +
-                   " vertices of such a file are counted from " + std::to_string(bad.first);
+                   std::to_string(bad.found) + ", but such a file counts its " +
+                   report::counted(static_cast<std::uint64_t>(bad.limit), "vertex", "vertices") +
+                   " from " + std::to_string(bad.first);
     } else {
         message += "triangle " + std::to_string(bad.triangle) + " uses vertex " +
-                   std::to_string(bad.found) + ", but the file has " + std::to_string(bad.limit) +
-                   " vertices";
+                   std::to_string(bad.found) + ", but the file has " +
+                   report::counted(static_cast<std::uint64_t>(bad.limit), "vertex", "vertices");
     }
     if (soup.bad_number_count > 1) {
         message += " (" + std::to_string(soup.bad_number_count) + " such places in all)";

@@ -7,6 +7,8 @@
 #include "command.h"
 #include "interrupt.h"
 #include "lost_page.h"
+#include "quiet.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -27,14 +29,23 @@ Exit run(int argc, char** argv) {
     add_reindex(app, exit);
     add_repair(app, exit);
     add_accuracy(app, exit);
+    for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+        if (command->get_name() != "query") add_quiet(*command);
+    }
+    app.set_config("--config", "",
+                   "Read options from a TOML file: --jobs=2 of bake as bake.jobs=2");
     watch_for_interrupts();
     watch_for_lost_pages();
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         const bool asked = error.get_exit_code() == 0;  // --help, --version
+        if (!asked) {
+            std::cerr << usage_sentence(app, error) << '\n';
+            return Exit::usage;
+        }
         app.exit(error, std::cout, std::cerr);
-        return asked ? Exit::success : Exit::usage;
+        return Exit::success;
     }
     if (is_interrupted()) exit = Exit::interrupted;
     if (exit == Exit::success && !std::cout.flush()) {

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 
 namespace cdprep::cli {
 namespace {
@@ -58,7 +59,9 @@ Result<Done> for_each_line(
     const std::filesystem::path& path,
     const std::function<Result<Done>(const std::string& line, const std::string& place)>& take,
     const std::function<void(std::string_view note)>& note) {
-    std::ifstream file(path);
+    std::ifstream opened;
+    if (path != "-") opened.open(path);
+    std::istream& file = path == "-" ? std::cin : opened;
     if (!file) return Error{ErrorCode::unreadable, path.string() + ": cannot be opened."};
     std::string line;
     for (std::size_t number = 1; std::getline(file, line); ++number) {

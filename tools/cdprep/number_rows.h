@@ -20,10 +20,10 @@ namespace cdprep::cli {
 [[nodiscard]] Result<Done> parse_row(std::string_view text, const std::string& place,
                                      std::span<double> row);
 
-/// Calls `take` with each line of a text file and its place, "FILE: line 3".
-/// Empty lines are skipped, and lines that start with #, of which `note` gets
-/// what stands behind that, without blanks around. Stops at the first failure
-/// of `take`; `unreadable` when the file cannot be read.
+/// Calls `take` with each line of a text file, or of standard input for "-", and its place, "FILE:
+/// line 3". Empty lines are skipped, and lines that start with #, of which `note` gets what stands
+/// behind that, without blanks around. Stops at the first failure of `take`; `unreadable` when the
+/// file cannot be read.
 [[nodiscard]] Result<Done> for_each_line(
     const std::filesystem::path& path,
     const std::function<Result<Done>(const std::string& line, const std::string& place)>& take,

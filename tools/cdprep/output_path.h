@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <optional>
 
 #include "cdprep/result.h"
@@ -14,9 +15,16 @@ namespace cdprep::cli {
 [[nodiscard]] std::optional<Error> find_replaced_input(const std::filesystem::path& input,
                                                        const std::filesystem::path& output);
 
-/// The format that the extension of `output` names. Fails before anything is read: when there
-/// is none, or when `output` is the input.
+/// The format that the extension of `output` names; OBJ for "-", standard output. Fails before
+/// anything is read: when there is none, or when `output` is the input.
 [[nodiscard]] Result<write::MeshFormat> mesh_output(const std::filesystem::path& input,
                                                     const std::filesystem::path& output);
+
+/// Writes a mesh where mesh_output() said: into the file, or to standard output for "-".
+[[nodiscard]] Result<Done> write_mesh(const std::filesystem::path& output, write::MeshFormat format,
+                                      const write::MeshArrays& mesh);
+
+/// Where a report goes: standard output, unless that takes the mesh.
+[[nodiscard]] std::ostream& report_stream(const std::filesystem::path& mesh_output);
 
 }  // namespace cdprep::cli

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <iostream>
 
+#include "quiet.h"
+
 namespace cdprep::cli {
 namespace {
 
@@ -26,7 +28,7 @@ std::string shortened(const std::string& text) {
 }  // namespace
 
 Result<ProgressStyle> parse_progress(const std::string& word) {
-    if (word == "none") return ProgressStyle::none;
+    if (is_quiet() || word == "none") return ProgressStyle::none;
     if (word == "plain") return ProgressStyle::plain;
     if (word == "bar") return ProgressStyle::bar;
     if (word == "auto") {

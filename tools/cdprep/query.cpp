@@ -2,6 +2,7 @@
 #include "query.h"
 
 #include "command.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 
@@ -12,7 +13,7 @@ report::AnswerFormat parse_answer_format(const std::string& word) {
 
 void add_answer_format(CLI::App& command, std::string& word) {
     command.add_option("--format", word, "text, json or ndjson")
-        ->check(CLI::IsMember({"text", "json", "ndjson"}))
+        ->check(one_of({"text", "json", "ndjson"}))
         ->capture_default_str();
 }
 

@@ -12,6 +12,7 @@
 #include "query.h"
 #include "query_placements.h"
 #include "query_structure.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -79,7 +80,7 @@ void add_contacts(CLI::App& query, Exit& exit) {
     command
         ->add_option("--tolerance", arguments->tolerance,
                      "The distance of two pieces that still counts, model units")
-        ->check(CLI::NonNegativeNumber)
+        ->check(zero_or_more())
         ->required();
     command->add_flag("--manifold", arguments->manifold,
                       "Up to four points for each pair of pieces");

@@ -26,6 +26,7 @@
 #include "query_placements.h"
 #include "query_structure.h"
 #include "structures.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -438,14 +439,14 @@ Exit run(const Arguments& arguments) {
 
 void add_as(CLI::App& command, Arguments& arguments) {
     command.add_option("--as", arguments.as, "surface or solid")
-        ->check(CLI::IsMember({"surface", "solid"}))
+        ->check(one_of({"surface", "solid"}))
         ->capture_default_str();
 }
 
 void add_contact_options(CLI::App& command, Arguments& arguments) {
     add_as(command, arguments);
     command.add_option("--contact", arguments.contact, "closed: touching counts; or proper")
-        ->check(CLI::IsMember({"closed", "proper"}))
+        ->check(one_of({"closed", "proper"}))
         ->capture_default_str();
     command.add_flag("--skip-degenerate", arguments.skip_degenerate,
                      "Leave triangles with collinear corners out of answers");
@@ -456,7 +457,7 @@ void add_distance_options(CLI::App& command, Arguments& arguments) {
         command
             .add_option("--tolerance", arguments.tolerance,
                         "The distance that still counts, model units")
-            ->check(CLI::NonNegativeNumber)
+            ->check(zero_or_more())
             ->required();
         CLI::Option* pairs =
             command.add_flag("--pairs", arguments.pairs,
@@ -468,18 +469,18 @@ void add_distance_options(CLI::App& command, Arguments& arguments) {
     command
         .add_option("--relative-error", arguments.errors.relative_error,
                     "Upper may exceed lower by this share of lower")
-        ->check(CLI::NonNegativeNumber)
+        ->check(zero_or_more())
         ->capture_default_str();
     command
         .add_option("--absolute-error", arguments.errors.absolute_error,
                     "Upper may exceed lower by this, model units")
-        ->check(CLI::NonNegativeNumber)
+        ->check(zero_or_more())
         ->capture_default_str();
     add_as(command, arguments);
     command
         .add_option("--max-distance", arguments.errors.max_distance,
                     "Nothing beyond is of interest, model units")
-        ->check(CLI::NonNegativeNumber);
+        ->check(zero_or_more());
 }
 
 void add_question(CLI::App& query, Question question, const char* name, const char* description,
@@ -513,7 +514,7 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
     }
     add_answer_format(*command, arguments->format);
     command->add_option("--repeat", arguments->repeat, "Ask each pose this often, for --timings")
-        ->check(CLI::Range(1, 1'000'000'000))
+        ->check(whole_from(1, 1'000'000'000))
         ->capture_default_str();
     command->add_flag("--timings", arguments->timings, "What the questions took, to stderr");
     command->add_flag("--counts", arguments->counts,
@@ -529,7 +530,7 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
             ->add_option("--level-of-detail", arguments->level_of_detail,
                          "Ask the facets of this level of both tetra-trees alone: yes, no or "
                          "unknown of the solids, and how far facets are from the surfaces")
-            ->check(CLI::Range(0U, format::kMaxTetraLevel));
+            ->check(whole_from(0U, format::kMaxTetraLevel));
     }
     if (question == Question::overlap) {
         CLI::Option* count =

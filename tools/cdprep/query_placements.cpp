@@ -2,6 +2,7 @@
 #include "query_placements.h"
 
 #include "poses_file.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -50,7 +51,7 @@ void add_placements(CLI::App& command, PlacementWords& words) {
     command
         .add_option("--placement", words.placement,
                     "With two world poses: relative moves B, world moves both")
-        ->check(CLI::IsMember({"relative", "world"}))
+        ->check(one_of({"relative", "world"}))
         ->capture_default_str();
 }
 

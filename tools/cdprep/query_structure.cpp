@@ -6,6 +6,7 @@
 
 #include "cdprep/study/overlap_through.h"
 #include "report/structure_name.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -75,20 +76,20 @@ void add_structure_steps(CLI::App& command, StructureWords& words) {
                     "How two triangles are tested, not for bvh: guigue-devillers, by the signs of "
                     "planes (default), or feito, six edges against triangles, as in the paper. "
                     "They agree always")
-        ->check(CLI::IsMember({"guigue-devillers", "feito"}));
+        ->check(one_of({"guigue-devillers", "feito"}));
     command
         .add_option("--descent", words.descent,
                     "What a pair of cells becomes, for octree, octree-adaptive and tetra-tree: "
                     "the children of the larger (larger), of A's first (a-first), of B's first "
                     "(b-first), or of both (default). No answer depends on it")
-        ->check(CLI::IsMember({"larger", "a-first", "b-first", "both"}));
+        ->check(one_of({"larger", "a-first", "b-first", "both"}));
     command
         .add_option(
             "--search", words.search,
             "How a cell is found, for hashed-octree: in a hash table by a mixed key (default) "
             "or by the key's modulus, or among sorted leaves with a top table. No answer "
             "depends on it")
-        ->check(CLI::IsMember({"sorted", "modulus", "mixed"}));
+        ->check(one_of({"sorted", "modulus", "mixed"}));
 }
 
 }  // namespace cdprep::cli

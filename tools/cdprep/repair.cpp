@@ -16,7 +16,9 @@
 #include "mesh/repair_goal.h"
 #include "output_path.h"
 #include "program_threads.h"
+#include "report/nearest_word.h"
 #include "report/repair_report.h"
+#include "usage.h"
 #include "write/mesh_file.h"
 
 namespace cdprep::cli {
@@ -46,17 +48,15 @@ Result<mesh::RepairSteps> parse_steps(const std::string& list) {
     for (std::string name; std::getline(names, name, ',');) {
         const auto step = mesh::find_repair_step(name);
         if (!step) {
-            std::string known = "there are ";
+            std::vector<std::string> known;
+            std::string all;
             for (std::size_t i = 0; i < mesh::kRepairStepCount; ++i) {
-                known += (i == 0 ? "" : ", ");
-                known += mesh::name_of(static_cast<mesh::RepairStep>(i));
+                known.emplace_back(mesh::name_of(static_cast<mesh::RepairStep>(i)));
+                all += (i == 0 ? "" : ", ") + known.back();
             }
-            known += '.';
-            std::string message = "--steps: there is no step '";
-            message += name;
-            message += "'; ";
-            message += known;
-            return Error{ErrorCode::bad_argument, message};
+            return Error{ErrorCode::bad_argument, "--steps: there is no step '" + name +
+                                                      "'; there are " + all + "." +
+                                                      report::suggestion(name, known)};
         }
         steps.set(static_cast<std::size_t>(*step));
     }
@@ -122,7 +122,7 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     report::RepairFileReport report;
     if (!is_interrupted()) judge(arguments, soup.value(), repaired, options.parallel_for, report);
     if (is_interrupted()) return interrupted(arguments.input);
-    const Result<Done> written = write::write_mesh_file(
+    const Result<Done> written = write_mesh(
         arguments.output, format.value(),
         {repaired.mesh.positions, repaired.mesh.triangles, repaired.mesh.single_precision});
     if (!written) return written.error();
@@ -145,13 +145,13 @@ Exit run(const Arguments& arguments) {
         if (arguments.format == "json") {
             auto report = failed<report::RepairFileReport>(arguments.input, repaired.error());
             report.output = arguments.output.string();
-            std::cout << report::repair_json(report);
+            report_stream(arguments.output) << report::repair_json(report);
         }
         return fail("repair", repaired.error());
     }
-    std::cout << (arguments.format == "json"
-                      ? report::repair_json(repaired.value())
-                      : report::repair_text(repaired.value(), kRefusalsShown));
+    report_stream(arguments.output)
+        << (arguments.format == "json" ? report::repair_json(repaired.value())
+                                       : report::repair_text(repaired.value(), kRefusalsShown));
     if (repaired.value().missed.empty()) return Exit::success;
     std::cerr << "cdprep repair: " << repaired.value().output << ": " << repaired.value().missed
               << ".\n";
@@ -178,7 +178,7 @@ void add_repair(CLI::App& app, Exit& exit) {
             ->add_option("--preset", arguments->preset,
                          "safe: 2-manifold and oriented, nothing moves. closed: and without "
                          "holes. solid: and without crossings")
-            ->check(CLI::IsMember({"safe", "closed", "solid"}))
+            ->check(one_of({"safe", "closed", "solid"}))
             ->capture_default_str();
     command->add_option("--steps", arguments->steps, "Steps by name, with commas, not a preset")
         ->excludes(preset);
@@ -186,17 +186,17 @@ void add_repair(CLI::App& app, Exit& exit) {
     command
         ->add_option("--seam-width,--seam", arguments->options.seam_width,
                      "Join boundaries this close, in model units")
-        ->check(is_length());
+        ->check(zero_or_more());
     command
         ->add_option("--hole-size", arguments->options.hole_size,
                      "Close holes whose box has at most this diagonal, in model units")
-        ->check(is_length());
+        ->check(zero_or_more());
     command->add_option("--drop-components", arguments->options.least_triangles,
                         "Leave out components of fewer triangles");
     command
         ->add_option("--time", arguments->options.seconds,
                      "Seconds after which crossings are left as they are, and that is said")
-        ->check(CLI::NonNegativeNumber)
+        ->check(zero_or_more())
         ->capture_default_str();
     add_jobs(*command, arguments->threads);
     add_report_format(*command, arguments->format);

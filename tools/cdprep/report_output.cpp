@@ -18,7 +18,7 @@ Result<Done> checked(const std::ostream& out) {
 
 Result<ReportOutput> ReportOutput::open(const std::filesystem::path& path) {
     ReportOutput output;
-    if (path.empty()) return output;
+    if (path.empty() || path == "-") return output;
     Result<write::OutputFile> file = write::OutputFile::create(path);
     if (!file) return file.error();
     output.file_.emplace(std::move(file).value());

@@ -8,7 +8,9 @@
 #include "cdprep/advanced/structure_presets.h"
 #include "cdprep/format/limits.h"
 #include "convex/enclosing_hull.h"
+#include "report/nearest_word.h"
 #include "report/structure_name.h"
+#include "usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -40,7 +42,8 @@ std::vector<std::string> baked_names() {
 Error unknown_structure(const std::string& name) {
     std::string message = "The structure '" + name + "' cannot be baked; these can:";
     for (const std::string& known : baked_names()) message += " " + known;
-    return {ErrorCode::bad_argument, message + ", or all, or none."};
+    return {ErrorCode::bad_argument,
+            message + ", or all, or none." + report::suggestion(name, baked_names())};
 }
 
 /// The structures that a list names.
@@ -196,11 +199,11 @@ void add_structure_options(CLI::App& command, StructureArguments& arguments) {
     command
         .add_option("--structure-preset", arguments.preset,
                     "How finely they divide space: tuned (for speed) or paper (512 cells)")
-        ->check(CLI::IsMember({"tuned", "paper"}))
+        ->check(one_of({"tuned", "paper"}))
         ->capture_default_str();
     const auto number = [&](const char* name, std::optional<std::uint32_t>& value,
                             std::uint32_t least, std::uint32_t most, const char* description) {
-        command.add_option(name, value, description)->check(CLI::Range(least, most));
+        command.add_option(name, value, description)->check(whole_from(least, most));
     };
     number("--octree-level", arguments.octree_level, 0, format::kOctreeBits,
            "All octrees: how often a cell may be divided; else the preset's");
@@ -215,32 +218,32 @@ void add_structure_options(CLI::App& command, StructureArguments& arguments) {
             "--split", arguments.split,
             "Where octree-adaptive splits a cell: at the median of the triangles' middles, or "
             "at the planes of least area times triangles; else as the preset")
-        ->check(CLI::IsMember({"median", "area"}));
+        ->check(one_of({"median", "area"}));
     command
         .add_option("--octree-bounding", arguments.octree_bounding,
                     "All octrees: what bounds a cell's triangles: boxes, a box around what it "
                     "holds, or cells, the cell itself; else as the preset")
-        ->check(CLI::IsMember({"boxes", "cells"}));
+        ->check(one_of({"boxes", "cells"}));
     command
         .add_option("--bounding", arguments.bounding,
                     "What bounds a cone's triangles: boxes around them, which are fastest; caps, "
                     "from the nearest to the farthest; or tetra, from the centre, as in the paper; "
                     "else the preset's: boxes of tuned, caps of paper")
-        ->check(CLI::IsMember({"boxes", "caps", "tetra"}));
+        ->check(one_of({"boxes", "caps", "tetra"}));
     command
         .add_option("--hull-vertices", arguments.hulls.max_vertices,
                     "Hulls contain the exact ones and have at most so many vertices, 4 or more")
-        ->check(CLI::Range(convex::kFewestEnclosingVertices, format::kMaxTriangles));
+        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles));
     command
         .add_option("--parts", arguments.hulls.parts,
                     "With the hulls: at most so many convex parts that enclose the mesh, as "
                     "decompose --parts finds them")
-        ->check(CLI::PositiveNumber);
+        ->check(whole_from(1));
     command
         .add_option("--max-error", arguments.hulls.max_error,
                     "With the hulls: convex parts that enclose the mesh and stick out by no more "
                     "than this, in model units as baked")
-        ->check(is_length());
+        ->check(zero_or_more());
 }
 
 }  // namespace cdprep::cli

@@ -21,6 +21,7 @@
 #include "report/printable.h"
 #include "report/validation_writer.h"
 #include "report_output.h"
+#include "usage.h"
 #include "validation.h"
 #include "validation_page.h"
 
@@ -273,16 +274,16 @@ void add_judging_options(CLI::App& command, Arguments& arguments) {
         .add_option("--max-issues", arguments.max_issues,
                     "Most places to list of each rule in a file; counts stay true. Default: 3 in "
                     "text, 100 in sarif and junit, else 1000")
-        ->check(CLI::Range(std::uint64_t{0}, kMostPlaces));
+        ->check(whole_from(0, kMostPlaces));
     command
         .add_option("--weld", arguments.options.defects.weld_distance,
                     "Look for vertices this close, in model units; 0: not")
-        ->check(is_length())
+        ->check(zero_or_more())
         ->capture_default_str();
     command
         .add_option("--seam-width,--seam", arguments.options.defects.seam_width,
                     "Look for boundaries this close, in model units; 0: not")
-        ->check(is_length())
+        ->check(zero_or_more())
         ->capture_default_str();
     command.add_flag("--no-crossings", arguments.no_crossings,
                      "Leave out CDP0403 and CDP0501 to CDP0503; the verdict then says so");
@@ -305,7 +306,7 @@ void add_validate(CLI::App& app, Exit& exit) {
                    "Names in the list end with NUL, as git -z and find -print0 write them")
         ->needs(list);
     command->add_option("--format", arguments->format, "text, json, ndjson, sarif or junit")
-        ->check(CLI::IsMember({"text", "json", "ndjson", "sarif", "junit"}))
+        ->check(one_of({"text", "json", "ndjson", "sarif", "junit"}))
         ->capture_default_str();
     command->add_option("-o,--output", arguments->output, "Default: standard output");
     command->add_option("--html", arguments->html,

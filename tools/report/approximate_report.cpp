@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/fixed.h"
+#include "report/place_text.h"
 #include "report/printable.h"
 #include "report/space_name.h"
 
@@ -64,19 +65,20 @@ std::string unit_warning(const ApproximateReport& report) {
 std::string approximate_text(const ApproximateReport& report) {
     const convex::ApproximatePieces& result = report.result;
     const double share = report.diagonal > 0 ? 100 * result.outer_error / report.diagonal : 0;
-    std::string text = printable(report.input) + ": " + std::to_string(result.pieces.size()) +
-                       " convex pieces enclose " + std::to_string(report.triangles) +
-                       " triangles (" + in_six_digits(report.seconds) + " s)\n";
+    std::string text = printable(report.input) + ": " +
+                       counted(result.pieces.size(), "convex piece", "convex pieces") +
+                       " enclose " + counted(report.triangles, "triangle", "triangles") + " (" +
+                       in_six_digits(report.seconds) + " s)\n";
     text += "  they stick out of the ";
     text += report.to_surface ? "surface" : "solid";
     text += " by at most " + in_six_digits(result.outer_error) + " (" + in_six_digits(share) +
             " % of the diagonal; at least " + in_six_digits(result.outer_lower) + ")\n";
     text += "  enclosed: " + std::to_string(result.proof.fragments) + " fragments, " +
             std::to_string(result.proof.outside) + " corners outside of their hull\n";
-    text += "  at most " + std::to_string(most_vertices(result)) + " vertices a piece\n";
+    text += "  at most " + counted(most_vertices(result), "vertex", "vertices") + " a piece\n";
     if (!report.to_surface && report.open_components > 0) {
-        text += "  " + std::to_string(report.open_components) +
-                " components are not closed and were taken as surfaces; close them first with "
+        text += "  " + counted(report.open_components, "component", "components") +
+                " are not closed and were taken as surfaces; close them first with "
                 "repair --preset closed where they are meant to be solid\n";
     }
     if (result.ran_out_of_work) text += "  the work allowed did not suffice: looser than asked\n";

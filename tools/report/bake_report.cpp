@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/fixed.h"
+#include "report/place_text.h"
 
 namespace cdprep::report {
 namespace {
@@ -45,10 +46,10 @@ nlohmann::ordered_json to_json(const BakeReport& report) {
 
 std::string bake_text(const BakeReport& report, Timings timings) {
     const char* const closed = report.triangles == 0 ? "empty" : report.closed ? "closed" : "open";
-    std::string text = report.output + ": " + std::to_string(report.triangles) + " triangles, " +
-                       std::to_string(report.vertices) + " vertices, " + closed + ", " +
-                       (report.single_precision ? "f32" : "f64") + ", " +
-                       std::to_string(report.bytes) + " bytes, " + fixed(report.seconds, 3) +
+    std::string text = report.output + ": " + counted(report.triangles, "triangle", "triangles") +
+                       ", " + counted(report.vertices, "vertex", "vertices") + ", " + closed +
+                       ", " + (report.single_precision ? "f32" : "f64") + ", " +
+                       counted(report.bytes, "byte", "bytes") + ", " + fixed(report.seconds, 3) +
                        " s\n";
     if (report.warnings > 0) {
         text += "  " + std::to_string(report.warnings) +

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "report/place_text.h"
 #include "report/printable.h"
 
 namespace cdprep::report {
@@ -42,11 +43,11 @@ Json json_of(const HullFigures& hull) {
 }  // namespace
 
 std::string hull_text(const HullReport& report, std::size_t most_lines) {
-    std::string text = printable(report.input) + ": " + std::to_string(report.triangles) +
-                       " triangles, " + std::to_string(report.vertices) + " vertices\n" +
-                       printable(report.output) + ": " + std::to_string(report.hulls.size()) +
-                       " hulls per " + report.scope + ", found in " +
-                       number(report.seconds, "%.3f") + " s\n";
+    std::string text =
+        printable(report.input) + ": " + counted(report.triangles, "triangle", "triangles") + ", " +
+        counted(report.vertices, "vertex", "vertices") + "\n" + printable(report.output) + ": " +
+        counted(report.hulls.size(), "hull", "hulls") + " per " + report.scope + ", found in " +
+        number(report.seconds, "%.3f") + " s\n";
     for (std::size_t i = 0; i < std::min(most_lines, report.hulls.size()); ++i) {
         text += hull_line(report.hulls[i]);
     }

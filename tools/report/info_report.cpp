@@ -8,6 +8,7 @@
 #include "cdprep/format/sections.h"
 #include "report/baked_hulls.h"
 #include "report/bounds_name.h"
+#include "report/place_text.h"
 #include "report/space_name.h"
 #include "report/structure_report.h"
 #include "report/verdict_words.h"
@@ -84,9 +85,9 @@ std::string mesh_text(const Model& model) {
 std::string info_text(const std::string& file, const Model& model,
                       std::span<const format::SectionEntry> sections) {
     std::string text = file + ": format " + std::to_string(model.header().version) + ", " +
-                       std::to_string(model.triangle_count()) + " triangles, " +
-                       std::to_string(model.vertex_count()) + " vertices, " +
-                       std::to_string(model.record().components.size()) + " components\n";
+                       counted(model.triangle_count(), "triangle", "triangles") + ", " +
+                       counted(model.vertex_count(), "vertex", "vertices") + ", " +
+                       counted(model.record().components.size(), "component", "components") + "\n";
     text += "unit: " + unit_name(model.header().metres_per_unit) +
             ", up axis: " + axis_name(model.header().up_axis) + "\n";
     text += std::string("surface questions: exact; positions ") + precision(model) + "\n";

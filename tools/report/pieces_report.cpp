@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "report/place_text.h"
 #include "report/printable.h"
 
 namespace cdprep::report {
@@ -86,11 +87,11 @@ const char* name_of(convex::PieceOrder order) {
 std::string pieces_text(const SurfacePiecesReport& report) {
     const convex::SurfacePieces& pieces = report.pieces;
     const std::size_t count = pieces.pieces.size();
-    std::string text = printable(report.input) + ": " + std::to_string(count) +
-                       " convex pieces of " + std::to_string(pieces.triangles.size()) +
-                       " triangles (" + name_of(report.order) + ", " +
-                       number(report.seconds, "%.3f") + " s)\n";
-    text += "  largest " + std::to_string(largest(pieces)) + " triangles; hulls of " +
+    std::string text = printable(report.input) + ": " +
+                       counted(count, "convex piece", "convex pieces") + " of " +
+                       counted(pieces.triangles.size(), "triangle", "triangles") + " (" +
+                       name_of(report.order) + ", " + number(report.seconds, "%.3f") + " s)\n";
+    text += "  largest " + counted(largest(pieces), "triangle", "triangles") + "; hulls of " +
             std::to_string(contained(pieces)) + " stay inside the solid, of the others nothing " +
             "is known\n";
     text += report.tolerance == 0

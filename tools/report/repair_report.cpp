@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/repair_report.h"
+#include "report/place_text.h"
 
 #include <array>
 #include <cstdio>
@@ -31,7 +32,7 @@ std::string verdict_line(const mesh::StoredVerdict& found,
     std::string line = has(found, format::verdict_closed) ? "closed" : "open";
     line += has(found, format::verdict_two_manifold) ? ", 2-manifold" : ", not 2-manifold";
     line += has(found, format::verdict_oriented) ? ", oriented" : ", not oriented";
-    line += ", " + std::to_string(found.components) + " components, " +
+    line += ", " + counted(found.components, "component", "components") + ", " +
             std::to_string(found.boundary_edges) + " boundary edges in " +
             std::to_string(found.verdict.boundary_loops) + " loops";
     if (crossing) line += ", " + std::to_string(crossing->pairs) + " pairs that cross or touch";
@@ -198,8 +199,8 @@ void add_origins(Json& json, const char* source, const char* step,
 std::string repair_text(const RepairFileReport& report, std::size_t most_refusals) {
     const mesh::RepairReport& repair = report.repair;
     const mesh::RepairCounts& counts = repair.counts;
-    std::string text = report.output + ": " + std::to_string(report.triangles) + " triangles, " +
-                       std::to_string(report.vertices) + " vertices, " +
+    std::string text = report.output + ": " + counted(report.triangles, "triangle", "triangles") +
+                       ", " + counted(report.vertices, "vertex", "vertices") + ", " +
                        number(report.seconds, "%.3f") + " s\n";
     text += "  before: " + verdict_line(repair.before, report.crossing_before) + "\n";
     text += "  after:  " + verdict_line(repair.after, report.crossing_after) + "\n";
@@ -207,7 +208,7 @@ std::string repair_text(const RepairFileReport& report, std::size_t most_refusal
         text +=
             "  (2-manifold by vertex numbers, as stored; validate joins equal positions first)\n";
     if (report.goal) text += *report.goal ? "  goal: reached\n" : "  goal: missed\n";
-    text += "  of " + std::to_string(counts.source_triangles) + " triangles " +
+    text += "  of " + counted(counts.source_triangles, "triangle", "triangles") + " " +
             std::to_string(counts.kept) + " kept, " + std::to_string(counts.reversed) +
             " reversed, " + std::to_string(counts.cut) + " cut, " + std::to_string(counts.dropped) +
             " dropped; " + std::to_string(counts.made) + " new\n";

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string_view>
 
+#include "report/nearest_word.h"
 #include "report/severity_name.h"
 
 namespace cdprep::report {
@@ -15,11 +16,22 @@ Error bad_argument(std::string message) {
 }
 
 std::string no_rule(const std::string& option, std::string_view word) {
-    return option + " '" + std::string(word) +
-           "' is no rule. 'cdprep explain' lists all, by id and by name.";
+    return option + " " + unknown_rule(word);
 }
 
 }  // namespace
+
+std::string unknown_rule(std::string_view word) {
+    std::vector<std::string> names;
+    for (const mesh::RuleText& rule : mesh::all_rules()) {
+        names.emplace_back(rule.name);
+        names.push_back(mesh::id_of(rule.rule));
+    }
+    std::string text = "'";
+    text += word;
+    text += "' is no rule. 'cdprep explain' lists all, by id and by name.";
+    return text + suggestion(word, names);
+}
 
 Result<Done> RuleSettings::override_severity(const std::string& words) {
     const std::string_view text = words;

@@ -4,12 +4,16 @@
 #include <map>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cdprep/result.h"
 #include "mesh/rule.h"
 
 namespace cdprep::report {
+
+/// The sentence for a word that is no rule, with the nearest.
+[[nodiscard]] std::string unknown_rule(std::string_view word);
 
 /// How severe each rule is in a run, and which make it fail.
 class RuleSettings {

@@ -122,6 +122,16 @@ Json rest_json(const ValidationReport& report, std::size_t i, std::uint64_t coun
     return result;
 }
 
+/// A note is one result however many places it has: services list errors and warnings place by
+/// place, and hundreds of notes would hide them.
+Json note_json(const ValidationReport& report, std::size_t i, const Json& artifact) {
+    const std::uint64_t count = report.judgements[i].fresh;
+    Json result = result_json(report, i, counted(count, "place", "places") + ".");
+    result["locations"] = Json::array({{{"physicalLocation", {{"artifactLocation", artifact}}}}});
+    result["occurrenceCount"] = count;
+    return result;
+}
+
 Json notification_json(const std::string& text, const char* level, const Json& artifact) {
     return {{"level", level},
             {"message", {{"text", text}}},
@@ -177,6 +187,10 @@ std::string Sarif::add(const ValidationReport& report) {
         is_first_ = false;
     };
     for (std::size_t i = 0; i < report.defects.findings.size(); ++i) {
+        if (report.judgements[i].severity == mesh::Severity::note) {
+            if (report.judgements[i].fresh > 0) append(note_json(report, i, artifact));
+            continue;
+        }
         const std::size_t kept =
             std::min(report.defects.findings[i].places.size(), run_.max_places);
         for (std::size_t k = 0; k < kept; ++k) append(place_json(report, i, k, artifact));

@@ -60,8 +60,10 @@ std::string timings_text(const ValidationReport& report) {
 std::string head_line(const ValidationReport& report) {
     ValidationTotals totals;
     totals.add(report);
-    std::string text = printable(report.input) + ": " + (report.exit == 0 ? "passed" : "FAILED") +
-                       ", " + findings_text(totals.errors, totals.warnings, totals.notes);
+    const bool is_clean = totals.errors == 0 && totals.warnings == 0;
+    const char* const word = report.exit != 0 ? "FAILED" : is_clean ? "passed" : "has findings";
+    std::string text = printable(report.input) + ": " + word + ", " +
+                       findings_text(totals.errors, totals.warnings, totals.notes);
     if (report.known > 0) text += ", besides " + std::to_string(report.known) + " known";
     return text + "; " + counted(report.triangles, "triangle", "triangles") + ", " +
            counted(report.vertices, "vertex", "vertices") + "\n";
@@ -104,7 +106,8 @@ std::string validation_text(const ValidationReport& report, const ValidationRun&
     for (const std::size_t i : worst_first(report)) {
         text +=
             finding_line(report.defects.findings[i], report.judgements[i], !run.baseline.empty());
-        text += places_text(report, i, run.max_places, "    ");
+        const bool is_note = report.judgements[i].severity == mesh::Severity::note;
+        if (!is_note) text += places_text(report, i, run.max_places, "    ");
     }
     for (const std::string& remark : report.remarks) text += "  " + remark + "\n";
     text += verdict_lines(report, run);

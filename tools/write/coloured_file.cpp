@@ -28,7 +28,7 @@ void append_colour(std::string& bytes, const Shade& shade) {
 void append_colour_text(std::string& text, const Shade& shade) {
     for (const std::uint8_t part : shade.colour) {
         text += ' ';
-        append_number(text, part / kFull, true);
+        append_number(text, static_cast<float>(part / kFull));
     }
 }
 
@@ -105,7 +105,7 @@ Result<Done> write_coloured_points(const fs::path& path, std::span<const format:
             continue;
         }
         bytes += "v ";
-        append_point_text(bytes, points[i], false);
+        append_point_text(bytes, points[i]);
         append_colour_text(bytes, shade);
         bytes += "\np ";
         append_integer(bytes, i + 1);

@@ -21,7 +21,7 @@ void append_object(std::string& text, const HullArrays& hull, std::uint64_t& fir
     text += "o " + hull.name + "\n";
     for (const Double3& p : hull.points) {
         text += "v ";
-        append_point_text(text, p, false);
+        append_point_text(text, p);
         text += '\n';
     }
     for (const auto& f : hull.facets) append_triangle(text, {f}, "f ", first);
@@ -45,7 +45,7 @@ void append_member(std::string& json, const char* name, const std::string& value
 
 std::string text_of(double value) {
     std::string text;
-    append_number(text, value, true);
+    append_number(text, static_cast<float>(value));
     return text;
 }
 
@@ -175,7 +175,7 @@ std::string scale_text(double scale) {
     std::string text;
     for (int i = 0; i < 3; ++i) {
         if (i > 0) text += ' ';
-        append_number(text, scale, false);
+        append_number(text, scale);
     }
     return text;
 }
@@ -212,13 +212,13 @@ std::string mesh_name(const fs::path& path, const std::string& hull) {
 /// One number behind a name, as XML's attribute.
 std::string attribute(const char* name, double value) {
     std::string text = std::string(" ") + name + "=\"";
-    append_number(text, value, false);
+    append_number(text, value);
     return text + "\"";
 }
 
 std::string point_text(const Double3& p) {
     std::string text;
-    append_point_text(text, p, false);
+    append_point_text(text, p);
     return text;
 }
 
@@ -266,11 +266,11 @@ std::string urdf_text(const RobotFile& file) {
 std::string sdf_inertial(const BodyMass& body) {
     std::string text = "      <inertial>\n        <pose>" + point_text(body.centre) +
                        " 0 0 0</pose>\n        <mass>";
-    append_number(text, body.mass, false);
+    append_number(text, body.mass);
     text += "</mass>\n        <inertia>";
     for (const auto& [name, place] : kInertiaNames) {
         text += std::string("<") + name + ">";
-        append_number(text, body.inertia[place], false);
+        append_number(text, body.inertia[place]);
         text += std::string("</") + name + ">";
     }
     return text + "</inertia>\n      </inertial>\n";
@@ -298,7 +298,7 @@ std::string mjcf_inertial(const BodyMass& body) {
                        attribute("mass", body.mass) + " fullinertia=\"";
     for (const std::size_t place : kPlaces) {
         if (text.back() != '"') text += ' ';
-        append_number(text, body.inertia[place], false);
+        append_number(text, body.inertia[place]);
     }
     return text + "\"/>\n";
 }
@@ -311,7 +311,7 @@ std::string mjcf_text(const RobotFile& file) {
         text += "    <mesh name=\"" + hull.name + "\" scale=\"" + file.scale + "\" vertex=\"";
         for (std::size_t i = 0; i < hull.points.size(); ++i) {
             if (i > 0) text += "  ";
-            append_point_text(text, hull.points[i], false);
+            append_point_text(text, hull.points[i]);
         }
         text += "\"/>\n";
     }

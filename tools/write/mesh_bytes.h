@@ -14,12 +14,12 @@ namespace cdprep::write {
 
 static_assert(std::endian::native == std::endian::little, "binary files are written as they lie");
 
-/// In the fewest digits that read back the same.
-inline void append_number(std::string& text, double value, bool single) {
+/// In the fewest digits that a reader of doubles reads back the same, and so does a reader of
+/// floats where the value is one: 0.1F is 0.10000000149011612, for 0.1 is another double.
+template <class Real>
+void append_number(std::string& text, Real value) {
     std::array<char, 32> digits;
-    const auto end = single ? std::to_chars(digits.data(), digits.data() + digits.size(),
-                                            static_cast<float>(value))
-                            : std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value);
     text.append(digits.data(), end.ptr);
 }
 
@@ -47,19 +47,19 @@ inline void append_point(std::string& bytes, const format::Double3& p, bool sing
 }
 
 /// Three numbers with blanks between.
-inline void append_point_text(std::string& text, const format::Double3& p, bool single) {
-    append_number(text, p.x, single);
+inline void append_point_text(std::string& text, const format::Double3& p) {
+    append_number(text, p.x);
     text += ' ';
-    append_number(text, p.y, single);
+    append_number(text, p.y);
     text += ' ';
-    append_number(text, p.z, single);
+    append_number(text, p.z);
 }
 
 /// A line per vertex, behind `lead`.
 inline void append_positions(std::string& text, const MeshArrays& mesh, const char* lead) {
     for (const format::Double3& p : mesh.positions) {
         text += lead;
-        append_point_text(text, p, mesh.single_precision);
+        append_point_text(text, p);
         text += '\n';
     }
 }

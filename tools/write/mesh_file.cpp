@@ -71,6 +71,19 @@ std::string stl_bytes(const MeshArrays& mesh) {
     return bytes;
 }
 
+}  // namespace
+
+std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".obj") return MeshFormat::obj;
+    if (extension == ".ply") return MeshFormat::ply;
+    if (extension == ".stl") return MeshFormat::stl;
+    if (extension == ".off") return MeshFormat::off;
+    return std::nullopt;
+}
+
 std::string bytes_of(MeshFormat format, const MeshArrays& mesh) {
     switch (format) {
         case MeshFormat::obj:
@@ -83,19 +96,6 @@ std::string bytes_of(MeshFormat format, const MeshArrays& mesh) {
             break;
     }
     return ply_bytes(mesh);
-}
-
-}  // namespace
-
-std::optional<MeshFormat> mesh_format_of(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (extension == ".obj") return MeshFormat::obj;
-    if (extension == ".ply") return MeshFormat::ply;
-    if (extension == ".stl") return MeshFormat::stl;
-    if (extension == ".off") return MeshFormat::off;
-    return std::nullopt;
 }
 
 Result<Done> write_mesh_file(const std::filesystem::path& path, MeshFormat format,

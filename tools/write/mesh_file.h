@@ -32,10 +32,13 @@ struct MeshArrays {
     std::span<const NamedPart> parts = {};  ///< rising; groups of an OBJ file, else not stored
 };
 
+/// The bytes of a file of this format, as write_mesh_file() writes them.
+[[nodiscard]] std::string bytes_of(MeshFormat format, const MeshArrays& mesh);
+
 /// Writes a mesh so that it is read back the same to the last bit: text in the fewest
-/// digits that do so, PLY in little-endian floats or doubles. STL is binary; it has
-/// floats only and no shared vertices, and is refused with `bad_argument` where a
-/// coordinate is not a float. The file appears under its name when it is whole.
+/// digits that do so for readers of doubles, PLY in little-endian floats or doubles. STL is binary;
+/// it has floats only and no shared vertices, and is refused with `bad_argument` where a coordinate
+/// is not a float. The file appears under its name when it is whole.
 [[nodiscard]] Result<Done> write_mesh_file(const std::filesystem::path& path, MeshFormat format,
                                            const MeshArrays& mesh);
 

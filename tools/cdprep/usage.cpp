@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "usage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "report/nearest_word.h"
+#include "report/printable.h"
+
+namespace cdprep::cli {
+namespace {
+
+std::string in_quotes(const std::string& word) {
+    return "'" + report::printable(word) + "'";
+}
+
+/// "a, b or c", with that conjunction.
+std::string listed(const std::vector<std::string>& words, const char* conjunction) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const bool is_last = i + 1 == words.size();
+        if (i > 0) text += is_last ? " " + std::string(conjunction) + " " : ", ";
+        text += words[i];
+    }
+    return text;
+}
+
+CLI::Validator number_above(double limit, bool may_be_equal, const std::string& wanted) {
+    return {[=](std::string& word) -> std::string {
+                double number = 0;
+                const bool is_number =
+                    CLI::detail::lexical_cast(word, number) && std::isfinite(number);
+                if (is_number && (number > limit || (may_be_equal && number == limit))) return "";
+                return in_quotes(word) + " is not " + wanted + ".";
+            },
+            ""};
+}
+
+/// The command that the arguments came to, "cdprep query collide" with all above it.
+struct Reached {
+    const CLI::App* command;
+    std::string name;
+};
+
+Reached reached(const CLI::App& app) {
+    Reached at{&app, app.get_name()};
+    for (;;) {
+        const auto chosen = at.command->get_subcommands();
+        if (chosen.empty()) return at;
+        at = {chosen.front(), at.name + " " + chosen.front()->get_name()};
+    }
+}
+
+std::vector<std::string> command_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::App* sub : command.get_subcommands([](const CLI::App*) { return true; })) {
+        names.push_back(sub->get_name());
+    }
+    return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options()) {
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+    return names;
+}
+
+std::string unknown_option(const Reached& at, const std::string& word) {
+    const std::string name = word.substr(0, word.find('='));
+    const auto close = report::suggestion(name, option_names(*at.command));
+    return at.name + ": " + in_quotes(name) + " is no option here." +
+           (close.empty() ? " '" + at.name + " --help' lists all." : close);
+}
+
+std::string unknown_command(const Reached& at, const std::string& word) {
+    const auto close = report::suggestion(word, command_names(*at.command));
+    return at.name + ": " + in_quotes(word) + " is no command here." +
+           (close.empty() ? " There are " + listed(command_names(*at.command), "and") + "."
+                          : close);
+}
+
+bool is_option(const std::string& word) {
+    return word.size() > 1 && word[0] == '-';
+}
+
+/// The library's own words, as a sentence: "--parts: 'x' is not a number." of
+/// "Could not convert: --parts = x".
+std::string as_sentence(std::string text) {
+    constexpr std::string_view kConvert = "Could not convert: ";
+    if (text.starts_with(kConvert)) {
+        const std::size_t equals = text.find(" = ");
+        if (equals != std::string::npos) {
+            return text.substr(kConvert.size(), equals - kConvert.size()) + ": " +
+                   in_quotes(text.substr(equals + 3)) + " is not a number.";
+        }
+    }
+    const std::string name = text.substr(0, text.find(": "));
+    if (text.find(" required but received ") != std::string::npos) {
+        return name + " is given more than once.";
+    }
+    if (text.ends_with(" missing")) return name + " needs a value.";
+    while (!text.empty() && (text.back() == '.' || text.back() == '\n')) text.pop_back();
+    return text.ends_with('?') ? text : text + ".";
+}
+
+}  // namespace
+
+CLI::Validator one_of(std::vector<std::string> words) {
+    const std::string all = listed(words, "or");
+    return {[words = std::move(words), all](std::string& word) -> std::string {
+                if (std::find(words.begin(), words.end(), word) != words.end()) return "";
+                return in_quotes(word) + " is not " + all + "." + report::suggestion(word, words);
+            },
+            "{" + all + "}"};
+}
+
+CLI::Validator whole_from(std::uint64_t least, std::uint64_t most) {
+    const bool is_open = most == std::numeric_limits<std::uint64_t>::max();
+    const std::string wanted =
+        is_open ? "a whole number of " + std::to_string(least) + " or more"
+                : "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
+    return {[=](std::string& word) -> std::string {
+                std::uint64_t number = 0;
+                const bool is_number =
+                    !word.empty() && word[0] != '-' && CLI::detail::lexical_cast(word, number);
+                if (is_number && number >= least && number <= most) return "";
+                return in_quotes(word) + " is not " + wanted + ".";
+            },
+            is_open ? "" : std::to_string(least) + " to " + std::to_string(most)};
+}
+
+CLI::Validator zero_or_more() {
+    return number_above(0, true, "a finite number of 0 or more");
+}
+
+CLI::Validator above_zero() {
+    return number_above(0, false, "a finite number above 0");
+}
+
+std::string usage_sentence(const CLI::App& app, const CLI::ParseError& error) {
+    const Reached at = reached(app);
+    const std::vector<std::string> left = at.command->remaining();
+    const auto option = std::find_if(left.begin(), left.end(), is_option);
+    if (option != left.end()) return unknown_option(at, *option);
+    const bool needs_command = at.command->get_require_subcommand_min() > 0;
+    if (needs_command && !left.empty()) return unknown_command(at, left.front());
+    if (needs_command) {
+        return at.name + ": a command is missing. There are " +
+               listed(command_names(*at.command), "and") + ".";
+    }
+    if (!left.empty())
+        return at.name + ": " + in_quotes(left.front()) + " is one argument too many.";
+    return at.name + ": " + as_sentence(error.what());
+}
+
+}  // namespace cdprep::cli
