@@ -56,13 +56,28 @@ def triangle_set(data):
             for k in [triangle.index(min(triangle))]]
 
 
+def check_frame(data):
+    """The root's boxes, placed by the attributes, are that of the corners."""
+    must(int(data.attrs["format_version"]) == 1, "no version")
+    must(float(data.attrs["metres_per_unit"]) == 0.001, f"unit {data.attrs['metres_per_unit']}")
+    must(text(data.attrs["up_axis"]) == "z", f"up axis {data.attrs['up_axis']}")
+    scale = 2.0 ** -int(data.attrs["frame_exponent"])
+    root = data["bvh_nodes"][0]
+    used = root["lower"][0] <= root["upper"][0]
+    for place, least in (("lower", numpy.min), ("upper", numpy.max)):
+        box = [least(root[place][axis][used]) for axis in range(3)]
+        placed = numpy.array(box) * scale + data.attrs["frame_origin"]
+        must(numpy.allclose(placed, least(CORNERS, axis=0), atol=1e-6), f"{place} is {placed}")
+
+
 def main():
     program = sys.argv[1]
     scratch = tempfile.TemporaryDirectory()
     folder = pathlib.Path(scratch.name)
     (folder / "tent.obj").write_text(OBJ)
     output = folder / "tent.cdp.h5"
-    bake(program, folder / "tent.obj", "-o", output, "--effects", "all")
+    bake(program, folder / "tent.obj", "-o", output, "--effects", "all", "--unit", "mm",
+         "--up-axis", "z")
     info = json.loads(run(program, "info", output, "--format", "json").stdout)
 
     with h5py.File(output, "r") as file:
@@ -108,6 +123,7 @@ def main():
         must(data["bvh_nodes"].dtype["lower"].shape == (3, 8), "boxes have another shape")
         must(numpy.all(data["bvh_nodes"]["lower"][0][:, 0] <= data["bvh_nodes"]["upper"][0][:, 0]),
              "the first box is empty")
+        check_frame(data)
         provenance = json.loads(bytes(data["provenance"][:]))
         must(str(folder) not in json.dumps(provenance), "the provenance knows a path")
         print(json.dumps(provenance))

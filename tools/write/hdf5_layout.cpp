@@ -124,6 +124,45 @@ bool add_text(hid_t object, const char* name, const char* text) {
     return attribute.good() && H5Awrite(attribute.id(), type.id(), text) >= 0;
 }
 
+template <std::size_t N>
+bool add_numbers(hid_t object, const char* name, const std::array<double, N>& values) {
+    const std::array<hsize_t, 1> extent = {N};
+    const Handle space(N == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, extent.data(), nullptr),
+                       H5Sclose);
+    const Handle attribute(
+        H5Acreate2(object, name, H5T_IEEE_F64LE, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    return attribute.good() && H5Awrite(attribute.id(), H5T_NATIVE_DOUBLE, values.data()) >= 0;
+}
+
+bool add_integer(hid_t object, const char* name, std::int32_t value) {
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Handle attribute(
+        H5Acreate2(object, name, H5T_STD_I32LE, space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    return attribute.good() && H5Awrite(attribute.id(), H5T_NATIVE_INT32, &value) >= 0;
+}
+
+const char* axis_name(format::UpAxis axis) {
+    constexpr std::array<const char*, 4> kNames = {"unknown", "x", "y", "z"};
+    return kNames[static_cast<std::size_t>(axis)];
+}
+
+/// What h5py needs to place boxes and to measure: the header before is no part of HDF5.
+bool add_facts(hid_t group, const format::FileHeader& facts) {
+    const format::Double3& origin = facts.frame_origin;
+    const format::Double3& offset = facts.normalize_offset;
+    const bool is_normalized = (facts.flags & format::model_normalized) != 0;
+    return add_integer(group, "format_version", static_cast<std::int32_t>(format::kVersion)) &&
+           add_numbers<1>(group, "metres_per_unit", {facts.metres_per_unit}) &&
+           add_text(group, "up_axis", axis_name(facts.up_axis)) &&
+           add_text(group, "frame",
+                    "boxes are in frame units: (model - frame_origin) * 2^frame_exponent") &&
+           add_numbers<3>(group, "frame_origin", {origin.x, origin.y, origin.z}) &&
+           add_integer(group, "frame_exponent", facts.frame_exponent) &&
+           (!is_normalized ||
+            (add_numbers<3>(group, "normalize_offset", {offset.x, offset.y, offset.z}) &&
+             add_numbers<1>(group, "normalize_factor", {facts.normalize_factor})));
+}
+
 constexpr const char* kName = "in memory";
 
 Handle access_list(SparseMemory& memory, std::uint64_t threshold, std::uint64_t alignment) {
@@ -141,7 +180,7 @@ void keep_links_simple(const Handle& creation) {
 }
 
 /// An empty file with a user block and our group.
-bool make_file(SparseMemory& memory) {
+bool make_file(SparseMemory& memory, const format::FileHeader& facts) {
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_userblock(creation.id(), format::kUserBlockSize);
     keep_links_simple(creation);
@@ -152,8 +191,10 @@ bool make_file(SparseMemory& memory) {
     keep_links_simple(group_creation);
     Handle group(H5Gcreate2(file.id(), kGroup, H5P_DEFAULT, group_creation.id(), H5P_DEFAULT),
                  H5Gclose);
-    const bool described = group.good() && add_text(group.id(), "description",
-                                                    "a mesh baked for exact collision queries");
+    const bool described =
+        group.good() &&
+        add_text(group.id(), "description", "a mesh baked for exact collision queries") &&
+        add_facts(group.id(), facts);
     return described && group.close() && file.close();
 }
 
@@ -244,10 +285,10 @@ std::string find_place(const Handle& file, const format::SectionKind& kind,
 
 }  // namespace
 
-std::optional<Layout> make_layout(std::span<const Plan> plans) {
+std::optional<Layout> make_layout(std::span<const Plan> plans, const format::FileHeader& facts) {
     const Silence silence;
     Layout layout{std::vector<Place>(plans.size()), {}};
-    const bool made = make_file(layout.rest) &&
+    const bool made = make_file(layout.rest, facts) &&
                       make_datasets(layout.rest, plans, true, layout.places) &&
                       make_datasets(layout.rest, plans, false, layout.places);
     if (!made) return std::nullopt;

@@ -33,9 +33,11 @@ struct Layout {
 };
 
 /// Makes an HDF5 file with a user block of zeros and one allocated, unwritten
-/// dataset per plan, named and described. Counts are at least 1. Nothing when
-/// HDF5 fails, which means that memory is short.
-[[nodiscard]] std::optional<Layout> make_layout(std::span<const Plan> plans);
+/// dataset per plan, named and described. Attributes of the group repeat those facts of the header
+/// without which the datasets cannot be read: version, unit, frame. Counts are at least 1. Nothing
+/// when HDF5 fails, which means that memory is short.
+[[nodiscard]] std::optional<Layout> make_layout(std::span<const Plan> plans,
+                                                const format::FileHeader& facts);
 
 /// Finds the datasets of a file that any tool may have written. `damage` names
 /// the first dataset that is not contiguous or not of our type.

@@ -131,7 +131,7 @@ Result<Done> write_and_check(const std::filesystem::path& path, const format::Fi
     Result<OutputFile> created = OutputFile::create(path);
     if (!created) return created.error();
     OutputFile& file = created.value();
-    const std::optional<Layout> layout = make_layout(plans_for(table));
+    const std::optional<Layout> layout = make_layout(plans_for(table), facts);
     if (!layout) return no_layout(path);
     add_offsets(table, layout->places);
     build::add_checksums(table);
