@@ -82,6 +82,26 @@ void remove_abandoned(const std::filesystem::path& temporary) {
     ::close(descriptor);
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& target) {
+    return target.has_parent_path() ? target.parent_path() : ".";
+}
+
+/// As long as it is open.
+std::string path_of(int descriptor) {
+    return "/proc/self/fd/" + std::to_string(descriptor);
+}
+
+/// Opens and locks a file without a name in a folder; -1 where there is no such thing. The lock
+/// holds off who would take it over in the moment between its name and its target's.
+int open_nameless(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
+    if (descriptor < 0) return -1;
+    const bool can_be_named = ::access(path_of(descriptor).c_str(), R_OK) == 0;
+    if (can_be_named && ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+    ::close(descriptor);
+    return -1;
+}
+
 }  // namespace
 
 OutputFile::OutputFile(std::filesystem::path target, std::filesystem::path temporary,
@@ -95,14 +115,21 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
 
 OutputFile::~OutputFile() {
     if (descriptor_ < 0) return;
-    ::unlink(temporary_.c_str());
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
     ::close(descriptor_);
 }
 
-Result<OutputFile> OutputFile::create(const std::filesystem::path& wanted) {
+Result<OutputFile> OutputFile::create(const std::filesystem::path& wanted, Temporary kind) {
     const std::filesystem::path target = followed(wanted);
     if (!is_replaceable(target)) {
         return unwritable(wanted, "is a folder, a device or a pipe; only a file can be replaced");
+    }
+    if (kind == Temporary::nameless_if_possible) {
+        const int descriptor = open_nameless(folder_of(target));
+        if (descriptor >= 0) {
+            for (const int number : {0, 1}) remove_abandoned(temporary_name(target, number));
+            return OutputFile(target, {}, descriptor);
+        }
     }
     for (int number = 0; number < kMostWriters; ++number) {
         const std::filesystem::path temporary = temporary_name(target, number);
@@ -157,17 +184,38 @@ Result<Done> OutputFile::write_at(std::uint64_t offset, std::span<const std::byt
 
 Result<Done> OutputFile::commit() {
     if (::fsync(descriptor_) != 0) return failed("cannot be forced to disk");
+    if (temporary_.empty() && !give_name()) return failed("cannot be named");
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) return failed("cannot be renamed");
     ::close(std::exchange(descriptor_, -1));
     // The name too must survive a power cut; where a folder cannot be synced the
     // file is whole all the same.
-    const std::filesystem::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
+    const std::filesystem::path folder = folder_of(target_);
     const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (handle >= 0) {
         ::fsync(handle);
         ::close(handle);
     }
     return Done{};
+}
+
+std::filesystem::path OutputFile::readable_path() const {
+    return temporary_.empty() ? std::filesystem::path(path_of(descriptor_)) : temporary_;
+}
+
+/// Files cannot be linked over others, so it gets a temporary's name for the moment before
+/// rename().
+bool OutputFile::give_name() {
+    const std::string own = path_of(descriptor_);
+    for (int number = 0; number < kMostWriters; ++number) {
+        const std::filesystem::path name = temporary_name(target_, number);
+        remove_abandoned(name);
+        if (::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0) {
+            temporary_ = name;
+            return true;
+        }
+        if (errno != EEXIST) return false;
+    }
+    return false;
 }
 
 Result<Done> write_whole(const std::filesystem::path& path, std::string_view bytes) {

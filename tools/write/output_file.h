@@ -13,22 +13,25 @@ namespace cdprep::write {
 
 /// A file that appears under its name only when it is whole.
 ///
-/// Lives as a temporary beside its target, locked while this object lives. A
-/// temporary that a killed process left has no lock; the next one for that
-/// target takes it over. Destroyed before commit(), it leaves nothing behind.
+/// Has no name until commit(), so that a killed process leaves nothing behind. Where the file
+/// system has no nameless files it lives as a temporary beside its target, locked while this object
+/// lives; a temporary that a killed process left has no lock, and the next one for that target
+/// takes it over. Destroyed before commit(), it leaves nothing behind.
 class OutputFile {
 public:
+    enum class Temporary : std::uint8_t { nameless_if_possible, named };
+
     /// A symbolic link stays, and what it leads to is replaced. Fails with `unwritable`
     /// when that is there and no regular file, and when no temporary can be made.
-    [[nodiscard]] static Result<OutputFile> create(const std::filesystem::path& wanted);
+    [[nodiscard]] static Result<OutputFile> create(
+        const std::filesystem::path& wanted, Temporary kind = Temporary::nameless_if_possible);
 
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&&) = delete;
     ~OutputFile();
 
-    [[nodiscard]] const std::filesystem::path& temporary() const noexcept {
-        return temporary_;
-    }
+    /// By which this process can open what was written so far.
+    [[nodiscard]] std::filesystem::path readable_path() const;
 
     [[nodiscard]] Result<std::uint64_t> size() const;
     [[nodiscard]] Result<Done> read_at(std::uint64_t offset, std::span<std::byte> bytes) const;
@@ -40,9 +43,10 @@ public:
 private:
     OutputFile(std::filesystem::path target, std::filesystem::path temporary, int descriptor);
     [[nodiscard]] Error failed(const char* what) const;
+    [[nodiscard]] bool give_name();
 
     std::filesystem::path target_;
-    std::filesystem::path temporary_;
+    std::filesystem::path temporary_;  ///< empty: it has no name
     int descriptor_;
 };
 

@@ -88,7 +88,7 @@ Result<Done> write_user_block(OutputFile& file, const format::FileHeader& facts,
 /// Reads back what was written, as a user of the file will. `blame` says whose
 /// fault it is when that fails.
 Result<Done> commit_checked(OutputFile& file, const std::filesystem::path& path, ErrorCode blame) {
-    const Result<Model> opened = Model::open(file.temporary());
+    const Result<Model> opened = Model::open(file.readable_path());
     if (!opened) {
         return Error{blame, path.string() +
                                 ": what was written does not read back: " + opened.error().message};

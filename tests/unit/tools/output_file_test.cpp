@@ -22,26 +22,52 @@ void put(OutputFile& file, const std::string& text) {
     ASSERT_TRUE(file.write_at(0, std::as_bytes(std::span(text.data(), text.size()))));
 }
 
-TEST(OutputFile, AppearsWithCommitAndNotBefore) {
+using Temporary = OutputFile::Temporary;
+
+/// With a name from the start, as on file systems without nameless files, and without.
+class OutputFileOf : public testing::TestWithParam<Temporary> {
+protected:
+    Result<OutputFile> create(const std::string& name) const {
+        return OutputFile::create(folder.file(name), GetParam());
+    }
+
     const ScratchFolder folder;
+};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, OutputFileOf,
+                         testing::Values(Temporary::nameless_if_possible, Temporary::named),
+                         [](const auto& kind) {
+                             return kind.param == Temporary::named ? "named" : "nameless";
+                         });
+
+TEST(OutputFile, HasNoNameBeforeCommit) {
+    const ScratchFolder folder;
+    Result<OutputFile> file = OutputFile::create(folder.file("out"));
+    ASSERT_TRUE(file);
+    put(file.value(), "new");
+    EXPECT_EQ(content_of(file->readable_path()), "new");
+    if (!folder.names().empty()) GTEST_SKIP() << "this file system has no nameless files";
+    ASSERT_TRUE(file.value().commit());
+    EXPECT_EQ(folder.names(), (std::set<std::string>{"out"}));
+}
+
+TEST_P(OutputFileOf, AppearsWithCommitAndNotBefore) {
     {
-        Result<OutputFile> file = OutputFile::create(folder.file("out"));
+        Result<OutputFile> file = create("out");
         ASSERT_TRUE(file);
         put(file.value(), "new");
         EXPECT_FALSE(folder.names().contains("out"));
-        EXPECT_EQ(file.value().temporary().parent_path(),
-                  std::filesystem::path(folder.file("out")).parent_path());
+        EXPECT_EQ(content_of(file->readable_path()), "new");
         ASSERT_TRUE(file.value().commit());
     }
     EXPECT_EQ(content_of(folder.file("out")), "new");
     EXPECT_EQ(folder.names(), (std::set<std::string>{"out"}));
 }
 
-TEST(OutputFile, WithoutCommitItLeavesNothing) {
-    const ScratchFolder folder;
+TEST_P(OutputFileOf, WithoutCommitItLeavesNothing) {
     test::put_content(folder.file("out"), "old");
     {
-        Result<OutputFile> file = OutputFile::create(folder.file("out"));
+        Result<OutputFile> file = create("out");
         ASSERT_TRUE(file);
         put(file.value(), "new");
     }
@@ -49,14 +75,13 @@ TEST(OutputFile, WithoutCommitItLeavesNothing) {
     EXPECT_EQ(folder.names(), (std::set<std::string>{"out"}));
 }
 
-TEST(OutputFile, ALinkStaysAndWhatItNamesIsReplaced) {
-    const ScratchFolder folder;
+TEST_P(OutputFileOf, ALinkStaysAndWhatItNamesIsReplaced) {
     std::filesystem::create_directory(folder.file("far"));
     test::put_content(folder.file("far/out"), "old");
     std::filesystem::create_symlink("far/out", folder.file("near"));
     std::filesystem::create_symlink("near", folder.file("nearer"));
     {
-        Result<OutputFile> file = OutputFile::create(folder.file("nearer"));
+        Result<OutputFile> file = create("nearer");
         ASSERT_TRUE(file);
         put(file.value(), "new");
         ASSERT_TRUE(file.value().commit());
@@ -67,12 +92,11 @@ TEST(OutputFile, ALinkStaysAndWhatItNamesIsReplaced) {
 }
 
 // A rename would make a file of it, /dev/null too for who may.
-TEST(OutputFile, NeitherAPipeNorAFolderIsReplaced) {
-    const ScratchFolder folder;
+TEST_P(OutputFileOf, NeitherAPipeNorAFolderIsReplaced) {
     std::filesystem::create_directory(folder.file("folder"));
     ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0666), 0);
     for (const char* name : {"folder", "pipe"}) {
-        const Result<OutputFile> file = OutputFile::create(folder.file(name));
+        const Result<OutputFile> file = create(name);
         ASSERT_FALSE(file) << name;
         EXPECT_EQ(file.error().code, ErrorCode::unwritable);
         EXPECT_NE(file.error().message.find(name), std::string::npos);
@@ -80,18 +104,10 @@ TEST(OutputFile, NeitherAPipeNorAFolderIsReplaced) {
     EXPECT_EQ(folder.names(), (std::set<std::string>{"folder", "pipe"}));
 }
 
-/// What a killed writer leaves: its temporary, with no lock on it.
-std::string abandoned_temporary(const ScratchFolder& folder) {
-    Result<OutputFile> file = OutputFile::create(folder.file("out"));
-    std::string name = file.value().temporary().string();
-    return name;
-}
-
-TEST(OutputFile, AnAbandonedTemporaryIsTakenOver) {
-    const ScratchFolder folder;
-    const std::string stray = abandoned_temporary(folder);
+TEST_P(OutputFileOf, AnAbandonedTemporaryIsTakenOver) {
+    const std::string stray = folder.file(".out.tmp");
     test::put_content(stray, "a much longer half of something");
-    Result<OutputFile> file = OutputFile::create(folder.file("out"));
+    Result<OutputFile> file = create("out");
     ASSERT_TRUE(file);
     put(file.value(), "new");
     ASSERT_TRUE(file.value().commit());
@@ -99,12 +115,11 @@ TEST(OutputFile, AnAbandonedTemporaryIsTakenOver) {
     EXPECT_EQ(folder.names(), (std::set<std::string>{"out"}));
 }
 
-TEST(OutputFile, TwoWritersOfOneTargetDoNotShareATemporary) {
-    const ScratchFolder folder;
-    Result<OutputFile> first = OutputFile::create(folder.file("out"));
-    Result<OutputFile> second = OutputFile::create(folder.file("out"));
+TEST_P(OutputFileOf, TwoWritersOfOneTargetDoNotShareATemporary) {
+    Result<OutputFile> first = create("out");
+    Result<OutputFile> second = create("out");
     ASSERT_TRUE(first && second);
-    EXPECT_NE(first.value().temporary(), second.value().temporary());
+    EXPECT_NE(first.value().readable_path(), second.value().readable_path());
     put(first.value(), "first");
     put(second.value(), "second");
     ASSERT_TRUE(first.value().commit());
@@ -116,31 +131,23 @@ TEST(OutputFile, TwoWritersOfOneTargetDoNotShareATemporary) {
 
 // Both were killed: the next writer takes the first one's temporary over and
 // removes the second one's.
-TEST(OutputFile, StraysOfSeveralKilledWritersAreRemoved) {
-    const ScratchFolder folder;
-    std::string first, second;
-    {
-        const Result<OutputFile> one = OutputFile::create(folder.file("out"));
-        const Result<OutputFile> two = OutputFile::create(folder.file("out"));
-        ASSERT_TRUE(one && two);
-        first = one.value().temporary().string();
-        second = two.value().temporary().string();
-    }
+TEST_P(OutputFileOf, StraysOfSeveralKilledWritersAreRemoved) {
+    const std::string first = folder.file(".out.tmp");
+    const std::string second = folder.file(".out.tmp1");
     test::put_content(first, "stray");
     test::put_content(second, "stray");
-    Result<OutputFile> next = OutputFile::create(folder.file("out"));
+    Result<OutputFile> next = create("out");
     ASSERT_TRUE(next && next.value().commit());
     EXPECT_EQ(folder.names(), (std::set<std::string>{"out"}));
 }
 
-TEST(OutputFile, ATemporaryThatIsBeingWrittenIsLeftAlone) {
-    const ScratchFolder folder;
-    const std::string held = abandoned_temporary(folder);
+TEST_P(OutputFileOf, ATemporaryThatIsBeingWrittenIsLeftAlone) {
+    const std::string held = folder.file(".out.tmp");
     test::put_content(held, "held");
     const int descriptor = ::open(held.c_str(), O_RDWR | O_CLOEXEC);
     ASSERT_GE(descriptor, 0);
     ASSERT_EQ(::flock(descriptor, LOCK_EX | LOCK_NB), 0);
-    Result<OutputFile> file = OutputFile::create(folder.file("out"));
+    Result<OutputFile> file = create("out");
     ASSERT_TRUE(file);
     put(file.value(), "new");
     ASSERT_TRUE(file.value().commit());
