@@ -38,10 +38,41 @@ def main():
     pair = ["query", "overlap", model, model]
 
     cases = [  # arguments, exit code, words of the sentence
-        ([], 2, []),
-        (["bake"], 2, []),
-        (["frobnicate"], 2, []),
-        (["bake", folder / "sheet.off", "--no-such-option"], 2, []),
+        ([], 2, ["a command is missing", "bake"]),
+        (["bake"], 2, ["input is required"]),
+        (["frobnicate"], 2, ["'frobnicate'", "There are bake"]),
+        (["bakee", folder / "sheet.off"], 2, ["Did you mean 'bake'?"]),
+        (["valdiate", folder / "sheet.off"], 2, ["Did you mean 'validate'?"]),
+        (["query", "colide", model, model], 2, ["cdprep query: 'colide'", "'collide'"]),
+        (["query"], 2, ["a command is missing", "collide"]),
+        (["bake", folder / "sheet.off", "--no-such-option"], 2, ["no option here", "--help"]),
+        (["bake", folder / "sheet.off", "--outptu", "x"], 2, ["Did you mean '--output'?"]),
+        (["query", "within", model, model, "--tolerence", "3"], 2, ["'--tolerance'"]),
+        (["info", "--dep", model], 2, ["Did you mean '--deep'?"]),
+        (["info", model, model], 2, ["one argument too many"]),
+        (["bake", folder / "sheet.off", "-o"], 2, ["--output needs a value"]),
+        (["bake", folder / "sheet.off", "-o", "a", "-o", "b"], 2, ["--output", "more than once"]),
+        (["bake", folder / "sheet.off", "-j", "99999"], 2, ["--jobs", "'99999'", "from 0 to 4096"]),
+        (["bake", folder / "sheet.off", "--unit", "yard"], 2, ["--unit", "mm, cm, m, in or ft"]),
+        (["bake", folder / "sheet.off", "--up-axis", "w"], 2, ["--up-axis", "y or z"]),
+        (["bake", folder / "sheet.off", "--effects", "colide"], 2, ["Did you mean 'collide'?"]),
+        (["bake", folder / "sheet.off", "--structures", "octre"], 2, ["Did you mean 'octree'?"]),
+        (["bake", folder / "sheet.off", "-o", "-"], 2, ["standard output"]),
+        (["repair", folder / "sheet.off", "-o", folder / "x.ply", "--time", "-3"], 2,
+         ["'-3' is not a finite number of 0 or more."]),
+        (["repair", folder / "sheet.off", "-o", folder / "x.ply", "--steps", "weldd"], 2,
+         ["Did you mean 'weld'?"]),
+        (["hull", folder / "sheet.off", "-o", folder / "x.ply", "--max-vertices", "2"], 2,
+         ["from 4 to"]),
+        (["decompose", folder / "sheet.off", "--parts", "0"], 2, ["1 or more"]),
+        (["decompose", folder / "sheet.off", "--parts", "3", "--density", "0"], 2, ["above 0"]),
+        (["query", "collide", folder / "sheet.off", model], 3, ["Bake it first"]),
+        (["info", folder / "sheet.off"], 3, ["Bake it first"]),
+        (["bake", model], 3, ["is a baked model"]),
+        (["query", "collide", model], 2, ["b is required"]),
+        (["query", "ray", model], 2, ["--rays is required"]),
+        (["explain", "slivr"], 2, ["Did you mean 'sliver'?"]),
+        (["validate", folder / "sheet.off", "--rule", "slivr=off"], 2, ["Did you mean 'sliver'?"]),
         (["bake", folder / "missing.off"], 3, ["missing.off"]),
         (["bake", folder / "a folder"], 3, ["a folder"]),
         (["bake", folder / "notes.xyz"], 3, ["notes.xyz"]),
@@ -136,6 +167,8 @@ def main():
         must(not done.stdout, f"{arguments} fails but prints {done.stdout}")
         must(done.stderr.strip() and all(word in done.stderr for word in words),
              f"{arguments}: {done.stderr}")
+        must(done.stderr.count("\n") == 1 and len(done.stderr) < 1000
+             and done.stderr.rstrip()[-1] in ".?", f"{arguments}: not one sentence: {done.stderr}")
         must(digest(model) == before, f"{arguments} changed the model")
     must(not (folder / "out").exists() or not list((folder / "out").iterdir()),
          "something was baked although two inputs have one output")
