@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "report/csv_text.h"
 #include "report/fixed.h"
 #include "report/printable.h"
 
@@ -203,13 +204,6 @@ std::string ladder_text(const Ladder& ladder) {
     return text;
 }
 
-/// Text that needs no quotes.
-std::string in_csv(std::string text) {
-    std::ranges::replace(text, ',', ';');
-    std::ranges::replace(text, '"', '\'');
-    return printable(text);
-}
-
 /// The cells of a row, one after the other; those of what was not measured are empty.
 class CsvRow {
 public:
@@ -232,7 +226,7 @@ public:
         for (std::size_t i = 0; i < cells; ++i) add(std::string());
     }
     [[nodiscard]] std::string line() const {
-        return text_ + "\n";
+        return text_;
     }
 
 private:
@@ -277,11 +271,28 @@ void add_errors(const Rung& rung, CsvRow& row) {
     }
 }
 
+/// What holds for all rungs, as the last cells of every row: a comment would be a row to readers.
+std::string study_cells(const AccuracyReport& report) {
+    const study::AccuracyStudy& study = report.study;
+    std::string cells;
+    for (const std::string& text : {report.input, report.input_b}) {
+        cells += ",";
+        cells += csv_text(printable(text));
+    }
+    cells += "," + std::to_string(study.set.seed);
+    for (const std::string& text :
+         {study.machine.processor, study.machine.compiler, std::string(study.machine.kernels)}) {
+        cells += ",";
+        cells += csv_text(printable(text));
+    }
+    return cells + "," + std::to_string(study.timing.rounds) + "\n";
+}
+
 std::string csv_row(const std::string& ladder, const Rung& rung, bool is_dominated) {
     CsvRow row;
     row.add(ladder);
-    row.add(in_csv(rung.name));
-    row.add(std::string(promise_name(rung.promise)));
+    row.add(csv_text(printable(rung.name)));
+    row.add(csv_text(promise_name(rung.promise)));
     for (const double seconds : {rung.time.median_s, rung.time.p95_s, rung.time.p999_s,
                                  rung.time.spread_s, rung.time.low_s, rung.time.high_s}) {
         row.add(seconds);
@@ -424,12 +435,8 @@ std::string accuracy_text(const AccuracyReport& report) {
 
 std::string accuracy_csv(const AccuracyReport& report) {
     const study::AccuracyStudy& study = report.study;
-    std::string text = "# " + in_csv(report.input) + " against " + in_csv(report.input_b) +
-                       "; seed " + std::to_string(study.set.seed) + "; " +
-                       in_csv(study.machine.processor) + "; " + in_csv(study.machine.compiler) +
-                       "; kernels " + study.machine.kernels + "; rounds " +
-                       std::to_string(study.timing.rounds) + "\n";
-    text +=
+    const std::string of_all = study_cells(report);
+    std::string text =
         "ladder,rung,promise,median_s,p95_s,p999_s,spread_s,low_s,high_s,cases,asked,build_s,bytes,"
         "touched_bytes,error,error_low,error_high,misses,false_hits,e3_misses,e3_hits,"
         "e3_false_hits,e3_apart,e3_undecided,recall,recall_low,recall_high,precision,"
@@ -439,11 +446,11 @@ std::string accuracy_csv(const AccuracyReport& report) {
         text += std::string(",") + name + "_s," + name + "_misses," + name + "_hits," + name +
                 "_false_hits," + name + "_apart," + name + "_unknown";
     }
-    text += "\n";
+    text += ",model_a,model_b,seed,processor,compiler,kernels,rounds\n";
     for (const Ladder& ladder : study.ladders) {
         const std::vector<bool> beaten = study::dominated(ladder.rungs);
         for (std::size_t i = 0; i < ladder.rungs.size(); ++i) {
-            text += csv_row(ladder.name, ladder.rungs[i], beaten[i]);
+            text += csv_row(ladder.name, ladder.rungs[i], beaten[i]) + of_all;
         }
     }
     return text;

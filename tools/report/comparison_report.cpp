@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "report/csv_text.h"
 #include "report/fixed.h"
 #include "report/json_layout.h"
 #include "report/printable.h"
@@ -331,15 +332,6 @@ Json poses_json(const study::ComparedPair& pair) {
     return json;
 }
 
-std::string csv_text(std::string_view text) {
-    std::string quoted = "\"";
-    for (const char letter : text) {
-        if (letter == '"') quoted += '"';
-        quoted += letter == '\n' || letter == '\r' ? ' ' : letter;
-    }
-    return quoted + '"';
-}
-
 std::string csv_number(double value) {
     return compact(Json(value));
 }
@@ -506,13 +498,13 @@ std::string comparison_json(const ComparisonReport& report) {
 }
 
 std::string comparison_csv(const Comparison& comparison) {
-    std::string text;
-    for (const std::string& line : provenance_lines(comparison)) {
-        text += "# " + printable(line) + '\n';
-    }
-    text +=
+    std::string text =
         "table,row,column,unit,value,text,reason,published,mark,remark,p95,spread,low,high,"
         "cases,rounds\n";
+    const std::string no_figures = ",,,,,,\n";
+    for (const std::string& line : provenance_lines(comparison)) {
+        text += "\"provenance\",,,,," + csv_text(printable(line)) + ",,,," + no_figures;
+    }
     for (const Table& table : comparison.tables) {
         for (const study::Row& row : table.rows) {
             for (std::size_t c = 0; c < table.columns.size(); ++c) {
@@ -523,8 +515,9 @@ std::string comparison_csv(const Comparison& comparison) {
         }
     }
     for (const study::Check& check : comparison.checks) {
-        text += std::string("# ") + verdict_name(check.verdict) + ": " + printable(check.claim) +
-                ": " + printable(check.evidence) + '\n';
+        text += "\"claims\"," + csv_text(printable(check.claim)) + ",verdict,,," +
+                csv_text(verdict_name(check.verdict)) + ",,,," +
+                csv_text(printable(check.evidence)) + no_figures;
     }
     return text;
 }

@@ -105,6 +105,9 @@ TEST(ComparisonJson, SaysWhyNothingCame) {
 
 TEST(ComparisonCsv, IsALineACellWhateverNamesHold) {
     const std::string csv = comparison_csv(small_comparison());
+    EXPECT_TRUE(csv.starts_with("table,row,column,"));
+    EXPECT_EQ(csv.find("\n#"), std::string::npos) << csv;
+    EXPECT_NE(csv.find("\n\"provenance\","), std::string::npos) << csv;
     EXPECT_NE(
         csv.find("\n\"2\",\"a<b>\"\" ,c\",time,s,1.5e-06,,,0.25,stand-in,\"not it\",,,,,1.0,1.0\n"),
         std::string::npos)
