@@ -8,6 +8,9 @@
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <utility>
 #include <vector>
 
@@ -55,7 +58,53 @@ private:
     char join_ = 0;
 };
 
+using Clock = std::chrono::steady_clock;
+
+// What a person is told of the loop that runs: read by the thread that tells.
+std::atomic<bool> are_watched = false;
+std::atomic<bool> is_taken = false;
+std::atomic<std::size_t> loop_done = 0;
+std::atomic<std::size_t> loop_count = 0;
+std::atomic<Clock::time_point> loop_begun{};
+
+/// Counts the tasks of the loop that it is the first to enclose.
+class WatchedLoop {
+public:
+    explicit WatchedLoop(std::size_t count)
+        : counts_(are_watched.load(std::memory_order_relaxed) && !is_taken.exchange(true)) {
+        if (!counts_) return;
+        loop_done = 0;
+        loop_begun = Clock::now();
+        loop_count = count;
+    }
+    WatchedLoop(const WatchedLoop&) = delete;
+    WatchedLoop& operator=(const WatchedLoop&) = delete;
+    ~WatchedLoop() {
+        if (!counts_) return;
+        loop_count = 0;
+        is_taken = false;
+    }
+
+    void count_one() const {
+        if (counts_) loop_done.fetch_add(1, std::memory_order_relaxed);
+    }
+
+private:
+    bool counts_;
+};
+
 }  // namespace
+
+void watch_loops(bool watched) {
+    are_watched = watched;
+}
+
+LoopShare watched_loop() {
+    constexpr std::chrono::seconds kWorthTelling(1);
+    const std::size_t count = loop_count;
+    if (Clock::now() - loop_begun.load() < kWorthTelling) return {};
+    return {std::min(loop_done.load(), count), count};
+}
 
 /// oneTBB's, as ParallelFor wants it.
 struct Threads::Pool {
@@ -63,11 +112,13 @@ struct Threads::Pool {
 
     void operator()(std::size_t count, Task task) const {
         ForkJoin edges;
+        const WatchedLoop watched(count);
         oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
             const format::FloatEnvironment environment;
             edges.begin_task();
             task(i);
             edges.end_task();
+            watched.count_one();
         });
         edges.joined();
     }

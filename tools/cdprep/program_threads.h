@@ -35,4 +35,16 @@ private:
     std::unique_ptr<Pool> pool_;
 };
 
+/// How far a loop is.
+struct LoopShare {
+    std::size_t done = 0;
+    std::size_t count = 0;  ///< 0: no loop runs
+};
+
+/// Whether outermost loops of parallel_for() count what they have done; off, they cost nothing.
+void watch_loops(bool watched);
+
+/// The outermost loop that has run for a second; of several, one.
+[[nodiscard]] LoopShare watched_loop();
+
 }  // namespace cdprep::cli
