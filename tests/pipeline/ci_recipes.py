@@ -69,6 +69,10 @@ def test_hook(repository, hook):
         must(words in refused.stdout + refused.stderr, f"no {words!r} in {refused}")
 
     repository.sh("git commit -qm text", 0)
+    must(not (repository.folder / "mesh-baseline.json").exists()
+         or not repository.sh("git ls-files mesh-baseline.json", 0).stdout, "a baseline is there")
+    write_obj(assets / "clean.obj", CORNERS, CUBE)
+    repository.sh("git add assets/clean.obj && git commit -qm clean", 0)
     repository.sh("git add assets mesh-baseline.json && git commit -qm known", 0)
     for name in ("new\u00e9 one.obj", "T\u00fcr neu.OBJ", "\"two\" 'quotes'.Obj", "two\nlines.obj"):
         write_obj(assets / name, CORNERS, CUBE[2:])

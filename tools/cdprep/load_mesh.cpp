@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cdprep/format/limits.h"
+#include "mesh/point_tree.h"
 #include "mesh/weld.h"
 #include "report/place_text.h"
 
@@ -63,6 +64,18 @@ std::optional<Error> find_refusal(const std::filesystem::path& input,
     return find_too_large(input, soup);
 }
 
+std::optional<Error> find_wide_weld(const std::filesystem::path& input,
+                                    const mesh::TriangleSoup& soup, double distance) {
+    mesh::Box box;
+    for (const format::Double3& p : soup.positions) box.add(p);
+    const double diagonal = soup.positions.empty() ? 0 : box.diagonal();
+    if (!(diagonal > 0) || distance < diagonal) return std::nullopt;
+    return Error{ErrorCode::bad_argument,
+                 input.string() + ": --weld " + report::number_text(distance) +
+                     " would join the whole mesh, whose diagonal is " +
+                     report::number_text(diagonal) + ". Give a smaller distance."};
+}
+
 Result<mesh::TriangleSoup> load_soup(const std::filesystem::path& input,
                                      const LoadOptions& options) {
     Result<mesh::TriangleSoup> imported = import::import_file(input, options.import);
@@ -70,6 +83,7 @@ Result<mesh::TriangleSoup> load_soup(const std::filesystem::path& input,
     mesh::TriangleSoup soup = std::move(imported).value();
     if (const auto error = find_refusal(input, soup)) return *error;
     if (options.normalize) mesh::normalize(soup);
+    if (const auto error = find_wide_weld(input, soup, options.weld_distance)) return *error;
     return soup;
 }
 

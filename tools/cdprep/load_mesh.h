@@ -16,6 +16,11 @@ namespace cdprep::cli {
 [[nodiscard]] std::optional<Error> find_refusal(const std::filesystem::path& input,
                                                 const mesh::TriangleSoup& soup);
 
+/// Refuses a distance that would weld the whole mesh into one point. Of a soup in the units in
+/// which it is welded.
+[[nodiscard]] std::optional<Error> find_wide_weld(const std::filesystem::path& input,
+                                                  const mesh::TriangleSoup& soup, double distance);
+
 struct LoadOptions {
     bool normalize = false;
     double weld_distance = 0;  ///< model units

@@ -289,6 +289,7 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     const mesh::Normalization normalization = stages.run("normalize", [&] {
         return options.normalize ? mesh::normalize(soup) : mesh::Normalization{};
     });
+    if (const auto error = find_wide_weld(input, soup, options.weld_distance)) return *error;
     mesh::Welded welded =
         stages.run("weld", [&] { return mesh::weld(soup, {options.weld_distance}); });
     if (is_interrupted()) return interrupted(input);

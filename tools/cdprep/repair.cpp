@@ -13,6 +13,7 @@
 #include "import/import_file.h"
 #include "import_arguments.h"
 #include "interrupt.h"
+#include "load_mesh.h"
 #include "mesh/repair_goal.h"
 #include "output_path.h"
 #include "program_threads.h"
@@ -118,6 +119,9 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     limits.parallel_for = threads.parallel_for();
     const Result<mesh::TriangleSoup> soup = import::import_file(arguments.input, limits);
     if (!soup) return soup.error();
+    if (const auto error = find_wide_weld(arguments.input, *soup, options.weld_distance)) {
+        return *error;
+    }
     const mesh::Repaired repaired = mesh::repair(soup.value(), options);
     report::RepairFileReport report;
     if (!is_interrupted()) judge(arguments, soup.value(), repaired, options.parallel_for, report);

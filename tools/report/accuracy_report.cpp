@@ -404,7 +404,17 @@ std::vector<std::vector<std::string>> study_facts(const study::AccuracyStudy& st
                         " times as long (" + fixed(study.self.low, 3) + ".." +
                         fixed(study.self.high, 3) + ")";
     if (!study.self.holds_one()) clock += ": this machine is too busy to trust its times";
-    return {{"poses", strata_text(study.set) + "; seed " + std::to_string(study.set.seed) +
+    const double larger = std::max(study.a.diagonal, study.b.diagonal);
+    const double smaller = std::min(study.a.diagonal, study.b.diagonal);
+    constexpr double kAlike = 10;
+    std::string sizes =
+        "diagonals " + in_six_digits(study.a.diagonal) + " and " + in_six_digits(study.b.diagonal);
+    if (larger > kAlike * smaller) {
+        sizes += ": " + in_three_digits(larger / smaller) +
+                 " times apart; are both in one unit? (--unit)";
+    }
+    return {{"sizes", sizes},
+            {"poses", strata_text(study.set) + "; seed " + std::to_string(study.set.seed) +
                           "; shares are of " + in_six_digits(study.set.diagonal) +
                           ", the smaller diagonal"},
             {"truth", "exact for the vertices as moved (E1); at " + std::to_string(study.rigid) +
@@ -414,6 +424,28 @@ std::vector<std::vector<std::string>> study_facts(const study::AccuracyStudy& st
                             machine.compiler + ", " + machine.build + "; one thread, " +
                             std::to_string(study.timing.rounds) + " rounds"},
             {"clock", clock}};
+}
+
+/// One line for who reads no table: what exact answers cost, and what is cheaper and nearly right.
+std::string recommendation(const study::AccuracyStudy& study) {
+    const auto geometry = std::ranges::find(study.ladders, "geometry", &Ladder::name);
+    if (geometry == study.ladders.end() || geometry->rungs.empty()) {
+        return "In short: climb the ladder 'geometry' to see what exact answers cost.";
+    }
+    constexpr double kNearlyRight = 0.01;
+    const Rung& exact = geometry->rungs.back();
+    const Rung* cheaper = nullptr;
+    for (const Rung& rung : geometry->rungs) {
+        const bool is_right = rung.error && *rung.error <= kNearlyRight;
+        if (!is_right || rung.time.median_s >= exact.time.median_s) continue;
+        if (!cheaper || rung.time.median_s < cheaper->time.median_s) cheaper = &rung;
+    }
+    const std::string cost = "In short: exact answers take " + in_time(exact.time.median_s);
+    if (cheaper == nullptr) {
+        return cost + "; ask exactly, for nothing cheaper errs at less than 1 % of the poses.";
+    }
+    return cost + "; " + cheaper->name + " takes " + in_time(cheaper->time.median_s) +
+           " and errs at " + in_three_digits(100 * *cheaper->error) + " % of the poses.";
 }
 
 std::string accuracy_text(const AccuracyReport& report) {
@@ -426,6 +458,7 @@ std::string accuracy_text(const AccuracyReport& report) {
     for (const Ladder& ladder : report.study.ladders) text += ladder_text(ladder);
     text += "\nwhat the next digit costs, along the rungs that no other beats\n" +
             aligned(next_digit_table(report.study.ladders));
+    text += "\n" + recommendation(report.study) + "\n";
     text += "\n" + in_time(report.study.seconds) + " in all\n";
     for (const std::string& sentence : report.study.broken) {
         text += "BROKEN PROMISE: " + sentence + "\n";

@@ -6,6 +6,7 @@
 
 #include "report/fixed.h"
 #include "report/place_text.h"
+#include "report/printable.h"
 
 namespace cdprep::report {
 namespace {
@@ -46,11 +47,11 @@ nlohmann::ordered_json to_json(const BakeReport& report) {
 
 std::string bake_text(const BakeReport& report, Timings timings) {
     const char* const closed = report.triangles == 0 ? "empty" : report.closed ? "closed" : "open";
-    std::string text = report.output + ": " + counted(report.triangles, "triangle", "triangles") +
-                       ", " + counted(report.vertices, "vertex", "vertices") + ", " + closed +
-                       ", " + (report.single_precision ? "f32" : "f64") + ", " +
-                       counted(report.bytes, "byte", "bytes") + ", " + fixed(report.seconds, 3) +
-                       " s\n";
+    std::string text =
+        printable(report.output) + ": " + counted(report.triangles, "triangle", "triangles") +
+        ", " + counted(report.vertices, "vertex", "vertices") + ", " + closed + ", " +
+        (report.single_precision ? "f32" : "f64") + ", " + counted(report.bytes, "byte", "bytes") +
+        ", " + fixed(report.seconds, 3) + " s\n";
     if (report.warnings > 0) {
         text += "  " + std::to_string(report.warnings) +
                 (report.warnings == 1 ? " rule finds" : " rules find") +

@@ -226,6 +226,20 @@ std::string table_text(const Table& table) {
     return text;
 }
 
+/// What a reader of the last lines wants to know.
+std::string summary_text(const Comparison& comparison) {
+    const auto count = [&](study::Verdict verdict, bool is_promise) {
+        return std::to_string(std::ranges::count_if(comparison.checks, [&](const auto& check) {
+            return check.verdict == verdict && check.is_promise == is_promise;
+        }));
+    };
+    using enum study::Verdict;
+    return "\nIn short: of what was published " + count(holds, false) + " claims hold here, " +
+           count(fails, false) + " do not and " + count(not_asked, false) +
+           " were not asked; of what this library promises " + count(holds, true) + " hold and " +
+           count(fails, true) + " fail.\n";
+}
+
 std::string checks_text(const Comparison& comparison) {
     std::string text = "\nWhat was published of the order of strategies, and what must hold\n";
     std::size_t failed = 0;
@@ -427,6 +441,10 @@ std::vector<std::string> provenance_lines(const Comparison& comparison) {
                                 : "Poses of " + settings.poses) +
             "; " + medians_of(settings.rounds) + "; one thread unless it says all, which are " +
             std::to_string(settings.threads) + (settings.quick ? "; --quick" : "")};
+    lines.emplace_back(
+        "Published: tables 1 to 4 of 'A comparative study of implemented collision detection "
+        "strategies'; the talk 'Some techniques to speed up collision detection' (Y. Ponce "
+        "Atencio)");
     for (const study::ComparedModel& model : comparison.models) {
         lines.push_back(
             model.name + " (" + model.file + "): " + std::to_string(model.read_vertices) +
@@ -462,7 +480,7 @@ std::string comparison_text(const Comparison& comparison) {
     if (!comparison.checks.empty()) text += checks_text(comparison);
     text += "\nErrata of the papers\n";
     for (const std::string& erratum : comparison.errata) text += "  " + erratum + '\n';
-    return text;
+    return text + summary_text(comparison);
 }
 
 std::string comparison_json(const ComparisonReport& report) {

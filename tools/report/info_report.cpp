@@ -9,6 +9,7 @@
 #include "report/baked_hulls.h"
 #include "report/bounds_name.h"
 #include "report/place_text.h"
+#include "report/printable.h"
 #include "report/space_name.h"
 #include "report/structure_report.h"
 #include "report/verdict_words.h"
@@ -84,8 +85,8 @@ std::string mesh_text(const Model& model) {
 
 std::string info_text(const std::string& file, const Model& model,
                       std::span<const format::SectionEntry> sections) {
-    std::string text = file + ": format " + std::to_string(model.header().version) + ", " +
-                       counted(model.triangle_count(), "triangle", "triangles") + ", " +
+    std::string text = printable(file) + ": format " + std::to_string(model.header().version) +
+                       ", " + counted(model.triangle_count(), "triangle", "triangles") + ", " +
                        counted(model.vertex_count(), "vertex", "vertices") + ", " +
                        counted(model.record().components.size(), "component", "components") + "\n";
     text += "unit: " + unit_name(model.header().metres_per_unit) +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/repair_report.h"
 #include "report/place_text.h"
+#include "report/printable.h"
 
 #include <array>
 #include <cstdio>
@@ -199,8 +200,9 @@ void add_origins(Json& json, const char* source, const char* step,
 std::string repair_text(const RepairFileReport& report, std::size_t most_refusals) {
     const mesh::RepairReport& repair = report.repair;
     const mesh::RepairCounts& counts = repair.counts;
-    std::string text = report.output + ": " + counted(report.triangles, "triangle", "triangles") +
-                       ", " + counted(report.vertices, "vertex", "vertices") + ", " +
+    std::string text = printable(report.output) + ": " +
+                       counted(report.triangles, "triangle", "triangles") + ", " +
+                       counted(report.vertices, "vertex", "vertices") + ", " +
                        number(report.seconds, "%.3f") + " s\n";
     text += "  before: " + verdict_line(repair.before, report.crossing_before) + "\n";
     text += "  after:  " + verdict_line(repair.after, report.crossing_after) + "\n";
