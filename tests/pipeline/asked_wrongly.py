@@ -192,6 +192,13 @@ def main():
     must(done.returncode == 0 and json.loads(done.stdout.decode("utf-8", "replace")),
          f"a name that is not UTF-8: {done}")
 
+    # Who reads only the start of an answer needs no complaint.
+    reader = subprocess.Popen(["true"], stdin=subprocess.PIPE)
+    reader.wait()
+    done = subprocess.run([program, "info", str(model)], stdout=reader.stdin,
+                          stderr=subprocess.PIPE)
+    must(done.returncode == 130 and not done.stderr, f"a closed pipe exited {done}")
+
     # Answers that nobody can take.
     with open("/dev/full", "w") as full:
         done = subprocess.run([program, *map(str, pair)], stdout=full, stderr=subprocess.PIPE)

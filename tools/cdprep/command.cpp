@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "interrupt.h"
 #include "report/printable.h"
 #include "usage.h"
 
@@ -32,6 +33,7 @@ Exit exit_for(ErrorCode code) {
 }
 
 Exit fail(const char* command, const Error& error) {
+    if (is_output_closed()) return Exit::interrupted;
     std::cerr << "cdprep " << command << ": " << report::printable(error.message) << '\n';
     return exit_for(error.code);
 }

@@ -9,10 +9,12 @@ namespace {
 
 // Set by a signal, read by every thread: without a lock a signal may touch it.
 std::atomic<bool> has_signal = false;
+std::atomic<bool> has_closed_pipe = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 /// Nobody reads what we write: as if the person had stopped us, but however often.
 void on_closed_pipe(int) {
+    has_closed_pipe = true;
     has_signal = true;
 }
 
@@ -36,6 +38,10 @@ void watch_for_interrupts() {
 
 bool is_interrupted() {
     return has_signal;
+}
+
+bool is_output_closed() {
+    return has_closed_pipe;
 }
 
 Error interrupted(const std::filesystem::path& input) {

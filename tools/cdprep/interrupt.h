@@ -14,6 +14,9 @@ void watch_for_interrupts();
 
 [[nodiscard]] bool is_interrupted();
 
+/// Whether who read our output has ended, as `head` does: then there is nobody to complain to.
+[[nodiscard]] bool is_output_closed();
+
 /// Why nothing came of an input after that.
 [[nodiscard]] Error interrupted(const std::filesystem::path& input);
 

@@ -48,7 +48,9 @@ Exit run(int argc, char** argv) {
         return Exit::success;
     }
     if (is_interrupted()) exit = Exit::interrupted;
-    if (exit == Exit::success && !std::cout.flush()) {
+    const bool is_written = static_cast<bool>(std::cout.flush());
+    if (is_output_closed()) return Exit::interrupted;
+    if (exit == Exit::success && !is_written) {
         std::cerr << "cdprep: standard output takes no more; the result is not complete.\n";
         exit = Exit::unwritable;
     }
