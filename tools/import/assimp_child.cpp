@@ -239,6 +239,9 @@ Result<mesh::TriangleSoup> take_result(const SourceFile& file, std::span<const s
 Result<mesh::TriangleSoup> import_in_child(const SourceFile& file,
                                            const std::filesystem::path& path,
                                            const ImportOptions& options) {
+    if (const std::string outside = find_outside_reference(file.bytes()); !outside.empty()) {
+        return file.unreadable("refers to " + utf8_name(outside) + ", which is not read");
+    }
     const auto program = find_child_program();
     if (!program) {
         return file.unreadable(std::string("the program ") + kProgram +

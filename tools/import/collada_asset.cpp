@@ -26,6 +26,12 @@ double metres_of(std::string_view unit) {
     return 1;
 }
 
+constexpr std::size_t kLookedAt = 65536;  ///< the asset is the first element
+
+bool is_collada(std::string_view bytes) {
+    return bytes.substr(0, kLookedAt).find("<COLLADA") != std::string_view::npos;
+}
+
 format::UpAxis axis_named(std::string_view name) {
     if (name.find("X_UP") != std::string_view::npos) return format::UpAxis::x;
     return name.find("Z_UP") != std::string_view::npos ? format::UpAxis::z : format::UpAxis::y;
@@ -34,12 +40,27 @@ format::UpAxis axis_named(std::string_view name) {
 }  // namespace
 
 void add_collada_asset(std::string_view bytes, mesh::TriangleSoup& soup) {
-    constexpr std::size_t kLookedAt = 65536;  // the asset is the first element
+    if (!is_collada(bytes)) return;
     const std::string_view start = bytes.substr(0, kLookedAt);
-    if (start.find("<COLLADA") == std::string_view::npos) return;
     const std::string_view asset = start.substr(0, start.find("</asset>"));
     soup.metres_per_unit = metres_of(between(asset, "<unit", '>'));
     soup.up_axis = axis_named(between(asset, "<up_axis>", '<'));
+}
+
+std::string find_outside_reference(std::string_view bytes) {
+    if (!is_collada(bytes)) return {};
+    for (const std::string_view element :
+         {"<instance_geometry", "<instance_node", "<instance_controller"}) {
+        for (std::size_t at = bytes.find(element); at != std::string_view::npos;
+             at = bytes.find(element, at + 1)) {
+            const std::string_view tag = bytes.substr(at, bytes.find('>', at) - at);
+            for (const char quote : {'"', '\''}) {
+                const std::string_view url = between(tag, std::string("url=") + quote, quote);
+                if (!url.empty() && url.front() != '#') return std::string(url);
+            }
+        }
+    }
+    return {};
 }
 
 }  // namespace cdprep::import

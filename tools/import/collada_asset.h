@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "mesh/mesh.h"
@@ -11,5 +12,9 @@ namespace cdprep::import {
 /// to itself: <unit meter="..."> and <up_axis> of the document's <asset>; without
 /// them 1 m and Y, as the format says. Leaves other formats alone.
 void add_collada_asset(std::string_view bytes, mesh::TriangleSoup& soup);
+
+/// The first mesh or node that a COLLADA file takes from another file, "other.dae#arm": assimp
+/// leaves it out without a word. Empty where there is none, and for other files.
+[[nodiscard]] std::string find_outside_reference(std::string_view bytes);
 
 }  // namespace cdprep::import

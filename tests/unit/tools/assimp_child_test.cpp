@@ -297,6 +297,17 @@ TEST_F(AssimpChild, ColladaTellsUnitAndUpAxisAndIsNotTurned) {
     EXPECT_EQ(plain.value().positions[1], (Double3{1, 0, 0.25}));
 }
 
+TEST_F(AssimpChild, APartOfAnotherColladaFileIsNamed) {
+    std::string text = collada(1);
+    const std::string inside = R"(<instance_geometry url="#g"/>)";
+    text.insert(text.find(inside), R"(<instance_geometry url="arm.dae#g"/>)");
+    const auto result = import_file(write("a.dae", text));
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.error().code, ErrorCode::unreadable);
+    EXPECT_NE(result.error().message.find("arm.dae#g"), std::string::npos)
+        << result.error().message;
+}
+
 TEST_F(AssimpChild, TooLittleMemoryIsOverBudgetForAnHonestFile) {
     const std::filesystem::path path = write("a.dae", collada(200'000));
     ImportOptions options;
