@@ -192,6 +192,11 @@ def main():
     must(done.returncode == 0 and json.loads(done.stdout.decode("utf-8", "replace")),
          f"a name that is not UTF-8: {done}")
 
+    # Colours where they are asked for, and nowhere else.
+    for choice, has_colours in (("always", True), ("never", False), ("auto", False)):
+        said = run(program, "validate", folder / "sheet.off", "--color", choice).stdout
+        must(("\x1b[" in said) == has_colours, f"--color {choice}: {said!r}")
+
     # Who reads only the start of an answer needs no complaint.
     reader = subprocess.Popen(["true"], stdin=subprocess.PIPE)
     reader.wait()

@@ -3,9 +3,9 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
 #include <iostream>
 
+#include "colour.h"
 #include "program_threads.h"
 #include "quiet.h"
 
@@ -14,12 +14,6 @@ namespace {
 
 constexpr std::size_t kBarWidth = 24;   ///< columns
 constexpr std::size_t kTextWidth = 48;  ///< columns for what is being done
-
-/// NO_COLOR asks for plain output; a bar without colour is fine.
-bool colours_allowed() {
-    const char* no_color = std::getenv("NO_COLOR");  // NOLINT(concurrency-mt-unsafe)
-    return no_color == nullptr || *no_color == '\0';
-}
 
 std::string shortened(const std::string& text) {
     if (text.size() <= kTextWidth) return text;

@@ -13,6 +13,7 @@
 #include <set>
 #include <string>
 
+#include "colour.h"
 #include "command.h"
 #include "import_arguments.h"
 #include "input_list.h"
@@ -49,6 +50,7 @@ struct Arguments {
     fs::path baseline;
     std::string format = "text";
     std::string progress = "auto";
+    std::string colour = "auto";
     std::vector<std::string> rules;
     std::vector<std::string> fail_on;
     std::optional<std::size_t> max_issues;
@@ -220,6 +222,7 @@ Result<Done> settle(Arguments& arguments) {
     run.weld_distance = defects.weld_distance;
     run.seam_width = defects.seam_width;
     run.crossings = defects.crossings;
+    run.coloured = arguments.output.empty() && is_coloured(arguments.colour);
     arguments.options.import = arguments.import.options();
     return Done{};
 }
@@ -316,6 +319,7 @@ void add_validate(CLI::App& app, Exit& exit) {
     add_jobs(*command, arguments->threads);
     command->add_flag("--timings", arguments->options.run.timings, "Report how long stages took");
     add_progress(*command, arguments->progress);
+    add_colour(*command, arguments->colour);
     add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

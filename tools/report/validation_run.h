@@ -21,7 +21,8 @@ struct ValidationRun {
     double weld_distance = 0;      ///< model units
     double seam_width = 0;         ///< model units
     bool crossings = true;
-    bool timings = false;  ///< show how long each file took; without, equal runs write equal bytes
+    bool coloured = false;  ///< text, by the codes of terminals
+    bool timings = false;   ///< show how long each file took; without, equal runs write equal bytes
 };
 
 /// Sums over the files of a run. With a baseline, findings are the new ones.

@@ -14,20 +14,33 @@ namespace {
 
 constexpr std::size_t kMostNumbers = 8;  ///< of triangles or vertices in a line
 
+enum class Colour : std::uint8_t { red = 31, green = 32, yellow = 33, cyan = 36 };
+
+std::string painted(const std::string& text, Colour colour, const ValidationRun& run) {
+    if (!run.coloured) return text;
+    return "\x1b[" + std::to_string(static_cast<int>(colour)) + "m" + text + "\x1b[0m";
+}
+
+Colour colour_of(mesh::Severity severity) {
+    if (severity == mesh::Severity::error) return Colour::red;
+    return severity == mesh::Severity::warning ? Colour::yellow : Colour::cyan;
+}
+
 std::string findings_text(std::uint64_t errors, std::uint64_t warnings, std::uint64_t notes) {
     return counted(errors, "error", "errors") + ", " + counted(warnings, "warning", "warnings") +
            ", " + counted(notes, "note", "notes");
 }
 
 /// "  warning CDP0301 Edge with one triangle: 12 (boundary-edge)".
-std::string finding_line(const mesh::Finding& finding, const Judgement& judgement, bool compared) {
+std::string finding_line(const mesh::Finding& finding, const Judgement& judgement,
+                         const ValidationRun& run) {
     const mesh::RuleText& rule = mesh::text_of(finding.rule);
     std::string severity = severity_name(judgement.severity);
     severity.resize(std::string_view("warning").size(), ' ');
     std::string count = std::to_string(judgement.fresh);
-    if (compared) count += " new of " + std::to_string(finding.count);
-    return "  " + severity + " " + mesh::id_of(finding.rule) + " " + rule.title + ": " + count +
-           " (" + rule.name + ")\n";
+    if (!run.baseline.empty()) count += " new of " + std::to_string(finding.count);
+    return "  " + painted(severity, colour_of(judgement.severity), run) + " " +
+           mesh::id_of(finding.rule) + " " + rule.title + ": " + count + " (" + rule.name + ")\n";
 }
 
 std::string verdict_lines(const ValidationReport& report, const ValidationRun& run) {
@@ -57,11 +70,13 @@ std::string timings_text(const ValidationReport& report) {
     return text + "\n";
 }
 
-std::string head_line(const ValidationReport& report) {
+std::string head_line(const ValidationReport& report, const ValidationRun& run) {
     ValidationTotals totals;
     totals.add(report);
     const bool is_clean = totals.errors == 0 && totals.warnings == 0;
-    const char* const word = report.exit != 0 ? "FAILED" : is_clean ? "passed" : "has findings";
+    const std::string word = report.exit != 0 ? painted("FAILED", Colour::red, run)
+                             : is_clean       ? painted("passed", Colour::green, run)
+                                              : painted("has findings", Colour::yellow, run);
     std::string text = printable(report.input) + ": " + word + ", " +
                        findings_text(totals.errors, totals.warnings, totals.notes);
     if (report.known > 0) text += ", besides " + std::to_string(report.known) + " known";
@@ -102,10 +117,9 @@ std::string validation_text(const ValidationReport& report, const ValidationRun&
     if (report.error) {
         return printable(report.input) + ": UNREADABLE\n  " + printable(*report.error) + "\n";
     }
-    std::string text = head_line(report);
+    std::string text = head_line(report, run);
     for (const std::size_t i : worst_first(report)) {
-        text +=
-            finding_line(report.defects.findings[i], report.judgements[i], !run.baseline.empty());
+        text += finding_line(report.defects.findings[i], report.judgements[i], run);
         const bool is_note = report.judgements[i].severity == mesh::Severity::note;
         if (!is_note) text += places_text(report, i, run.max_places, "    ");
     }
