@@ -192,6 +192,16 @@ def main():
     must(done.returncode == 0 and json.loads(done.stdout.decode("utf-8", "replace")),
          f"a name that is not UTF-8: {done}")
 
+    # Options from a file, which must be known too.
+    settings = folder / "settings.toml"
+    for text, code, words in (("[bake]\nunit = 'mm'\n", 0, ""), ("[bake]\nunti = 'mm'\n", 2, "unti"),
+                              ("[bake]\nunit = 'yard'\n", 2, "mm, cm, m, in or ft")):
+        settings.write_text(text)
+        done = run(program, "--config", settings, "bake", folder / "sheet.off")
+        must(done.returncode == code and words in done.stderr, f"{text!r}: {done}")
+    said = json.loads(run(program, "info", model, "--format", "json").stdout)
+    must(said["metres_per_unit"] == 0.001, "an option of a file was not taken")
+
     # Colours where they are asked for, and nowhere else.
     for choice, has_colours in (("always", True), ("never", False), ("auto", False)):
         said = run(program, "validate", folder / "sheet.off", "--color", choice).stdout

@@ -31,9 +31,11 @@ Exit run(int argc, char** argv) {
     add_accuracy(app, exit);
     for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
         if (command->get_name() != "query") add_quiet(*command);
+        command->allow_config_extras(CLI::config_extras_mode::error);
     }
     app.set_config("--config", "",
                    "Read options from a TOML file: --jobs=2 of bake as bake.jobs=2");
+    app.allow_config_extras(CLI::config_extras_mode::error);
     watch_for_interrupts();
     watch_for_lost_pages();
     try {

@@ -35,10 +35,6 @@ ZipFile::ZipFile(const std::filesystem::path& path) {
     throw std::runtime_error("the archive cannot be opened: " + why);
 }
 
-bool ZipFile::contains(const std::string& name) const {
-    return ::zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_NOCASE) >= 0;
-}
-
 std::string ZipFile::read(const std::string& name) const {
     const zip_int64_t number = ::zip_name_locate(archive_.get(), name.c_str(), ZIP_FL_NOCASE);
     if (number < 0) throw std::runtime_error("its part " + name + " is missing");

@@ -15,8 +15,6 @@ public:
     /// Throws std::runtime_error with the reason when it is no archive.
     explicit ZipFile(const std::filesystem::path& path);
 
-    [[nodiscard]] bool contains(const std::string& name) const;
-
     /// The bytes of an entry, whose name is compared without regard to case. Throws
     /// std::runtime_error with the name when there is none, when it is encrypted or damaged, or
     /// when it claims to be larger than its packed bytes can be.
