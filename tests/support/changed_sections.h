@@ -37,6 +37,15 @@ template <class T>
     return changed;
 }
 
+/// The file with two elements of a section in each other's place, sealed again.
+template <class T>
+[[nodiscard]] AlignedBytes exchanged(const AlignedBytes& file, format::SectionId id,
+                                     std::uint64_t i, std::uint64_t j) {
+    const auto first = element<T>(file, id, i);
+    const auto second = element<T>(file, id, j);
+    return with(with(file, id, i * sizeof(T), second), id, j * sizeof(T), first);
+}
+
 /// The file after `change` of a section's bytes, or without the section when that returns false.
 template <class Change>
 [[nodiscard]] AlignedBytes with_changed(const AlignedBytes& file, format::SectionId id,

@@ -218,6 +218,17 @@ TEST(FindAdaptiveOctreeDamage, ReferencesRiseAndNameTriangles) {
     EXPECT_GT(swapped, 20U);
 }
 
+// Where each node's children and list begin follows from the nodes before it.
+TEST(FindAdaptiveOctreeDamage, NodesHaveOneOrder) {
+    const AlignedBytes file = soup_file();
+    const std::uint64_t nodes = entry_of(file, SectionId::adaptive_octree_nodes).count;
+    ASSERT_GT(nodes, 30U);
+    for (std::uint64_t i = 1; i < nodes; ++i) {
+        const std::array pair = {node_of(file, i), node_of(file, i - 1)};
+        EXPECT_NE(kind_of(with(file, node_place(file, i - 1), pair)), DamageKind{0}) << i;
+    }
+}
+
 TEST(FindAdaptiveOctreeDamage, CountsMustMatch) {
     const AlignedBytes file = soup_file();
     const FileHeader header = read_header(file.span());

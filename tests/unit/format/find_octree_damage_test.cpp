@@ -20,6 +20,7 @@ namespace {
 using test::AlignedBytes;
 using test::element;
 using test::entry_of;
+using test::exchanged;
 using test::with;
 
 constexpr std::array kIds = {SectionId::octree_grid,          SectionId::octree_nodes,
@@ -87,6 +88,45 @@ TEST(FindOctreeDamage, RefusesEveryOtherWordInNodesAndTables) {
             }
         }
     }
+}
+
+// Each code still belongs to its node: only their order is wrong, or one leaf is there twice.
+TEST(FindOctreeDamage, CodesOfLeavesRiseStrictly) {
+    const AlignedBytes file = small_octree();
+    const std::uint64_t leaves = entry_of(file, SectionId::octree_leaf_codes).count;
+    ASSERT_GT(leaves, 30U);
+    const auto expect_refused = [](const AlignedBytes& changed, std::uint64_t i) {
+        const auto damage = check(changed);
+        ASSERT_TRUE(damage) << i;
+        EXPECT_EQ(damage->kind, DamageKind::bad_order) << i;
+        EXPECT_EQ(damage->section, SectionId::octree_leaf_codes) << i;
+    };
+    for (std::uint64_t i = 1; i < leaves; ++i) {
+        const auto codes = exchanged<std::uint64_t>(file, SectionId::octree_leaf_codes, i - 1, i);
+        expect_refused(exchanged<std::uint32_t>(codes, SectionId::octree_leaf_nodes, i - 1, i), i);
+        const auto code = element<std::uint64_t>(file, SectionId::octree_leaf_codes, i - 1);
+        const auto node = element<std::uint32_t>(file, SectionId::octree_leaf_nodes, i - 1);
+        expect_refused(with(with(file, SectionId::octree_leaf_codes, 8 * i, code),
+                            SectionId::octree_leaf_nodes, 4 * i, node),
+                       i);
+    }
+}
+
+TEST(FindOctreeDamage, NodesAndReferencesHaveOneOrder) {
+    const AlignedBytes file = small_octree();
+    const std::uint64_t nodes = entry_of(file, SectionId::octree_nodes).count;
+    ASSERT_GT(nodes, 30U);
+    std::size_t lists = 0;
+    for (std::uint64_t i = 1; i < nodes; ++i) {
+        EXPECT_TRUE(check(exchanged<OctreeNode>(file, SectionId::octree_nodes, i - 1, i))) << i;
+        const auto node = element<OctreeNode>(file, SectionId::octree_nodes, i);
+        if ((node.count & kInnerNode) != 0 || node.count < 2) continue;
+        EXPECT_TRUE(check(exchanged<std::uint32_t>(file, SectionId::octree_references, node.first,
+                                                   node.first + 1)))
+            << i;
+        ++lists;
+    }
+    EXPECT_GT(lists, 20U);
 }
 
 TEST(FindOctreeDamage, ReferencesAreOfTrianglesAndRise) {

@@ -19,6 +19,7 @@ namespace {
 using test::AlignedBytes;
 using test::element;
 using test::entry_of;
+using test::exchanged;
 using test::with;
 
 AlignedBytes baked(const test::TestMesh& mesh, const build::TetraTreeOptions& options) {
@@ -96,6 +97,31 @@ TEST(FindTetraDamage, RefusesEveryOtherWordInNodesAndTable) {
             }
         }
     }
+}
+
+TEST(FindTetraDamage, NodesTableAndReferencesHaveOneOrder) {
+    const AlignedBytes file = small_tree();
+    const std::uint64_t nodes = entry_of(file, SectionId::tetra_nodes).count;
+    std::size_t lists = 0;
+    for (std::uint64_t i = 1; i < nodes; ++i) {
+        EXPECT_TRUE(check(exchanged<TetraNode>(file, SectionId::tetra_nodes, i - 1, i))) << i;
+        const auto node = element<TetraNode>(file, SectionId::tetra_nodes, i);
+        if (node.flags != 0 || node.count < 2) continue;
+        EXPECT_TRUE(check(exchanged<std::uint32_t>(file, SectionId::tetra_references, node.first,
+                                                   node.first + 1)))
+            << i;
+        ++lists;
+    }
+    EXPECT_GT(nodes, 30U);
+    EXPECT_GT(lists, 10U);
+    std::size_t places = 0;  // that differ from the one before
+    for (std::uint64_t i = 1; i < entry_of(file, SectionId::tetra_top).count; ++i) {
+        const auto now = element<std::uint32_t>(file, SectionId::tetra_top, i);
+        if (element<std::uint32_t>(file, SectionId::tetra_top, i - 1) == now) continue;
+        EXPECT_TRUE(check(exchanged<std::uint32_t>(file, SectionId::tetra_top, i - 1, i))) << i;
+        ++places;
+    }
+    EXPECT_GT(places, 10U);
 }
 
 TEST(FindTetraDamage, RadiiAreNumbersInOrder) {
