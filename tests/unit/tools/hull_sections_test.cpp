@@ -240,6 +240,48 @@ TEST(HullSections, BadNeighboursAndPointsAreRefused) {
     EXPECT_TRUE(is_refused(bad));
 }
 
+// A reach may be larger than the points ask for, up to the largest that finite points have.
+TEST(HullSections, AReachIsANumberUpToTheGreatest) {
+    constexpr double kMost = 4 * format::kMaxCoordinate;
+    const test::TestMesh mesh = test::icosphere(2);
+    const HullSections good = sections_of(mesh);
+    for (const auto axis : {&Double3::x, &Double3::y, &Double3::z}) {
+        const auto is_refused = [&](double reach) {
+            HullSections changed = good;
+            changed.hulls[0].reach.*axis = reach;
+            return format::find_damage(baked(mesh, changed).span()).has_value();
+        };
+        EXPECT_FALSE(is_refused(kMost));
+        EXPECT_TRUE(is_refused(std::nextafter(kMost, 2 * kMost)));
+        EXPECT_TRUE(is_refused(std::numeric_limits<double>::infinity()));
+        EXPECT_TRUE(is_refused(std::numeric_limits<double>::quiet_NaN()));
+        EXPECT_TRUE(is_refused(std::nextafter(good.hulls[0].reach.*axis, 0)));
+    }
+}
+
+/// How often the file with two neighbours of a list exchanged is accepted.
+template <class T>
+std::size_t accepted_orders(const test::TestMesh& mesh, const HullSections& good,
+                            std::vector<T> HullSections::*list) {
+    std::size_t accepted = 0;
+    for (std::size_t i = 1; i < (good.*list).size(); ++i) {
+        HullSections changed = good;
+        std::swap((changed.*list)[i - 1], (changed.*list)[i]);
+        accepted += format::find_damage(baked(mesh, changed).span()) ? 0 : 1;
+    }
+    return accepted;
+}
+
+TEST(HullSections, HullsFacetsAndGroupsHaveOneOrder) {
+    const test::TestMesh mesh = two_of(test::icosphere(2), 3);
+    const HullSections good = sections_of(mesh);
+    ASSERT_EQ(good.hulls.size(), 3U);
+    ASSERT_GT(good.groups.size(), 100U);
+    EXPECT_EQ(accepted_orders(mesh, good, &HullSections::hulls), 0U);
+    EXPECT_EQ(accepted_orders(mesh, good, &HullSections::facets), 0U);
+    EXPECT_EQ(accepted_orders(mesh, good, &HullSections::groups), 0U);
+}
+
 TEST(HullSections, AMissingPartIsRefused) {
     const test::TestMesh mesh = test::unit_cube();
     const HullSections hulls = sections_of(mesh);
