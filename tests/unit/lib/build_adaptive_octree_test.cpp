@@ -335,6 +335,14 @@ TEST(BuildAdaptiveOctree, TreesEndBeforeTheyFillTheMemory) {
     EXPECT_GT(tree.references.size(), most / 16);
 }
 
+// Beyond what is free of charge, each triangle has its share.
+TEST(BuildAdaptiveOctree, ManyTrianglesHaveRoomForManyReferences) {
+    const TestMesh mesh = test::random_soup(6, 100'000, 0.27);
+    const AdaptiveOctree tree = tree_of(mesh, 6, 2, SplitRule::median);
+    EXPECT_GT(tree.references.size(), kMostFreeReferences + kMostReferencesPerTriangle + 100'000);
+    EXPECT_LE(tree.references.size(), kMostFreeReferences + kMostReferencesPerTriangle * 100'000);
+}
+
 template <class T>
 bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() &&

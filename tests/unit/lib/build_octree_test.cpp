@@ -328,6 +328,17 @@ TEST(BuildOctree, GrowsNoLargerThanItSays) {
     EXPECT_LT(level_of(octree.nodes.back().key), 21U);
 }
 
+// Beyond what is free of charge, each triangle has its share.
+TEST(BuildOctree, ManyTrianglesHaveRoomForManyReferences) {
+    const TestMesh mesh = random_soup(6, 100'000, 0.27);
+    const Octree octree =
+        build_octree(mesh.positions, mesh.triangles, {.level = 6, .hashed = false});
+    const std::size_t share = build::kMostReferencesPerTriangle;
+    EXPECT_GT(octree.references.size(), build::kMostFreeReferences + share + 100'000);
+    EXPECT_LE(octree.references.size(), build::kMostFreeReferences + share * 100'000);
+    EXPECT_EQ(level_of(octree.nodes.back().key), 6U);
+}
+
 // --- What finds cells ------------------------------------------------------------
 
 std::vector<TestMesh> hashed_meshes() {

@@ -670,5 +670,15 @@ TEST(BuildTetraTree, DoesNotOutgrowItsLimit) {
     }
 }
 
+// Beyond what is free of charge, each triangle has its share.
+TEST(BuildTetraTree, ManyTrianglesHaveRoomForManyReferences) {
+    const TestMesh mesh = random_soup(6, 100'000, 0.2);
+    const TetraTree tree = tree_of(mesh, {.level = 6});
+    const std::size_t share = build::kMostReferencesPerTriangle;
+    EXPECT_GT(tree.references.size(), build::kMostFreeReferences + share + 100'000);
+    EXPECT_LE(tree.references.size(), build::kMostFreeReferences + share * 100'000);
+    EXPECT_EQ(tetra_level(tree.nodes.back().key), 6U);
+}
+
 }  // namespace
 }  // namespace cdprep::test
