@@ -14,6 +14,8 @@
 #include "support/placements.h"
 #include "support/random_pose.h"
 
+#include "triangle_distance.h"
+
 namespace cdprep::test {
 namespace {
 
@@ -86,6 +88,52 @@ TEST(DistanceLaws, TheIntervalHoldsTheTruthAndIsNarrow) {
     }
     EXPECT_GT(apart, kRounds / 2);
     EXPECT_LT(apart, kRounds * 19 / 20);
+}
+
+/// A long thin triangle at about this height: rounding is of its length, not of the distance.
+TestMesh sliver(std::mt19937& random, double gap) {
+    std::uniform_real_distribution<double> fine(-1, 1);
+    const double y = fine(random), z = gap + 0.1 * gap * fine(random);
+    return {{{-1, -1 + 1e-3 * fine(random), z + gap * 1e-3 * fine(random)},
+             {1, 1e-3 * fine(random) + 1, z + gap * 1e-3 * fine(random)},
+             {1e-3 * y, 1e-3 * fine(random), z}},
+            {{{0, 1, 2}}}};
+}
+
+// Two contenders: a sliver, and a plain triangle whose distance is known exactly and lies between
+// the sliver's truth and its upper bound. The plain one answers; the lower bound is the sliver's.
+TEST(DistanceLaws, TheLowerBoundIsTheLeastOfAllContenders) {
+    std::mt19937 random(20261122);
+    int different = 0, decisive = 0;
+    for (int round = 0; round < 2000; ++round) {
+        TestMesh a = sliver(random, 0), b = sliver(random, 0x1p-5);
+        for (Double3& p : b.positions) p.x = -p.x;
+        const Corners sliver_a = corners_of(a, 0, nullptr), sliver_b = corners_of(b, 0, nullptr);
+        const TriangleDistance wide = triangle_distance(sliver_a, sliver_b, true);
+        const ExactRational truth = exact_squared_distance(sliver_a, sliver_b);
+        const auto near = static_cast<double>(std::sqrt(truth.approximation()));
+        const double height = near + (wide.upper - near) / 2;
+        if (!(truth < square(height)) || !(height < wide.upper)) continue;
+        a = joined(a, {{{4, 0, 0}, {4 + 0x1p-5, 0, 0}, {4, 0x1p-5, 0}}, {{{0, 1, 2}}}});
+        b = joined(b, {{{4 + 0x1p-7, 0x1p-7, height}, {4 + 0x1p-5, 0, 0x1p-4}, {4, 0x1p-5, 0x1p-4}},
+                       {{{0, 1, 2}}}});
+        const TriangleDistance plain =
+            triangle_distance(corners_of(a, 1, nullptr), corners_of(b, 1, nullptr), true);
+        const OpenModel model_a = open_tiny(a, {.double_precision = true});
+        const OpenModel model_b = open_tiny(b, {.double_precision = true});
+        Workspace workspace;
+        const auto found =
+            distance({model_a.model, model_b.model, Placement::b_moves(Pose())}, workspace);
+        ASSERT_TRUE(found);
+        ASSERT_TRUE(square(found->lower) <= truth) << round;
+        ASSERT_TRUE(truth <= square(found->upper)) << round;
+        if (!(wide.lower < plain.lower && plain.upper < wide.upper)) continue;
+        ++different;
+        EXPECT_EQ(found->triangle_a, 1U) << round;
+        decisive += truth < square(plain.lower) ? 1 : 0;
+    }
+    EXPECT_GT(different, 500);
+    EXPECT_GT(decisive, 200);
 }
 
 TEST(DistanceLaws, PermittedErrorsAreKept) {
