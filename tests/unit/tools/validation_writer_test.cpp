@@ -180,6 +180,21 @@ TEST(ValidationJson, BoundsTheNumbersOfAPlace) {
     EXPECT_TRUE(holds(text, "\"nodes\":[\"root/arm\",\"root/hand\"]"));
 }
 
+// A rule of a newer program is as if it were not there; the others are known.
+TEST(Baseline, PassesOverARuleThatItDoesNotKnow) {
+    std::string text = written(ValidationFormat::json, run_of(), {with_a_hole()});
+    const std::string rule = mesh::id_of(Rule::boundary_edge);
+    const std::size_t at = text.find(rule);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, rule.size(), "CDP9999");
+    const Result<Baseline> baseline = Baseline::parse(text, "newer.json");
+    ASSERT_TRUE(baseline) << baseline.error().message;
+    const KnownMesh* mesh = baseline.value().find("in%20%3Cput%3E%20%26%20%22co%22.obj");
+    ASSERT_NE(mesh, nullptr);
+    EXPECT_EQ(mesh->findings.size(), 1U);
+    EXPECT_EQ(mesh->findings.count(Rule::boundary_loop), 1U);
+}
+
 TEST(Baseline, RefusesWhatIsNoReport) {
     for (const char* text :
          {"", "{", "7", "[]", "null", "{}", R"({"report": 1})", R"({"report": "cdprep-validate"})",
