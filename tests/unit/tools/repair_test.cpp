@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/cut_crossings.h"
 #include "mesh/mesh_meetings.h"
 #include "unit/tools/soup_of.h"
 
@@ -337,6 +338,29 @@ TEST(Repair, CrossingCubesBecomeTheirUnion) {
     EXPECT_EQ(mended.report.after.verdict.volume, 1.875);
     EXPECT_EQ(mended.report.after.components, 1U);
     EXPECT_TRUE(find_meetings(mended.mesh, serial_for).empty());
+}
+
+// By hand: one triangle stands with a corner on the other, which is cut into three there.
+TEST(CutCrossings, ATriangleThatIsMetButNotCutNamesNoStep) {
+    RepairMesh mesh;
+    mesh.positions = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {1, 1, 0}, {1, 1, 1}, {2, 1, 1}};
+    mesh.triangles = {{{0, 1, 2}}, {{3, 4, 5}}};
+    mesh.vertex_origin.resize(6);
+    mesh.triangle_origin = {{0, {}}, {1, {}}};
+    const CutMesh cut = cut_crossings(mesh, serial_for, {});
+    EXPECT_EQ(cut.failed, "");
+    EXPECT_FALSE(cut.left);
+    ASSERT_EQ(cut.mesh.triangle_origin.size(), 4U);
+    std::size_t pieces = 0;
+    for (const Origin& origin : cut.mesh.triangle_origin) {
+        if (origin.source == 1) {
+            EXPECT_FALSE(origin.step);
+        } else {
+            EXPECT_EQ(origin.step, RepairStep::resolve_self_intersections);
+            ++pieces;
+        }
+    }
+    EXPECT_EQ(pieces, 3U);
 }
 
 // Two unit cubes with half a face in common: in one plane, and no crossing at all.
