@@ -87,6 +87,21 @@ TEST(Contacts, CubeOnCubeHasFourPoints) {
     }
 }
 
+// By hand: all four corners of the square are equally deep, so the outline's first comes first;
+// the diagonal's other end is farthest from it; then come those to the left and to the right.
+TEST(Contacts, EqualCornersComeInTheOrderOfTheFace) {
+    const OpenModel cube = open_with_pieces(unit_cube());
+    const auto found = all_contacts(cube, cube, shifted({0, 0, 1}), 0.1);
+    ASSERT_EQ(found.size(), 1U);
+    ASSERT_EQ(found[0].point_count, 4U);
+    const std::array<Double3, 4> corners = {{{0, 0, 1}, {1, 1, 1}, {0, 1, 1}, {1, 0, 1}}};
+    for (std::size_t i = 0; i < 4; ++i) {
+        SCOPED_TRACE(i);
+        EXPECT_EQ(found[0].points[i].on_a, corners[i])
+            << found[0].points[i].on_a.x << " " << found[0].points[i].on_a.y;
+    }
+}
+
 TEST(Contacts, BeyondTheToleranceThereIsNone) {
     const OpenModel cube = open_with_pieces(unit_cube());
     EXPECT_EQ(all_contacts(cube, cube, shifted({0, 0, 1.25}), 0.25).size(), 1U);
