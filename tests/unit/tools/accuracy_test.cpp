@@ -19,13 +19,32 @@ const Rung& rung_of(const Ladder& ladder, const std::string& name) {
     return *at;
 }
 
+/// Shares of the work as they were told, one after the other.
+std::vector<double>& told() {
+    static std::vector<double> shares;
+    return shares;
+}
+
 /// One study serves all tests: it takes a second.
 const AccuracyStudy& studied() {
     static const AccuracyStudy study =
         study_accuracy(test::mesh_of(test::torus(1, 0.4, 24, 12)),
-                       test::mesh_of(test::icosphere(2)), {.is_quick = true, .seed = 7})
+                       test::mesh_of(test::icosphere(2)),
+                       {.is_quick = true,
+                        .seed = 7,
+                        .progress = [](double share,
+                                       const std::string& /*step*/) { told().push_back(share); }})
             .value();
     return study;
+}
+
+TEST(StudyAccuracy, ProgressRisesFromNothingToAllButTheLastStep) {
+    EXPECT_FALSE(studied().ladders.empty());
+    ASSERT_GT(told().size(), 10U);
+    EXPECT_EQ(told().front(), 0);
+    EXPECT_TRUE(std::ranges::is_sorted(told()));
+    EXPECT_GT(told().back(), 0.7);
+    EXPECT_LE(told().back(), 1);
 }
 
 // Promises are those of exact arithmetic; what they are of is asserted by judge_answers().
@@ -177,6 +196,16 @@ TEST(NextDigits, GoAlongTheFront) {
     EXPECT_EQ(steps[1].to, 0U);
     EXPECT_EQ(steps[1].time, 4);
     EXPECT_TRUE(std::isinf(steps[1].error));
+}
+
+// The clock may be too coarse for the quickest: nothing is a number of times slower than that.
+TEST(NextDigits, NoStepBeginsAtARungOfNoTime) {
+    Ladder ladder;
+    ladder.rungs = {rung_at("at once", 0, 0.5), rung_at("fine", 2, 0.005), rung_at("exact", 8, 0)};
+    const auto steps = report::next_digits(ladder);
+    ASSERT_EQ(steps.size(), 1U);
+    EXPECT_EQ(steps[0].from, 1U);
+    EXPECT_EQ(steps[0].to, 2U);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "cdprep/study/overlap_through.h"
 #include "study/pair_tables.h"
@@ -147,6 +149,33 @@ TEST(PairChecks, OneWrongAnswerBreaksThePromise) {
     EXPECT_EQ(promise().verdict, Verdict::holds);
     --studies[0].contenders.back().agreeing;
     EXPECT_EQ(promise().verdict, Verdict::fails);
+}
+
+// As quick as collide is no contradiction, and not even worth a word.
+TEST(PairChecks, OverlapMayTakeAsLongAsCollide) {
+    const Compared& all = compared();
+    std::vector<PairStudy> studies = all.studies;
+    const auto set_times = [&](double collide, double overlap) {
+        for (Contender& contender : studies[0].contenders) {
+            for (const auto& [asked, value] :
+                 {std::pair{Asked::collide, collide}, std::pair{Asked::overlap, overlap}}) {
+                auto& seconds = contender.timings[static_cast<std::size_t>(asked)].seconds;
+                for (std::vector<double>& rounds : seconds) {
+                    std::ranges::fill(rounds, value);
+                }
+            }
+        }
+    };
+    const auto check = [&] {
+        const std::vector<Check> checks = pair_checks(all.meshes, studies);
+        return *std::ranges::find_if(checks, [](const Check& c) {
+            return c.claim.find("overlap takes at least as long") != std::string::npos;
+        });
+    };
+    set_times(1, 1);
+    EXPECT_EQ(check().evidence, "by every strategy, deep and shallow");
+    set_times(1, std::nextafter(1, 0));
+    EXPECT_EQ(check().verdict, Verdict::fails);
 }
 
 // One large triangle through a small ball: no corner of it lies in a cell of the ball, so that

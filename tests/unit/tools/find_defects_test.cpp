@@ -441,6 +441,19 @@ TEST(FindDefects, SlitsOfOneLoopAreSeams) {
     EXPECT_EQ(report_of(slit).counts.near_seams, 0U);
 }
 
+// Around a slit's closed end, ends at most four widths apart along the loop are neighbours: here
+// the way is 2 + 1/8 + 2, of exact lengths. A width of 33/32 makes that the limit itself.
+TEST(FindDefects, EndsFourWidthsApartAlongTheLoopAreNeighbours) {
+    test::TestMesh slit;
+    slit.positions = {{-2, 0, 0},    {0, 0, 0},     {2, 0, 0}, {2, -4, 0}, {-2, -4, 0},
+                      {0, 0.125, 0}, {2, 0.125, 0}, {2, 4, 0}, {-2, 4, 0}};
+    slit.triangles = {{{0, 4, 1}}, {{1, 4, 3}}, {{1, 3, 2}}, {{0, 1, 5}},
+                      {{0, 5, 8}}, {{5, 7, 8}}, {{5, 6, 7}}};
+    const double limit = 4.125 / 4;
+    EXPECT_EQ(report_of(slit, {.seam_width = limit}).counts.near_seams, 0U);
+    EXPECT_GT(report_of(slit, {.seam_width = std::nextafter(limit, 0)}).counts.near_seams, 0U);
+}
+
 TEST(FindDefects, NearVerticesAreThoseThatWeldingWouldJoin) {
     const test::TestMesh mesh = test::random_soup(5, 60, 0.5);
     const DefectReport report = report_of(mesh, {.weld_distance = 0.3, .crossings = false});

@@ -85,6 +85,17 @@ TEST(ReadStl, ABinaryCountThatDisagreesWithTheLengthIsUnreadable) {
               "the file has 134.");
 }
 
+// Three positions of doubles and a triangle each: 84 bytes.
+TEST(ReadStl, MemoryMayBeAllThatIsAllowed) {
+    ImportOptions options;
+    options.memory_bytes = std::size_t{84} * 5;
+    EXPECT_TRUE(read(binary(5, 5), options));
+    --options.memory_bytes;
+    const auto refused = read(binary(5, 5), options);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::over_budget);
+}
+
 TEST(ReadStl, NonFiniteBinaryCoordinatesAreData) {
     std::string bytes = binary(2, 2);
     const float bad = NAN;
