@@ -337,6 +337,33 @@ TEST(ApproximatePieces, WithoutWorkAreLooserAndSaySo) {
     EXPECT_EQ(found.proof.outside, 0u);
 }
 
+// Powers of two change no bit but those of exponents.
+TEST(ApproximatePieces, ScaleWithTheModel) {
+    const test::TestMesh knot = test::trefoil_tube();
+    for (const std::size_t parts : {3U, 6U, 12U}) {
+        ApproximateOptions options;
+        options.parts = parts;
+        options.work = 30'000'000;
+        const ApproximatePieces plain = find_approximate_pieces(mesh_of(knot), options);
+        ASSERT_GT(plain.pieces.size(), 1U);
+        for (const double scale : {0x1p-9, 0x1p9}) {
+            const ApproximatePieces scaled =
+                find_approximate_pieces(mesh_of(test::moved_by(knot, scale, {})), options);
+            ASSERT_EQ(scaled.pieces.size(), plain.pieces.size()) << parts << " " << scale;
+            EXPECT_EQ(scaled.outer_error, scale * plain.outer_error);
+            for (std::size_t i = 0; i < plain.pieces.size(); ++i) {
+                const auto& points = plain.pieces[i].hull.points;
+                ASSERT_EQ(scaled.pieces[i].hull.points.size(), points.size());
+                for (std::size_t k = 0; k < points.size(); ++k) {
+                    const Double3 p = {scale * points[k].x, scale * points[k].y,
+                                       scale * points[k].z};
+                    EXPECT_EQ(scaled.pieces[i].hull.points[k], p);
+                }
+            }
+        }
+    }
+}
+
 // However small the error: fields of distances, cells and searches are bounded by the work
 // too, of which the tasks handed out are a measure. A field for this error alone is ten
 // thousand.
