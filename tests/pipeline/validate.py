@@ -399,6 +399,17 @@ def test_ends(validate):
         done = subprocess.run([validate.program, "validate", "bad"], cwd=validate.folder,
                               stdout=full, stderr=subprocess.PIPE, text=True)
     must(done.returncode == 4 and "standard output" in done.stderr, f"a full stdout: {done}")
+    # What comes after the first mesh is not tried again, nor told of again.
+    many = validate.folder / "many"
+    many.mkdir()
+    for number in range(40):
+        shutil.copy(validate.folder / "bad/open.obj", many / f"{number}.obj")
+    for form in ("text", "json", "ndjson", "sarif"):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([validate.program, "validate", many, "--format", form],
+                                  stdout=full, stderr=subprocess.PIPE, text=True)
+        must(done.returncode == 4 and len(done.stderr.splitlines()) == 1,
+             f"a full stdout of {form}, more than one sentence: {done}")
     write_obj(validate.folder / "long.obj", *grid(500))
     going = subprocess.Popen([validate.program, "validate", "long.obj", "aslow.obj", "-j", "1",
                               "--progress", "plain", "-o", "kept"], cwd=validate.folder,
