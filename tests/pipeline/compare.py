@@ -296,9 +296,14 @@ def check_interrupt(program, meshes, folder):
     inside = folder / "stopped"
     inside.mkdir()
     started = subprocess.Popen([program, "compare", str(meshes / "bracket.obj"), "--rounds", "1000",
-                                "--per-stratum", "200", "-o", str(inside / "out.txt")],
+                                "--per-stratum", "200", "--progress", "plain",
+                                "-o", str(inside / "out.txt")],
                                stderr=subprocess.PIPE, text=True)
+    # It has begun to measure, and has more to measure than it could in this time.
+    begun = started.stderr.readline()
+    assert begun and started.poll() is None, begun
     time.sleep(1)
+    assert started.poll() is None, "over before it was stopped"
     started.send_signal(signal.SIGINT)
     _, said = started.communicate(timeout=120)
     assert started.returncode == 130, (started.returncode, said)

@@ -65,8 +65,21 @@ def main():
         bake(program, old_mesh, "-o", output)  # removes what the killed one left
         stray = [path.name for path in output.parent.iterdir() if path != output]
         must(not stray, f"round {round_number}: stray files {stray}")
+    # As late as it takes for the new file to be there, and no later.
+    late = 1.0
+    while seen[new] == 0 and late < 100:
+        child = subprocess.Popen([program, "bake", new_mesh, "-o", output],
+                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(late * whole)
+        child.send_signal(signal.SIGKILL)
+        child.wait()
+        now = digest(output)
+        must(now in seen, "killed late: neither the old file nor the new one")
+        seen[now] += 1
+        late *= 1.2
     print(f"{rounds} kills: {seen[old]} left the old file, {seen[new]} the new one, no strays")
     must(seen[old] > 0, "no kill came before the end")
+    must(seen[new] > 0, "no kill came after the new file was there")
 
 
 if __name__ == "__main__":
