@@ -190,6 +190,23 @@ TEST(HashedOverlapDeathTest, StopsWhereAModelWasNotBakedForIt) {
 }
 
 // By the meaning of the counts.
+// By hand: two triangles that cross, each in the one cell of its octree.
+TEST(HashedOverlap, TheWorkOfOnePairIsCountedExactly) {
+    const TwoModels models(one_triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}),
+                           one_triangle({1, 1, -1}, {1, 1, 1}, {2, 1, 1}), {.level = 0});
+    Workspace workspace;
+    QueryCounts counts;
+    workspace.count_into(&counts);
+    const Pair pair = {models.a.model, models.b.model, kAsTheyAre};
+    const StructureOptions through = {.structure = Structure::hashed_octree};
+    ASSERT_EQ(overlaps_through(pair, through, workspace, {}), 1U);
+    EXPECT_EQ(counts.potential, 8U);  // a leaf's lanes, one of them used
+    EXPECT_EQ(counts.cells_sought, 1U);
+    EXPECT_EQ(counts.references, 1U);
+    EXPECT_EQ(counts.leaf_pairs, 1U);
+    EXPECT_EQ(counts.triangle_pairs, 1U);
+}
+
 TEST(HashedOverlap, QuestionsAreCounted) {
     const TwoModels models(icosphere(3), icosphere(2), {.level = 4, .threshold = 8});
     const Placement placement =
