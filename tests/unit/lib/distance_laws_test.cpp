@@ -189,11 +189,16 @@ TEST(DistanceLaws, PermittedErrorsSaveWork) {
 
 TEST(DistanceLaws, WithinAgreesWithTheDistance) {
     std::mt19937 random(3);
+    int apart = 0;
     for (int round = 0; round < 300; ++round) {
         const Case c = random_case(random, round);
         const OpenModel a = open_tiny(c.a), b = open_tiny(c.b);
         Workspace workspace;
         const auto found = distance({a.model, b.model, c.placement}, workspace);
+        // The oracle: all pairs in rational numbers.
+        const ExactRational truth = brute_force_distance(c.a, c.b, c.placement);
+        ASSERT_TRUE(square(found->lower) <= truth && truth <= square(found->upper)) << round;
+        EXPECT_EQ(found->lower > 0, truth.sign() != 0) << round;
         const auto near_enough = [&](double d) {
             return within({a.model, b.model, c.placement}, d, workspace);
         };
@@ -203,6 +208,7 @@ TEST(DistanceLaws, WithinAgreesWithTheDistance) {
         EXPECT_FALSE(near_enough(-1));
         EXPECT_FALSE(near_enough(std::nan("")));
         if (found->lower > 0) {
+            ++apart;
             EXPECT_FALSE(near_enough(found->lower * (1 - 1e-9)));
         }
         const auto none = distance({a.model, b.model, c.placement}, workspace,
@@ -211,6 +217,8 @@ TEST(DistanceLaws, WithinAgreesWithTheDistance) {
         EXPECT_TRUE(
             distance({a.model, b.model, c.placement}, workspace, {.max_distance = found->upper}));
     }
+    EXPECT_GT(apart, 100);
+    EXPECT_LT(apart, 290);
 }
 
 // X07: the tolerance belongs to it. All numbers are dyadic, so the truth is known.
