@@ -230,12 +230,14 @@ TEST(FindAdaptiveOctreeDamage, NodesHaveOneOrder) {
 }
 
 TEST(FindAdaptiveOctreeDamage, CountsMustMatch) {
+    int asked = 0;
     const AlignedBytes file = soup_file();
     const FileHeader header = read_header(file.span());
     for (std::uint32_t i = 0; i < header.section_count; ++i) {
         const std::uint64_t entry_at = kSectionTableOffset + i * sizeof(SectionEntry);
         const auto entry = at<SectionEntry>(file, entry_at);
         if (entry.id < kSections[0] || entry.id > kSections[2]) continue;
+        ++asked;
         SectionEntry shorter = entry;
         --shorter.count;
         if (shorter.count == 0) shorter.offset = 0;
@@ -248,6 +250,7 @@ TEST(FindAdaptiveOctreeDamage, CountsMustMatch) {
         EXPECT_TRUE(kind_of_empty == DamageKind::bad_count ||
                     kind_of_empty == DamageKind::bad_order);
     }
+    EXPECT_EQ(asked, 3);
 }
 
 /// Nodes that are reached from one on; each once, or this would not end.

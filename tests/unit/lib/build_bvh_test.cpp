@@ -89,9 +89,11 @@ TEST(BuildBvh, EveryBoxHoldsItsTrianglesInExactArithmetic) {
 // Leaves hold the corners, oriented boxes the vertices: find_deep_damage() works
 // that out anew from positions and triangles.
 TEST(BuildBvh, LeavesAndOrientedBoxesHoldTheirTriangles) {
+    int asked = 0;
     for (const TestMesh& mesh : awkward_meshes()) {
         for (const bool double_precision : {false, true}) {
             if (!double_precision && !all_floats(mesh)) continue;
+            ++asked;
             for (const Quality quality : kQualities) {
                 const AlignedBytes file =
                     bake_tiny(mesh.positions, mesh.triangles,
@@ -101,6 +103,7 @@ TEST(BuildBvh, LeavesAndOrientedBoxesHoldTheirTriangles) {
             }
         }
     }
+    EXPECT_GT(asked, 25);
 }
 
 constexpr std::array<build::BvhBounds, 3> kSwept = {build::BvhBounds::swept_points,
@@ -159,10 +162,12 @@ TEST(BuildBvh, EverySweptSphereHoldsItsTrianglesInExactArithmetic) {
 
 // find_deep_damage() works it out anew from positions and triangles.
 TEST(BuildBvh, SweptSpheresPassTheDeepCheck) {
+    int asked = 0;
     for (const TestMesh& mesh : awkward_meshes()) {
         for (const build::BvhBounds bounds : kSwept) {
             for (const bool double_precision : {false, true}) {
                 if (!double_precision && !all_floats(mesh)) continue;
+                ++asked;
                 const AlignedBytes file =
                     bake_tiny(mesh.positions, mesh.triangles,
                               {.double_precision = double_precision, .bounds = bounds});
@@ -171,6 +176,7 @@ TEST(BuildBvh, SweptSpheresPassTheDeepCheck) {
             }
         }
     }
+    EXPECT_GT(asked, 75);
 }
 
 // By hand: the sheet lies in one plane and is longer than wide.
@@ -186,10 +192,12 @@ TEST(BuildBvh, SweptSpheresOfATurnedSheetAreTight) {
     const Bvh rectangles = root_with(build::BvhBounds::swept_rectangles);
     EXPECT_EQ(rectangles.swept_kind, format::SweptKind::rectangle);
     EXPECT_EQ(lines.swept_kind, format::SweptKind::line);
+    int used = 0;
     for (std::size_t node = 0; node < points.swept_nodes.size(); ++node) {
         for (std::size_t box = 0; box < format::kBvhWidth; ++box) {
             const double ball = points.swept_nodes[node].radius[box];
             if (ball == 0) continue;  // unused
+            ++used;
             const double capsule = lines.swept_nodes[node].radius[box];
             EXPECT_LT(rectangles.swept_nodes[node].radius[box], 1e-6);
             EXPECT_LT(capsule, ball * (1 + 1e-5));
@@ -197,6 +205,7 @@ TEST(BuildBvh, SweptSpheresOfATurnedSheetAreTight) {
             EXPECT_EQ(lines.swept_nodes[node].side[1].half[box], 0);
         }
     }
+    EXPECT_EQ(used, 2 + 16);  // 128 triangles: 16 leaves of 8, two nodes of those
 }
 
 TEST(BuildBvh, LeavesAreExactWhereAllCoordinatesAreFloats) {
@@ -215,12 +224,15 @@ TEST(BuildBvh, OrientedBoxesOfATurnedSheetAreThin) {
     for (Double3& p : sheet.positions) p = transform_point(pose, p);
     const Bvh bvh = build_bvh(sheet.positions, sheet.triangles);
     ASSERT_FALSE(bvh.oriented_nodes.empty());
+    int used = 0;
     for (const format::OrientedNode& node : bvh.oriented_nodes) {
         for (std::size_t box = 0; box < format::kBvhWidth; ++box) {
             if (node.half[0][box] < 0) continue;  // unused
             EXPECT_LT(node.half[0][box], 1e-4F * node.half[2][box]);
+            ++used;
         }
     }
+    EXPECT_EQ(used, 150 + 19 + 3);  // 1,200 triangles, eight to a leaf, eight boxes to a node
 }
 
 // A slanted cylinder, open at its ends: no axis of a box is along one of the model. The

@@ -260,11 +260,13 @@ TEST(BuildTetraTree, RadiiHoldTheClippedTrianglesInExactArithmetic) {
 
 // Nothing is lost but the rounding to float where edges cross planes at no grazing angle.
 TEST(BuildTetraTree, RadiiAreTight) {
+    int asked = 0;
     const TestMesh mesh = in_floats(moved_by(icosphere(2), 1.1, {0.01, 0.02, 0.03}));
     const TetraTree tree = tree_of(mesh, {.level = 2});
     const double frame = std::ldexp(1.0, -std::ilogb(longest_side(mesh)) - 2) / std::sqrt(3.0);
     for (const TetraNode& node : tree.nodes) {
         if (!is_leaf(node)) continue;
+        ++asked;
         const std::uint32_t octant = node.key >> (2 * tetra_level(node.key));
         double least = INFINITY;
         double greatest = 0;
@@ -283,6 +285,7 @@ TEST(BuildTetraTree, RadiiAreTight) {
         EXPECT_NEAR(node.radius_min, least, 0x1p-20 * least);
         EXPECT_NEAR(node.radius_max, greatest, 0x1p-20 * greatest);
     }
+    EXPECT_EQ(asked, 8 * 16);
 }
 
 TEST(BuildTetraTree, RadiusMinIsZeroOfThePapersTetrahedra) {

@@ -232,13 +232,16 @@ TEST(IncludesThrough, LooksAtOneConeOrOneRowOfCells) {
 
 // By the table of needs: a file without a structure does not serve questions through it.
 TEST(IncludesThroughDeathTest, StopsWhereAModelWasNotBakedForIt) {
+    int asked = 0;
     const OpenModel cube = open_tiny(cube_at(-2, 2), {.double_precision = true});
     Workspace workspace;
     for (const Structure structure : kStructures) {
         if (structure == Structure::bvh) continue;
+        ++asked;
         EXPECT_DEATH((void)points_inside(cube.model, {1, 0, 0}, workspace, structure),
                      " needs section");
     }
+    EXPECT_EQ(asked, static_cast<int>(kStructures.size()) - 1);
 }
 
 }  // namespace

@@ -241,6 +241,7 @@ TEST(TetraCones, TrianglesAUnitInTheLastPlaceOffTheGrid) {
 
 // Any cone at all touches a triangle that holds its apex.
 TEST(TetraCones, TheCentreInATriangleIsInEveryCone) {
+    int asked = 0;
     const std::vector<Corners> holders = {
         {{{1, 0, 0}, {-1, 1, 0}, {-1, -1, 0}}},  // inside, in a plane of octants
         {{{1, 2, 3}, {-1, -2, -3}, {0, 5, 1}}},  // on an edge
@@ -252,13 +253,16 @@ TEST(TetraCones, TheCentreInATriangleIsInEveryCone) {
     for (const Corners& t : holders) {
         for (std::uint32_t key = 8; key < 16U << 4; ++key) {
             if (std::bit_width(key) % 2 != 0) continue;
+            ++asked;
             EXPECT_TRUE(triangle_touches_cone(t, {0, 0, 0}, tetra_cone(key))) << key << shown(t);
         }
     }
+    EXPECT_EQ(asked, 6 * 8 * (1 + 4 + 16));
 }
 
 // The same at any size: signs do not change, filters do.
 TEST(TetraCones, ContactIsTheSameAtAnyScale) {
+    int asked = 0;
     std::mt19937 random(7);
     for (int i = 0; i < 400; ++i) {
         const std::uint32_t level = random() % 4;
@@ -271,12 +275,14 @@ TEST(TetraCones, ContactIsTheSameAtAnyScale) {
             Corners other = t;
             // Exact but where digits fall off below the least double.
             if (i % 2 != 0 && factor < 0x1p-999) continue;
+            ++asked;
             for (Double3& p : other) p = scaled(p, factor);
             EXPECT_EQ(triangle_touches_cone(other, {0, 0, 0}, cone), expected);
             const Double3 corner = other[0];
             EXPECT_EQ(tetra_key({0, 0, 0}, corner, 14), tetra_key({0, 0, 0}, t[0], 14));
         }
     }
+    EXPECT_EQ(asked, 200 * 5 + 200 * 3);
 }
 
 // Corners of sizes that no double holds side by side.
