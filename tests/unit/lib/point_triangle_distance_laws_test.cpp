@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 #include <random>
 
 #include "support/exact_distance.h"
@@ -20,6 +21,10 @@ struct Situation {
     double size;
     bool sliver;
     int exponent;  ///< all coordinates times 2^exponent
+
+    friend std::ostream& operator<<(std::ostream& stream, const Situation& situation) {
+        return stream << situation.name;
+    }
 };
 
 constexpr Situation kSituations[] = {

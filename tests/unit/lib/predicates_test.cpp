@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 #include <random>
 
 #include "support/exact_rational.h"
@@ -75,6 +76,10 @@ TEST(Orient3d, IsZeroWhenTwoPointsAreEqual) {
 struct Source {
     const char* name;
     double (*draw)(std::mt19937&);
+
+    friend std::ostream& operator<<(std::ostream& stream, const Source& source) {
+        return stream << source.name;
+    }
 };
 
 double unit(std::mt19937& random) {
