@@ -143,23 +143,38 @@ void SelfWalk::find_starts() {
     }
 }
 
-void SelfWalk::descend(const NodePair& pair, Batch& batch) const {
+/// Looks at the children of the next node pair.
+std::size_t SelfWalk::step(Rest& rest, Batch& batch) const {
+    const NodePair pair = rest.open_.back();
+    rest.open_.pop_back();
+    std::size_t work = 1;
     for_children(pair, [&](const NodePair& child) {
         if (child.height == 0) {
             batch.add(child.a, child.b);
+            ++work;
         } else {
-            descend(child, batch);
+            rest.open_.push_back(child);
         }
     });
+    return work;
 }
 
-void SelfWalk::run(std::size_t part, Workspace::Storage& scratch,
-                   const std::function<void(const SelfPair&)>& found) const {
-    assert(part < part_count());
+SelfWalk::Rest SelfWalk::part(std::size_t number) const {
+    assert(number < part_count());
+    const std::size_t first = starts_.size() * number / part_count();
+    const std::size_t last = starts_.size() * (number + 1) / part_count();
+    Rest rest;
+    rest.open_.assign(starts_.begin() + static_cast<std::ptrdiff_t>(first),
+                      starts_.begin() + static_cast<std::ptrdiff_t>(last));
+    return rest;
+}
+
+void SelfWalk::run(Rest& rest, Workspace::Storage& scratch,
+                   const std::function<void(const SelfPair&)>& found,
+                   const std::function<bool(std::size_t)>& is_enough) const {
     Batch batch(*this, scratch, found);
-    const std::size_t first = starts_.size() * part / part_count();
-    const std::size_t last = starts_.size() * (part + 1) / part_count();
-    for (std::size_t i = first; i < last; ++i) descend(starts_[i], batch);
+    while (!rest.empty() && !is_enough(step(rest, batch))) {
+    }
     batch.flush();
 }
 

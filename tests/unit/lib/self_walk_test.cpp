@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include "support/meshes.h"
@@ -41,18 +42,27 @@ struct Pair {
     auto operator<=>(const Pair&) const = default;
 };
 
-std::vector<Pair> walk(const test::TestMesh& mesh, build::Quality quality) {
+constexpr std::size_t kNoEnd = std::numeric_limits<std::size_t>::max();
+
+/// Interrupts each part every so many steps.
+std::vector<Pair> walk(const test::TestMesh& mesh, build::Quality quality,
+                       std::size_t steps = kNoEnd) {
     const build::Bvh bvh = build::build_bvh(
         mesh.positions, mesh.triangles, {.bounds = build::BvhBounds::aligned, .quality = quality});
     const SelfWalk walk(bvh, mesh.triangles, serial_for);
     Workspace workspace;
     std::vector<Pair> pairs;
     for (std::size_t part = 0; part < walk.part_count(); ++part) {
-        walk.run(part, workspace.storage(), [&](const SelfPair& pair) {
+        SelfWalk::Rest rest = walk.part(part);
+        const auto found = [&](const SelfPair& pair) {
             EXPECT_LT(pair.a, pair.b);
             const auto [a, b] = std::minmax({bvh.order[pair.a], bvh.order[pair.b]});
             pairs.push_back({a, b, pair.certain});
-        });
+        };
+        while (!rest.empty()) {
+            std::size_t left = steps;
+            walk.run(rest, workspace.storage(), found, [&](std::size_t) { return --left == 0; });
+        }
     }
     std::sort(pairs.begin(), pairs.end());
     return pairs;
@@ -125,6 +135,16 @@ TEST(SelfWalk, MissesNothingFarFromTheOrigin) {
 
 TEST(SelfWalk, FewPairsAreLeftOpenOnASmoothSurface) {
     EXPECT_LT(walk(test::icosphere(4), build::Quality::fast).size(), 20u * 256 / 100);
+}
+
+// A part goes on where it was interrupted: by definition the pairs are those of one run.
+TEST(SelfWalk, InterruptedAnywhereItFindsTheSamePairs) {
+    const test::TestMesh mesh = test::random_soup(5, 3000, 1.2);
+    const std::vector<Pair> whole = walk(mesh, build::Quality::fast);
+    EXPECT_GT(whole.size(), 1000u);
+    for (const std::size_t steps : {1, 2, 7}) {
+        EXPECT_EQ(walk(mesh, build::Quality::fast, steps), whole) << steps;
+    }
 }
 
 TEST(SelfWalk, OfNothingFindsNothing) {
