@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/arc.h"
 #include "mesh/around_edge.h"
 #include "mesh/point_tree.h"
 #include "mesh/triangle_meeting.h"
@@ -16,28 +17,9 @@
 namespace cdprep::mesh {
 namespace {
 
-using Visit = std::function<void(std::uint32_t, std::uint32_t)>;
-
 /// So many triangles at an edge are a book of its own: as seen from the edge's ends all
 /// overlap there.
 constexpr std::size_t kBook = 256;
-
-/// What rounding may have moved a direction by, some times over: it is 4 operations away
-/// from coordinates, each exact to 2^-53 of a number no larger than 1.
-constexpr double kMargin = 0x1p-46;
-
-/// The direction from one point to another, of length 1.
-Double3 direction(const Double3& from, const Double3& to) {
-    Double3 way = {to.x - from.x, to.y - from.y, to.z - from.z};
-    double size = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
-    if (!std::isfinite(size)) {
-        way = {0.5 * to.x - 0.5 * from.x, 0.5 * to.y - 0.5 * from.y, 0.5 * to.z - 0.5 * from.z};
-        size = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
-    }
-    way = {way.x / size, way.y / size, way.z / size};
-    const double length = std::sqrt(way.x * way.x + way.y * way.y + way.z * way.z);
-    return {way.x / length, way.y / length, way.z / length};
-}
 
 /// A triangle as seen from the vertex: an arc of less than half a turn between two
 /// directions. It lies in the ball over its chord.
@@ -65,24 +47,35 @@ struct ArcTree {
     PointTree centres;
 };
 
-class StarSearch {
+}  // namespace
+
+class StarPairs::Search {
 public:
-    StarSearch(const Mesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> star,
-               const Visit& visit)
-        : mesh_(mesh), vertex_(vertex), visit_(visit) {
+    Search(const Mesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> star)
+        : mesh_(mesh), vertex_(vertex) {
         for (const std::uint32_t triangle : star) {
             for (const std::uint32_t spoke : spokes_of(triangle)) ++uses_[spoke];
         }
         std::erase_if(uses_, [](const auto& spoke) { return spoke.second <= kBook; });
         for (const std::uint32_t triangle : star) arcs_.push_back(arc_of(triangle));
+        grow_trees();
+        for (const auto& [spoke, uses] : uses_) open_book(spoke);
     }
 
-    void search() {
-        grow_trees();
-        for (std::uint32_t i = 0; i < arcs_.size(); ++i) {
-            for (const ArcTree& tree : trees_) ask(i, tree);
+    /// First each arc, then each page.
+    bool advance(const Visit& visit) {
+        if (next_arc_ < arcs_.size()) {
+            for (const ArcTree& tree : trees_) ask(next_arc_, tree, visit);
+            ++next_arc_;
+            return true;
         }
-        for (const auto& [spoke, uses] : uses_) read_book(spoke);
+        if (next_page_ == pages_.size()) return false;
+        for (std::size_t j = pages_[next_page_].first; j < next_page_; ++j) {
+            const auto [a, b] = std::minmax({pages_[j].use / 3, pages_[next_page_].use / 3});
+            visit(a, b);
+        }
+        ++next_page_;
+        return true;
     }
 
 private:
@@ -94,12 +87,9 @@ private:
 
     [[nodiscard]] Arc arc_of(std::uint32_t triangle) const {
         const auto [p, q] = spokes_of(triangle);
-        const Double3& at = mesh_.positions[vertex_];
-        const Double3 a = direction(at, mesh_.positions[p]);
-        const Double3 b = direction(at, mesh_.positions[q]);
-        const Double3 centre = {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z)};
-        const double chord = std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
-        return {centre, 0.5 * chord + kMargin, triangle, book_of(p, q)};
+        const Ball ball =
+            arc_ball(mesh_.positions[vertex_], mesh_.positions[p], mesh_.positions[q]);
+        return {ball.centre, ball.radius, triangle, book_of(p, q)};
     }
 
     /// The spoke with more triangles, if there are many.
@@ -126,7 +116,7 @@ private:
     }
 
     /// Pairs of an arc with those of a tree that are no smaller.
-    void ask(std::uint32_t i, const ArcTree& tree) const {
+    void ask(std::uint32_t i, const ArcTree& tree, const Visit& visit) const {
         const Arc& arc = arcs_[i];
         const int size_class = arc.size_class();
         if (tree.size_class < size_class) return;
@@ -137,17 +127,17 @@ private:
                            [&](std::uint32_t number) {
                                const std::uint32_t j = tree.arc[number];
                                if (tree.size_class == size_class && j <= i) return;
-                               if (box.meets(arcs_[j].box(0))) visit_pair(i, j);
+                               if (box.meets(arcs_[j].box(0))) visit_pair(i, j, visit);
                            });
     }
 
-    void visit_pair(std::uint32_t i, std::uint32_t j) const {
+    void visit_pair(std::uint32_t i, std::uint32_t j, const Visit& visit) const {
         const auto [a, b] = std::minmax(arcs_[i].triangle, arcs_[j].triangle);
-        visit_(a, b);
+        visit(a, b);
     }
 
-    /// Pairs of one book: those at one angle around its edge.
-    void read_book(std::uint32_t spoke) const {
+    /// Lays out the pages of one book, by their angle around its edge.
+    void open_book(std::uint32_t spoke) {
         std::vector<HalfEdge> uses;
         for (const Arc& arc : arcs_) {
             if (arc.book == spoke) uses.push_back(use_of(arc.triangle, spoke));
@@ -155,12 +145,10 @@ private:
         if (uses.empty()) return;
         const AroundEdge around(mesh_.positions, mesh_.triangles, uses);
         const std::vector<HalfEdge> sorted = around.sorted(uses);
-        for (std::size_t first = 0, i = 0; i < sorted.size(); ++i) {
-            if (i > 0 && !at_one_angle(sorted[i - 1], sorted[i])) first = i;
-            for (std::size_t j = first; j < i; ++j) {
-                const auto [a, b] = std::minmax({sorted[j] / 3, sorted[i] / 3});
-                visit_(a, b);
-            }
+        std::size_t first = pages_.size();
+        for (std::size_t i = 0; i < sorted.size(); ++i) {
+            if (i > 0 && !at_one_angle(sorted[i - 1], sorted[i])) first = pages_.size();
+            pages_.push_back({sorted[i], first});
         }
     }
 
@@ -182,19 +170,30 @@ private:
         return meeting_at_edge(corners(a), corners(b)).has_value();
     }
 
+    /// A triangle of a book, and the first at its angle.
+    struct Page {
+        HalfEdge use;
+        std::size_t first;
+    };
+
     const Mesh& mesh_;
     std::uint32_t vertex_;
-    const Visit& visit_;
     std::map<std::uint32_t, std::size_t> uses_;  ///< of spokes with a book
     std::vector<Arc> arcs_;
     std::vector<ArcTree> trees_;
+    std::vector<Page> pages_;
+    std::uint32_t next_arc_ = 0;
+    std::size_t next_page_ = 0;
 };
 
-}  // namespace
+StarPairs::StarPairs(const Mesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> star)
+    : search_(std::make_unique<Search>(mesh, vertex, star)) {}
+StarPairs::StarPairs(StarPairs&&) noexcept = default;
+StarPairs& StarPairs::operator=(StarPairs&&) noexcept = default;
+StarPairs::~StarPairs() = default;
 
-void for_star_pairs(const Mesh& mesh, std::uint32_t vertex, std::span<const std::uint32_t> star,
-                    const Visit& visit) {
-    StarSearch(mesh, vertex, star, visit).search();
+bool StarPairs::advance(const Visit& visit) {
+    return search_->advance(visit);
 }
 
 }  // namespace cdprep::mesh

@@ -60,10 +60,13 @@ std::vector<std::uint32_t> all_of(const Mesh& mesh) {
 /// Returns how many pairs meet, and in `visited` how many were visited.
 std::size_t expect_none_left_out(const Mesh& mesh, std::size_t& visited) {
     std::set<Pair> pairs;
-    for_star_pairs(mesh, 0, all_of(mesh), [&](std::uint32_t a, std::uint32_t b) {
+    const std::vector<std::uint32_t> all = all_of(mesh);
+    StarPairs search(mesh, 0, all);
+    while (search.advance([&](std::uint32_t a, std::uint32_t b) {
         EXPECT_LT(a, b);
         EXPECT_TRUE(pairs.insert({a, b}).second) << "twice";
-    });
+    })) {
+    }
     visited = pairs.size();
     std::set<Pair> truth;
     for (std::uint32_t a = 0; a < mesh.triangles.size(); ++a) {
@@ -179,8 +182,9 @@ TEST(StarPairs, OfManyTrianglesFewAreVisited) {
     }
     for (const Star* star : {&stair, &book}) {
         std::uint64_t visited = 0;
-        for_star_pairs(star->mesh, 0, all_of(star->mesh),
-                       [&](std::uint32_t, std::uint32_t) { ++visited; });
+        StarPairs search(star->mesh, 0, all_of(star->mesh));
+        while (search.advance([&](std::uint32_t, std::uint32_t) { ++visited; })) {
+        }
         EXPECT_LT(visited, std::uint64_t{kMany} * kMany / 50);
     }
 }
