@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "command.h"
+#include "interrupt.h"
 #include "mesh/find_defects.h"
 #include "report/judge.h"
 #include "report/place_text.h"
@@ -40,8 +41,8 @@ report::ValidationReport find_for_bake(const std::string& input, const mesh::Tri
                                        const mesh::Mesh& welded, ParallelFor parallel_for) {
     const mesh::TriangleSoup joined = as_welded(soup, welded);
     report::ValidationReport found = report::report_on(input, joined);
-    found.defects =
-        mesh::find_defects(joined, {.max_places = kPlaces, .parallel_for = parallel_for});
+    found.defects = mesh::find_defects(
+        joined, {.max_places = kPlaces, .stop = is_interrupted, .parallel_for = parallel_for});
     const report::RuleSettings rules;
     static_cast<void>(report::judge(found, joined, {rules, nullptr, kPlaces}));
     found.exit = static_cast<int>(count_warnings(found) > 0 ? Exit::findings : Exit::success);

@@ -90,8 +90,8 @@ void judge(const Arguments& arguments, const mesh::TriangleSoup& input,
         mesh::TriangleSoup output;
         output.positions = repaired.mesh.positions;
         output.triangles = repaired.mesh.triangles;
-        report.crossing_before = mesh::find_self_crossing(input, parallel_for);
-        report.crossing_after = mesh::find_self_crossing(output, parallel_for);
+        report.crossing_before = mesh::find_self_crossing(input, {.parallel_for = parallel_for});
+        report.crossing_after = mesh::find_self_crossing(output, {.parallel_for = parallel_for});
     }
     if (has_preset) {
         report.missed =

@@ -73,9 +73,11 @@ void examine(Validation& result, const Input& input, const ValidationOptions& op
     add_nodes(report, soup);
     mesh::DefectOptions defects = options.defects;
     defects.max_places = options.kept_places + (known != nullptr ? known->largest_count() : 0);
+    defects.stop = is_interrupted;
     defects.parallel_for = threads.parallel_for();
     report.defects =
         timed(report, "find", begins, [&] { return mesh::find_defects(soup, defects); });
+    if (is_interrupted()) return;
     const bool fails = timed(report, "judge", begins, [&] {
         return report::judge(report, soup, {options.run.rules, known, options.kept_places});
     });

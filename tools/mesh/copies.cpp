@@ -75,9 +75,9 @@ std::vector<std::uint32_t> Copies::left_of(std::size_t triangles) const {
     return left;
 }
 
-std::vector<TriangleMeeting> find_distinct_meetings(const Mesh& mesh, const Copies& copies,
-                                                    ParallelFor parallel_for) {
-    if (copies.empty()) return find_self_intersections(mesh, parallel_for);
+bool search_distinct_meetings(const Mesh& mesh, const Copies& copies, const SearchOptions& options,
+                              const TakeMeetings& take) {
+    if (copies.empty()) return search_self_intersections(mesh, options, take);
     const std::vector<std::uint32_t> left = copies.left_of(mesh.triangles.size());
     Mesh distinct;
     distinct.positions = mesh.positions;
@@ -85,13 +85,16 @@ std::vector<TriangleMeeting> find_distinct_meetings(const Mesh& mesh, const Copi
     for (const std::uint32_t triangle : left) {
         distinct.triangles.push_back(mesh.triangles[triangle]);
     }
-    std::vector<TriangleMeeting> found = find_self_intersections(distinct, parallel_for);
-    // Ascending numbers keep the order of pairs.
-    for (TriangleMeeting& meeting : found) {
-        meeting.a = left[meeting.a];
-        meeting.b = left[meeting.b];
-    }
-    return found;
+    std::vector<TriangleMeeting> renumbered;
+    const auto renumber = [&](std::span<const TriangleMeeting> some) {
+        renumbered.clear();
+        // Ascending numbers keep a < b.
+        for (const TriangleMeeting& meeting : some) {
+            renumbered.push_back({left[meeting.a], left[meeting.b], meeting.meeting});
+        }
+        take(renumbered);
+    };
+    return search_self_intersections(distinct, options, renumber);
 }
 
 std::vector<TriangleMeeting> first_pairs(std::span<const TriangleMeeting> distinct,

@@ -64,12 +64,12 @@ private:
     std::vector<RepeatedTriangle> repeated_;  ///< by `first`, then `triangle`
 };
 
-/// find_self_intersections() among the triangles that are no copies: each meeting stands
+/// search_self_intersections() among the triangles that are no copies: each meeting stands
 /// for one of every copy of `a` with every copy of `b`. Copies of one triangle are in
 /// none with each other. Takes no longer for any number of copies than they take to leave
 /// out.
-[[nodiscard]] std::vector<TriangleMeeting> find_distinct_meetings(
-    const Mesh& mesh, const Copies& copies, ParallelFor parallel_for = serial_for);
+bool search_distinct_meetings(const Mesh& mesh, const Copies& copies, const SearchOptions& options,
+                              const TakeMeetings& take);
 
 /// The first `most` of all pairs that meetings of distinct triangles stand for, by (a, b);
 /// the meetings are sorted so. O((most + meetings) log most).

@@ -228,16 +228,33 @@ private:
 
     /// CDP0402, 0403, 0501 to 0503, and the verdicts.
     void judge() {
+        const std::vector<Nested> nested = find_nested(sound_.mesh, components_, balanced_);
         ComponentMeetings meetings;
+        meetings.overlapping.resize(nested.size());
         if (options_.crossings) {
             const Copies copies(std::move(flaws_.repeated));
-            meetings =
-                list_meetings(find_distinct_meetings(sound_.mesh, copies, options_.parallel_for),
-                              copies, sound_, components_, findings_, counts());
+            meetings = list_meetings({copies, sound_, components_, nested}, search_options(),
+                                     findings_, counts());
         }
-        const std::vector<Nested> nested = find_nested(sound_.mesh, components_, balanced_);
-        for (const Nested& pair : nested) {
-            if (meetings.overlap(pair.inner, pair.outer)) continue;
+        report_.crossings_complete = meetings.is_complete;
+        // Two components of which not all pairs were examined may overlap.
+        if (meetings.is_complete) list_nested(nested, meetings);
+        report_.verdicts =
+            make_verdicts({sound_, components_, flaws_, boundary_, non_orientable_, balanced_,
+                           measures_, nested, options_.crossings ? &meetings : nullptr});
+    }
+
+    [[nodiscard]] SearchOptions search_options() const {
+        const std::uint64_t steps = options_.max_steps > 0
+                                        ? options_.max_steps
+                                        : default_steps(sound_.mesh.triangles.size());
+        return {{options_.max_pairs, steps}, options_.stop, options_.parallel_for};
+    }
+
+    void list_nested(const std::vector<Nested>& nested, const ComponentMeetings& meetings) {
+        for (std::size_t i = 0; i < nested.size(); ++i) {
+            if (meetings.overlapping[i]) continue;
+            const Nested& pair = nested[i];
             ++counts().nested_components;
             findings_.add(Rule::nested_component, [&] {
                 Place place = place_of_component(pair.inner, pair.winding);
@@ -246,9 +263,6 @@ private:
                 return place;
             });
         }
-        report_.verdicts =
-            make_verdicts({sound_, components_, flaws_, boundary_, non_orientable_, balanced_,
-                           measures_, nested, options_.crossings ? &meetings : nullptr});
     }
 
     const TriangleSoup& soup_;

@@ -20,8 +20,9 @@ struct Place {
 /// One rule that found something.
 struct Finding {
     Rule rule;
-    std::uint64_t count = 0;    ///< all of them, however few places are kept
-    std::vector<Place> places;  ///< the first, in source order
+    std::uint64_t count = 0;      ///< all of them, however few places are kept
+    std::vector<Place> places;    ///< the first, in source order
+    bool is_lower_bound = false;  ///< the search ended early: there may be more, and lower places
 };
 
 }  // namespace cdprep::mesh

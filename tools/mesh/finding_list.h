@@ -44,6 +44,12 @@ public:
         count_more(rule, static_cast<std::uint64_t>(records.end() - kept));
     }
 
+    /// There may be more of the rule than were added, if any were.
+    void mark_lower_bound(Rule rule) {
+        const auto found = findings_.find(rule);
+        if (found != findings_.end()) found->second.is_lower_bound = true;
+    }
+
     [[nodiscard]] std::size_t max_places() const {
         return max_places_;
     }
@@ -58,7 +64,7 @@ public:
 
 private:
     Finding& finding_of(Rule rule) {
-        return findings_.try_emplace(rule, Finding{rule, 0, {}}).first->second;
+        return findings_.try_emplace(rule, Finding{rule, 0, {}, false}).first->second;
     }
 
     std::size_t max_places_;

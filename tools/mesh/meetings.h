@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "mesh/component_numbers.h"
+#include "mesh/component_pairs.h"
 #include "mesh/copies.h"
 #include "mesh/finding_list.h"
+#include "mesh/nesting.h"
 #include "mesh/self_intersections.h"
 #include "mesh/sound_mesh.h"
 
@@ -15,27 +17,26 @@ namespace cdprep::mesh {
 
 /// What meetings of triangles say of components.
 struct ComponentMeetings {
-    /// Two components with triangles that cross or share area in a plane.
-    struct Pair {
-        std::uint32_t a;  ///< a < b
-        std::uint32_t b;
-        std::uint32_t first_triangle;  ///< the lowest pair of them, of the mesh
-        std::uint32_t second_triangle;
-        std::uint64_t meetings;
-    };
-    std::vector<Pair> overlapping;    ///< sorted by (a, b)
     std::vector<bool> self_crossing;  ///< per component: two of its triangles meet
+    std::vector<bool> overlapping;    ///< per nested pair: the two components overlap
     bool any = false;                 ///< any two triangles meet
-
-    [[nodiscard]] bool overlap(std::uint32_t a, std::uint32_t b) const;
+    bool is_complete = true;          ///< all pairs of triangles were examined
 };
 
-/// CDP0403 and CDP0501 to 0503, and the counts of pairs, from find_distinct_meetings().
-/// Counts and lists what find_self_intersections() would have found, pair by pair, at the
-/// cost of the distinct meetings and of the places that are kept.
-[[nodiscard]] ComponentMeetings list_meetings(std::span<const TriangleMeeting> distinct,
-                                              const Copies& copies, const SoundMesh& sound,
-                                              const ComponentNumbers& components,
-                                              FindingList& findings, DefectCounts& counts);
+/// What the meetings are of, and what is asked about them. References must outlive the use.
+struct MeetingGrounds {
+    const Copies& copies;
+    const SoundMesh& sound;
+    const ComponentNumbers& components;
+    const std::vector<Nested>& nested;  ///< sorted by inner, then outer
+};
+
+/// CDP0403 and CDP0501 to 0503, and the counts of pairs. Counts and lists what
+/// find_self_intersections() would find, pair by pair, at the cost of the distinct meetings
+/// and of the places that are kept; if the limits end the search, what it found until then.
+/// Memory is linear in the mesh and in the places, whatever the number of pairs.
+[[nodiscard]] ComponentMeetings list_meetings(const MeetingGrounds& grounds,
+                                              const SearchOptions& options, FindingList& findings,
+                                              DefectCounts& counts);
 
 }  // namespace cdprep::mesh

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include "mesh/fan.h"
 #include "mesh/star_pairs.h"
@@ -61,77 +63,94 @@ std::optional<Meeting> meeting_of(const Mesh& mesh, const Triangle& a, const Tri
     }
 }
 
-/// Asks pairs around vertices that are not known to lie side by side.
-class Asker {
-public:
-    Asker(const Mesh& mesh, const VertexStars& stars, const std::vector<std::uint8_t>& is_flat)
-        : mesh_(mesh), stars_(stars), is_flat_(is_flat) {}
+/// What all jobs read.
+struct Neighbourhood {
+    const Mesh& mesh;
+    const VertexStars& stars;
+    std::vector<std::uint8_t> is_flat;  ///< per vertex: its triangles lie side by side
+};
 
-    void ask_around(std::uint32_t vertex, std::vector<TriangleMeeting>& found) const {
-        const auto star = stars_.around(vertex);
-        if (star.size() > kFewAround) {
-            for_star_pairs(mesh_, vertex, star,
-                           [&](std::uint32_t a, std::uint32_t b) { ask(vertex, a, b, found); });
-            return;
-        }
-        for (std::size_t i = 0; i < star.size(); ++i) {
-            for (std::size_t j = i + 1; j < star.size(); ++j) {
-                ask(vertex, star[i], star[j], found);
-            }
+/// Asks pairs around some vertices that are not known to lie side by side.
+class NeighbourJob {
+public:
+    NeighbourJob(const Neighbourhood& around, std::size_t first, std::size_t last)
+        : around_(&around), vertex_(first), last_(last) {}
+
+    [[nodiscard]] bool is_done() const {
+        return vertex_ == last_;
+    }
+
+    void go_on(SearchTurn& turn) {
+        while (!is_done() && !turn.is_over()) {
+            if (around_->is_flat[vertex_] != 0 || !ask_some(turn)) ++vertex_;
         }
     }
 
 private:
-    void ask(std::uint32_t vertex, std::uint32_t a, std::uint32_t b,
-             std::vector<TriangleMeeting>& found) const {
-        const Triangle& in_a = mesh_.triangles[a];
-        const Triangle& in_b = mesh_.triangles[b];
+    /// False when all pairs around the vertex were asked.
+    bool ask_some(SearchTurn& turn) {
+        const auto vertex = static_cast<std::uint32_t>(vertex_);
+        const auto star = around_->stars.around(vertex);
+        const auto visit = [&](std::uint32_t a, std::uint32_t b) { ask(vertex, a, b, turn); };
+        if (star.size() > kFewAround) return ask_large(vertex, star, visit, turn);
+        for (std::size_t i = 0; i < star.size(); ++i) {
+            for (std::size_t j = i + 1; j < star.size(); ++j) visit(star[i], star[j]);
+        }
+        return false;
+    }
+
+    bool ask_large(std::uint32_t vertex, std::span<const std::uint32_t> star,
+                   const StarPairs::Visit& visit, SearchTurn& turn) {
+        if (!pairs_) pairs_.emplace(around_->mesh, vertex, star);
+        turn.count(1);
+        if (pairs_->advance(visit)) return true;
+        pairs_.reset();
+        return false;
+    }
+
+    void ask(std::uint32_t vertex, std::uint32_t a, std::uint32_t b, SearchTurn& turn) const {
+        const Triangle& in_a = around_->mesh.triangles[a];
+        const Triangle& in_b = around_->mesh.triangles[b];
+        turn.count(1);
         const SharedCorners shared = shared_corners(in_a, in_b);
         for (std::size_t i = 0; i < shared.count; ++i) {
             const std::uint32_t other = in_a.vertex[shared.in_a[i]];
             // Answered there, or asked there.
-            if (is_flat_[other] != 0 || other < vertex) return;
+            if (around_->is_flat[other] != 0 || other < vertex) return;
         }
-        const auto meeting = meeting_of(mesh_, in_a, in_b, shared);
-        if (meeting) found.push_back({a, b, *meeting});
+        const auto meeting = meeting_of(around_->mesh, in_a, in_b, shared);
+        if (meeting) turn.add({a, b, *meeting});
     }
 
-    const Mesh& mesh_;
-    const VertexStars& stars_;
-    const std::vector<std::uint8_t>& is_flat_;
+    const Neighbourhood* around_;
+    std::size_t vertex_;
+    std::size_t last_;
+    std::optional<StarPairs> pairs_;  ///< of `vertex_`, when it has many triangles
 };
 
 }  // namespace
 
-std::vector<TriangleMeeting> find_neighbour_meetings(const Mesh& mesh, const VertexStars& stars,
-                                                     ParallelFor parallel_for) {
+void search_neighbour_meetings(const Mesh& mesh, const VertexStars& stars, MeetingSearch& search) {
     const std::size_t vertices = mesh.positions.size();
     const std::size_t tasks = (vertices + kVerticesPerTask - 1) / kVerticesPerTask;
-    std::vector<std::uint8_t> is_flat(vertices);
-    const auto for_vertices = [&](std::size_t task, const auto& body) {
-        const std::size_t last = std::min(vertices, (task + 1) * kVerticesPerTask);
-        for (std::size_t i = task * kVerticesPerTask; i < last; ++i) {
-            body(static_cast<std::uint32_t>(i));
+    const auto end_of_task = [&](std::size_t task) {
+        return std::min(vertices, (task + 1) * kVerticesPerTask);
+    };
+    Neighbourhood around{mesh, stars, std::vector<std::uint8_t>(vertices)};
+    const auto look = [&](std::size_t task) {
+        if (is_stopped(search.stop())) return;
+        Fan fan;
+        for (std::size_t i = task * kVerticesPerTask; i < end_of_task(task); ++i) {
+            const auto vertex = static_cast<std::uint32_t>(i);
+            around.is_flat[i] = fan.lies_side_by_side(mesh, vertex, stars.around(i)) ? 1 : 0;
         }
     };
-    const auto look = [&](std::size_t task) {
-        Fan fan;
-        for_vertices(task, [&](std::uint32_t vertex) {
-            is_flat[vertex] = fan.lies_side_by_side(mesh, vertex, stars.around(vertex)) ? 1 : 0;
-        });
-    };
-    parallel_for(tasks, look);
-    std::vector<std::vector<TriangleMeeting>> found(tasks);
-    const Asker asker(mesh, stars, is_flat);
-    const auto ask = [&](std::size_t task) {
-        for_vertices(task, [&](std::uint32_t vertex) {
-            if (is_flat[vertex] == 0) asker.ask_around(vertex, found[task]);
-        });
-    };
-    parallel_for(tasks, ask);
-    std::vector<TriangleMeeting> all;
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
-    return all;
+    search.parallel_for()(tasks, look);
+    std::vector<NeighbourJob> jobs;
+    for (std::size_t task = 0; task < tasks; ++task) {
+        jobs.emplace_back(around, task * kVerticesPerTask, end_of_task(task));
+    }
+    search.run(jobs);
 }
 
 }  // namespace cdprep::mesh

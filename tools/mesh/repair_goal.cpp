@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "mesh/copies.h"
@@ -12,19 +13,6 @@
 
 namespace cdprep::mesh {
 namespace {
-
-/// The lowest pair, by number in the sound mesh; at least one of the two has any.
-std::pair<std::uint32_t, std::uint32_t> lowest_pair(const std::vector<TriangleMeeting>& distinct,
-                                                    const Copies& copies) {
-    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
-    std::pair<std::uint32_t, std::uint32_t> lowest{kMost, kMost};
-    for (const TriangleMeeting& pair : first_pairs(distinct, copies, 1)) {
-        lowest = {pair.a, pair.b};
-    }
-    copies.for_each(
-        [&](const CopyList& list) { lowest = std::min(lowest, std::pair(list[0], list[1])); });
-    return lowest;
-}
 
 /// "3 edges have more than two triangles", each that is above 0, with commas.
 class Flaws {
@@ -44,23 +32,28 @@ private:
 
 }  // namespace
 
-SelfCrossing find_self_crossing(const TriangleSoup& soup, ParallelFor parallel_for) {
+SelfCrossing find_self_crossing(const TriangleSoup& soup, const SearchOptions& options) {
     FindingList findings(0);
     DefectCounts counts;
     const SoundMesh sound = find_sound_mesh(soup, findings, counts);
     const Copies copies(find_edge_flaws(collect_stars(sound.mesh)).repeated);
-    const std::vector<TriangleMeeting> distinct =
-        find_distinct_meetings(sound.mesh, copies, parallel_for);
     SelfCrossing crossing;
-    for (const TriangleMeeting& pair : distinct) {
-        crossing.pairs += copies.of(pair.a).size() * copies.of(pair.b).size();
-    }
-    copies.for_each(
-        [&](const CopyList& list) { crossing.pairs += list.size() * (list.size() - 1) / 2; });
+    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+    std::pair<std::uint32_t, std::uint32_t> lowest{kMost, kMost};
+    crossing.is_complete = search_distinct_meetings(
+        sound.mesh, copies, options, [&](std::span<const TriangleMeeting> some) {
+            for (const TriangleMeeting& pair : some) {
+                crossing.pairs += copies.of(pair.a).size() * copies.of(pair.b).size();
+                lowest = std::min(lowest, {pair.a, pair.b});
+            }
+        });
+    copies.for_each([&](const CopyList& list) {
+        crossing.pairs += list.size() * (list.size() - 1) / 2;
+        lowest = std::min(lowest, {list[0], list[1]});
+    });
     if (crossing.pairs > 0) {
-        const auto [first, second] = lowest_pair(distinct, copies);
-        crossing.first = sound.source_triangle[first];
-        crossing.second = sound.source_triangle[second];
+        crossing.first = sound.source_triangle[lowest.first];
+        crossing.second = sound.source_triangle[lowest.second];
     }
     return crossing;
 }

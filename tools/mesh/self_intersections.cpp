@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include "cdprep/format/limits.h"
 #include "mesh/degenerate.h"
+#include "mesh/meeting_search.h"
 #include "mesh/neighbour_meetings.h"
 #include "mesh/triangle_meeting.h"
 #include "mesh/vertex_stars.h"
@@ -39,54 +42,94 @@ struct SomeTriangles {
     std::vector<std::uint32_t> number;
 };
 
-/// Flat ones stay out of the hierarchy: those along one line would be around each other.
-SomeTriangles without_flat(const Mesh& mesh, const std::vector<std::uint64_t>& flat) {
+/// The triangles that a hierarchy is built over, when not all are. Flat ones stay out: those
+/// along one line would be around each other.
+SomeTriangles for_hierarchy(const Mesh& mesh, const std::vector<std::uint64_t>& flat) {
     SomeTriangles left;
     if (flat.empty()) return left;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-        if (((flat[i / 64] >> (i % 64)) & 1) != 0) continue;
+        const bool is_flat = !flat.empty() && ((flat[i / 64] >> (i % 64)) & 1) != 0;
+        if (is_flat) continue;
         left.triangle.push_back(mesh.triangles[i]);
         left.number.push_back(i);
     }
     return left;
 }
 
-/// Appends the meetings of triangles without a common vertex, in no order.
-void find_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& flat,
-                         ParallelFor parallel_for, std::vector<TriangleMeeting>& all) {
+/// One part of the walk of a hierarchy against itself.
+class WalkJob {
+public:
+    WalkJob(const Mesh& mesh, const SelfWalk& walk, std::size_t part,
+            const std::function<std::uint32_t(std::uint32_t)>& number)
+        : mesh_(&mesh), walk_(&walk), number_(&number), rest_(walk.part(part)) {}
+
+    [[nodiscard]] bool is_done() const {
+        return rest_.empty();
+    }
+
+    void go_on(SearchTurn& turn) {
+        Workspace workspace;
+        walk_->run(
+            rest_, workspace.storage(), [&](const SelfPair& pair) { ask(pair, turn); },
+            [&](std::size_t work) { return turn.count(work); });
+    }
+
+private:
+    void ask(const SelfPair& pair, SearchTurn& turn) const {
+        const auto [a, b] = std::minmax({(*number_)(pair.a), (*number_)(pair.b)});
+        const Corners in_a = corners_of(*mesh_, a), in_b = corners_of(*mesh_, b);
+        turn.count(1);
+        const auto meeting = pair.certain ? meeting_across(in_a, in_b) : meeting_apart(in_a, in_b);
+        if (meeting) turn.add({a, b, *meeting});
+    }
+
+    const Mesh* mesh_;
+    const SelfWalk* walk_;
+    const std::function<std::uint32_t(std::uint32_t)>* number_;  ///< of a place of the tree
+    SelfWalk::Rest rest_;
+};
+
+/// Searches the meetings of triangles without a common vertex.
+void search_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& flat,
+                           MeetingSearch& search) {
     const std::vector<Double3> shrunk = shrunk_if_too_large(mesh);
-    const SomeTriangles left = without_flat(mesh, flat);
-    const std::vector<Triangle>& triangles = flat.empty() ? mesh.triangles : left.triangle;
+    const bool has_all = flat.empty();
+    const SomeTriangles left = for_hierarchy(mesh, flat);
+    const std::vector<Triangle>& triangles = has_all ? mesh.triangles : left.triangle;
     const build::Bvh bvh = build::build_bvh(shrunk.empty() ? mesh.positions : shrunk, triangles,
-                                            {.parallel_for = parallel_for,
+                                            {.parallel_for = search.parallel_for(),
                                              .bounds = build::BvhBounds::aligned,
                                              .quality = build::Quality::fast});
-    const auto number = [&](std::uint32_t at) {
-        return flat.empty() ? bvh.order[at] : left.number[bvh.order[at]];
+    const std::function<std::uint32_t(std::uint32_t)> number = [&](std::uint32_t at) {
+        return has_all ? bvh.order[at] : left.number[bvh.order[at]];
     };
-    const SelfWalk walk(bvh, triangles, parallel_for);
-    std::vector<std::vector<TriangleMeeting>> found(walk.part_count());
-    const auto run = [&](std::size_t part) {
-        Workspace workspace;
-        walk.run(part, workspace.storage(), [&](const SelfPair& pair) {
-            const auto [a, b] = std::minmax({number(pair.a), number(pair.b)});
-            const Corners in_a = corners_of(mesh, a), in_b = corners_of(mesh, b);
-            const auto meeting =
-                pair.certain ? meeting_across(in_a, in_b) : meeting_apart(in_a, in_b);
-            if (meeting) found[part].push_back({a, b, *meeting});
-        });
-    };
-    parallel_for(walk.part_count(), run);
-    for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+    const SelfWalk walk(bvh, triangles, search.parallel_for());
+    std::vector<WalkJob> jobs;
+    for (std::size_t part = 0; part < walk.part_count(); ++part) {
+        jobs.emplace_back(mesh, walk, part, number);
+    }
+    search.run(jobs);
 }
 
 }  // namespace
 
+bool search_self_intersections(const Mesh& mesh, const SearchOptions& options,
+                               const TakeMeetings& take) {
+    MeetingSearch search(options, take);
+    const std::vector<std::uint64_t> flat = find_degenerate(mesh, options.parallel_for);
+    std::optional<VertexStars> stars(std::in_place, mesh, flat);
+    search_neighbour_meetings(mesh, *stars, search);
+    stars.reset();  // before the hierarchy needs memory
+    search_meetings_apart(mesh, flat, search);
+    return search.is_complete();
+}
+
 std::vector<TriangleMeeting> find_self_intersections(const Mesh& mesh, ParallelFor parallel_for) {
-    const std::vector<std::uint64_t> flat = find_degenerate(mesh, parallel_for);
-    std::vector<TriangleMeeting> found =
-        find_neighbour_meetings(mesh, VertexStars(mesh, flat), parallel_for);
-    find_meetings_apart(mesh, flat, parallel_for, found);
+    std::vector<TriangleMeeting> found;
+    search_self_intersections(mesh, {.parallel_for = parallel_for},
+                              [&](std::span<const TriangleMeeting> some) {
+                                  found.insert(found.end(), some.begin(), some.end());
+                              });
     std::sort(found.begin(), found.end(), [](const TriangleMeeting& x, const TriangleMeeting& y) {
         return x.a != y.a ? x.a < y.a : x.b < y.b;
     });

@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "cdprep/advanced/parallel_for.h"
 #include "mesh/mesh.h"
+#include "mesh/stop.h"
 
 namespace cdprep::mesh {
 
@@ -44,18 +48,42 @@ struct TriangleMeeting {
     friend bool operator==(const TriangleMeeting&, const TriangleMeeting&) = default;
 };
 
+/// How much a search may do at most.
+struct SearchLimits {
+    static constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
+    std::uint64_t pairs = kNone;  ///< meetings found
+    std::uint64_t steps = kNone;  ///< pairs of triangles, of leaves or of nodes looked at
+};
+
+struct SearchOptions {
+    SearchLimits limits = {};
+    StopCheck stop = {};  ///< ends the search; what was found until then depends on the machine
+    ParallelFor parallel_for = serial_for;
+};
+
+/// Takes some meetings. Called from one thread at a time.
+using TakeMeetings = std::function<void(std::span<const TriangleMeeting>)>;
+
 /// Finds every pair of triangles of a mesh that have more in common than the vertices
-/// and edges they share, each pair once, sorted by (a, b). Triangles of zero area are in
-/// none, as in CGAL's self_intersections().
+/// and edges they share, and hands each over once, in no order. Triangles of zero area are
+/// in none, as in CGAL's self_intersections().
+///
+/// Returns true if the search is complete. Else the limits ended it, shortly after one of
+/// them was reached: the meetings are some of all, the same for any parallel_for.
 ///
 /// Vertices are told apart by number: no two that triangles use may be equal, as weld()
 /// leaves them. Positions must be finite. CGAL's answer is defined for meshes with at most
 /// two triangles at an edge; here more may meet there, and every two of them are asked.
 ///
-/// Exact. The same for any parallel_for. O(n log n), and O(pairs) for those that meet
-/// and for those whose boxes overlap, or around one vertex are seen over each other from it.
-/// k copies of one triangle are k (k - 1) / 2 pairs: see Copies. Some 60 bytes of scratch a
-/// triangle. tests/bench/self_intersections_bench measures.
+/// Exact. O(n log n), and O(pairs) for those that meet and for those whose boxes overlap,
+/// or around one vertex are seen over each other from it. Long triangles around one vertex
+/// are no such pairs: see Hubs. k copies of one triangle are k (k - 1) / 2 pairs:
+/// see Copies. Some 60 bytes of scratch a triangle, none a pair.
+/// tests/bench/self_intersections_bench measures.
+bool search_self_intersections(const Mesh& mesh, const SearchOptions& options,
+                               const TakeMeetings& take);
+
+/// All of them, sorted by (a, b): 12 bytes a pair.
 [[nodiscard]] std::vector<TriangleMeeting> find_self_intersections(
     const Mesh& mesh, ParallelFor parallel_for = serial_for);
 

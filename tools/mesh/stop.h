@@ -6,7 +6,7 @@
 namespace cdprep::mesh {
 
 /// Asked now and then during long work: true gives it up, and is true from then on. Empty
-/// never does. Called from one thread at a time; must not throw.
+/// never does. May be called from several threads at once; must not throw.
 using StopCheck = std::function<bool()>;
 
 [[nodiscard]] inline bool is_stopped(const StopCheck& stop) {

@@ -103,7 +103,7 @@ private:
             fact(verdict_balanced, tally.balanced);
             fact(verdict_inverted, tally.balanced && measure.volume_sign < 0);
         }
-        fact(verdict_crossings_examined, g_.meetings != nullptr);
+        fact(verdict_crossings_examined, tally.self_crossing || is_examined());
         fact(verdict_self_crossing, tally.self_crossing);
         verdict.promises = promises_of(verdict.facts);
         verdict.triangle_count = static_cast<std::uint32_t>(tally.triangles + tally.repeated);
@@ -114,6 +114,11 @@ private:
         verdict.area = measure.area;
         verdict.volume = tally.balanced ? measure.volume : 0;
         return verdict;
+    }
+
+    /// All pairs were: where none was found there is none.
+    [[nodiscard]] bool is_examined() const {
+        return g_.meetings != nullptr && g_.meetings->is_complete;
     }
 
     static bool has_genus(const Verdict& verdict) {

@@ -9,6 +9,7 @@
 #include <array>
 #include <map>
 #include <random>
+#include <tuple>
 
 #include "mesh/find_defects.h"
 #include "mesh/sound_mesh.h"
@@ -56,6 +57,18 @@ std::array<std::uint32_t, 3> key_of(const Triangle& triangle) {
 Meetings without_duplicates(Meetings meetings) {
     std::erase_if(meetings, [](const auto& m) { return m.meeting == Meeting::duplicate; });
     return meetings;
+}
+
+/// All meetings of the triangles that are no copies, sorted by (a, b).
+Meetings find_distinct_meetings(const Mesh& mesh, const Copies& copies) {
+    Meetings found;
+    EXPECT_TRUE(
+        search_distinct_meetings(mesh, copies, {}, [&](std::span<const TriangleMeeting> some) {
+            found.insert(found.end(), some.begin(), some.end());
+        }));
+    std::sort(found.begin(), found.end(),
+              [](const auto& x, const auto& y) { return std::tie(x.a, x.b) < std::tie(y.a, y.b); });
+    return found;
 }
 
 TEST(Copies, AreTheTrianglesWithTheSameCorners) {

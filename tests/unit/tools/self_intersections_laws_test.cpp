@@ -8,16 +8,15 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <optional>
 #include <random>
 #include <set>
-#include <thread>
 
 #include "mesh/self_intersections.h"
 #include "mesh/weld.h"
 #include "support/exact_contact.h"
+#include "support/team.h"
 #include "unit/tools/soup_of.h"
 
 namespace cdprep::mesh {
@@ -185,24 +184,6 @@ Mesh welded(const test::TestMesh& mesh) {
     return weld(test::soup_of(mesh)).mesh;
 }
 
-/// So many threads, whatever the number of tasks.
-class Team {
-public:
-    explicit Team(unsigned threads) : threads_(threads) {}
-    void operator()(std::size_t count, Task task) const {
-        std::atomic<std::size_t> next{0};
-        std::vector<std::jthread> team;
-        for (unsigned t = 0; t < threads_; ++t) {
-            team.emplace_back([&] {
-                for (std::size_t i = next++; i < count; i = next++) task(i);
-            });
-        }
-    }
-
-private:
-    unsigned threads_;
-};
-
 /// A sheet of n x n squares of which some vertices are moved, on a grid where `coarse`.
 test::TestMesh crumpled_sheet(std::uint32_t seed, int n, double by, bool coarse) {
     test::TestMesh sheet = test::grid_sheet(n, n);
@@ -355,7 +336,7 @@ TEST(SelfIntersections, AnyNumberOfThreadsGivesTheSame) {
         return std::array{x.a, x.b} < std::array{y.a, y.b};
     }));
     for (unsigned threads = 1; threads <= 8; ++threads) {
-        const Team team(threads);
+        const test::Team team(threads);
         EXPECT_EQ(find_self_intersections(mesh, team), found) << threads;
     }
 }
