@@ -8,6 +8,7 @@
 
 #include "cdprep/format/limits.h"
 #include "mesh/degenerate.h"
+#include "mesh/hub_meetings.h"
 #include "mesh/meeting_search.h"
 #include "mesh/neighbour_meetings.h"
 #include "mesh/triangle_meeting.h"
@@ -44,12 +45,13 @@ struct SomeTriangles {
 
 /// The triangles that a hierarchy is built over, when not all are. Flat ones stay out: those
 /// along one line would be around each other.
-SomeTriangles for_hierarchy(const Mesh& mesh, const std::vector<std::uint64_t>& flat) {
+SomeTriangles for_hierarchy(const Mesh& mesh, const std::vector<std::uint64_t>& flat,
+                            const Hubs& hubs) {
     SomeTriangles left;
-    if (flat.empty()) return left;
+    if (flat.empty() && hubs.empty()) return left;
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const bool is_flat = !flat.empty() && ((flat[i / 64] >> (i % 64)) & 1) != 0;
-        if (is_flat) continue;
+        if (is_flat || hubs.has(i)) continue;
         left.triangle.push_back(mesh.triangles[i]);
         left.number.push_back(i);
     }
@@ -89,12 +91,12 @@ private:
     SelfWalk::Rest rest_;
 };
 
-/// Searches the meetings of triangles without a common vertex.
+/// Searches the meetings of triangles without a common vertex, none of them at a hub.
 void search_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& flat,
-                           MeetingSearch& search) {
+                           const Hubs& hubs, MeetingSearch& search) {
     const std::vector<Double3> shrunk = shrunk_if_too_large(mesh);
-    const bool has_all = flat.empty();
-    const SomeTriangles left = for_hierarchy(mesh, flat);
+    const bool has_all = flat.empty() && hubs.empty();
+    const SomeTriangles left = for_hierarchy(mesh, flat, hubs);
     const std::vector<Triangle>& triangles = has_all ? mesh.triangles : left.triangle;
     const build::Bvh bvh = build::build_bvh(shrunk.empty() ? mesh.positions : shrunk, triangles,
                                             {.parallel_for = search.parallel_for(),
@@ -119,8 +121,10 @@ bool search_self_intersections(const Mesh& mesh, const SearchOptions& options,
     const std::vector<std::uint64_t> flat = find_degenerate(mesh, options.parallel_for);
     std::optional<VertexStars> stars(std::in_place, mesh, flat);
     search_neighbour_meetings(mesh, *stars, search);
+    const Hubs hubs(mesh, *stars);
+    search_hub_meetings(mesh, flat, *stars, hubs, search);
     stars.reset();  // before the hierarchy needs memory
-    search_meetings_apart(mesh, flat, search);
+    search_meetings_apart(mesh, flat, hubs, search);
     return search.is_complete();
 }
 
