@@ -210,6 +210,7 @@ void add_bake(CLI::App& app, Exit& exit) {
                      "their convex piece, in model units as baked; 0: exact")
         ->check(zero_or_more())
         ->capture_default_str();
+    add_max_pairs(*command, arguments->options.max_pairs);
     command->add_flag("--strict", arguments->options.strict,
                       "Bake nothing of which 'cdprep validate' finds a warning or more: exit 1");
     command

@@ -38,11 +38,17 @@ bool is_refused(const report::Judgement& judgement) {
 }  // namespace
 
 report::ValidationReport find_for_bake(const std::string& input, const mesh::TriangleSoup& soup,
-                                       const mesh::Mesh& welded, ParallelFor parallel_for) {
+                                       const mesh::Mesh& welded, std::uint64_t max_pairs,
+                                       ParallelFor parallel_for) {
     const mesh::TriangleSoup joined = as_welded(soup, welded);
     report::ValidationReport found = report::report_on(input, joined);
-    found.defects = mesh::find_defects(
-        joined, {.max_places = kPlaces, .stop = is_interrupted, .parallel_for = parallel_for});
+    mesh::DefectOptions options;
+    options.max_places = kPlaces;
+    options.max_pairs = max_pairs;
+    options.stop = is_interrupted;
+    options.parallel_for = parallel_for;
+    found.defects = mesh::find_defects(joined, options);
+    report::remark_on_limits(found, options);
     const report::RuleSettings rules;
     static_cast<void>(report::judge(found, joined, {rules, nullptr, kPlaces}));
     found.exit = static_cast<int>(count_warnings(found) > 0 ? Exit::findings : Exit::success);
@@ -55,13 +61,18 @@ std::uint64_t count_warnings(const report::ValidationReport& found) {
 }
 
 std::string strict_refusal(const report::ValidationReport& found) {
+    if (count_warnings(found) == 0) {
+        return found.input + ": " + found.remarks.front() +
+               " --strict allows no mesh that was not examined.";
+    }
     const auto first = static_cast<std::size_t>(
         std::find_if(found.judgements.begin(), found.judgements.end(), is_refused) -
         found.judgements.begin());
     const std::uint64_t rules = count_warnings(found);
     const mesh::Finding& finding = found.defects.findings[first];
     std::string sentence = found.input + ": " + mesh::id_of(finding.rule) + ", " +
-                           mesh::text_of(finding.rule).title + ": " + std::to_string(finding.count);
+                           mesh::text_of(finding.rule).title + ": " +
+                           report::count_text(finding, finding.count);
     if (!finding.places.empty()) {
         sentence += ", first " +
                     report::place_text(found, finding.rule, finding.places[0], kNumbersInSentence);

@@ -18,6 +18,7 @@ namespace cdprep::cli {
 [[nodiscard]] report::ValidationReport find_for_bake(const std::string& input,
                                                      const mesh::TriangleSoup& soup,
                                                      const mesh::Mesh& welded,
+                                                     std::uint64_t max_pairs,
                                                      ParallelFor parallel_for);
 
 /// How many rules found a warning or more.

@@ -41,6 +41,7 @@ template <class Report>
 void add_input(CLI::App& command, std::filesystem::path& input);
 void add_normalize(CLI::App& command, bool& normalize);
 void add_weld(CLI::App& command, double& distance);
+void add_max_pairs(CLI::App& command, std::uint64_t& pairs);
 void add_jobs(CLI::App& command, std::size_t& threads);
 void add_report_format(CLI::App& command, std::string& format);  ///< text or json
 void add_progress(CLI::App& command, std::string& progress);

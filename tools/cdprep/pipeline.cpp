@@ -112,7 +112,8 @@ Findings examine(const mesh::TriangleSoup& soup, const mesh::Mesh& mesh,
         timed(bounds_s, [&] { found.bounds = convex::find_bounds(mesh); }),
         timed(defects_s,
               [&] {
-                  found.defects = find_for_bake(input.string(), soup, mesh, threads.parallel_for());
+                  found.defects = find_for_bake(input.string(), soup, mesh, options.max_pairs,
+                                                threads.parallel_for());
               }),
     });
     return found;
@@ -297,7 +298,8 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     Findings found = stages.run(
         "build", [&] { return examine(soup, welded.mesh, input, options, threads, stages); });
     if (is_interrupted()) return interrupted(input);
-    if (options.strict && found.defects.exit != 0) {
+    const bool is_unknown = !found.defects.defects.crossings_complete;
+    if (options.strict && (found.defects.exit != 0 || is_unknown)) {
         report.exit = found.defects.exit;
         report.error = strict_refusal(found.defects);
         return report;
@@ -375,6 +377,8 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     report.repaired = options.repair;
     report.promises = report::promise_words(found.defects.defects.verdicts[0]);
     report.warnings = count_warnings(found.defects);
+    report.crossings_complete = found.defects.defects.crossings_complete;
+    report.remarks = found.defects.remarks;
     report.single_precision = soup.single_precision;
     if (!options.structures.names.empty()) {
         report.structures = stages.run("describe", [&] {

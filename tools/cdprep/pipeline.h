@@ -9,6 +9,7 @@
 #include "cdprep/result.h"
 #include "effects.h"
 #include "import/import_file.h"
+#include "mesh/self_intersections.h"
 #include "program_threads.h"
 #include "report/bake_report.h"
 #include "structures.h"
@@ -22,7 +23,8 @@ struct BakeOptions {
     double weld_distance = 0;    ///< model units
     std::string repair;          ///< a preset of mesh::find_repair_preset(), or empty
     double piece_tolerance = 0;  ///< of the effect "pieces"; model units, as baked; 0: exact
-    bool strict = false;         ///< refuse a mesh of which something is found
+    std::uint64_t max_pairs = mesh::kDefaultMaxPairs;  ///< that meet: the search ends there
+    bool strict = false;  ///< refuse a mesh of which something is found
     build::BvhBounds bounds = build::BvhOptions{}.bounds;
     import::ImportOptions import;
 };

@@ -223,6 +223,7 @@ Result<Done> settle(Arguments& arguments) {
     run.seam_width = defects.seam_width;
     run.crossings = defects.crossings;
     run.coloured = arguments.output.empty() && is_coloured(arguments.colour);
+    run.max_pairs = defects.max_pairs;
     arguments.options.import = arguments.import.options();
     return Done{};
 }
@@ -288,6 +289,7 @@ void add_judging_options(CLI::App& command, Arguments& arguments) {
                     "Look for boundaries this close, in model units; 0: not")
         ->check(zero_or_more())
         ->capture_default_str();
+    add_max_pairs(command, arguments.options.defects.max_pairs);
     command.add_flag("--no-crossings", arguments.no_crossings,
                      "Leave out CDP0403 and CDP0501 to CDP0503; the verdict then says so");
 }

@@ -78,10 +78,13 @@ void examine(Validation& result, const Input& input, const ValidationOptions& op
     report.defects =
         timed(report, "find", begins, [&] { return mesh::find_defects(soup, defects); });
     if (is_interrupted()) return;
+    report::remark_on_limits(report, defects);
     const bool fails = timed(report, "judge", begins, [&] {
         return report::judge(report, soup, {options.run.rules, known, options.kept_places});
     });
-    report.exit = static_cast<int>(fails ? Exit::findings : Exit::success);
+    const bool is_unknown = defects.crossings && !report.defects.crossings_complete &&
+                            report::fails_on_pairs(options.run.rules);
+    report.exit = static_cast<int>(fails || is_unknown ? Exit::findings : Exit::success);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "mesh/finding_list.h"
 #include "mesh/point_tree.h"
 #include "mesh/sound_mesh.h"
+#include "mesh/stop.h"
 
 namespace cdprep::mesh {
 
@@ -44,9 +45,11 @@ struct Boundary {
 void list_boundary(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
                    FindingList& findings);
 
-/// CDP0307: O(n log n) for edges that pass few vertices, and O(pairs) for those that do.
-void find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
-                      FindingList& findings, DefectCounts& counts);
+/// CDP0307: O(n log n) for edges that pass few vertices, and O(pairs) for those that do, up to
+/// a number of vertices looked at that is linear in the boundary. Returns false when that or
+/// `stop` ended the search: the count is then a lower bound.
+bool find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
+                      const StopCheck& stop, FindingList& findings, DefectCounts& counts);
 
 /// CDP0308, for a width above 0. O(pairs within the width).
 void find_near_seams(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,

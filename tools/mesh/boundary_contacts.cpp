@@ -105,6 +105,11 @@ PointTree tree_of(const Mesh& mesh, const Boundary& boundary) {
     return PointTree(std::move(points));
 }
 
+/// T-junctions: so many looks from an edge at a vertex take some 5 s, at 0.1 us each.
+constexpr std::uint64_t kLooksAtVertices = 50'000'000;
+constexpr std::uint64_t kLooksPerEdge = 200;  ///< sound boundaries need 10 to 30
+constexpr std::uint32_t kEdgesPerCheck = 256;
+
 /// An end of the boundary and an edge it does not belong to.
 struct Contact {
     std::uint32_t end;  ///< of Boundary::vertex
@@ -190,9 +195,11 @@ Place place_of(const TriangleSoup& soup, const SoundMesh& sound, const Boundary&
 
 }  // namespace
 
-void find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
-                      FindingList& findings, DefectCounts& counts) {
-    if (boundary.edge.empty()) return;
+bool find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
+                      const StopCheck& stop, FindingList& findings, DefectCounts& counts) {
+    if (boundary.edge.empty()) return true;
+    const std::uint64_t most = kLooksAtVertices + kLooksPerEdge * boundary.edge.size();
+    std::uint64_t looks = 0;
     const PointTree tree = tree_of(sound.mesh, boundary);
     std::vector<std::uint32_t> ends;
     for (std::uint32_t i = 0; i < boundary.edge.size(); ++i) {
@@ -206,7 +213,12 @@ void find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Bo
         const auto enter = [&](const Box& box) {
             return around.meets(box) && (box.contains(from) || reach(box));
         };
+        if (looks > most || (i % kEdgesPerCheck == 0 && is_stopped(stop))) {
+            findings.mark_lower_bound(Rule::t_junction);
+            return false;
+        }
         tree.visit(enter, [&](std::uint32_t end) {
+            ++looks;
             if (!around.contains(tree.point(end))) return;
             const std::uint32_t vertex = boundary.vertex[end];
             if (vertex == edge.from || vertex == edge.to) return;
@@ -221,6 +233,7 @@ void find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Bo
             });
         }
     }
+    return true;
 }
 
 void find_near_seams(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,

@@ -189,7 +189,8 @@ private:
         counts().boundary_edges = boundary_.edge.size();
         counts().boundary_loops = boundary_.loop.size();
         list_boundary(soup_, sound_, boundary_, findings_);
-        find_t_junctions(soup_, sound_, boundary_, findings_, counts());
+        report_.t_junctions_complete =
+            find_t_junctions(soup_, sound_, boundary_, options_.stop, findings_, counts());
         find_near_seams(soup_, sound_, boundary_, options_.seam_width, findings_, counts());
     }
 
@@ -236,7 +237,7 @@ private:
             meetings = list_meetings({copies, sound_, components_, nested}, search_options(),
                                      findings_, counts());
         }
-        report_.crossings_complete = meetings.is_complete;
+        report_.crossings_complete = options_.crossings && meetings.is_complete;
         // Two components of which not all pairs were examined may overlap.
         if (meetings.is_complete) list_nested(nested, meetings);
         report_.verdicts =

@@ -9,19 +9,10 @@
 #include "cdprep/format/verdict.h"
 #include "mesh/finding.h"
 #include "mesh/mesh.h"
+#include "mesh/self_intersections.h"
 #include "mesh/stop.h"
 
 namespace cdprep::mesh {
-
-/// So many take some 3 s on one core, measured with overlapping triangles in one plane at
-/// 0.6 us a pair.
-inline constexpr std::uint64_t kDefaultMaxPairs = 5'000'000;
-
-/// Enough for every mesh whose pairs stay below the limit as a rule, and some minutes at
-/// most: a step takes 20 to 100 ns, and sound meshes need 1 to 20 a triangle.
-[[nodiscard]] constexpr std::uint64_t default_steps(std::uint64_t triangles) {
-    return 500'000'000 + 200 * triangles;
-}
 
 struct DefectOptions {
     double weld_distance = 0;       ///< near_vertex; model units; 0 looks for none
@@ -72,10 +63,11 @@ struct DefectReport {
     std::vector<Finding> findings;  ///< by ascending id; none with a count of 0
     DefectCounts counts;
     std::vector<format::Verdict> verdicts;  ///< the whole mesh, then each component
-    /// The search for pairs came to its end. If not, the counts from nested_components on
-    /// are lower bounds; no component counts as nested, and no verdict calls a component
-    /// free of crossings.
+    /// The search for pairs came to its end; false without DefectOptions::crossings. If a
+    /// limit ended it, the counts from nested_components on are lower bounds; no component
+    /// counts as nested, and no verdict calls a component free of crossings.
     bool crossings_complete = true;
+    bool t_junctions_complete = true;  ///< else a limit ended the search for those
 };
 
 /// Says what is wrong with a mesh and where, and what may be promised of it.

@@ -27,6 +27,8 @@ nlohmann::ordered_json to_json(const BakeReport& report) {
     if (!report.repaired.empty()) json["repaired"] = report.repaired;
     json["promises"] = report.promises;
     json["warnings"] = report.warnings;
+    json["crossings_complete"] = report.crossings_complete;
+    if (!report.remarks.empty()) json["remarks"] = report.remarks;
     json["precision"] = report.single_precision ? "f32" : "f64";
     if (!report.structures.empty()) json["structures"] = structures_json(report.structures);
     if (report.parts) {
@@ -57,6 +59,7 @@ std::string bake_text(const BakeReport& report, Timings timings) {
                 (report.warnings == 1 ? " rule finds" : " rules find") +
                 " defects; 'cdprep info' lists them\n";
     }
+    for (const std::string& remark : report.remarks) text += "  " + remark + "\n";
     text += structures_text(report.structures);
     if (report.parts) {
         text += "  " + std::to_string(report.parts->count) +

@@ -38,6 +38,8 @@ struct BakeReport {
     bool closed = false;
     std::string repaired;               ///< the preset, or empty
     std::vector<std::string> promises;  ///< what answers mean on it, as promise_words()
+    bool crossings_complete = true;     ///< all pairs of triangles were examined
+    std::vector<std::string> remarks;   ///< sentences on limits that were reached
     std::uint64_t warnings = 0;         ///< rules that found a warning or more
     bool single_precision = false;
     std::vector<StructureReport> structures;

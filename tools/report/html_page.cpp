@@ -171,6 +171,7 @@ json finding_json(const PageMesh& mesh, std::size_t index, const std::optional<P
     return {{"rule", mesh::id_of(finding.rule)},
             {"severity", severity_word(severity_of(mesh, index))},
             {"count", finding.count},
+            {"lower", finding.is_lower_bound},
             {"places", std::move(listed)},
             {"marks", marks_json(marks, mark_style(finding.rule))}};
 }

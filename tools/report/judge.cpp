@@ -106,4 +106,10 @@ bool judge(ValidationReport& report, const mesh::TriangleSoup& soup, const Judge
     return fails;
 }
 
+bool fails_on_pairs(const RuleSettings& rules) {
+    return rules.fails(mesh::Rule::overlapping_components) ||
+           rules.fails(mesh::Rule::crossing_triangles) ||
+           rules.fails(mesh::Rule::touching_triangles) || rules.fails(mesh::Rule::coplanar_overlap);
+}
+
 }  // namespace cdprep::report

@@ -26,4 +26,8 @@ struct JudgeOptions {
 [[nodiscard]] bool judge(ValidationReport& report, const mesh::TriangleSoup& soup,
                          const JudgeOptions& options);
 
+/// Whether the run fails when triangles cross, touch or overlap. Then it also fails when a
+/// limit ended the search for them.
+[[nodiscard]] bool fails_on_pairs(const RuleSettings& rules);
+
 }  // namespace cdprep::report

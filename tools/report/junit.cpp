@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "report/json_layout.h"
+#include "report/place_text.h"
 #include "report/severity_name.h"
 #include "report/validation_text.h"
 
@@ -72,7 +73,7 @@ std::string finding_element(const ValidationReport& report, const ValidationRun&
     const mesh::Finding& finding = report.defects.findings[i];
     const Judgement& judgement = report.judgements[i];
     const std::string message = std::string(mesh::text_of(finding.rule).title) + ": " +
-                                std::to_string(judgement.fresh) +
+                                count_text(finding, judgement.fresh) +
                                 (run.baseline.empty() ? "" : " new");
     const std::string places = places_text(report, i, run.max_places, "");
     if (!run.rules.fails(finding.rule)) {

@@ -50,6 +50,10 @@ std::string place_text(const ValidationReport& report, mesh::Rule rule, const me
     return measure.empty() ? text : text + "; " + measure + ": " + number_text(place.measure);
 }
 
+std::string count_text(const mesh::Finding& finding, std::uint64_t count) {
+    return (finding.is_lower_bound ? "at least " : "") + std::to_string(count);
+}
+
 std::string counted(std::uint64_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }

@@ -61,6 +61,7 @@ Json finding_json(const ValidationReport& report, std::size_t i, const Validatio
                  {"name", mesh::text_of(finding.rule).name},
                  {"severity", severity_name(judgement.severity)},
                  {"count", finding.count}};
+    if (finding.is_lower_bound) json["lower_bound"] = true;
     if (!run.baseline.empty()) json["new"] = judgement.fresh;
     json["places"] = Json::array();
     const std::size_t shown = std::min(finding.places.size(), run.max_places);
@@ -108,6 +109,8 @@ Json mesh_json(const ValidationReport& report, const ValidationRun& run) {
     json["triangles"] = report.triangles;
     json["vertices"] = report.vertices;
     json["counts"] = counts_json(report.defects.counts);
+    json["crossings_complete"] = report.defects.crossings_complete;
+    if (!report.defects.t_junctions_complete) json["t_junctions_complete"] = false;
     json["findings"] = Json::array();
     for (std::size_t i = 0; i < report.defects.findings.size(); ++i) {
         json["findings"].push_back(finding_json(report, i, run));
@@ -132,6 +135,7 @@ std::string validation_json_head(const ValidationRun& run) {
     const Json options = {{"weld", run.weld_distance},
                           {"seam", run.seam_width},
                           {"crossings", run.crossings},
+                          {"max_pairs", run.max_pairs},
                           {"max_issues", run.max_places}};
     const Json baseline = run.baseline.empty() ? Json() : Json(run.baseline);
     std::string text = "{";

@@ -25,9 +25,9 @@ struct ValidationReport {
     std::uint64_t triangles = 0;
     std::uint64_t vertices = 0;
     mesh::DefectReport defects;
-    std::vector<Judgement> judgements;              ///< one a finding
-    std::uint64_t known = 0;                        ///< findings that the baseline has too
-    std::vector<std::string> remarks;               ///< sentences on how they were compared
+    std::vector<Judgement> judgements;  ///< one a finding
+    std::uint64_t known = 0;            ///< findings that the baseline has too
+    std::vector<std::string> remarks;   ///< sentences on limits, and on how they were compared
     std::vector<std::string> node_of_triangle_run;  ///< node paths, one an instance
     std::vector<std::uint32_t> first_triangle;      ///< of each instance, ascending
     double seconds = 0;
@@ -39,5 +39,8 @@ struct ValidationReport {
 
 /// A report that knows a mesh and its nodes, and nothing yet of what is wrong with it.
 [[nodiscard]] ValidationReport report_on(const std::string& input, const mesh::TriangleSoup& soup);
+
+/// Adds the sentence that says where a limit ended the search for pairs, if one did.
+void remark_on_limits(ValidationReport& report, const mesh::DefectOptions& options);
 
 }  // namespace cdprep::report

@@ -21,8 +21,9 @@ struct ValidationRun {
     double weld_distance = 0;      ///< model units
     double seam_width = 0;         ///< model units
     bool crossings = true;
-    bool coloured = false;  ///< text, by the codes of terminals
-    bool timings = false;   ///< show how long each file took; without, equal runs write equal bytes
+    std::uint64_t max_pairs = mesh::kDefaultMaxPairs;  ///< pairs that end the search for more
+    bool coloured = false;                             ///< text, by the codes of terminals
+    bool timings = false;  ///< show how long each file took; without, equal runs write equal bytes
 };
 
 /// Sums over the files of a run. With a baseline, findings are the new ones.

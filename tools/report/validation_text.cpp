@@ -37,8 +37,8 @@ std::string finding_line(const mesh::Finding& finding, const Judgement& judgemen
     const mesh::RuleText& rule = mesh::text_of(finding.rule);
     std::string severity = severity_name(judgement.severity);
     severity.resize(std::string_view("warning").size(), ' ');
-    std::string count = std::to_string(judgement.fresh);
-    if (!run.baseline.empty()) count += " new of " + std::to_string(finding.count);
+    std::string count = count_text(finding, judgement.fresh);
+    if (!run.baseline.empty()) count += " new of " + count_text(finding, finding.count);
     return "  " + painted(severity, colour_of(judgement.severity), run) + " " +
            mesh::id_of(finding.rule) + " " + rule.title + ": " + count + " (" + rule.name + ")\n";
 }
@@ -109,7 +109,8 @@ std::string places_text(const ValidationReport& report, std::size_t finding, std
         text += indent + place_text(report, found.rule, found.places[i], kMostNumbers) + "\n";
     }
     const std::uint64_t all = report.judgements[finding].fresh;
-    return all <= shown ? text : text + indent + "and " + std::to_string(all - shown) + " more\n";
+    if (all <= shown) return text;
+    return text + indent + "and " + count_text(found, all - shown) + " more\n";
 }
 
 std::string validation_text(const ValidationReport& report, const ValidationRun& run) {

@@ -12,6 +12,8 @@ const state = {mesh: null, number: 0, view: null, open: new Set(), hidden: new S
 
 const $ = (id) => document.getElementById(id);
 const whole = (n) => Number(n).toLocaleString('en-US');
+// A limit may have ended the search for more.
+const count_of = (finding) => (finding.lower ? 'at least ' : '') + whole(finding.count);
 const plural = (n, one, many) => whole(n) + ' ' + (Number(n) === 1 ? one : many);
 
 function make(tag, attributes, ...children) {
@@ -193,7 +195,7 @@ function paint_rule(finding, element) {
                  severity_sign(finding.severity),
                  make('span', {class: 'title'}, page.rules[finding.rule].title),
                  make('span', {class: 'id'}, finding.rule),
-                 make('span', {class: 'count'}, whole(finding.count)));
+                 make('span', {class: 'count'}, count_of(finding)));
 }
 
 function toggle_marks(rule) {
@@ -492,7 +494,7 @@ function write_paper() {
   for (const finding of state.mesh.findings) {
     const rule = page.rules[finding.rule];
     rows.push(make('h3', {}, swatch(finding.rule, false), severity_sign(finding.severity),
-                   finding.rule + ' ' + rule.title + ': ' + whole(finding.count)));
+                   finding.rule + ' ' + rule.title + ': ' + count_of(finding)));
     rows.push(make('p', {}, rule.meaning));
     const places = finding.places.slice(0, PRINTED_PLACES);
     rows.push(make('ol', {}, ...places.map((place) => make('li', {}, place_words(place) + ' at ' +
