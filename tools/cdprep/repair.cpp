@@ -80,23 +80,21 @@ Result<mesh::RepairOptions> options_of(const Arguments& arguments) {
     return options;
 }
 
-/// Takes over the report of the repair, and says whether the preset reached its goal.
+/// Takes over the report of the repair, and says whether the preset reached its goal, and
+/// nothing crosses that did not cross before.
 void judge(const Arguments& arguments, const mesh::TriangleSoup& input,
-           const mesh::Repaired& repaired, ParallelFor parallel_for,
+           const mesh::Repaired& repaired, const mesh::SearchOptions& search,
            report::RepairFileReport& report) {
     report.repair = repaired.report;
     const bool has_preset = arguments.steps.empty();
-    if (has_preset && arguments.preset == "solid") {
-        mesh::TriangleSoup output;
-        output.positions = repaired.mesh.positions;
-        output.triangles = repaired.mesh.triangles;
-        report.crossing_before = mesh::find_self_crossing(input, {.parallel_for = parallel_for});
-        report.crossing_after = mesh::find_self_crossing(output, {.parallel_for = parallel_for});
-    }
+    report.crossing_before = mesh::find_self_crossing(input, search);
+    report.crossing_after = mesh::find_output_crossing(input, repaired.mesh, search);
     if (has_preset) {
-        report.missed =
-            mesh::missed_goal(arguments.preset, repaired.report.after, report.crossing_after);
+        report.missed = mesh::missed_goal(arguments.preset, repaired.report.after,
+                                          *report.crossing_before, *report.crossing_after);
         report.goal = report.missed.empty();
+    } else {
+        report.missed = mesh::worse_crossing(*report.crossing_before, *report.crossing_after);
     }
     if (repaired.mesh.triangles.empty() && !input.triangles.empty()) {
         report.missed = "no triangle is left of the " + std::to_string(input.triangles.size()) +
@@ -124,7 +122,11 @@ Result<report::RepairFileReport> repair_file(const Arguments& arguments,
     }
     const mesh::Repaired repaired = mesh::repair(soup.value(), options);
     report::RepairFileReport report;
-    if (!is_interrupted()) judge(arguments, soup.value(), repaired, options.parallel_for, report);
+    const mesh::SearchOptions search = {
+        {options.max_pairs, mesh::default_steps(repaired.mesh.triangles.size())},
+        is_interrupted,
+        options.parallel_for};
+    if (!is_interrupted()) judge(arguments, soup.value(), repaired, search, report);
     if (is_interrupted()) return interrupted(arguments.input);
     const Result<Done> written = write_mesh(
         arguments.output, format.value(),
@@ -170,8 +172,9 @@ void add_repair(CLI::App& app, Exit& exit) {
     CLI::App* command =
         app.add_subcommand("repair", "Mend what is asked, and account for every change");
     command->footer(
-        "Exits with 1 when the output is not what the preset promises, or has no triangle\n"
-        "left; it is written all the same. 2-manifold is meant by vertex numbers, as the output\n"
+        "Exits with 1 when the output is not what the preset promises, has no triangle left,\n"
+        "or has more crossings than the input; it is written all the same. 2-manifold is meant by "
+        "vertex numbers, as the output\n"
         "is stored; validate joins vertices with equal positions first, and may find what was\n"
         "parted here.");
     add_input(*command, arguments->input);
@@ -202,6 +205,7 @@ void add_repair(CLI::App& app, Exit& exit) {
                      "Seconds after which crossings are left as they are, and that is said")
         ->check(zero_or_more())
         ->capture_default_str();
+    add_max_pairs(*command, arguments->options.max_pairs);
     add_jobs(*command, arguments->threads);
     add_report_format(*command, arguments->format);
     add_import_arguments(*command, arguments->import);

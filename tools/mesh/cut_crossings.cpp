@@ -236,13 +236,17 @@ std::optional<RepairMesh> cut_once(RepairMesh mesh, const std::vector<TriangleMe
 
 }  // namespace
 
-CutMesh cut_crossings(RepairMesh mesh, ParallelFor parallel_for, const StopCheck& stop) {
+CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search, const StopCheck& stop) {
     mesh = joined(std::move(mesh));
     CutMesh cut;
     std::size_t before = std::numeric_limits<std::size_t>::max();
     try {
         for (int round = 0; round <= kMostRounds; ++round) {
-            const std::vector<TriangleMeeting> meetings = find_meetings(mesh, parallel_for);
+            const auto [meetings, is_complete] = find_meetings(mesh, search);
+            if (!is_complete) {
+                cut.failed = "finding what their cuts cross was ended by a limit";
+                return cut;
+            }
             const auto worst = std::find_if_not(meetings.begin(), meetings.end(), is_allowed);
             cut.left.reset();
             if (worst == meetings.end()) break;

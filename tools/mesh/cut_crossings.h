@@ -21,7 +21,7 @@ struct CutMesh {
 /// Cuts are made in exact arithmetic, then their ends are rounded to doubles; what meets
 /// after that is cut again, a few times. Triangles without area are left out: their edges
 /// are cut by the others. Equal positions become one vertex.
-[[nodiscard]] CutMesh cut_crossings(RepairMesh mesh, ParallelFor parallel_for,
+[[nodiscard]] CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search,
                                     const StopCheck& stop);
 
 }  // namespace cdprep::mesh

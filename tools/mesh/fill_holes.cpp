@@ -111,11 +111,11 @@ public:
         find_lone(edges);
     }
 
-    void run(const HoleLimits& limits) {
+    void run(const HoleLimits& limits, const StopCheck& stop) {
         const double most = limits.diagonal;
         patch_of_.assign(mesh_.triangles.size(), kNone);
         for (std::uint32_t i = 0; i < loops_.size(); ++i) {
-            if (is_stopped(limits.interrupted)) return;
+            if (is_stopped(stop)) return;
             const double diagonal = diagonal_of(mesh_, loops_[i]);
             if (diagonal <= most) {
                 fill(i);
@@ -128,14 +128,11 @@ public:
     }
 
     /// Takes back patches that meet the surface or each other.
-    void take_back(const std::vector<TriangleMeeting>& meetings) {
+    void take_back(const SearchOptions& options) {
         std::map<std::uint32_t, TriangleMeeting> bad;
-        for (const TriangleMeeting& meeting : meetings) {
-            // Of two patches the later goes.
-            const std::uint32_t later = patch_of_[meeting.b];
-            const std::uint32_t patch = later == kNone ? patch_of_[meeting.a] : later;
-            if (patch != kNone) bad.try_emplace(patch, meeting);
-        }
+        search_meetings(mesh_, options, [&](std::span<const TriangleMeeting> some) {
+            for (const TriangleMeeting& meeting : some) note(meeting, bad);
+        });
         if (bad.empty()) return;
         for (const auto& [patch, meeting] : bad) {
             refuse(loops_[patch], diagonal_of(mesh_, loops_[patch]),
@@ -155,6 +152,16 @@ public:
     }
 
 private:
+    /// Keeps the lowest meeting of each patch.
+    void note(const TriangleMeeting& meeting, std::map<std::uint32_t, TriangleMeeting>& bad) const {
+        // Of two patches the later goes.
+        const std::uint32_t later = patch_of_[meeting.b];
+        const std::uint32_t patch = later == kNone ? patch_of_[meeting.a] : later;
+        if (patch == kNone) return;
+        TriangleMeeting& first = bad.try_emplace(patch, meeting).first->second;
+        if (std::tie(meeting.a, meeting.b) < std::tie(first.a, first.b)) first = meeting;
+    }
+
     void find_lone(const EdgeUses& edges) {
         std::vector<std::uint8_t> boundary(mesh_.triangles.size(), 0);
         for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
@@ -245,15 +252,15 @@ private:
 
 }  // namespace
 
-Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits, ParallelFor parallel_for) {
+Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits, const SearchOptions& search) {
     StepReport report(RepairStep::fill_holes);
     const bool may_cross =
-        limits.crossing == Crossing::resolved_later || !find_meetings(mesh, parallel_for).empty();
+        limits.crossing == Crossing::resolved_later || has_meetings(mesh, search);
     HoleFilling filling(mesh, report);
-    filling.run(limits);
+    filling.run(limits, search.stop);
     // Where triangles meet already, a patch that meets one makes nothing worse.
     if (!may_cross && report.added_triangles > 0) {
-        filling.take_back(find_meetings(mesh, parallel_for));
+        filling.take_back(search);
     }
     return {std::move(mesh), std::move(report)};
 }

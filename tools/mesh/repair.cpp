@@ -67,6 +67,10 @@ StoredVerdict verdict_of(const RepairMesh& mesh) {
     return find_stored_verdict(mesh.positions, mesh.triangles);
 }
 
+SearchOptions search_of(const RepairOptions& options, const StopCheck& stop) {
+    return {{options.max_pairs, SearchLimits::kNone}, stop, options.parallel_for};
+}
+
 /// Takes steps, and undoes those that make the verdict worse.
 class Repair {
 public:
@@ -111,20 +115,19 @@ public:
         take(RepairStep::drop_zero_area, drop_zero_area);
         if (is_manifold()) {
             take(RepairStep::fill_holes, [&](RepairMesh mesh) {
-                return fill_holes(
-                    std::move(mesh),
-                    {options_.hole_size,
-                     asked(RepairStep::resolve_self_intersections) ? Crossing::resolved_later
-                                                                   : Crossing::refused,
-                     options_.interrupted},
-                    options_.parallel_for);
+                return fill_holes(std::move(mesh),
+                                  {options_.hole_size, asked(RepairStep::resolve_self_intersections)
+                                                           ? Crossing::resolved_later
+                                                           : Crossing::refused},
+                                  search_of(options_, options_.interrupted));
             });
             take(RepairStep::drop_zero_area, drop_zero_area);
         }
         take(RepairStep::orient_outward, orient_outward);
         if (is_manifold()) {
             take(RepairStep::resolve_self_intersections, [&](RepairMesh mesh) {
-                return resolve_self_intersections(std::move(mesh), options_.parallel_for, stop_);
+                return resolve_self_intersections(std::move(mesh),
+                                                  search_of(options_, options_.interrupted), stop_);
             });
         }
         take(RepairStep::drop_components, [&](RepairMesh mesh) {
@@ -358,9 +361,10 @@ Repaired repair(const TriangleSoup& bare, const RepairOptions& options) {
     constexpr auto kResolve = static_cast<std::size_t>(RepairStep::resolve_self_intersections);
     if (!options.steps.test(kResolve) || is_stopped(options.interrupted)) return mended;
     // Patches were let cross, to be resolved. Where that was refused, none may cross.
-    if (find_meetings(mended.mesh, options.parallel_for).empty()) return mended;
+    const SearchOptions search = search_of(options, options.interrupted);
+    if (!has_meetings(mended.mesh, search)) return mended;
     const RepairMesh finite = drop_bad_numbers(as_repair_mesh(soup), out_of_range(soup)).mesh;
-    if (!find_meetings(finite, options.parallel_for).empty()) return mended;
+    if (has_meetings(finite, search)) return mended;
     RepairOptions without = options;
     without.steps.reset(kResolve);
     Repaired again = repair_once(soup, without, stop);

@@ -10,6 +10,7 @@
 
 #include "cdprep/advanced/parallel_for.h"
 #include "mesh/repair_step.h"
+#include "mesh/self_intersections.h"
 #include "mesh/stop.h"
 #include "mesh/stored_verdict.h"
 
@@ -33,7 +34,10 @@ struct RepairOptions {
     /// resolve_self_intersections: refused, and said so, where it is not done so long after
     /// repair() began. What comes out then depends on the machine.
     double seconds = std::numeric_limits<double>::infinity();
-    StopCheck interrupted;  ///< ends repair() soon; what it returns then is of no use
+    /// Pairs of triangles that meet: a search for them ends soon after so many, and
+    /// resolve_self_intersections is refused.
+    std::uint64_t max_pairs = kDefaultMaxPairs;
+    StopCheck interrupted = {};  ///< ends repair() soon; what it returns then is of no use
     ParallelFor parallel_for = serial_for;
 };
 

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 
+#include "mesh/component_pairs.h"
 #include "mesh/copies.h"
 #include "mesh/edge_flaws.h"
 #include "mesh/sound_mesh.h"
@@ -13,6 +15,107 @@
 
 namespace cdprep::mesh {
 namespace {
+
+constexpr std::size_t kSourcePairs = std::size_t{1} << 22;  ///< told apart: 100 MB
+
+/// Triangles that can be searched, and which are copies.
+class SoundSurface {
+public:
+    explicit SoundSurface(const TriangleSoup& soup) {
+        FindingList findings(0);
+        DefectCounts counts;
+        sound_ = find_sound_mesh(soup, findings, counts);
+        copies_ = Copies(find_edge_flaws(collect_stars(sound_.mesh)).repeated);
+    }
+
+    [[nodiscard]] const SoundMesh& sound() const {
+        return sound_;
+    }
+    [[nodiscard]] const Copies& copies() const {
+        return copies_;
+    }
+
+private:
+    SoundMesh sound_;
+    Copies copies_;
+};
+
+bool are_apart(Meeting meeting) {
+    return meeting == Meeting::crossing || meeting == Meeting::edge_crossing ||
+           meeting == Meeting::touching || meeting == Meeting::flat_touching ||
+           meeting == Meeting::coplanar_overlap;
+}
+
+/// Counts pairs, and calls look(pair, crossing) for each meeting of distinct triangles.
+template <class Look>
+SelfCrossing search(const SoundSurface& surface, const SearchOptions& options, const Look& look) {
+    const Copies& copies = surface.copies();
+    SelfCrossing crossing;
+    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
+    std::pair<std::uint32_t, std::uint32_t> lowest{kMost, kMost};
+    crossing.is_complete = search_distinct_meetings(
+        surface.sound().mesh, copies, options, [&](std::span<const TriangleMeeting> some) {
+            for (const TriangleMeeting& pair : some) {
+                crossing.pairs += copies.of(pair.a).size() * copies.of(pair.b).size();
+                lowest = std::min(lowest, {pair.a, pair.b});
+                look(pair, crossing);
+            }
+        });
+    copies.for_each([&](const CopyList& list) {
+        crossing.pairs += list.size() * (list.size() - 1) / 2;
+        lowest = std::min(lowest, {list[0], list[1]});
+    });
+    if (crossing.pairs > 0) {
+        crossing.first = surface.sound().source_triangle[lowest.first];
+        crossing.second = surface.sound().source_triangle[lowest.second];
+    }
+    return crossing;
+}
+
+/// What the triangles of an output were in the input.
+class SourceTriangles {
+public:
+    SourceTriangles(const TriangleSoup& input, const RepairMesh& output)
+        : output_(output), lowest_(input.triangles.size()), corners_(input.triangles.size()) {
+        std::iota(lowest_.begin(), lowest_.end(), 0U);
+        const SoundSurface surface(input);
+        const SoundMesh& sound = surface.sound();
+        for (std::size_t i = 0; i < sound.source_triangle.size(); ++i) {
+            corners_[sound.source_triangle[i]] = sound.mesh.triangles[i];
+        }
+        surface.copies().for_each([&](const CopyList& list) {
+            for (std::size_t i = 1; i < list.size(); ++i) {
+                lowest_[sound.source_triangle[list[i]]] = sound.source_triangle[list[0]];
+            }
+        });
+    }
+
+    /// Adds the pair of sources of two triangles of the output, unless they are neighbours.
+    void add(std::uint32_t a, std::uint32_t b, ComponentPairs& pairs) const {
+        const auto [low, high] = std::minmax({source_of(a), source_of(b)});
+        if (low == high || are_neighbours(low, high)) return;
+        pairs.add({low, high, 0, 0, 1});
+    }
+
+private:
+    /// New triangles get numbers behind those of the input.
+    [[nodiscard]] std::uint32_t source_of(std::uint32_t triangle) const {
+        const std::uint32_t source = output_.triangle_origin[triangle].source;
+        if (source != kNone) return lowest_[source];
+        return static_cast<std::uint32_t>(lowest_.size()) + triangle;
+    }
+
+    [[nodiscard]] bool are_neighbours(std::uint32_t low, std::uint32_t high) const {
+        if (high >= lowest_.size()) return false;
+        const auto& v = corners_[low].vertex;
+        const auto& w = corners_[high].vertex;
+        return std::find_first_of(v.begin(), v.end(), w.begin(), w.end()) != v.end();
+    }
+
+    const RepairMesh& output_;
+    std::vector<std::uint32_t> lowest_;  ///< of the copies of a source triangle
+    std::vector<Triangle> corners_;      ///< of a source triangle, equal positions joined
+};
 
 /// "3 edges have more than two triangles", each that is above 0, with commas.
 class Flaws {
@@ -33,33 +136,40 @@ private:
 }  // namespace
 
 SelfCrossing find_self_crossing(const TriangleSoup& soup, const SearchOptions& options) {
-    FindingList findings(0);
-    DefectCounts counts;
-    const SoundMesh sound = find_sound_mesh(soup, findings, counts);
-    const Copies copies(find_edge_flaws(collect_stars(sound.mesh)).repeated);
-    SelfCrossing crossing;
-    constexpr std::uint32_t kMost = std::numeric_limits<std::uint32_t>::max();
-    std::pair<std::uint32_t, std::uint32_t> lowest{kMost, kMost};
-    crossing.is_complete = search_distinct_meetings(
-        sound.mesh, copies, options, [&](std::span<const TriangleMeeting> some) {
-            for (const TriangleMeeting& pair : some) {
-                crossing.pairs += copies.of(pair.a).size() * copies.of(pair.b).size();
-                lowest = std::min(lowest, {pair.a, pair.b});
-            }
-        });
-    copies.for_each([&](const CopyList& list) {
-        crossing.pairs += list.size() * (list.size() - 1) / 2;
-        lowest = std::min(lowest, {list[0], list[1]});
+    const SoundSurface surface(soup);
+    return search(surface, options, [](const TriangleMeeting& pair, SelfCrossing& crossing) {
+        crossing.apart += are_apart(pair.meeting) ? 1 : 0;
     });
-    if (crossing.pairs > 0) {
-        crossing.first = sound.source_triangle[lowest.first];
-        crossing.second = sound.source_triangle[lowest.second];
-    }
+}
+
+SelfCrossing find_output_crossing(const TriangleSoup& input, const RepairMesh& output,
+                                  const SearchOptions& options) {
+    TriangleSoup soup;
+    soup.positions = output.positions;
+    soup.triangles = output.triangles;
+    const SoundSurface surface(soup);
+    const SourceTriangles sources(input, output);
+    ComponentPairs apart(kSourcePairs);
+    SelfCrossing crossing =
+        search(surface, options, [&](const TriangleMeeting& pair, SelfCrossing&) {
+            const std::vector<std::uint32_t>& number = surface.sound().source_triangle;
+            sources.add(number[pair.a], number[pair.b], apart);
+        });
+    crossing.apart = apart.take().size();
+    crossing.is_complete = crossing.is_complete && apart.is_complete();
     return crossing;
 }
 
+std::string worse_crossing(const SelfCrossing& before, const SelfCrossing& after) {
+    if (!before.is_complete || after.apart <= before.apart) return "";
+    return (after.is_complete ? "" : "at least ") + std::to_string(after.apart) +
+           " pairs of triangles cross or touch, and " +
+           (before.apart == 0 ? "none" : std::to_string(before.apart)) +
+           " before; the pieces of a triangle count as one";
+}
+
 std::string missed_goal(std::string_view preset, const StoredVerdict& after,
-                        const std::optional<SelfCrossing>& crossing) {
+                        const SelfCrossing& crossing_before, const SelfCrossing& crossing_after) {
     const std::string missed = "not " + std::string(preset) + ": ";
     if (after.verdict.triangle_count == 0) return missed + "there are no triangles";
     Flaws flaws;
@@ -73,17 +183,22 @@ std::string missed_goal(std::string_view preset, const StoredVerdict& after,
     if (preset != "safe") {
         flaws.add(after.boundary_edges, "edge is still open", "edges are still open");
     }
-    if (preset == "solid" && crossing) {
-        flaws.add(crossing->pairs, "pair of triangles still crosses or touches",
+    if (preset == "solid") {
+        flaws.add(crossing_after.pairs, "pair of triangles still crosses or touches",
                   "pairs of triangles still cross or touch");
     }
-    if (flaws.text().empty()) return "";
-    std::string sentence = missed + flaws.text();
-    if (preset == "solid" && crossing && crossing->pairs > 0) {
-        sentence += "; first " + std::to_string(crossing->first) + " and " +
-                    std::to_string(crossing->second);
+    std::string sentence = flaws.text().empty() ? "" : missed + flaws.text();
+    if (preset == "solid" && crossing_after.pairs > 0) {
+        return sentence + "; first " + std::to_string(crossing_after.first) + " and " +
+               std::to_string(crossing_after.second);
     }
-    return sentence;
+    if (preset == "solid" && !crossing_after.is_complete) {
+        return (sentence.empty() ? missed : sentence + ", ") +
+               "not all pairs of triangles were examined for crossings";
+    }
+    const std::string worse = worse_crossing(crossing_before, crossing_after);
+    if (worse.empty()) return sentence;
+    return (sentence.empty() ? "worse than the input: " : sentence + "; ") + worse;
 }
 
 }  // namespace cdprep::mesh

@@ -3,7 +3,7 @@
 
 #include "cdprep/advanced/build_bvh.h"
 #include "mesh/repair_step.h"
-#include "mesh/stop.h"
+#include "mesh/self_intersections.h"
 
 /// The steps of repair(), each a function from a mesh to a mesh and what it changed. All
 /// but the first ask for finite positions, and corners that are in range.
@@ -59,14 +59,14 @@ enum class Crossing : std::uint8_t {
 struct HoleLimits {
     double diagonal;  ///< of a loop's box, at most; model units
     Crossing crossing;
-    StopCheck interrupted;  ///< leaves the loops that are left open, unsaid
 };
 
 /// Closes loops of boundary edges: with the triangles that CGAL's
 /// triangulate_hole_polyline() proposes, or, where those would share an edge with others,
 /// around a new vertex in the middle. The mesh must be 2-manifold and oriented.
+/// `search.stop` leaves the loops that are left open, unsaid.
 [[nodiscard]] Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits,
-                                 ParallelFor parallel_for);
+                                 const SearchOptions& search);
 
 /// Reverses closed components of negative volume, but for cavities: those whose box and
 /// first vertex lie within an odd number of other closed components.
@@ -78,8 +78,9 @@ struct HoleLimits {
 ///
 /// Changes nothing where no two triangles meet. Refuses, and names the pair: a mesh that is
 /// not balanced; one whose cuts, rounded, go on crossing; one with sheets that bound
-/// nothing, which would be lost; and one that `stop` gave up.
-[[nodiscard]] Stepped resolve_self_intersections(RepairMesh mesh, ParallelFor parallel_for,
+/// nothing, which would be lost; one with more pairs than the limits allow; and one that
+/// `stop` gave up, which is not asked while pairs are searched.
+[[nodiscard]] Stepped resolve_self_intersections(RepairMesh mesh, const SearchOptions& search,
                                                  const StopCheck& stop);
 
 /// Leaves out components of fewer than `least` triangles.

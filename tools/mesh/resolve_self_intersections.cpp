@@ -255,6 +255,14 @@ Stepped refused_pair(RepairMesh mesh, const RepairMesh& pieces, std::uint32_t a,
                    pieces.positions[pieces.triangles[a].vertex[0]]);
 }
 
+/// A limit or an interrupt ended the search for pairs.
+Stepped refused_search(RepairMesh mesh, const Meetings& some) {
+    return refused(std::move(mesh),
+                   "at least " + std::to_string(some.pairs.size()) +
+                       " pairs of triangles meet, and the limit ended the search for more.",
+                   {}, {});
+}
+
 /// The facets between winding number 0 and another, wound outwards.
 RepairMesh keep_boundary(const RepairMesh& mesh, const std::vector<Facet>& facets,
                          const Windings& windings) {
@@ -309,18 +317,19 @@ void account(const RepairMesh& before, const RepairMesh& after, StepReport& repo
 
 }  // namespace
 
-Stepped resolve_self_intersections(RepairMesh mesh, ParallelFor parallel_for,
+Stepped resolve_self_intersections(RepairMesh mesh, const SearchOptions& search,
                                    const StopCheck& stop) {
-    const std::vector<TriangleMeeting> meetings = find_meetings(mesh, parallel_for);
-    if (meetings.empty()) {
+    const Meetings meetings = find_meetings(mesh, search);
+    if (!meetings.is_complete) return refused_search(mesh, meetings);
+    if (meetings.pairs.empty()) {
         return {std::move(mesh), StepReport(RepairStep::resolve_self_intersections)};
     }
-    const TriangleMeeting& first = meetings.front();
+    const TriangleMeeting& first = meetings.pairs.front();
     if (count_unpaired_uses(mesh.positions, mesh.triangles) > 0) {
         return refused_pair(mesh, mesh, first.a, first.b,
                             " meet, and the mesh is open: it has no inside to keep.");
     }
-    CutMesh cut = cut_crossings(mesh, parallel_for, stop);
+    CutMesh cut = cut_crossings(mesh, search, stop);
     if (!cut.failed.empty()) {
         return refused_pair(mesh, mesh, first.a, first.b, " meet, and " + cut.failed + ".");
     }
@@ -352,11 +361,12 @@ Stepped resolve_self_intersections(RepairMesh mesh, ParallelFor parallel_for,
     account(mesh, parted.mesh, report);
     report.unused = std::move(unused);
     report.parted = std::move(parted.report.parted);
-    const std::vector<TriangleMeeting> after = find_meetings(parted.mesh, parallel_for);
-    if (!after.empty()) {
-        return refused_pair(mesh, parted.mesh, after[0].a, after[0].b,
+    const Meetings after = find_meetings(parted.mesh, search);
+    if (!after.pairs.empty()) {
+        return refused_pair(mesh, parted.mesh, after.pairs[0].a, after.pairs[0].b,
                             " meet in what would bound the solid.");
     }
+    if (!after.is_complete) return refused_search(mesh, after);
     return {std::move(parted.mesh), std::move(report)};
 }
 

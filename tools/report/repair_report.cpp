@@ -36,7 +36,10 @@ std::string verdict_line(const mesh::StoredVerdict& found,
     line += ", " + counted(found.components, "component", "components") + ", " +
             std::to_string(found.boundary_edges) + " boundary edges in " +
             std::to_string(found.verdict.boundary_loops) + " loops";
-    if (crossing) line += ", " + std::to_string(crossing->pairs) + " pairs that cross or touch";
+    if (crossing) {
+        line += std::string(", ") + (crossing->is_complete ? "" : "at least ") +
+                std::to_string(crossing->pairs) + " pairs that cross or touch";
+    }
     return line;
 }
 
@@ -111,8 +114,10 @@ Json to_json(const mesh::StoredVerdict& found) {
 }
 
 void add_crossing(Json& json, const std::optional<mesh::SelfCrossing>& crossing) {
-    json["self_crossing"] = crossing ? Json(crossing->pairs > 0) : Json();
+    const bool is_known = crossing && (crossing->is_complete || crossing->pairs > 0);
+    json["self_crossing"] = is_known ? Json(crossing->pairs > 0) : Json();
     json["crossing_pairs"] = crossing ? Json(crossing->pairs) : Json();
+    json["crossings_complete"] = crossing ? Json(crossing->is_complete) : Json();
 }
 
 Json to_json(const mesh::MovedDistance& moved) {

@@ -337,7 +337,7 @@ TEST(Repair, CrossingCubesBecomeTheirUnion) {
     EXPECT_TRUE(is_closed_manifold(mended.report.after));
     EXPECT_EQ(mended.report.after.verdict.volume, 1.875);
     EXPECT_EQ(mended.report.after.components, 1U);
-    EXPECT_TRUE(find_meetings(mended.mesh, serial_for).empty());
+    EXPECT_TRUE(find_meetings(mended.mesh, {}).pairs.empty());
 }
 
 // By hand: one triangle stands with a corner on the other, which is cut into three there.
@@ -369,7 +369,7 @@ TEST(Repair, CubesThatShareHalfAFaceBecomeTheirUnion) {
     const Repaired mended = repaired(soup_of(cubes), "solid");
     EXPECT_TRUE(is_closed_manifold(mended.report.after));
     EXPECT_EQ(mended.report.after.verdict.volume, 2.0);
-    EXPECT_TRUE(find_meetings(mended.mesh, serial_for).empty());
+    EXPECT_TRUE(find_meetings(mended.mesh, {}).pairs.empty());
 }
 
 TEST(Repair, AnOpenMeshThatCrossesIsRefusedByItsPair) {
