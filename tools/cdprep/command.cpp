@@ -34,6 +34,7 @@ Exit exit_for(ErrorCode code) {
 }
 
 Exit fail(const char* command, const Error& error) {
+    if (error.code == ErrorCode::interrupted) end_by_itself();
     if (is_output_closed()) return Exit::interrupted;
     std::cerr << "cdprep " << command << ": " << report::printable(error.message) << '\n';
     return exit_for(error.code);

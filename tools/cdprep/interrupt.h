@@ -1,16 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <chrono>
 #include <filesystem>
+#include <functional>
 
 #include "cdprep/result.h"
 
 namespace cdprep::cli {
 
-/// Turns SIGINT and SIGTERM into a flag, so that work stops between two stages
-/// and leaves no temporary behind. A second signal ends the process at once. A
-/// write beyond the permitted file size fails instead of ending the process.
+/// Turns SIGINT and SIGTERM into a flag, so that work stops at the next place that looks at
+/// it. Work that goes on for kPatience after the signal is given up: the process ends with 130,
+/// wherever its threads are. Outputs have no name before they are whole, so nothing is left
+/// behind. A second signal ends the process at once. A write beyond the permitted file size
+/// fails instead of ending the process.
 void watch_for_interrupts();
+
+/// How long after a signal a stage may go on: no person notices, and it is time for all loops
+/// that look at the flag.
+inline constexpr std::chrono::milliseconds kPatience{60};
+
+/// What is still to be done when work is given up, as to end a report. While it lives only.
+/// Called from another thread than the work, which goes on; must not wait for it.
+class LastWords {
+public:
+    explicit LastWords(std::function<void()> words);
+    LastWords(const LastWords&) = delete;
+    LastWords& operator=(const LastWords&) = delete;
+    /// Waits for words that have begun: they end the process.
+    ~LastWords();
+};
+
+/// Work has ended by itself: a report may take its time from now on.
+void end_by_itself();
 
 [[nodiscard]] bool is_interrupted();
 

@@ -49,6 +49,7 @@ Exit run(int argc, char** argv) {
         app.exit(error, std::cout, std::cerr);
         return Exit::success;
     }
+    end_by_itself();
     if (is_interrupted()) exit = Exit::interrupted;
     const bool is_written = static_cast<bool>(std::cout.flush());
     if (is_output_closed()) return Exit::interrupted;

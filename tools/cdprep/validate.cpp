@@ -119,6 +119,8 @@ public:
 
     Exit all(const std::vector<Input>& inputs, const Threads& threads) {
         deliver(writer_.head());
+        // A report on standard output is a whole document also when work is given up.
+        const LastWords words([this] { give_up(); });
         threads.run_in_order(inputs.size(), [&](std::size_t i) -> std::function<void()> {
             if (is_over()) return [] {};
             auto validation = std::make_shared<Validation>(
@@ -164,7 +166,18 @@ private:
         is_stuck_ = true;
     }
 
+    /// Ends the report that is written as work goes on.
+    void give_up() {
+        const std::unique_lock lock(progress_mutex_, std::try_to_lock);
+        if (!lock || is_ended_ || output_.is_file()) return;
+        writer_.set_interrupted(static_cast<int>(Exit::interrupted));
+        deliver(writer_.tail());
+        static_cast<void>(output_.finish());
+    }
+
     Exit finish() {
+        const std::lock_guard lock(progress_mutex_);
+        is_ended_ = true;
         const bool interrupted = is_interrupted();
         if (interrupted) writer_.set_interrupted(static_cast<int>(Exit::interrupted));
         deliver(writer_.tail());
@@ -186,6 +199,7 @@ private:
     Progress& progress_;
     std::mutex progress_mutex_;
     std::size_t done_ = 0;
+    bool is_ended_ = false;
     std::atomic<bool> is_stuck_ = false;  ///< the output takes no more
     Exit stuck_ = Exit::success;
 };

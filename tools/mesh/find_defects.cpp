@@ -40,11 +40,12 @@ public:
         if (sound_.mesh.triangles.empty()) {
             findings_.add(Rule::empty_mesh, [] { return Place{}; });
         }
-        find_flaws_of_edges();
-        find_flaws_of_boundary();
-        measure();
-        list_components();
-        judge();
+        for (const auto stage :
+             {&DefectFinder::find_flaws_of_edges, &DefectFinder::find_flaws_of_boundary,
+              &DefectFinder::measure, &DefectFinder::list_components, &DefectFinder::judge}) {
+            if (is_stopped(options_.stop)) return std::move(report_);
+            (this->*stage)();
+        }
         report_.findings = findings_.take();
         return std::move(report_);
     }
