@@ -155,9 +155,15 @@ def bakes_to_a_limit(program):
     model, = json.loads(text)["models"]
     must(code == 0 and model["crossings_complete"] is False and "--max-pairs" in
          model["remarks"][0], f"bake: exit {code}: {text}{errors}")
+    code, _, errors = program("info", "--deep", "some.h5")
+    must(code == 0, f"what was left open is not false: {errors}")
     code, text, _ = program("bake", "some.ply", "-o", "some.h5", "--format", "json")
     model, = json.loads(text)["models"]
     must(model["crossings_complete"] is True and "remarks" not in model, f"bake: {text}")
+    # Examined for the file beyond the limit of a bake: 6 million pairs.
+    write_ply(program.folder / "more.ply", *shifted_triangles(3500))
+    code, _, _ = program("bake", "more.ply", "-o", "more.h5", "--max-pairs", "10000000")
+    must(code == 0 and program("info", "--deep", "more.h5")[0] == 0, "more than by default")
 
 
 def stays_small(program):
@@ -168,6 +174,7 @@ def stays_small(program):
     must(not mesh["crossings_complete"] and 5_000_000 <= found < count * (count - 1) // 2,
          f"{found} pairs")
     must(program("bake", "many.ply", "-o", "many.h5", "-j", "1")[0] == 0, "bake")
+    must(program("info", "--deep", "many.h5")[0] == 0, "the same limit")
 
 
 def large_stars(program):
