@@ -152,6 +152,13 @@ TEST(RepairGoal, CopiesOfATriangleCountAsOne) {
     const SelfCrossing as_output = find_output_crossing(soup_of(mesh), output_of(mesh, {0, 1, 2}));
     EXPECT_EQ(as_output.pairs, 3U);
     EXPECT_EQ(as_output.apart, 1U);
+    // Also when a piece is all that is left of the copy.
+    TestMesh cut = mesh;
+    cut.positions.push_back({0, 4, 0});
+    cut.triangles[2] = {{0, 1, 6}};
+    const SelfCrossing as_piece = find_output_crossing(soup_of(mesh), output_of(cut, {0, 1, 2}));
+    EXPECT_EQ(as_piece.pairs, 3U);
+    EXPECT_EQ(as_piece.apart, 1U);
 }
 
 TEST(RepairGoal, MoreCrossingsThanBeforeAreNoGoal) {
