@@ -20,6 +20,7 @@
 #include "mesh/degenerate.h"
 #include "mesh/normalize.h"
 #include "mesh/repair.h"
+#include "mesh/repair_goal.h"
 #include "mesh/repaired_soup.h"
 #include "mesh/topology.h"
 #include "mesh/tree_order.h"
@@ -144,20 +145,29 @@ struct Mended {
     std::vector<std::uint32_t> triangle_from;
     std::vector<std::uint32_t> vertex_from;
     std::optional<mesh::RepairReport> report;  ///< nothing: nobody asked
+    std::string worse;                         ///< how many more triangles cross; empty: none
 };
 
 /// Mends the soup by a preset, unless that is empty. Source numbers are then those of
 /// what is left.
-Mended mend(mesh::TriangleSoup& soup, const std::string& preset, const Threads& threads) {
-    const auto steps = mesh::find_repair_preset(preset);
+Mended mend(mesh::TriangleSoup& soup, const BakeOptions& options, const Threads& threads) {
+    const auto steps = mesh::find_repair_preset(options.repair);
     if (!steps) return {};
-    mesh::Repaired repaired = mesh::repair(
-        soup,
-        {.steps = *steps, .interrupted = is_interrupted, .parallel_for = threads.parallel_for()});
+    mesh::Repaired repaired = mesh::repair(soup, {.steps = *steps,
+                                                  .max_pairs = options.max_pairs,
+                                                  .interrupted = is_interrupted,
+                                                  .parallel_for = threads.parallel_for()});
+    const mesh::SearchOptions search = {
+        {options.max_pairs, mesh::default_steps(repaired.mesh.triangles.size())},
+        is_interrupted,
+        threads.parallel_for()};
+    const std::string worse =
+        mesh::worse_crossing(mesh::find_self_crossing(soup, search),
+                             mesh::find_output_crossing(soup, repaired.mesh, search));
     mesh::RepairedSoup as_imported = mesh::as_soup(soup, std::move(repaired.mesh));
     soup = std::move(as_imported.soup);
     return {std::move(as_imported.triangle_from), std::move(as_imported.vertex_from),
-            std::move(repaired.report)};
+            std::move(repaired.report), worse};
 }
 
 std::string provenance_of(const BakeOptions& options, const mesh::TriangleSoup& soup) {
@@ -283,7 +293,7 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     if (is_interrupted()) return interrupted(input);
     if (!imported) return imported.error();
     mesh::TriangleSoup soup = std::move(imported).value();
-    const Mended mended = stages.run("repair", [&] { return mend(soup, options.repair, threads); });
+    const Mended mended = stages.run("repair", [&] { return mend(soup, options, threads); });
     if (is_interrupted()) return interrupted(input);
     if (const auto error = find_refusal(input, soup)) return *error;
 
@@ -379,6 +389,9 @@ Result<report::BakeReport> bake(const std::filesystem::path& input,
     report.warnings = count_warnings(found.defects);
     report.crossings_complete = found.defects.defects.crossings_complete;
     report.remarks = found.defects.remarks;
+    if (!mended.worse.empty()) {
+        report.remarks.push_back("The repair made crossings: " + mended.worse + ".");
+    }
     report.single_precision = soup.single_precision;
     if (!options.structures.names.empty()) {
         report.structures = stages.run("describe", [&] {
