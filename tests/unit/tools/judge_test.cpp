@@ -125,5 +125,18 @@ TEST(Judge, ARuleThatTheBaselineLacksIsNew) {
     EXPECT_EQ(report.judgements[0].fresh, 1U);
 }
 
+// By hand: each of the four rules about pairs, and one that is about none.
+TEST(Judge, ARunFailsOnPairsWhenOneOfTheirRulesFails) {
+    const auto fails = [](const std::string& rule, const std::string& fail_on) {
+        return fails_on_pairs(RuleSettings::parse({rule}, {fail_on}).value());
+    };
+    EXPECT_FALSE(fails("sliver=error", "error"));
+    for (const char* rule : {"CDP0403", "CDP0501", "CDP0502", "CDP0503"}) {
+        EXPECT_TRUE(fails("sliver=off", rule)) << rule;
+        EXPECT_TRUE(fails(std::string(rule) + "=error", "error")) << rule;
+    }
+    EXPECT_FALSE(fails("sliver=off", "CDP0402"));
+}
+
 }  // namespace
 }  // namespace cdprep::report

@@ -112,6 +112,58 @@ TEST(ValidationText, CountsOneAsOne) {
 }
 
 // Of what is known, only the sum is told.
+/// The same with a search for the edges that was ended early.
+ValidationReport with_a_limit() {
+    ValidationReport report = with_a_hole();
+    report.defects.findings[0].is_lower_bound = true;
+    report.defects.crossings_complete = false;
+    report.defects.counts.self_intersecting_pairs = 1040;
+    mesh::DefectOptions options;
+    options.max_pairs = 1000;
+    remark_on_limits(report, options);
+    return report;
+}
+
+TEST(ValidationWriter, EveryFormatSaysThatACountIsALowerBound) {
+    const std::string text =
+        written(ValidationFormat::text, run_of(), {with_a_limit(), unreadable()});
+    EXPECT_TRUE(holds(text, "warning CDP0301 Edge has one triangle: at least 3 (boundary-edge)\n"));
+    EXPECT_TRUE(holds(text, "    and at least 1 more\n"));
+    EXPECT_TRUE(holds(text, "CDP0302 Surface has a hole: 1 ("));
+    EXPECT_TRUE(holds(text, "ended after 1040 pairs of triangles that meet; a larger --max-pairs"));
+    const std::string json = written(ValidationFormat::json, run_of(), {with_a_limit()});
+    EXPECT_TRUE(holds(json, "\"crossings_complete\":false"));
+    EXPECT_TRUE(holds(json, "\"lower_bound\":true"));
+    EXPECT_TRUE(holds(json, "a larger --max-pairs finds more"));
+    EXPECT_TRUE(holds(written(ValidationFormat::junit, run_of(), {with_a_limit()}),
+                      "Edge has one triangle: at least 3"));
+    EXPECT_TRUE(holds(written(ValidationFormat::sarif, run_of(), {with_a_limit()}),
+                      "a larger --max-pairs finds more"));
+    for (const ValidationFormat format :
+         {ValidationFormat::text, ValidationFormat::json, ValidationFormat::junit}) {
+        const std::string all = written(format, run_of(), {with_a_hole()});
+        EXPECT_FALSE(holds(all, "at least") || holds(all, "lower_bound") || holds(all, "ended"));
+    }
+}
+
+TEST(RemarkOnLimits, SaysWhichLimitEndedTheSearch) {
+    mesh::DefectOptions options;
+    options.max_pairs = 1000;
+    const auto remarks = [&](bool complete, std::uint64_t pairs) {
+        ValidationReport report;
+        report.defects.crossings_complete = complete;
+        report.defects.counts.self_intersecting_pairs = pairs;
+        remark_on_limits(report, options);
+        return report.remarks;
+    };
+    EXPECT_TRUE(remarks(true, 5000).empty());
+    ASSERT_EQ(remarks(false, 1000).size(), 1U);
+    EXPECT_TRUE(holds(remarks(false, 1000)[0], "after 1000 pairs"));
+    EXPECT_TRUE(holds(remarks(false, 999)[0], "at the limit of its work, after 999 pairs"));
+    options.crossings = false;  // nobody asked for them
+    EXPECT_TRUE(remarks(false, 0).empty());
+}
+
 TEST(ValidationText, WithABaselineListsOnlyNews) {
     ValidationRun run = run_of();
     run.baseline = "old.json";
