@@ -157,7 +157,7 @@ def check_other_formats(folder):
 def check_page(folder):
     """Pointing at a mark tells of its rung; nothing asks a network."""
     if not find_chromium():
-        print("the page was not opened: there is no Chromium")
+        print("skipped: the page in a browser: there is no Chromium")
         return
     page = folder / "study.html"
     accuracy(BOLT, BRACKET, "--quick", "--format", "html", "-o", page)

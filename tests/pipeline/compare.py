@@ -173,7 +173,7 @@ def check_poses(program, meshes, folder):
 def check_page(program, meshes, folder):
     """The page fits its window, asks no network, and tells of a cell that one points at."""
     if not find_chromium():
-        print("the page was not opened: there is no Chromium")
+        print("skipped: the page in a browser: there is no Chromium")
         return
     page = folder / "tables.html"
     assert run(program, meshes / "bracket.obj", meshes / "bolt.obj", "--quick", "--format", "html",

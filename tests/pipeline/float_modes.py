@@ -93,7 +93,7 @@ def main():
     outputs_in_modes(program, preload, modes, "query", "distance", baked, baked,
                      "--format", "ndjson")
     if shared is None:
-        print("no test models: pairs were not asked")
+        print("skipped: the test models, which are not there (set CDPREP_SHARED)")
         return
     everything = os.environ.get("CDPREP_ALL_POSES") == "yes"
     names = ["horse", "skull", "bunny", "armadillo", "dragon", "buddha"]

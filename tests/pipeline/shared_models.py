@@ -34,6 +34,9 @@ def shared_folder():
 def shared_models_if_there(*names):
     """Those of the test models, or none where a checkout has none."""
     folder = place_of_shared_folder() / "models"
+    for name in names:
+        if not (folder / name).is_file():
+            print(f"skipped: the part about {name}, which is not in {folder} (set CDPREP_SHARED)")
     return [folder / name for name in names if (folder / name).is_file()]
 
 

@@ -397,7 +397,7 @@ def main():
     asked_wrongly(program, torus, folder)
     shared = shared_folder_if_there()
     if shared is None:
-        print("no test models: their pairs are left out (set CDPREP_SHARED)")
+        print("skipped: pairs of the test models, which are not there (set CDPREP_SHARED)")
         return
     pairs_of_the_papers(program, shared, folder)
     if os.environ.get("CDPREP_ALL_POSES") == "yes":
