@@ -16,9 +16,9 @@ namespace cdprep::cli {
 /// fails instead of ending the process.
 void watch_for_interrupts();
 
-/// How long after a signal a stage may go on: no person notices, and it is time for all loops
-/// that look at the flag.
-inline constexpr std::chrono::milliseconds kPatience{60};
+/// How long after a signal a stage may go on: time for loops that look at the flag. The system
+/// needs another 70 ms for each gigabyte that it takes back.
+inline constexpr std::chrono::milliseconds kPatience{30};
 
 /// What is still to be done when work is given up, as to end a report. While it lives only.
 /// Called from another thread than the work, which goes on; must not wait for it.
