@@ -64,7 +64,7 @@ void run_stages(const TriangleSoup& soup, Times& times) {
     times.take("boundary", [&] {
         const Boundary boundary = find_boundary(sound.mesh, std::move(flaws.boundary));
         list_boundary(soup, sound, boundary, findings);
-        find_t_junctions(soup, sound, boundary, findings, counts);
+        find_t_junctions(soup, sound, boundary, {}, findings, counts);
         return boundary.edge.size();
     });
     times.take("areas and volumes", [&] {

@@ -347,7 +347,7 @@ TEST(CutCrossings, ATriangleThatIsMetButNotCutNamesNoStep) {
     mesh.triangles = {{{0, 1, 2}}, {{3, 4, 5}}};
     mesh.vertex_origin.resize(6);
     mesh.triangle_origin = {{0, {}}, {1, {}}};
-    const CutMesh cut = cut_crossings(mesh, serial_for, {});
+    const CutMesh cut = cut_crossings(mesh, {}, {});
     EXPECT_EQ(cut.failed, "");
     EXPECT_FALSE(cut.left);
     ASSERT_EQ(cut.mesh.triangle_origin.size(), 4U);
