@@ -177,7 +177,7 @@ std::string provenance_of(const BakeOptions& options, const mesh::TriangleSoup& 
          settings_of(options.structures), options.structures.has_hulls(),
          options.structures.hulls.max_vertices, options.structures.hulls.parts,
          options.structures.hulls.max_error, options.import.metres_per_unit, options.import.up_axis,
-         soup.source_hash, soup.other_files});
+         options.max_pairs, soup.source_hash, soup.other_files});
 }
 
 /// Builds what was chosen over a mesh in tree order, whose numbers the structures then

@@ -63,6 +63,7 @@ std::string provenance_json(const Provenance& provenance) {
     if (provenance.hull_vertices > 0) options["hull_vertices"] = provenance.hull_vertices;
     if (provenance.parts) options["parts"] = *provenance.parts;
     if (provenance.max_error) options["max_error"] = *provenance.max_error;
+    if (provenance.max_pairs != mesh::kDefaultMaxPairs) options["max_pairs"] = provenance.max_pairs;
     if (provenance.metres_per_unit) options["metres_per_unit"] = *provenance.metres_per_unit;
     if (provenance.up_axis) options["up_axis"] = axis_name(*provenance.up_axis);
     for (const mesh::InputFile& file : provenance.other_files) {

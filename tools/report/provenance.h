@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "mesh/self_intersections.h"
 #include "report/structure_settings.h"
 
 namespace cdprep::report {
@@ -26,11 +27,12 @@ struct Provenance {
     bool has_hulls = false;
     std::uint32_t hull_vertices = 0;  ///< 0: exact hulls
     std::optional<std::size_t> parts;
-    std::optional<double> max_error;           ///< of parts
-    std::optional<double> metres_per_unit;     ///< given, in place of what the file says
-    std::optional<format::UpAxis> up_axis;     ///< likewise
-    std::uint64_t source_hash = 0;             ///< format::checksum() of the input file
-    std::vector<mesh::InputFile> other_files;  ///< that it refers to and that were read
+    std::optional<double> max_error;                   ///< of parts
+    std::optional<double> metres_per_unit;             ///< given, in place of what the file says
+    std::optional<format::UpAxis> up_axis;             ///< likewise
+    std::uint64_t max_pairs = mesh::kDefaultMaxPairs;  ///< that end the search for crossings
+    std::uint64_t source_hash = 0;                     ///< format::checksum() of the input file
+    std::vector<mesh::InputFile> other_files;          ///< that it refers to and that were read
 };
 
 /// Canonical JSON: keys sorted, no blanks, shortest numbers.
