@@ -59,7 +59,7 @@ void add_max_pairs(CLI::App& command, std::uint64_t& pairs) {
         .add_option("--max-pairs", pairs,
                     "End the search for crossing triangles soon after so many pairs; counts are "
                     "then lower bounds, and the report says so. A million pairs take about 0.6 s")
-        ->check(CLI::Range(std::uint64_t{1}, kMostPairs))
+        ->check(whole_from(1, kMostPairs))
         ->capture_default_str();
 }
 
