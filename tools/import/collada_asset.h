@@ -13,8 +13,8 @@ namespace cdprep::import {
 /// them 1 m and Y, as the format says. Leaves other formats alone.
 void add_collada_asset(std::string_view bytes, mesh::TriangleSoup& soup);
 
-/// The first mesh or node that a COLLADA file takes from another file, "other.dae#arm", which assimp
-/// does not follow. Empty where there is none, and for other files.
+/// The first mesh or node that a COLLADA file takes from another file, "other.dae#arm", which
+/// assimp does not follow. Empty where there is none, and for other files.
 [[nodiscard]] std::string find_outside_reference(std::string_view bytes);
 
 }  // namespace cdprep::import
