@@ -2,9 +2,10 @@
 #include "cdprep/pose.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "cdprep/format/float_environment.h"
@@ -13,10 +14,11 @@
 namespace cdprep {
 namespace {
 
-std::string shown(double number) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.17g", number);
-    return text.data();
+/// In the fewest digits that read back the same: 1e-12, not 9.9999999999999998e-13.
+std::string shown(double value) {
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    return {digits.data(), end};
 }
 
 /// The entry of R^T R - I that is farthest from zero.

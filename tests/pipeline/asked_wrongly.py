@@ -79,7 +79,7 @@ def main():
         (["validate", folder / "sheet.off", "--rule", "slivr=off"], 2, ["Did you mean 'sliver'?"]),
         (["bake", folder / "missing.off"], 3, ["missing.off"]),
         (["bake", folder / "a folder"], 3, ["a folder"]),
-        (["bake", folder / "notes.xyz"], 3, ["notes.xyz"]),
+        (["bake", folder / "notes.xyz"], 3, ["notes.xyz", "no format that is read"]),
         (["bake", "/dev/null", "-o", folder / "null"], 3, ["/dev/null"]),
         (["bake", folder / "sheet.off", folder / "again" / "sheet.off", "--output-dir",
           folder / "out"], 2, [str(folder / "sheet.off"), "again/sheet.off"]),

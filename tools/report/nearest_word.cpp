@@ -31,6 +31,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string suggestion(std::string_view word, std::span<const std::string> candidates) {
+    constexpr std::size_t kShortest = 3;  // of one or two letters every other is near
+    if (word.size() < kShortest) return "";
     std::size_t nearest = std::max<std::size_t>(word.size() / 3, 1) + 1;
     std::string_view best;
     for (const std::string& candidate : candidates) {

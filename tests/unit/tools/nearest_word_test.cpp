@@ -26,6 +26,7 @@ TEST(NearestWord, IsNoneWhereAThirdOfTheLettersAreWrong) {
     EXPECT_EQ(suggestion("bakeryx", kWords), "");                      // three of seven
     EXPECT_EQ(suggestion("frobnicate", kWords), "");
     EXPECT_EQ(suggestion("", kWords), "");
+    EXPECT_EQ(suggestion("-p", kWords), "");  // every letter is one mistake away
     EXPECT_EQ(suggestion("x", {}), "");
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <exception>
+#include <filesystem>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -108,6 +109,12 @@ Scene read_assimp(const std::string& path, InputFiles& files) {
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
     const aiScene* const found = importer.ReadFile(path, 0);
     if (!found && importer.GetException()) std::rethrow_exception(importer.GetException());
+    const bool is_known = importer.IsExtensionSupported(std::filesystem::path(path).extension());
+    if (!found && !is_known) {
+        throw std::runtime_error(
+            "is in no format that is read: OBJ, STL, PLY, OFF, glTF, 3MF, COLLADA, FBX and others "
+            "that assimp knows");
+    }
     if (!found) throw std::runtime_error(importer.GetErrorString());
 
     Scene scene;
