@@ -242,6 +242,8 @@ TEST(BuildImage, UnknownSectionsAreRefused) {
     const std::vector<Section> too_many(format::kMaxSections + 1,
                                         Section{SectionId::triangles, {}});
     EXPECT_NE(refusal(too_many, memory.span()).find("more than the 120"), std::string::npos);
+    const std::span<const Section> not_too_many = std::span(too_many).first(format::kMaxSections);
+    EXPECT_NE(refusal(not_too_many, memory.span()).find("is given twice"), std::string::npos);
 }
 
 // One byte less than image_size(), none at all, and every place that is not aligned.
