@@ -260,6 +260,13 @@ TEST(HullSections, AReachIsANumberUpToTheGreatest) {
         EXPECT_TRUE(is_refused(std::numeric_limits<double>::quiet_NaN()));
         EXPECT_TRUE(is_refused(std::nextafter(good.hulls[0].reach.*axis, 0)));
     }
+    HullSections endless = good;
+    endless.hulls[0].reach.x = std::numeric_limits<double>::infinity();
+    const auto damage = format::find_damage(baked(mesh, endless).span());
+    ASSERT_TRUE(damage);
+    EXPECT_EQ(damage->kind, format::DamageKind::bad_number);
+    EXPECT_EQ(damage->found, 0U);
+    EXPECT_EQ(damage->limit, 0U);
 }
 
 /// How often the file with two neighbours of a list exchanged is accepted.
