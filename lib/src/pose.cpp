@@ -66,8 +66,8 @@ Result<Pose> Pose::checked(const std::array<double, 12>& rows) {
     pose.translation_ = {rows[9], rows[10], rows[11]};
     const double error = worst_rotation_error(pose.rotation_);
     if (!(error <= kRotationTolerance)) {
-        return bad_pose("The pose does not turn rigidly: |R^T R - I| reaches " + shown(error) +
-                        ", allowed is " + shown(kRotationTolerance) + ".");
+        return bad_pose("The pose scales or shears: R^T R differs from the identity by " +
+                        shown(error) + "; at most " + shown(kRotationTolerance) + " is allowed.");
     }
     if (determinant(pose.rotation_) < 0) {
         return bad_pose("The pose mirrors: the determinant of R is -1, but only 1 is a rotation.");

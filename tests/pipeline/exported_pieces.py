@@ -258,7 +258,7 @@ def check_given_units(program, reader, folder):
         for options, code in ((["--unit", "mm"], 0), ([], 0), (["--strict"], 1)):
             output.unlink(missing_ok=True)
             done = run(program, "decompose", source, "-o", output, "--parts", "1", *options)
-            warns = "does not say its unit" in done.stderr and "--unit" in done.stderr
+            warns = "states no unit" in done.stderr and "--unit" in done.stderr
             must(done.returncode == code and warns == ("--unit" not in options),
                  f"{kind} {options}: exit {done.returncode}, {done.stderr}")
             must(output.exists() == (code == 0), f"{kind} {options}: {output.name}")

@@ -198,8 +198,9 @@ void add_accuracy(CLI::App& app, Exit& exit) {
         "long it takes, what it is built of, and how often it is wrong. Promises (an enclosing\n"
         "shape never misses, an interval holds the truth) are asserted: exit 6 when one breaks.\n"
         "Times are of one thread of this machine; -j is for what is built before.");
-    command->add_option("A", arguments->a, "A mesh file or a baked file; it stays")->required();
-    command->add_option("B", arguments->b, "The other one; it moves")->required();
+    command->add_option("A", arguments->a, "The model that stays, a mesh file or a baked file")
+        ->required();
+    command->add_option("B", arguments->b, "The model that moves, likewise")->required();
     command->add_option("-o,--output", arguments->output, "A file instead of standard output");
     command
         ->add_option("--save", arguments->saves,

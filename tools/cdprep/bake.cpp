@@ -59,8 +59,10 @@ Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
     for (const fs::path& input : arguments.inputs) inputs.insert(spelled_out(input));
     std::vector<fs::path> outputs;
     if (arguments.output == "-") {
-        return Error{ErrorCode::bad_argument,
-                     "-o -: a bake is no text and does not go to standard output. Name a file."};
+        return Error{
+            ErrorCode::bad_argument,
+            "-o -: a baked model is binary and does not go to standard output. Give a file "
+            "name."};
     }
     for (const fs::path& input : arguments.inputs) {
         const fs::path output = output_for(arguments, input);
@@ -188,7 +190,9 @@ Exit run(Arguments& arguments) {
 void add_bake(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("bake", "Turn mesh files into queryable models");
-    command->add_option("input", arguments->inputs, "OBJ, STL, PLY, OFF, glTF, ... files")
+    command
+        ->add_option("input", arguments->inputs,
+                     "Mesh files (OBJ, STL, PLY, OFF, glTF, 3MF and others)")
         ->required();
     CLI::Option* output =
         command->add_option("-o,--output", arguments->output, "Default: INPUT with .cdp.h5");

@@ -41,7 +41,8 @@ Exit fail(const char* command, const Error& error) {
 }
 
 void add_input(CLI::App& command, std::filesystem::path& input) {
-    command.add_option("input", input, "OBJ, STL, PLY, OFF, glTF, ... file")->required();
+    command.add_option("input", input, "A mesh file (OBJ, STL, PLY, OFF, glTF, 3MF and others)")
+        ->required();
 }
 
 void add_normalize(CLI::App& command, bool& normalize) {

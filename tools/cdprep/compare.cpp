@@ -129,7 +129,9 @@ void add_compare(CLI::App& app, Exit& exit) {
         "beside\n"
         "ours where a model has its counts. All models are fitted to a diagonal of 1.\n"
         "Exits with 6 when an exact strategy gives another answer than the others.");
-    command->add_option("model", arguments->inputs, "OBJ, STL, PLY, OFF, glTF, ... files")
+    command
+        ->add_option("model", arguments->inputs,
+                     "Mesh files (OBJ, STL, PLY, OFF, glTF, 3MF and others)")
         ->required();
     command->add_option("-o,--output", arguments->output, "Default: standard output");
     command->add_option("--format", arguments->format, "text, json, csv or html")

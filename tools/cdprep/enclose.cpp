@@ -146,8 +146,8 @@ Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOp
     if (options.strict && is_for_simulators(options.output) && soup.metres_per_unit == 0) {
         report::ApproximateReport refused;
         refused.input = input.string();
-        refused.error = input.string() + ": does not say its unit, which " +
-                        options.output.string() + " needs. Give --unit.";
+        refused.error = input.string() + ": states no unit, which " + options.output.string() +
+                        " needs. Give --unit mm, cm, m, in or ft.";
         refused.exit = static_cast<int>(Exit::findings);
         return refused;
     }

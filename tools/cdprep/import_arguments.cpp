@@ -9,7 +9,6 @@ namespace cdprep::cli {
 namespace {
 
 constexpr int kMostSeconds = 1'000'000;
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 50;
 
 const std::map<std::string, double> kMetresPerUnit = {
     {"mm", 0.001}, {"cm", 0.01}, {"m", 1}, {"in", 0.0254}, {"ft", 0.3048}};
@@ -41,13 +40,11 @@ void add_import_arguments(CLI::App& command, ImportArguments& arguments) {
     command
         .add_option("--import-memory", arguments.memory_bytes,
                     "Most memory an import may use, such as 2GB")
-        ->transform(CLI::AsSizeValue(false))
-        ->check(whole_from(1, kMostBytes));
+        ->transform(size_to_petabyte());
     command
         .add_option("--import-file-size", arguments.file_bytes,
                     "Largest file to import, such as 4GB")
-        ->transform(CLI::AsSizeValue(false))
-        ->check(whole_from(1, kMostBytes));
+        ->transform(size_to_petabyte());
     command.add_option("--import-time", arguments.seconds, "Most seconds an import may take")
         ->check(whole_from(1, kMostSeconds));
 }

@@ -10,6 +10,7 @@
 #include "cdprep/format/limits.h"
 #include "mesh/point_tree.h"
 #include "mesh/weld.h"
+#include "report/fixed.h"
 #include "report/place_text.h"
 
 namespace cdprep::cli {
@@ -24,9 +25,8 @@ Error refused(const std::filesystem::path& input, const mesh::TriangleSoup& soup
                    " has a coordinate that is not finite; every one must be";
     } else if (bad.found >= 0 && bad.found < bad.first) {
         message += "triangle " + std::to_string(bad.triangle) + " uses vertex " +
-                   std::to_string(bad.found) + ", but such a file counts its " +
-                   report::counted(static_cast<std::uint64_t>(bad.limit), "vertex", "vertices") +
-                   " from " + std::to_string(bad.first);
+                   std::to_string(bad.found) + ", but the file numbers its vertices from " +
+                   std::to_string(bad.first) + " to " + std::to_string(bad.first + bad.limit - 1);
     } else {
         message += "triangle " + std::to_string(bad.triangle) + " uses vertex " +
                    std::to_string(bad.found) + ", but the file has " +
@@ -71,9 +71,9 @@ std::optional<Error> find_wide_weld(const std::filesystem::path& input,
     const double diagonal = soup.positions.empty() ? 0 : box.diagonal();
     if (!(diagonal > 0) || distance < diagonal) return std::nullopt;
     return Error{ErrorCode::bad_argument,
-                 input.string() + ": --weld " + report::number_text(distance) +
+                 input.string() + ": --weld " + report::in_six_digits(distance) +
                      " would join the whole mesh, whose diagonal is " +
-                     report::number_text(diagonal) + ". Give a smaller distance."};
+                     report::in_six_digits(diagonal) + ". Give a smaller distance."};
 }
 
 Result<mesh::TriangleSoup> load_soup(const std::filesystem::path& input,

@@ -48,8 +48,8 @@ Result<Done> parse_row(std::string_view text, const std::string& place, std::spa
         ++count;
     }
     if (count != row.size()) {
-        return Error{ErrorCode::unreadable, place + ": there are " + std::to_string(count) +
-                                                " numbers, but it takes " +
+        return Error{ErrorCode::unreadable, place + ": found " + std::to_string(count) +
+                                                " numbers, but needs " +
                                                 std::to_string(row.size()) + "."};
     }
     return Done{};

@@ -14,8 +14,9 @@ Error baked_first(const std::filesystem::path& path, Error why) {
         import::has_mesh_ending(path) && std::filesystem::is_regular_file(path, unknown);
     if (why.code != ErrorCode::unreadable || !is_mesh) return why;
     const std::string name = path.string();
-    return {why.code,
-            name + ": is a mesh file, not a baked model. Bake it first: cdprep bake " + name + "."};
+    return {why.code, name +
+                          ": is a mesh file, not a baked model. Bake it first with 'cdprep bake " +
+                          name + "'."};
 }
 
 Result<Model> open_for(const std::filesystem::path& path, Ask asks, Structure through) {

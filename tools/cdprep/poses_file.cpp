@@ -10,8 +10,9 @@ namespace cdprep::cli {
 Result<Pose> parse_pose(const std::string& text, const std::string& place) {
     std::array<double, 12> rows{};
     if (Result<Done> parsed = parse_row(text, place, rows); !parsed) {
-        return Error{parsed.error().code,
-                     parsed.error().message + " A pose is R row by row, then T."};
+        return Error{
+            parsed.error().code,
+            parsed.error().message + " A pose is a rotation, row by row, then a translation."};
     }
     Result<Pose> pose = Pose::from_rows(rows);
     if (!pose) return Error{pose.error().code, place + ": " + pose.error().message};
@@ -23,7 +24,7 @@ Result<std::vector<Pose>> read_poses(const std::filesystem::path& path) {
     const Result<Done> read =
         for_each_line(path, [&](const std::string& line, const std::string& place) -> Result<Done> {
             const Result<Pose> pose = parse_pose(line, place);
-            if (!pose) return pose.error();
+            if (!pose) return Error{ErrorCode::unreadable, pose.error().message};
             poses.push_back(pose.value());
             return Done{};
         });

@@ -488,8 +488,8 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
     auto arguments = std::make_shared<Arguments>();
     arguments->question = question;
     CLI::App* command = query.add_subcommand(name, description);
-    command->add_option("a", arguments->a, "A baked file")->required();
-    command->add_option("b", arguments->b, "A baked file")->required();
+    command->add_option("a", arguments->a, "The first baked model")->required();
+    command->add_option("b", arguments->b, "The second baked model")->required();
     add_placements(*command, arguments->placement);
     if (question == Question::collide || question == Question::overlap) {
         add_structure(*command, arguments->structure,

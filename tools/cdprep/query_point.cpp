@@ -156,7 +156,7 @@ template <class Place>
 void add_question(CLI::App& query, const Question<Place>& question, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = query.add_subcommand(question.name, question.description);
-    command->add_option("model", arguments->model, "A baked file")->required();
+    command->add_option("model", arguments->model, "A baked model")->required();
     command->add_option(question.option, arguments->places, question.option_description)
         ->required();
     if (question.can_export) {

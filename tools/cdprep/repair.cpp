@@ -203,7 +203,7 @@ void add_repair(CLI::App& app, Exit& exit) {
     command
         ->add_option("--time", arguments->options.seconds,
                      "Seconds after which crossings are left as they are, and that is said")
-        ->check(zero_or_more())
+        ->check(zero_or_more("seconds"))
         ->capture_default_str();
     add_max_pairs(*command, arguments->options.max_pairs);
     add_jobs(*command, arguments->threads);

@@ -40,10 +40,10 @@ std::vector<std::string> baked_names() {
 }
 
 Error unknown_structure(const std::string& name) {
-    std::string message = "The structure '" + name + "' cannot be baked; these can:";
-    for (const std::string& known : baked_names()) message += " " + known;
+    std::string message = "--structures: '" + name + "' cannot be baked; these can: ";
+    for (const std::string& known : baked_names()) message += known + ", ";
     return {ErrorCode::bad_argument,
-            message + ", or all, or none." + report::suggestion(name, baked_names())};
+            message + "all or none." + report::suggestion(name, baked_names())};
 }
 
 /// The structures that a list names.

@@ -70,14 +70,14 @@ std::vector<std::string> option_names(const CLI::App& command) {
 std::string unknown_option(const Reached& at, const std::string& word) {
     const std::string name = word.substr(0, word.find('='));
     const auto close = report::suggestion(name, option_names(*at.command));
-    return at.name + ": " + in_quotes(name) + " is no option here." +
+    return at.name + ": " + in_quotes(name) + " is not an option of this command." +
            (close.empty() ? " '" + at.name + " --help' lists all." : close);
 }
 
 std::string unknown_command(const Reached& at, const std::string& word) {
     const auto close = report::suggestion(word, command_names(*at.command));
-    return at.name + ": " + in_quotes(word) + " is no command here." +
-           (close.empty() ? " There are " + listed(command_names(*at.command), "and") + "."
+    return at.name + ": " + in_quotes(word) + " is not a command." +
+           (close.empty() ? " Choose from " + listed(command_names(*at.command), "and") + "."
                           : close);
 }
 
@@ -85,9 +85,43 @@ bool is_option(const std::string& word) {
     return word.size() > 1 && word[0] == '-';
 }
 
+/// How the command takes its inputs: "cdprep query ray model".
+std::string with_inputs(const Reached& at) {
+    std::string text = at.name;
+    for (const CLI::Option* option : at.command->get_options()) {
+        if (option->get_positional()) text += " " + option->get_name();
+    }
+    return text;
+}
+
+/// The option or input of that name; null when it is none of the command's.
+const CLI::Option* option_of(const CLI::App& command, const std::string& name) {
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->get_name() == name) return option;
+    }
+    return nullptr;
+}
+
+/// "--rays is required: File of rays ...", "b is required: ... Usage: 'cdprep query collide a b'."
+std::string required(const Reached& at, const std::string& name) {
+    const CLI::Option* option = option_of(*at.command, name);
+    if (option == nullptr) return name + " is required.";
+    const std::string text = name + " is required: " + option->get_description() + ".";
+    return option->get_positional() ? text + " Usage: '" + with_inputs(at) + "'." : text;
+}
+
 /// The library's own words, as a sentence: "--parts: 'x' is not a number." of
 /// "Could not convert: --parts = x".
-std::string as_sentence(std::string text) {
+std::string as_sentence(const Reached& at, std::string text) {
+    constexpr std::string_view kRequired = " is required";
+    if (text.ends_with(kRequired)) {
+        return required(at, text.substr(0, text.size() - kRequired.size()));
+    }
+    constexpr std::string_view kExcludes = " excludes ";
+    if (const std::size_t between = text.find(kExcludes); between != std::string::npos) {
+        return text.substr(0, between) + " and " + text.substr(between + kExcludes.size()) +
+               " cannot be given together. Remove one of them.";
+    }
     constexpr std::string_view kConvert = "Could not convert: ";
     if (text.starts_with(kConvert)) {
         const std::size_t equals = text.find(" = ");
@@ -131,8 +165,28 @@ CLI::Validator whole_from(std::uint64_t least, std::uint64_t most) {
             is_open ? "" : std::to_string(least) + " to " + std::to_string(most)};
 }
 
-CLI::Validator zero_or_more() {
-    return number_above(0, true, "a finite number of 0 or more");
+CLI::Validator zero_or_more(const char* unit) {
+    const std::string wanted = unit == nullptr
+                                   ? "a finite number of 0 or more"
+                                   : "a finite number of " + std::string(unit) + ", 0 or more";
+    return number_above(0, true, wanted);
+}
+
+CLI::Validator size_to_petabyte() {
+    return {[](std::string& word) -> std::string {
+                constexpr std::uint64_t kPetabyte = std::uint64_t{1} << 50;
+                const std::string typed = word;
+                std::uint64_t bytes = 0;
+                try {
+                    CLI::AsSizeValue(false)(word);
+                    CLI::detail::lexical_cast(word, bytes);
+                } catch (const CLI::ValidationError&) {
+                    bytes = 0;
+                }
+                if (typed[0] != '-' && bytes > 0 && bytes <= kPetabyte) return "";
+                return in_quotes(typed) + " is not a size from 1B to 1PB, such as 500MB or 2GB.";
+            },
+            "SIZE"};
 }
 
 CLI::Validator above_zero() {
@@ -147,12 +201,14 @@ std::string usage_sentence(const CLI::App& app, const CLI::ParseError& error) {
     const bool needs_command = at.command->get_require_subcommand_min() > 0;
     if (needs_command && !left.empty()) return unknown_command(at, left.front());
     if (needs_command) {
-        return at.name + ": a command is missing. There are " +
+        return at.name + ": a command is missing. Choose from " +
                listed(command_names(*at.command), "and") + ".";
     }
-    if (!left.empty())
-        return at.name + ": " + in_quotes(left.front()) + " is one argument too many.";
-    return at.name + ": " + as_sentence(error.what());
+    if (!left.empty()) {
+        return at.name + ": " + in_quotes(left.front()) + " is one argument too many. Usage: '" +
+               with_inputs(at) + "'.";
+    }
+    return at.name + ": " + as_sentence(at, error.what());
 }
 
 }  // namespace cdprep::cli

@@ -56,11 +56,11 @@ std::optional<Error> note_files(const SourceFile& file, const std::filesystem::p
 
 Error empty(const SourceFile& file, const mesh::TriangleSoup& soup) {
     const std::size_t points = soup.positions.size();
-    return file.unreadable("has no triangle" +
-                           (points == 0   ? std::string(" and no vertex")
+    return file.unreadable("has no triangles" +
+                           (points == 0   ? std::string(" and no vertices")
                             : points == 1 ? std::string(", only 1 vertex")
                                           : ", only " + std::to_string(points) + " vertices") +
-                           ". Give --allow-empty to go on all the same");
+                           ". Check the file, or give --allow-empty to accept it");
 }
 
 }  // namespace

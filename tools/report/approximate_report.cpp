@@ -56,7 +56,7 @@ bool is_turned(const ApproximateReport& report) {
 
 std::string unit_warning(const ApproximateReport& report) {
     if (!report.is_for_simulators || report.metres_per_unit > 0) return {};
-    return report.input + ": does not say its unit; " + report.output + " takes it as metres, " +
+    return report.input + ": states no unit; " + report.output + " takes it as metres, " +
            size_text(report) +
            (report.mass ? " and " + in_six_digits(*report.mass) + " kg" : std::string()) +
            ". Give --unit.";

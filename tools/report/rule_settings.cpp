@@ -29,7 +29,7 @@ std::string unknown_rule(std::string_view word) {
     }
     std::string text = "'";
     text += word;
-    text += "' is no rule. 'cdprep explain' lists all, by id and by name.";
+    text += "' is not a rule. 'cdprep explain' lists all, by id and by name.";
     return text + suggestion(word, names);
 }
 

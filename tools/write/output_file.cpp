@@ -102,6 +102,14 @@ int open_nameless(const std::filesystem::path& folder) {
     return -1;
 }
 
+/// A folder that is not there is likelier misspelled than its file.
+std::string why_not_created(const std::filesystem::path& target, int error) {
+    const std::filesystem::path folder = folder_of(target);
+    if (error == ENOENT)
+        return "cannot be written, for the folder " + folder.string() + " does not exist";
+    return std::string("cannot be written: ") + std::strerror(error);
+}
+
 }  // namespace
 
 OutputFile::OutputFile(std::filesystem::path target, std::filesystem::path temporary,
@@ -141,7 +149,7 @@ Result<OutputFile> OutputFile::create(const std::filesystem::path& wanted, Tempo
             return file;
         }
         if (errno != EWOULDBLOCK) {
-            return unwritable(target, std::string("cannot be written: ") + std::strerror(errno));
+            return unwritable(target, why_not_created(target, errno));
         }
     }
     return unwritable(target, "is being written by " + std::to_string(kMostWriters) +

@@ -62,10 +62,10 @@ TEST(Pose, TranslationsEndWhereCoordinatesEnd) {
 // |R^T R - I| of a matrix with one diagonal entry 1 + e is 2 e + e^2.
 TEST(Pose, RotationsMayBeOffByTheToleranceAndNoMore) {
     EXPECT_EQ(refusal_with(0, 1 + 0.49e-12), "accepted");
-    EXPECT_NE(refusal_with(0, 1 + 0.51e-12).find("|R^T R - I|"), std::string::npos);
-    EXPECT_NE(refusal_with(0, 1e200).find("|R^T R - I|"), std::string::npos);
-    EXPECT_NE(refusal_with(4, 0).find("|R^T R - I|"), std::string::npos);
-    EXPECT_NE(refusal_with(1, 2e-12).find("|R^T R - I|"), std::string::npos);
+    EXPECT_NE(refusal_with(0, 1 + 0.51e-12).find("scales or shears"), std::string::npos);
+    EXPECT_NE(refusal_with(0, 1e200).find("scales or shears"), std::string::npos);
+    EXPECT_NE(refusal_with(4, 0).find("scales or shears"), std::string::npos);
+    EXPECT_NE(refusal_with(1, 2e-12).find("scales or shears"), std::string::npos);
 }
 
 TEST(Pose, MirrorsAreRefused) {

@@ -77,7 +77,7 @@ TEST_F(ImportFile, WithoutATriangleNothingIsReadUnlessAllowed) {
     const auto refused = import_file(points);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().code, ErrorCode::unreadable);
-    EXPECT_NE(refused.error().message.find("no triangle, only 2 vertices"), std::string::npos)
+    EXPECT_NE(refused.error().message.find("no triangles, only 2 vertices"), std::string::npos)
         << refused.error().message;
     ImportOptions options;
     options.allow_empty = true;

@@ -158,8 +158,8 @@ TEST(ChooseStructures, UnknownNamesAreRefusedWithThoseThatAreKnown) {
         }
     }
     EXPECT_EQ(fault({.list = "kd-tree"}),
-              "The structure 'kd-tree' cannot be baked; these can: octree octree-adaptive "
-              "hashed-octree tetra-tree hull, or all, or none.");
+              "--structures: 'kd-tree' cannot be baked; these can: octree, octree-adaptive, "
+              "hashed-octree, tetra-tree, hull, all or none.");
 }
 
 TEST(ChooseStructures, OptionsOfWhatIsNotBuiltAreRefused) {

@@ -53,7 +53,7 @@ bool import_scene(const std::string& path) {
         if (missing.empty()) return write_scene(scene, files);
         return write_failure(
             SceneOutcome::unreadable,
-            "refers to " + missing + ", which cannot be read or is outside its folder", files);
+            "needs " + missing + ", which cannot be read from its folder. Put it there", files);
     } catch (const std::bad_alloc&) {
         return write_failure(SceneOutcome::out_of_memory, "", files);
     } catch (const std::exception& problem) {

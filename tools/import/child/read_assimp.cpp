@@ -112,8 +112,7 @@ Scene read_assimp(const std::string& path, InputFiles& files) {
     const bool is_known = importer.IsExtensionSupported(std::filesystem::path(path).extension());
     if (!found && !is_known) {
         throw std::runtime_error(
-            "is in no format that is read: OBJ, STL, PLY, OFF, glTF, 3MF, COLLADA, FBX and others "
-            "that assimp knows");
+            "has an unsupported format. Export the mesh as OBJ, STL, PLY, OFF, glTF or 3MF");
     }
     if (!found) throw std::runtime_error(importer.GetErrorString());
 
