@@ -176,6 +176,26 @@ TEST(OverlapThroughLaws, AgreesWithTheHierarchyInRandomPoses) {
     EXPECT_LT(hits, 140);
 }
 
+// The same where cells list thousands of triangles: each of many blocks of a list is held
+// against each of the other's.
+TEST(OverlapThroughLaws, CellsThatListThousandsOfTrianglesHaveTheirPairs) {
+    std::mt19937 random(19);
+    Workspace workspace;
+    for (const std::uint32_t level : {0U, 1U}) {
+        const OpenModel a = open_all(icosphere(4), {.level = level, .threshold = 8});
+        const OpenModel b = open_all(torus(1, 0.3, 64, 32), {.level = level, .threshold = 8});
+        std::size_t found = 0;
+        for (int round = 0; round < 10; ++round) {
+            const Placement placement = Placement::b_moves(random_pose(random, 1.5));
+            const Pairs expected = all_pairs(a.model, b.model, placement, workspace);
+            expect_pairs(expected, a.model, b.model, placement, workspace);
+            if (::testing::Test::HasFatalFailure()) return;
+            found += expected.size();
+        }
+        EXPECT_GT(found, 1000U);
+    }
+}
+
 // Leaves of pieces are put together in fewer places than there are leaves. Those of a pair that
 // waits to be tested must not give way to others, also where a batch was tested amid a pair.
 TEST(OverlapThroughLaws, PiecesKeepWaitingLeaves) {
