@@ -82,7 +82,7 @@ constexpr std::array<const char*, 3> kAxisName = {"x", "y", "z"};
 std::string words_text(const std::vector<std::string>& words, std::uint32_t unknown) {
     std::string text;
     for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-    for (int bit = 0; unknown >> bit != 0 && bit < 32; ++bit) {
+    for (int bit = 0; bit < 32 && unknown >> bit != 0; ++bit) {
         if ((unknown >> bit & 1) != 0)
             text += (text.empty() ? "bit " : " bit ") + std::to_string(bit);
     }

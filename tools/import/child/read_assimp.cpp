@@ -100,8 +100,9 @@ void describe_space(const aiMetadata& metadata, Scene& scene) {
 }  // namespace
 
 Scene read_assimp(const std::string& path, InputFiles& files) {
-    // Never destroyed: some of its scenes crash when they are, and the process ends anyway.
-    Assimp::Importer& importer = *new Assimp::Importer;
+    // Never destroyed: some of its scenes crash when they are, and the process ends anyway. It is
+    // static so that checkers of leaks see that it is kept.
+    static Assimp::Importer& importer = *new Assimp::Importer;
     importer.SetIOHandler(new FolderFiles(files));  // the importer owns it
     // A head alone is a model; the rest of the body need not be there.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
