@@ -4,8 +4,9 @@
 
 20,000 triangles in one plane, each over every other, are 199,990,000 pairs by hand; a double
 cone is free of crossings, whatever its valence. Processor time is bounded generously: the
-bounds tell near-linear from quadratic, not one machine from another.
-Usage: defects_at_size.py CDPREP
+bounds tell near-linear from quadratic, not one machine from another. A program with sanitizers
+needs FACTOR times as much.
+Usage: defects_at_size.py CDPREP [FACTOR]
 """
 import json
 import math
@@ -59,8 +60,9 @@ def double_cone(count):
 
 
 class Program:
-    def __init__(self, path, folder):
+    def __init__(self, path, folder, factor):
         self.path, self.folder = os.path.abspath(path), folder
+        self.megabytes, self.seconds = MEGABYTES * factor, SECONDS * factor
 
     def __call__(self, *arguments):
         """Exit code, standard output, and what the process used."""
@@ -74,8 +76,8 @@ class Program:
             out.seek(0)
             text = out.read()
         seconds = used.ru_utime + used.ru_stime
-        must(used.ru_maxrss < MEGABYTES * 1024, f"{arguments}: {used.ru_maxrss // 1024} MB")
-        must(seconds < SECONDS, f"{arguments}: {seconds:.1f} s of processor time")
+        must(used.ru_maxrss < self.megabytes * 1024, f"{arguments}: {used.ru_maxrss // 1024} MB")
+        must(seconds < self.seconds, f"{arguments}: {seconds:.1f} s of processor time")
         print(f"{' '.join(map(str, arguments)):70} {seconds:6.2f} s {used.ru_maxrss >> 10:4} MB")
         return process.returncode, text, errors
 
@@ -187,7 +189,8 @@ def large_stars(program):
 
 def main():
     with tempfile.TemporaryDirectory() as scratch:
-        program = Program(sys.argv[1], pathlib.Path(scratch))
+        factor = int(sys.argv[2]) if len(sys.argv) > 2 else 1
+        program = Program(sys.argv[1], pathlib.Path(scratch), factor)
         counts_what_there_is(program)
         says_where_it_ended(program)
         t_junctions_have_a_limit(program)
