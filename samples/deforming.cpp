@@ -22,11 +22,12 @@ Mesh ring(std::uint32_t n, double radius, double tube) {
     Mesh mesh;
     const double step = 2 * std::numbers::pi / n;
     for (std::uint32_t i = 0; i < n * n; ++i) {
-        const double around = step * (i / n), across = step * (i % n);
+        const std::uint32_t row = i / n, column = i % n;
+        const double around = step * row, across = step * column;
         const double r = radius + tube * std::cos(across);
         mesh.positions.push_back(
             {r * std::cos(around), r * std::sin(around), tube * std::sin(across)});
-        const std::uint32_t a = i, b = i / n * n + (i + 1) % n;  // the next across
+        const std::uint32_t a = i, b = row * n + (i + 1) % n;  // the next across
         const std::uint32_t c = (a + n) % (n * n), d = (b + n) % (n * n);
         mesh.triangles.push_back({{a, c, b}});
         mesh.triangles.push_back({{b, c, d}});
