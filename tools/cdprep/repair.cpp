@@ -42,23 +42,24 @@ struct Arguments {
     mesh::RepairOptions options;
 };
 
+Error unknown_step(const std::string& name) {
+    std::vector<std::string> known;
+    std::string all;
+    for (std::size_t i = 0; i < mesh::kRepairStepCount; ++i) {
+        known.emplace_back(mesh::name_of(static_cast<mesh::RepairStep>(i)));
+        all += (i == 0 ? "" : ", ") + known.back();
+    }
+    return {ErrorCode::bad_argument, "--steps: there is no step '" + name + "'; there are " + all +
+                                         "." + report::suggestion(name, known)};
+}
+
 /// "weld,orient": those steps and no others.
 Result<mesh::RepairSteps> parse_steps(const std::string& list) {
     mesh::RepairSteps steps;
     std::istringstream names(list);
     for (std::string name; std::getline(names, name, ',');) {
         const auto step = mesh::find_repair_step(name);
-        if (!step) {
-            std::vector<std::string> known;
-            std::string all;
-            for (std::size_t i = 0; i < mesh::kRepairStepCount; ++i) {
-                known.emplace_back(mesh::name_of(static_cast<mesh::RepairStep>(i)));
-                all += (i == 0 ? "" : ", ") + known.back();
-            }
-            return Error{ErrorCode::bad_argument, "--steps: there is no step '" + name +
-                                                      "'; there are " + all + "." +
-                                                      report::suggestion(name, known)};
-        }
+        if (!step) return unknown_step(name);
         steps.set(static_cast<std::size_t>(*step));
     }
     return steps;
