@@ -249,7 +249,6 @@ private:
     void read_buffers() {
         for (const JsonValue& buffer : root_["buffers"].items()) {
             const std::string& uri = buffer["uri"].text();
-            const std::string number = std::to_string(buffers_.size());
             if (uri.empty()) {
                 owned_.emplace_back();
                 buffers_.push_back(buffers_.empty() ? binary_ : std::string_view());
@@ -259,13 +258,7 @@ private:
                 const std::size_t comma = std::min(uri.find(','), uri.size() - 1);
                 owned_.push_back(decode_base64(std::string_view(uri).substr(comma + 1)));
             } else {
-                const std::string name = decode_percent(uri);
-                const auto file = files_.find(path_.parent_path() / name);
-                if (!file) {
-                    fail("buffer " + number + ", " + name +
-                         ", cannot be opened or is not in the file's folder");
-                }
-                owned_.push_back(read_bytes(*file, files_));
+                owned_.push_back(read_buffer_file(decode_percent(uri)));
             }
             buffers_.push_back(owned_.back());
         }
@@ -273,6 +266,15 @@ private:
         for (std::size_t i = 0; i < owned_.size(); ++i) {
             if (!owned_[i].empty()) buffers_[i] = owned_[i];
         }
+    }
+
+    [[nodiscard]] std::string read_buffer_file(const std::string& name) const {
+        const auto file = files_.find(path_.parent_path() / name);
+        if (!file) {
+            fail("buffer " + std::to_string(buffers_.size()) + ", " + name +
+                 ", cannot be opened or is not in the file's folder");
+        }
+        return read_bytes(*file, files_);
     }
 
     struct Accessor {
