@@ -144,9 +144,9 @@ private:
     }
 
     void take(Validation& validation) {
-        if (is_over()) return;
         const report::ValidationReport& report = validation.report;
         const std::lock_guard lock(progress_mutex_);
+        if (is_over()) return;
         progress_.clear();
         ++done_;
         if (report.error && !report.known_error && !shows_errors_) {
@@ -170,6 +170,7 @@ private:
     void give_up() {
         const std::unique_lock lock(progress_mutex_, std::try_to_lock);
         if (!lock || is_ended_ || output_.is_file()) return;
+        is_ended_ = true;  // the command may get as far as its own end before the program ends
         writer_.set_interrupted(static_cast<int>(Exit::interrupted));
         deliver(writer_.tail());
         static_cast<void>(output_.finish());
@@ -177,6 +178,7 @@ private:
 
     Exit finish() {
         const std::lock_guard lock(progress_mutex_);
+        if (is_ended_) return Exit::interrupted;
         is_ended_ = true;
         const bool interrupted = is_interrupted();
         if (interrupted) writer_.set_interrupted(static_cast<int>(Exit::interrupted));
