@@ -126,7 +126,11 @@ Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
             [&](const char* stage) { progress.show(i, input.filename().string() + ": " + stage); });
         progress.clear();
         reports.push_back(baked ? baked.value() : failed_bake(input, outputs[i], baked.error()));
-        print(reports.back(), arguments);
+        if (baked) {
+            print(reports.back(), arguments);
+        } else {
+            fail("bake", baked.error());
+        }
         worst = std::max(worst, static_cast<Exit>(reports.back().exit));
     }
     if (arguments.format == "json") std::cout << report::bake_json(reports);
