@@ -3,10 +3,9 @@
 """SIGINT and SIGTERM end every command within 0.2 s, whatever it is at.
 
 Each command works on a mesh that keeps it busy for a second or more, and gets a signal at
-several moments. It must end with 130, leave nothing behind, and say one sentence at most. A busy machine
-may delay a process: a moment that fails is tried again, and must fail every time to count. The
-end of a program with sanitizers may take FACTOR times as long: they give their own memory back.
-Usage: interrupts.py CDPREP [FACTOR]
+several moments. It must end with 130, leave nothing behind, and say one sentence at most. A busy machine may delay a process: a moment that fails is tried again, and must
+fail every time to count.
+Usage: interrupts.py CDPREP
 """
 import array
 import json
@@ -21,7 +20,7 @@ import time
 
 from shared_models import must
 
-SECONDS = 0.2 * (int(sys.argv[2]) if len(sys.argv) > 2 else 1)
+SECONDS = 0.2
 MOMENTS = 4
 TRIES = 5
 
