@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "cdprep/advanced/build_bvh.h"
 
+#include "build/frame_map.h"
+#include "build/lanes.h"
+#include "build/make_leaves.h"
+#include "build/make_nodes.h"
+#include "build/make_oriented.h"
+#include "build/make_swept.h"
+#include "build/order_triangles.h"
 #include "cdprep/advanced/refit_bvh.h"
 #include "cdprep/format/float_environment.h"
-#include "frame_map.h"
-#include "guarded_for.h"
-#include "lanes.h"
-#include "make_leaves.h"
-#include "make_nodes.h"
-#include "make_oriented.h"
-#include "make_swept.h"
-#include "order_triangles.h"
+#include "core/guarded_for.h"
 
 namespace cdprep::build {
 namespace {

@@ -9,10 +9,10 @@
 #include <string>
 #include <utility>
 
+#include "build/section_places.h"
 #include "cdprep/format/checksum.h"
 #include "cdprep/format/make_user_block.h"
 #include "cdprep/format/sections.h"
-#include "section_places.h"
 
 namespace cdprep::build {
 namespace {

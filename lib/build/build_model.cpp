@@ -6,14 +6,14 @@
 #include <optional>
 #include <utility>
 
+#include "build/degenerate.h"
+#include "build/frame_map.h"
+#include "build/mesh_fault.h"
+#include "build/section_places.h"
 #include "cdprep/format/bvh_shape.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/sections.h"
-#include "degenerate.h"
-#include "frame_map.h"
-#include "guarded_for.h"
-#include "mesh_fault.h"
-#include "section_places.h"
+#include "core/guarded_for.h"
 
 namespace cdprep::build {
 namespace {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "degenerate.h"
+#include "build/degenerate.h"
 
 #include <algorithm>
 #include <cassert>
 
+#include "build/chunks.h"
+#include "build/frame_map.h"
 #include "cdprep/advanced/mesh_arrays.h"
 #include "cdprep/format/float_environment.h"
-#include "chunks.h"
-#include "frame_map.h"
-#include "guarded_for.h"
-#include "triangle_contact.h"
+#include "core/guarded_for.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::build {
 namespace {

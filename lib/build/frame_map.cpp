@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "frame_map.h"
+#include "build/frame_map.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
 #include <limits>
 
-#include "chunks.h"
+#include "build/chunks.h"
 
 namespace cdprep::build {
 namespace {

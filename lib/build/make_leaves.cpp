@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "make_leaves.h"
+#include "build/make_leaves.h"
 
 #include <algorithm>
 #include <cassert>
 
-#include "chunks.h"
-#include "frame_map.h"
-#include "lanes.h"
-#include "make_nodes.h"
-#include "prefetch.h"
+#include "build/chunks.h"
+#include "build/frame_map.h"
+#include "build/lanes.h"
+#include "build/make_nodes.h"
+#include "core/prefetch.h"
 
 namespace cdprep::build {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "make_nodes.h"
+#include "build/make_nodes.h"
 
 #include <cassert>
 
-#include "chunks.h"
-#include "lanes.h"
+#include "build/chunks.h"
+#include "build/lanes.h"
 
 namespace cdprep::build {
 namespace {

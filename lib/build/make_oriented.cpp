@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "make_oriented.h"
+#include "build/make_oriented.h"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-#include "chunks.h"
-#include "frame_map.h"
-#include "oriented_axes.h"
+#include "build/chunks.h"
+#include "build/frame_map.h"
+#include "build/oriented_axes.h"
 
 // Axes are those of the surface below a box (oriented_axes.h). The moments of a box are
 // those of what it holds added up; its extents are those of all vertices below. Eight boxes

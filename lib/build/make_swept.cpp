@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "make_swept.h"
+#include "build/make_swept.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "chunks.h"
+#include "build/chunks.h"
 
 // Swept spheres in the manner of Larsen, Gottschalk, Lin and Manocha 1999: along the
 // axes of the oriented box, a ball around the surface's shadow on the axes that are not

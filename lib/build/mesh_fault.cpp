@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "mesh_fault.h"
+#include "build/mesh_fault.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "build/frame_map.h"
 #include "cdprep/format/limits.h"
-#include "frame_map.h"
 
 namespace cdprep::build {
 namespace {

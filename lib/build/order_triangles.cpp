@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "order_triangles.h"
+#include "build/order_triangles.h"
 
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <memory>
 
-#include "frame_map.h"
-#include "split_sets.h"
+#include "build/frame_map.h"
+#include "build/split_sets.h"
 
 namespace cdprep::build {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "oriented_axes.h"
+#include "build/oriented_axes.h"
 
 #include <algorithm>
 #include <cassert>

@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cstddef>
 
+#include "build/lanes.h"
 #include "cdprep/format/geometry.h"
-#include "lanes.h"
 
 namespace cdprep::build {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "piece_boxes.h"
+#include "build/piece_boxes.h"
 
 #include <algorithm>
 #include <array>
@@ -7,11 +7,11 @@
 #include <limits>
 #include <utility>
 
-#include "make_leaves.h"
-#include "make_nodes.h"
-#include "make_oriented.h"
-#include "make_swept.h"
-#include "order_triangles.h"
+#include "build/make_leaves.h"
+#include "build/make_nodes.h"
+#include "build/make_oriented.h"
+#include "build/make_swept.h"
+#include "build/order_triangles.h"
 
 namespace cdprep::build {
 namespace {

@@ -12,16 +12,16 @@
 #include <utility>
 #include <vector>
 
+#include "build/degenerate.h"
+#include "build/frame_map.h"
+#include "build/make_leaves.h"
+#include "build/make_nodes.h"
+#include "build/mesh_fault.h"
 #include "cdprep/format/checksum.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/make_user_block.h"
 #include "cdprep/format/sections.h"
-#include "degenerate.h"
-#include "frame_map.h"
-#include "guarded_for.h"
-#include "make_leaves.h"
-#include "make_nodes.h"
-#include "mesh_fault.h"
+#include "core/guarded_for.h"
 
 namespace cdprep::build {
 namespace {

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "chunks.h"
-#include "lanes.h"
+#include "build/chunks.h"
+#include "build/lanes.h"
 
 // Cuts a set of items in two until all are runs of eight, so that every subtree
 // but the last is full. What is cut where is the policy's choice; this is how.

@@ -7,7 +7,7 @@
 #include "c/pose_input.h"
 #include "cdprep/format/file_header.h"
 #include "cdprep/format/float_environment.h"
-#include "kernels.h"
+#include "kernels/kernels.h"
 
 namespace cdprep::c {
 namespace {

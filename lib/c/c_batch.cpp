@@ -3,7 +3,7 @@
 
 #include "c/c_pairs.h"
 #include "c/pair_answers.h"
-#include "share_out.h"
+#include "core/share_out.h"
 
 namespace cdprep::c {
 namespace {

@@ -17,7 +17,7 @@
 #include "cdprep/advanced/build_image.h"
 #include "cdprep/advanced/build_model.h"
 #include "cdprep/format/float_environment.h"
-#include "share_out.h"
+#include "core/share_out.h"
 
 namespace cdprep::c {
 

@@ -6,7 +6,7 @@
 #include "c/c_pairs.h"
 #include "cdprep/advanced/convex_penetration.h"
 #include "cdprep/hulls.h"
-#include "piece_parts.h"
+#include "pieces/piece_parts.h"
 
 namespace cdprep::c {
 

@@ -12,7 +12,7 @@
 #include "cdprep/advanced/level_of_detail.h"
 #include "cdprep/pairs.h"
 #include "cdprep/parallel.h"
-#include "smallest.h"
+#include "core/smallest.h"
 
 namespace cdprep::c {
 namespace {

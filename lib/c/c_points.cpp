@@ -10,7 +10,7 @@
 #include "c/c_pairs.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/points.h"
-#include "share_out.h"
+#include "core/share_out.h"
 
 namespace cdprep::c {
 

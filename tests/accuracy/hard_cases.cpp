@@ -27,7 +27,7 @@
 #include "accuracy/hard_cases.h"
 #include "accuracy/in_mode.h"
 #include "accuracy/print_scoreboard.h"
-#include "kernels.h"
+#include "kernels/kernels.h"
 
 namespace cdprep::test {
 namespace {

@@ -25,8 +25,8 @@
 #include "bench_input.h"
 #include "cdprep/advanced/query_counts.h"
 #include "cdprep/pairs.h"
+#include "exact/triangle_contact.h"
 #include "support/open_tiny.h"
-#include "triangle_contact.h"
 
 namespace cdprep::test {
 namespace {

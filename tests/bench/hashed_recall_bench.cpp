@@ -25,12 +25,12 @@
 #include <map>
 
 #include "bench_input.h"
-#include "contact_pairs.h"
-#include "octree_codes.h"
-#include "octree_search.h"
+#include "cells/octree_codes.h"
+#include "cells/octree_search.h"
 #include "study/pruning.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
+#include "walk/contact_pairs.h"
 
 #include "cdprep/study/overlap_through.h"
 

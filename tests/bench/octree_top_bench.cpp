@@ -22,8 +22,8 @@
 #include <cstdlib>
 
 #include "cdprep/study/overlap_through.h"
+#include "core/prefetch.h"
 #include "octree_meshes.h"
-#include "prefetch.h"
 
 namespace cdprep {
 namespace {

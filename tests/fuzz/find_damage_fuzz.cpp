@@ -29,7 +29,7 @@
 #include "cdprep/study/octree_figures.h"
 #include "cdprep/study/overlap_through.h"
 #include "cdprep/study/tetra_figures.h"
-#include "find_hull_falsehood.h"
+#include "hull/find_hull_falsehood.h"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include "support/meshes.h"
 
 #include "cdprep/pairs.h"
-#include "moved_model.h"
-#include "triangle_contact.h"
+#include "core/moved_model.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::test {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "moved_model.h"
-#include "triangle_contact.h"
+#include "core/moved_model.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::test {
 

@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "cells/tetra_cones.h"
 #include "support/exact_rational.h"
-#include "tetra_cones.h"
 
 namespace cdprep::test {
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "triangle_contact.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::test {
 

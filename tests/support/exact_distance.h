@@ -3,7 +3,7 @@
 
 #include "support/exact_rational.h"
 
-#include "triangle_contact.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::test {
 

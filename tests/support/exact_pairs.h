@@ -7,7 +7,7 @@
 
 #include "cdprep/pairs.h"
 #include "cdprep/pose.h"
-#include "triangle_contact.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::test {
 

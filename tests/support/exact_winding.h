@@ -4,7 +4,7 @@
 #include <optional>
 #include <span>
 
-#include "triangle_contact.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::test {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
+#include "exact/triangle_contact.h"
 #include "support/hard_meshes.h"
-#include "triangle_contact.h"
 
 namespace cdprep::test {
 namespace {

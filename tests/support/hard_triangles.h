@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "triangle_contact.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::test {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::test {
 namespace {

@@ -10,8 +10,8 @@
 #include "support/tiny_pieces.h"
 
 #include "cdprep/pairs.h"
-#include "walked_trees.h"
-#include "workspace_storage.h"
+#include "walk/walked_trees.h"
+#include "walk/workspace_storage.h"
 
 namespace cdprep::test {
 

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <map>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/small_hull.h"

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/small_hull.h"

@@ -6,7 +6,7 @@
 
 #include "build/chunks.h"
 #include "convex/surface_edges.h"
-#include "list_places.h"
+#include "core/list_places.h"
 
 namespace cdprep::convex {
 namespace {

@@ -8,8 +8,8 @@
 #include <map>
 
 #include "convex/exact_hull.h"
-#include "point_triangle_distance.h"
-#include "predicates.h"
+#include "exact/point_triangle_distance.h"
+#include "exact/predicates.h"
 
 // K half-spaces that touch the hull contain it, and their intersection has at most 2 K - 4
 // corners. Greedily: the corner farthest from the hull is cut off by the plane through its

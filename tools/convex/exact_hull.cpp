@@ -7,9 +7,9 @@
 #include <tuple>
 
 #include "convex/quickhull.h"
+#include "exact/predicates.h"
+#include "exact/triangle_contact.h"
 #include "mesh/disjoint_sets.h"
-#include "predicates.h"
-#include "triangle_contact.h"
 
 namespace cdprep::convex {
 namespace {

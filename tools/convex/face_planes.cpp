@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "build/chunks.h"
+#include "exact/predicates.h"
 #include "mesh/vectors.h"
-#include "predicates.h"
 
 namespace cdprep::convex {
 namespace {

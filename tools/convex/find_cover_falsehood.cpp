@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "cdprep/hulls.h"
-#include "list_places.h"
+#include "core/list_places.h"
+#include "exact/predicates.h"
+#include "exact/triangle_contact.h"
 #include "mesh/point_tree.h"
-#include "predicates.h"
-#include "triangle_contact.h"
 
 // A triangle is cut in its own coordinates: a point of it is a sum of its corners with weights,
 // up to a common factor. How far a point is beyond a plane is linear in them, so that a plane

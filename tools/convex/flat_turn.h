@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::convex {
 

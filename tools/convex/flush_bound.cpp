@@ -6,8 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "exact/point_triangle_distance.h"
 #include "mesh/vectors.h"
-#include "point_triangle_distance.h"
 
 namespace cdprep::convex {
 namespace {

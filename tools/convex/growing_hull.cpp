@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "triangle_contact.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::convex {
 

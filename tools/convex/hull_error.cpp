@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "convex/flush_bound.h"
+#include "exact/point_triangle_distance.h"
 #include "mesh/vectors.h"
-#include "point_triangle_distance.h"
 
 namespace cdprep::convex {
 namespace {

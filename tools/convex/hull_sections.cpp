@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cdprep/advanced/convex_points.h"
-#include "hull_blocks.h"
+#include "hull/hull_blocks.h"
 
 namespace cdprep::convex {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "exact/predicates.h"
 #include "mesh/exact_volume.h"
 #include "mesh/half_edges.h"
-#include "predicates.h"
 
 namespace cdprep::convex {
 

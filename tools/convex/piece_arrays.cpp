@@ -8,7 +8,7 @@
 #include "build/chunks.h"
 #include "convex/convex_hull.h"
 #include "convex/flat_turn.h"
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {

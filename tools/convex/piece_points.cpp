@@ -7,8 +7,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "exact/predicates.h"
 #include "mesh/vectors.h"
-#include "predicates.h"
 
 namespace cdprep::convex {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 // Why points in front of no new face may be dropped: let q have been in front of a removed
 // face f and be outside the new hull, in front of some face g of it. If g is not new, it was

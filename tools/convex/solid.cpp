@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "exact/winding.h"
 #include "mesh/component_numbers.h"
 #include "mesh/nesting.h"
 #include "mesh/topology.h"
-#include "winding.h"
 
 namespace cdprep::convex {
 namespace {

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "convex/flat_turn.h"
+#include "exact/predicates.h"
 #include "mesh/degenerate.h"
-#include "predicates.h"
 
 namespace cdprep::convex {
 namespace {

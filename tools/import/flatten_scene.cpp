@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "cdprep/format/limits.h"
+#include "exact/predicates.h"
 #include "import/join_chunks.h"
-#include "predicates.h"
 
 namespace cdprep::import {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "exact/triangle_contact.h"
 #include "mesh/boundary.h"
 #include "mesh/close_groups.h"
 #include "mesh/source_places.h"
 #include "mesh/vectors.h"
-#include "triangle_contact.h"
 
 namespace cdprep::mesh {
 namespace {

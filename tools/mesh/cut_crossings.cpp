@@ -12,9 +12,9 @@
 #include <limits>
 #include <map>
 
+#include "exact/predicates.h"
+#include "exact/triangle_contact.h"
 #include "mesh/repair_steps.h"
-#include "predicates.h"
-#include "triangle_contact.h"
 
 namespace cdprep::mesh {
 namespace {

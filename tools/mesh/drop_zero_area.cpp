@@ -3,8 +3,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "exact/triangle_contact.h"
 #include "mesh/repair_steps.h"
-#include "triangle_contact.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "exact/triangle_contact.h"
 #include "mesh/common_point.h"
-#include "triangle_contact.h"
 
 namespace cdprep::mesh {
 namespace {

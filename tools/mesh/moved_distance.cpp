@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "exact_within.h"
-#include "point_triangle_distance.h"
+#include "exact/exact_within.h"
+#include "exact/point_triangle_distance.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -9,8 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "exact/winding.h"
 #include "mesh/point_tree.h"
-#include "winding.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -9,9 +9,9 @@
 #include <limits>
 #include <vector>
 
+#include "exact/predicates.h"
+#include "exact/triangle_contact.h"
 #include "mesh/vectors.h"
-#include "predicates.h"
-#include "triangle_contact.h"
 
 // A region of directions is a set of convex cones, each the common part of half-spaces
 // {d : n . d >= 0} whose border planes go round it. Its corner between planes i and j

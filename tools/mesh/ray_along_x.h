@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "winding.h"
+#include "exact/winding.h"
 
 namespace cdprep::mesh {
 

@@ -4,12 +4,12 @@
 #include <deque>
 #include <optional>
 
+#include "exact/predicates.h"
 #include "mesh/around_edge.h"
 #include "mesh/cut_crossings.h"
 #include "mesh/ray_along_x.h"
 #include "mesh/repair_steps.h"
 #include "mesh/stored_verdict.h"
-#include "predicates.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -5,9 +5,9 @@
 #include <array>
 #include <map>
 
+#include "exact/point_triangle_distance.h"
+#include "exact/triangle_contact.h"
 #include "mesh/repair_steps.h"
-#include "point_triangle_distance.h"
-#include "triangle_contact.h"
 
 namespace cdprep::mesh {
 namespace {

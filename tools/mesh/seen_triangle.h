@@ -3,8 +3,8 @@
 
 #include <array>
 
+#include "exact/triangle_contact.h"
 #include "mesh/arc.h"
-#include "triangle_contact.h"
 
 namespace cdprep::mesh {
 

@@ -13,7 +13,7 @@
 #include "mesh/neighbour_meetings.h"
 #include "mesh/triangle_meeting.h"
 #include "mesh/vertex_stars.h"
-#include "self_walk.h"
+#include "query/self_walk.h"
 
 namespace cdprep::mesh {
 namespace {

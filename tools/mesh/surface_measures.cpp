@@ -6,9 +6,9 @@
 #include <limits>
 #include <numeric>
 
+#include "exact/triangle_contact.h"
 #include "mesh/exact_volume.h"
 #include "mesh/vectors.h"
-#include "triangle_contact.h"
 
 namespace cdprep::mesh {
 namespace {

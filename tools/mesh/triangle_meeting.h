@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "exact/triangle_contact.h"
 #include "mesh/self_intersections.h"
-#include "triangle_contact.h"
 
 namespace cdprep::mesh {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "contact_pairs.h"
-#include "leaf_batch.h"
-#include "walk_pairs.h"
-#include "walked_trees.h"
+#include "walk/contact_pairs.h"
+#include "walk/leaf_batch.h"
+#include "walk/walk_pairs.h"
+#include "walk/walked_trees.h"
 
 namespace cdprep::study {
 namespace {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "kernels.h"
+#include "kernels/kernels.h"
 
 namespace cdprep::study {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "octree_search.h"
+#include "cells/octree_search.h"
 
 namespace cdprep::study::search {
 

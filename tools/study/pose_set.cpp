@@ -7,9 +7,9 @@
 
 #include "cdprep/format/checksum.h"
 #include "cdprep/pairs.h"
+#include "exact/vectors.h"
 #include "study/rigid_truth.h"
 #include "study/seeded_random.h"
-#include "vectors.h"
 
 namespace cdprep::study {
 namespace {

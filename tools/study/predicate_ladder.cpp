@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "cdprep/pairs.h"
-#include "moved_model.h"
+#include "core/moved_model.h"
+#include "exact/triangle_contact.h"
 #include "study/naive_contact.h"
 #include "study/seeded_random.h"
 #include "study/storage_ladder.h"
-#include "triangle_contact.h"
 
 namespace cdprep::study {
 namespace {

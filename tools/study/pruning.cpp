@@ -11,9 +11,9 @@
 #include "cdprep/points.h"
 #include "cdprep/pose.h"
 #include "cdprep/study/overlap_through.h"
-#include "contact_pairs.h"
-#include "potential_set.h"
+#include "cells/potential_set.h"
 #include "study/cells.h"
+#include "walk/contact_pairs.h"
 
 namespace cdprep::study {
 namespace {

@@ -5,9 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "contact_pairs.h"
-#include "moved_model.h"
-#include "vectors.h"
+#include "core/moved_model.h"
+#include "exact/vectors.h"
+#include "walk/contact_pairs.h"
 
 namespace cdprep::study {
 namespace {

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
+#include "cells/octree_codes.h"
+#include "cells/octree_search.h"
 #include "mesh/mesh.h"
-#include "octree_codes.h"
-#include "octree_search.h"
 #include "study/flush_caches.h"
 
 /// How octrees' cells are found, as benchmarks and comparisons time it.

@@ -21,7 +21,7 @@
 #include "support/tiny_pieces.h"
 
 #include "cdprep/advanced/pair_front.h"
-#include "workspace_storage.h"
+#include "walk/workspace_storage.h"
 
 namespace {
 std::atomic<std::size_t> allocations = 0;

@@ -10,7 +10,7 @@
 #include <map>
 #include <random>
 
-#include "octree_codes.h"
+#include "cells/octree_codes.h"
 #include "support/exact_box.h"
 #include "support/meshes.h"
 #include "support/run_threads.h"

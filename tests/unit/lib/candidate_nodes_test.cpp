@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "candidate_nodes.h"
+#include "walk/candidate_nodes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "build/cell_boxes.h"
+#include "cells/cell_boxes.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "octree_cells.h"
-#include "octree_codes.h"
-#include "split_box.h"
+#include "cells/octree_cells.h"
+#include "cells/octree_codes.h"
+#include "cells/split_box.h"
 #include "support/bvh_boxes.h"
 #include "support/meshes.h"
 

@@ -7,10 +7,10 @@
 #include <random>
 
 #include "cdprep/points.h"
+#include "exact/winding.h"
 #include "support/hard_points.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
-#include "winding.h"
 
 namespace cdprep::test {
 namespace {

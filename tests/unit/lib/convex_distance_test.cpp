@@ -7,13 +7,13 @@
 #include <random>
 
 #include "cdprep/advanced/convex_penetration.h"
-#include "predicates.h"
+#include "exact/predicates.h"
+#include "exact/triangle_contact.h"
 #include "support/exact_hull_pair.h"
 #include "support/hard_hulls.h"
 #include "support/hull_pairs.h"
 #include "support/meshes.h"
 #include "support/small_hull.h"
-#include "triangle_contact.h"
 
 namespace cdprep::test {
 namespace {

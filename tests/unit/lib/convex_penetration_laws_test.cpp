@@ -13,7 +13,7 @@
 #include "support/hull_pairs.h"
 #include "support/small_hull.h"
 
-#include "vectors.h"
+#include "exact/vectors.h"
 
 namespace cdprep::test {
 namespace {

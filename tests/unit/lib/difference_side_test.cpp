@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "difference_side.h"
+#include "hull/difference_side.h"
 
 #include <gtest/gtest.h>
 

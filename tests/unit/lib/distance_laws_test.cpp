@@ -14,7 +14,7 @@
 #include "support/placements.h"
 #include "support/random_pose.h"
 
-#include "triangle_distance.h"
+#include "exact/triangle_distance.h"
 
 namespace cdprep::test {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "support/exact_distance.h"
 
-#include "exact_within.h"
+#include "exact/exact_within.h"
 
 namespace cdprep::test {
 namespace {

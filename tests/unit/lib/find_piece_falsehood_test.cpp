@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "find_piece_falsehood.h"
+#include "pieces/find_piece_falsehood.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hashed_overlap.h"
+#include "cells/hashed_overlap.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
-#include "workspace_storage.h"
+#include "walk/workspace_storage.h"
 
 #include "cdprep/study/overlap_through.h"
 

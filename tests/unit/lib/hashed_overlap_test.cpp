@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "hashed_overlap.h"
+#include "cells/hashed_overlap.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 
-#include "octree_cells.h"
+#include "cells/octree_cells.h"
 #include "support/brute_force.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "integer_points.h"
+#include "exact/integer_points.h"
 
 #include <gtest/gtest.h>
 

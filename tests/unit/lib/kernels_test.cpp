@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "kernels.h"
+#include "kernels/kernels.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "cdprep/format/hull.h"
+#include "exact/triangle_contact.h"
+#include "exact/triangle_distance.h"
 #include "support/random_pose.h"
-#include "triangle_contact.h"
-#include "triangle_distance.h"
 
 namespace cdprep::kernels {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "octree_cells.h"
+#include "cells/octree_cells.h"
 
 #include <gtest/gtest.h>
 

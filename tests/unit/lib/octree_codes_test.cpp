@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "octree_codes.h"
+#include "cells/octree_codes.h"
 
 #include <gtest/gtest.h>
 

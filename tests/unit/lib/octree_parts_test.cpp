@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "octree_parts.h"
+#include "cells/octree_parts.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cdprep/study/overlap_through.h"
-#include "octree_codes.h"
+#include "cells/octree_codes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "octree_search.h"
+#include "cells/octree_search.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cdprep/study/overlap_through.h"
-#include "octree_codes.h"
+#include "cells/octree_codes.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"

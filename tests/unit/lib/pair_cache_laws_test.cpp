@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "cdprep/pairs.h"
-#include "proven_gap.h"
 #include "support/open_tiny.h"
 #include "support/placements.h"
 #include "support/random_pose.h"
 #include "support/same_distance.h"
+#include "walk/proven_gap.h"
 
 // The truth in all of these is what the same question answers without a cache.
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "point_triangle_distance.h"
+#include "exact/point_triangle_distance.h"
 
 #include <gtest/gtest.h>
 

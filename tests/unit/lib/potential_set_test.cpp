@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "potential_set.h"
+#include "cells/potential_set.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "contact_pairs.h"
 #include "support/brute_force.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
+#include "walk/contact_pairs.h"
 
 namespace cdprep::test {
 namespace {

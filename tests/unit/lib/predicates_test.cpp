@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "predicates.h"
+#include "exact/predicates.h"
 
 #include <gtest/gtest.h>
 

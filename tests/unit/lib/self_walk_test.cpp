@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "self_walk.h"
+#include "query/self_walk.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <map>
 
+#include "exact/triangle_contact.h"
 #include "support/meshes.h"
-#include "triangle_contact.h"
 
 namespace cdprep {
 namespace {

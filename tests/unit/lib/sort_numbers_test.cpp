@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "sort_numbers.h"
+#include "core/sort_numbers.h"
 
 #include <gtest/gtest.h>
 

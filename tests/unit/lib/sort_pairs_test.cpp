@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "sort_pairs.h"
+#include "core/sort_pairs.h"
 
 namespace cdprep::test {
 namespace {

@@ -6,8 +6,8 @@
 #include <random>
 #include <string>
 
+#include "cells/tetra_cones.h"
 #include "support/exact_cone.h"
-#include "tetra_cones.h"
 
 namespace cdprep::test {
 namespace {

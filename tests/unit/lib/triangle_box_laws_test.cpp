@@ -6,8 +6,8 @@
 
 #include "support/exact_box.h"
 
-#include "triangle_box.h"
-#include "triangle_box_filter.h"
+#include "exact/triangle_box.h"
+#include "exact/triangle_box_filter.h"
 
 namespace cdprep::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "triangle_contact.h"
+#include "exact/triangle_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 #include "support/exact_contact.h"
 #include "support/exact_rational.h"
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "triangle_contact.h"
+#include "exact/triangle_contact.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <random>
 #include <string>
 
+#include "exact/triangle_distance.h"
 #include "support/exact_distance.h"
-#include "triangle_distance.h"
 
 namespace cdprep::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cdprep/pairs.h"
-#include "exact_within.h"
+#include "exact/exact_within.h"
 #include "support/brute_force.h"
 #include "support/exact_distance.h"
 #include "support/open_tiny.h"

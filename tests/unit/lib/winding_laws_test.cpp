@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "winding.h"
+#include "exact/winding.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "support/exact_winding.h"
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 // The published rules for a point on the sides of the tetrahedra [origin, triangle] (Feito
 // and Torres 1997) are kept here, as what winding_term() was made to replace: they must

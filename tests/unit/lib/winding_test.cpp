@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "winding.h"
+#include "exact/winding.h"
 
 #include <gtest/gtest.h>
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cdprep/advanced/convex_distance.h"
-#include "contact_side.h"
-#include "exact_within.h"
+#include "exact/exact_within.h"
+#include "pieces/contact_side.h"
 #include "support/brute_force.h"
 #include "support/counted_memory.h"
 #include "support/exact_distance.h"

@@ -11,7 +11,7 @@
 #include "support/concave_solids.h"
 #include "unit/tools/soup_of.h"
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {

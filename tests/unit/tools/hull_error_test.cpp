@@ -14,7 +14,7 @@
 #include "support/concave_solids.h"
 #include "unit/tools/soup_of.h"
 
-#include "point_triangle_distance.h"
+#include "exact/point_triangle_distance.h"
 
 namespace cdprep::convex {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kernels.h"
+#include "kernels/kernels.h"
 
 namespace cdprep::study {
 namespace {

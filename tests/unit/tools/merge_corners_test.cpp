@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "triangle_contact.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::study {
 namespace {

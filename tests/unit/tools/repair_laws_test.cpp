@@ -9,14 +9,14 @@
 #include <set>
 #include <string>
 
+#include "exact/point_triangle_distance.h"
+#include "exact/winding.h"
 #include "import/import_file.h"
 #include "mesh/mesh_meetings.h"
 #include "mesh/repair.h"
-#include "point_triangle_distance.h"
 #include "support/exact_winding.h"
 #include "support/shared_models.h"
 #include "unit/tools/soup_of.h"
-#include "winding.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -13,7 +13,7 @@
 #include "convex/convex_hull.h"
 #include "support/meshes.h"
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {

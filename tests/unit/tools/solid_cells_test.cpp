@@ -14,7 +14,7 @@
 #include "support/run_threads.h"
 #include "unit/tools/soup_of.h"
 
-#include "predicates.h"
+#include "exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {

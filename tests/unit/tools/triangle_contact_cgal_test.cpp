@@ -7,7 +7,7 @@
 
 #include "support/hard_triangles.h"
 
-#include "triangle_contact.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep::test {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "support/meshes.h"
 
-#include "point_triangle_distance.h"
+#include "exact/point_triangle_distance.h"
 
 namespace cdprep::convex {
 namespace {

@@ -1,0 +1,584 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/advanced/build_tetra_tree.h"
+
+#include <bit>
+#include <cassert>
+#include <limits>
+#include <memory>
+
+#include "build/chunks.h"
+#include "build/frame_map.h"
+#include "cdprep/advanced/build_octree.h"
+#include "cdprep/format/float_environment.h"
+#include "cdprep/format/octree.h"
+#include "cells/cone_children.h"
+#include "cells/radial_range.h"
+#include "cells/split_at_once.h"
+#include "cells/tetra_boxes.h"
+#include "cells/tetra_centre.h"
+#include "core/guarded_for.h"
+#include "exact/winding.h"
+
+// Level by level, all cones of a level at once: each cone's list of triangles is handed
+// down to its children. Most triangles lie inside one finest cone, which is known from
+// their corners alone (inner_cone); for the others the exact test is asked. Lists are
+// cut into pieces of kItemsPerTask: counted first, then moved to places that are known,
+// so that every list rises and no thread waits for another. The first levels, whose cones
+// are split anyway, are done in one step.
+//
+// Scratch, in bytes: 20 a vertex, and 1 while the centre is sought; 4 a triangle, and 3 in
+// the first step; 9 a reference of the two levels that follow each other, either of them no
+// more than the result has: a triangle that touches a cone touches a child.
+
+namespace cdprep::build {
+namespace {
+
+using format::Double3;
+using format::kSharedReference;
+using format::TetraNode;
+using format::Triangle;
+
+constexpr double kThird = 0.57735026918962576;  ///< 1 / sqrt(3)
+
+/// Part of a level's references: those of one cone.
+struct Run {
+    std::uint32_t key;
+    std::size_t first;
+    std::size_t last;
+    std::size_t node;  ///< its number, once it has one
+};
+
+/// Part of a run, for one task.
+struct Piece {
+    std::size_t run;
+    std::size_t first;
+    std::size_t last;
+    std::array<std::size_t, 4> place;  ///< for each child: how many, then where the next goes
+};
+
+/// One level: who is where.
+struct Level {
+    std::unique_ptr<std::uint32_t[]> items;
+    std::size_t count;
+    std::vector<Run> runs;
+};
+
+std::uint32_t reference_of(std::uint32_t item) {
+    return item & ~kSharedReference;
+}
+
+/// The deepest cone above both.
+std::uint32_t common_cone(std::uint32_t a, std::uint32_t b) {
+    assert(a != 0 && b != 0);
+    const int bits = std::min(std::bit_width(a), std::bit_width(b));
+    a >>= std::bit_width(a) - bits;
+    b >>= std::bit_width(b) - bits;
+    const int differing = (std::bit_width(a ^ b) + 1) / 2 * 2;
+    a >>= differing;
+    return std::bit_width(a) < static_cast<int>(kOctantKeyBits) ? 0 : a;
+}
+
+/// Of a part of a leaf's list, in the units of the builder.
+struct LeafReach {
+    std::size_t node;
+    RadialRange reach;
+};
+
+class TreeBuilder {
+public:
+    TreeBuilder(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                const TetraTreeOptions& options)
+        : input_{positions, triangles, {}, {}, 1, 0}, options_(options) {
+        TetraTree& result = result_;
+        result.tree.level = std::min(options.level, format::kMaxTetraLevel);
+        result.tree.threshold = std::max(options.threshold, 1U);
+        result.tree.bounding = options.bounding;
+    }
+
+    TetraTree build() {
+        if (!input_.triangles.empty()) {
+            find_centre();
+            place_vertices();
+            place_triangles();
+            split_levels();
+            find_radii();
+            if (options_.bounding == format::TetraBounding::boxes) {
+                make_tetra_boxes(input_, exponent_, options_, result_);
+            }
+            find_inside();
+        }
+        fill_top();
+        return std::move(result_);
+    }
+
+private:
+    void find_centre() {
+        const TetraCentre centre =
+            tetra_centre(input_.positions, input_.triangles, options_.parallel_for);
+        result_.tree.centre = centre.at;
+        exponent_ = centre.exponent;
+        input_.centre = centre.at;
+        input_.scale = std::ldexp(1.0, exponent_);
+        input_.level = result_.tree.level;
+    }
+
+    void place_vertices() {
+        const std::size_t count = input_.positions.size();
+        places_ = std::make_unique_for_overwrite<PlacedVertex[]>(count);
+        reach_ = std::make_unique_for_overwrite<float[]>(count);
+        input_.places = {places_.get(), count};
+        for_chunks(count, kItemsPerTask, options_.parallel_for,
+                   [&](std::size_t first, std::size_t last) {
+                       for (std::size_t i = first; i < last; ++i) place_vertex(i);
+                   });
+    }
+    void place_vertex(std::size_t i) {
+        const SeenPoint p = seen_point(input_.centre, input_.positions[i], input_.scale);
+        PlacedVertex& place = places_[i];
+        place.inner_cone = inner_cone(p, input_.level);
+        const double one = 1 / p.size;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            place.at[axis] = static_cast<float>(std::fabs(p.at[axis]) * one);
+        }
+        reach_[i] = static_cast<float>(p.size);
+    }
+
+    void place_triangles() {
+        const std::size_t count = input_.triangles.size();
+        home_ = std::make_unique_for_overwrite<std::uint32_t[]>(count);
+        for_chunks(count, kItemsPerTask, options_.parallel_for,
+                   [&](std::size_t first, std::size_t last) {
+                       for (std::size_t i = first; i < last; ++i) home_[i] = home_of(i);
+                   });
+    }
+    /// The deepest cone that certainly holds all of the triangle inside; 0 when none does.
+    [[nodiscard]] std::uint32_t home_of(std::size_t triangle) const {
+        const auto& v = input_.triangles[triangle].vertex;
+        const std::uint32_t a = places_[v[0]].inner_cone;
+        const std::uint32_t b = places_[v[1]].inner_cone;
+        const std::uint32_t c = places_[v[2]].inner_cone;
+        if (a == b && b == c) return a;
+        return a == 0 || b == 0 || c == 0 ? 0 : common_cone_of_three(a, b, c);
+    }
+    static std::uint32_t common_cone_of_three(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        const std::uint32_t ab = common_cone(a, b);
+        return ab == 0 ? 0 : common_cone(ab, c);
+    }
+
+    void split_levels() {
+        std::uint32_t depth = level_at_once();
+        Level level = first_level(depth);
+        for (; !level.runs.empty(); ++depth) {
+            std::vector<Run> inner = runs_to_split(level, depth);
+            std::vector<Piece> pieces = count_children(level, inner);
+            if (!has_room(level, inner, pieces)) {
+                inner.clear();
+                pieces.clear();
+            }
+            take_nodes(level, inner);
+            level = move_down(level, inner, pieces);
+        }
+    }
+
+    /// The level that triangles are sorted into first: where cones above it are split anyway,
+    /// their lists are not asked for. Where triangles are few for it, that is not likely.
+    [[nodiscard]] std::uint32_t level_at_once() const {
+        constexpr std::size_t kTimes = 8;
+        const format::TetraTree& tree = result_.tree;
+        const std::uint32_t level = std::min(tree.level, kMostLevelAtOnce);
+        const std::size_t enough =
+            kTimes * std::size_t{tree.threshold} * format::tetra_cones(level);
+        return tree.threshold == 1 || input_.triangles.size() >= enough ? level : 0;
+    }
+
+    /// The cones of level `depth`, below those of the levels above; or the octants, and then
+    /// `depth` is 0.
+    Level first_level(std::uint32_t& depth) {
+        ConeLists lists = split_at_once(input_, home_.get(), depth, options_.parallel_for);
+        if (!may_be_first(lists, depth)) {
+            depth = 0;
+            lists = split_at_once(input_, home_.get(), 0, options_.parallel_for);
+        }
+        result_.references = std::move(lists.centre);
+        result_.tree.centre_count = static_cast<std::uint32_t>(result_.references.size());
+        if (result_.tree.centre_count > 0) result_.tree.flags |= format::tetra_centre_on;
+        for (std::uint32_t above = 0; above < depth; ++above) take_inner(lists, depth, above);
+        return {std::move(lists.items), lists.first.back(), runs_of(lists, depth, depth)};
+    }
+
+    /// The cones of level `above` that something in the lists of level `level` lies in.
+    static std::vector<Run> runs_of(const ConeLists& lists, std::uint32_t level,
+                                    std::uint32_t above) {
+        assert(above <= level);
+        std::vector<Run> runs;
+        const std::uint32_t below = 2 * (level - above);
+        for (std::uint32_t i = 0; i < format::tetra_cones(above); ++i) {
+            const std::size_t first = lists.first[std::size_t{i} << below];
+            const std::size_t last = lists.first[(std::size_t{i} + 1) << below];
+            if (last > first) runs.push_back({format::tetra_cones(above) + i, first, last, 0});
+        }
+        return runs;
+    }
+
+    /// Whether all cones above would be split: they hold what any cone below holds.
+    [[nodiscard]] bool may_be_first(const ConeLists& lists, std::uint32_t level) const {
+        if (level == 0) return true;
+        if (lists.first.back() > most_references()) return false;
+        std::vector<std::size_t> most(format::tetra_cones(level));
+        for (std::size_t i = 0; i < most.size(); ++i) most[i] = lists.first[i + 1] - lists.first[i];
+        while (most.size() > format::tetra_cones(0)) {
+            for (std::size_t i = 0; 4 * i < most.size(); ++i) {
+                const auto children = most.begin() + static_cast<std::ptrdiff_t>(4 * i);
+                most[i] = *std::max_element(children, children + 4);
+                if (most[i] > 0 && most[i] < result_.tree.threshold) return false;
+            }
+            most.resize(most.size() / 4);
+        }
+        return true;
+    }
+
+    /// Adds the cones of level `above`, all of which are split.
+    void take_inner(const ConeLists& lists, std::uint32_t level, std::uint32_t above) {
+        const std::vector<Run> runs = runs_of(lists, level, above);
+        const std::vector<Run> children = runs_of(lists, level, above + 1);
+        const std::size_t end = result_.nodes.size() + runs.size();
+        std::size_t child = 0;
+        for (const Run& run : runs) {
+            const std::size_t first = child;
+            while (child < children.size() && children[child].key >> 2 == run.key) ++child;
+            result_.nodes.push_back({run.key, 0, 0, 0, 0, format::tetra_inner});
+            link_children(result_.nodes.back(), end + first,
+                          std::span(children).subspan(first, child - first));
+        }
+    }
+
+    [[nodiscard]] std::uint64_t most_references() const {
+        constexpr std::uint64_t kMost = std::uint64_t{1} << 31;
+        const std::uint64_t share = kMostReferencesPerTriangle * input_.triangles.size();
+        return std::min(kMostFreeReferences + share, kMost);
+    }
+
+    [[nodiscard]] std::vector<Run> runs_to_split(const Level& level, std::uint32_t depth) const {
+        std::vector<Run> inner;
+        if (depth == result_.tree.level) return inner;
+        for (const Run& run : level.runs) {
+            if (run.last - run.first >= result_.tree.threshold) inner.push_back(run);
+        }
+        return inner;
+    }
+
+    /// Whether the references of the level, with these cones split, are not too many.
+    [[nodiscard]] bool has_room(const Level& level, const std::vector<Run>& inner,
+                                const std::vector<Piece>& pieces) const {
+        std::uint64_t count = result_.references.size() + level.count;
+        for (const Run& run : inner) count -= run.last - run.first;
+        for (const Piece& piece : pieces) {
+            for (const std::size_t child : piece.place) count += child;
+        }
+        return count <= most_references();
+    }
+
+    /// Adds a level's cones to the tree, with the lists of those that are not split.
+    void take_nodes(const Level& level, std::vector<Run>& inner) {
+        std::vector<std::uint32_t>& references = result_.references;
+        std::size_t next = 0;
+        for (const Run& run : level.runs) {
+            TetraNode node{};
+            node.key = run.key;
+            if (next < inner.size() && inner[next].key == run.key) {
+                node.flags = format::tetra_inner;
+                inner[next++].node = result_.nodes.size();
+            } else {
+                node.first = static_cast<std::uint32_t>(references.size());
+                node.count = static_cast<std::uint32_t>(run.last - run.first);
+                references.insert(references.end(), level.items.get() + run.first,
+                                  level.items.get() + run.last);
+            }
+            result_.nodes.push_back(node);
+        }
+    }
+
+    static std::vector<Piece> pieces_of(const std::vector<Run>& runs) {
+        std::vector<Piece> pieces;
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            for (std::size_t first = runs[i].first; first < runs[i].last; first += kItemsPerTask) {
+                pieces.push_back({i, first, std::min(runs[i].last, first + kItemsPerTask), {}});
+            }
+        }
+        return pieces;
+    }
+
+    /// Calls body(piece) for each, some a task.
+    template <class Body>
+    void for_pieces(std::vector<Piece>& pieces, const Body& body) const {
+        std::vector<std::size_t> begin;
+        std::size_t items = kItemsPerTask;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            if (items >= kItemsPerTask) {
+                begin.push_back(i);
+                items = 0;
+            }
+            items += pieces[i].last - pieces[i].first;
+        }
+        begin.push_back(pieces.size());
+        options_.parallel_for(begin.size() - 1, [&](std::size_t task) {
+            for (std::size_t i = begin[task]; i < begin[task + 1]; ++i) body(pieces[i]);
+        });
+    }
+
+    /// How many of each piece go to each child; and in mask_ who goes where.
+    std::vector<Piece> count_children(const Level& level, const std::vector<Run>& runs) {
+        std::vector<Piece> pieces = pieces_of(runs);
+        if (pieces.empty()) return pieces;
+        mask_ = std::make_unique_for_overwrite<std::uint8_t[]>(level.count);
+        for_pieces(pieces, [&](Piece& piece) { count_piece(level, runs[piece.run].key, piece); });
+        return pieces;
+    }
+
+    void count_piece(const Level& level, std::uint32_t key, Piece& piece) {
+        ConeChildren children(input_, key);
+        const int width = std::bit_width(key);
+        for (std::size_t i = piece.first; i < piece.last; ++i) {
+            const std::uint32_t triangle = reference_of(level.items[i]);
+            const std::uint32_t home = home_[triangle];
+            const int below = std::bit_width(home) - width;
+            assert(below <= 0 || home >> below == key);
+            const std::uint32_t mask = below > 0 ? 1U << (home >> (below - 2) & 3U)
+                                                 : children.touched_by(triangle, home != 0);
+            assert(mask != 0 && mask <= 0xf);
+            mask_[i] = static_cast<std::uint8_t>(mask);
+            for (std::size_t child = 0; child < 4; ++child) {
+                piece.place[child] += mask >> child & 1U;
+            }
+        }
+    }
+
+    /// The children that have something, each list in the order of its parent's.
+    Level move_down(const Level& from, const std::vector<Run>& runs, std::vector<Piece>& pieces) {
+        Level level{};
+        std::size_t piece = 0;
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            const std::size_t first_piece = piece;
+            while (piece < pieces.size() && pieces[piece].run == i) ++piece;
+            const std::size_t first_child = level.runs.size();
+            place_pieces(runs[i].key, std::span(pieces).subspan(first_piece, piece - first_piece),
+                         level);
+            link_children(result_.nodes[runs[i].node], result_.nodes.size() + first_child,
+                          std::span(level.runs).subspan(first_child));
+        }
+        assert(piece == pieces.size());
+        level.items = std::make_unique_for_overwrite<std::uint32_t[]>(level.count);
+        for_pieces(pieces, [&](Piece& part) { move_piece(from, part, level); });
+        return level;
+    }
+
+    /// Turns counts of one cone's pieces into places, and adds its children to the level.
+    static void place_pieces(std::uint32_t key, std::span<Piece> pieces, Level& level) {
+        for (std::uint32_t child = 0; child < 4; ++child) {
+            const std::size_t begin = level.count;
+            for (Piece& piece : pieces) {
+                const std::size_t count = piece.place[child];
+                piece.place[child] = level.count;
+                level.count += count;
+            }
+            if (level.count > begin)
+                level.runs.push_back({key << 2 | child, begin, level.count, 0});
+        }
+    }
+
+    static void link_children(TetraNode& parent, std::size_t first, std::span<const Run> children) {
+        assert(!children.empty() && children.size() <= 4);
+        parent.first = static_cast<std::uint32_t>(first);
+        parent.count = static_cast<std::uint32_t>(children.size());
+        for (const Run& child : children) parent.flags |= 1U << (child.key & 3U);
+    }
+
+    void move_piece(const Level& from, Piece& piece, Level& level) const {
+        for (std::size_t i = piece.first; i < piece.last; ++i) {
+            std::uint32_t item = from.items[i];
+            const std::uint32_t mask = mask_[i];
+            if ((mask & (mask - 1)) != 0) item |= kSharedReference;
+            for (std::uint32_t rest = mask; rest != 0; rest &= rest - 1) {
+                level.items[piece.place[static_cast<std::size_t>(std::countr_zero(rest))]++] = item;
+            }
+        }
+    }
+
+    /// Of leaves from their triangles, of the others from their children: these cover them.
+    void find_radii() {
+        std::vector<TetraNode>& nodes = result_.nodes;
+        std::vector<RadialRange> reach(nodes.size());
+        for (const LeafReach& part : reach_of_leaves()) {
+            reach[part.node].add(part.reach);
+        }
+        for (std::size_t i = nodes.size(); i-- > 0;) {
+            TetraNode& node = nodes[i];
+            if ((node.flags & format::tetra_inner) != 0) {
+                assert(node.first > i);  // children stand behind their parents
+                for (std::size_t k = node.first; k < node.first + node.count; ++k) {
+                    reach[i].add(reach[k]);
+                }
+            }
+            set_radii(reach[i], node);
+        }
+    }
+
+    /// A leaf may be in several tasks: parts of its list.
+    [[nodiscard]] std::vector<LeafReach> reach_of_leaves() const {
+        std::vector<std::uint32_t> leaves;
+        for (std::uint32_t i = 0; i < result_.nodes.size(); ++i) {
+            if ((result_.nodes[i].flags & format::tetra_inner) == 0) leaves.push_back(i);
+        }
+        const std::size_t count = result_.references.size();
+        std::vector<std::vector<LeafReach>> parts((count + kItemsPerTask - 1) / kItemsPerTask);
+        for_chunks(count, kItemsPerTask, options_.parallel_for,
+                   [&](std::size_t first, std::size_t last) {
+                       reach_of_references(leaves, first, last, parts[first / kItemsPerTask]);
+                   });
+        std::vector<LeafReach> all;
+        for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
+        return all;
+    }
+
+    void reach_of_references(const std::vector<std::uint32_t>& leaves, std::size_t first,
+                             std::size_t last, std::vector<LeafReach>& parts) const {
+        // The last leaf that begins at or before the first reference.
+        auto leaf = std::upper_bound(leaves.begin(), leaves.end(), first,
+                                     [&](std::size_t place, std::uint32_t node) {
+                                         return place < result_.nodes[node].first;
+                                     });
+        // Before all lists are the triangles that hold the centre.
+        if (leaf != leaves.begin()) --leaf;
+        for (; leaf != leaves.end() && result_.nodes[*leaf].first < last; ++leaf) {
+            const TetraNode& node = result_.nodes[*leaf];
+            const std::size_t begin = std::max<std::size_t>(first, node.first);
+            const std::size_t end =
+                std::min<std::size_t>(last, node.first + std::size_t{node.count});
+            if (begin < end) parts.push_back({*leaf, reach_of_part(node.key, begin, end)});
+        }
+    }
+
+    /// How far its corners are, as far as the sum of sizes is that within the octant.
+    struct Sizes {
+        float least;
+        float greatest;
+    };
+    [[nodiscard]] Sizes sizes_of(std::uint32_t triangle) const {
+        const auto& v = input_.triangles[triangle].vertex;
+        const float a = reach_[v[0]], b = reach_[v[1]], c = reach_[v[2]];
+        return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
+    }
+    /// Rounded to double by 8 u and to float by 2^-24; tiny ones by some 2^-149.
+    static RadialRange range_of(const Sizes& sizes) {
+        constexpr double kRounding = 0x1p-22;
+        constexpr double kTiny = 0x1p-140;
+        return {std::max(0.0, double{sizes.least} * (1 - kRounding) - kTiny),
+                double{sizes.greatest} * (1 + kRounding) + kTiny};
+    }
+
+    /// A triangle that is listed in one leaf lies in it, whole: these come first, the others
+    /// are kept for later. Without a branch: nothing foretells which is which.
+    [[nodiscard]] RadialRange reach_of_part(std::uint32_t key, std::size_t begin,
+                                            std::size_t end) const {
+        constexpr float kFar = std::numeric_limits<float>::infinity();
+        std::array<std::uint32_t, kItemsPerTask> shared;
+        assert(end - begin <= shared.size());
+        std::size_t shared_count = 0;
+        Sizes all = {kFar, 0};
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t item = result_.references[i];
+            const bool is_shared = (item & kSharedReference) != 0;
+            const Sizes sizes = sizes_of(reference_of(item));
+            all.least = std::min(all.least, is_shared ? kFar : sizes.least);
+            all.greatest = std::max(all.greatest, is_shared ? 0 : sizes.greatest);
+            shared[shared_count] = reference_of(item);
+            shared_count += is_shared ? 1 : 0;
+        }
+        RadialRange range = all.least == kFar ? RadialRange{} : range_of(all);
+        add_parts(key, std::span(shared.data(), shared_count), range);
+        return range;
+    }
+
+    /// Of triangles that are in this leaf and in others.
+    void add_parts(std::uint32_t key, std::span<const std::uint32_t> triangles,
+                   RadialRange& range) const {
+        const ConeFaces faces = cone_faces(tetra_cone(key));
+        for (const std::uint32_t triangle : triangles) {
+            const RadialRange whole = range_of(sizes_of(triangle));
+            // Its corners are in one octant, and others reach as far: its part adds nothing.
+            const bool is_within = home_[triangle] != 0 && whole.least >= range.least &&
+                                   whole.greatest <= range.greatest;
+            if (!is_within) add_part(faces, input_.seen(triangle), range);
+        }
+    }
+
+    void set_radii(const RadialRange& reach, TetraNode& node) const {
+        // The factor and two products round; then lengths below every float.
+        constexpr double kRounding = 0x1p-50;
+        constexpr double kTiny = 0x1p-1000;
+        constexpr double kMost = std::numeric_limits<float>::max();
+        const int exponent = options_.frame_exponent - exponent_;
+        const double least = std::ldexp(reach.least * (kThird * (1 - kRounding)), exponent) - kTiny;
+        const double greatest =
+            std::ldexp(reach.greatest * (kThird * (1 + kRounding)), exponent) + kTiny;
+        node.radius_max =
+            greatest > kMost ? std::numeric_limits<float>::infinity() : float_above(greatest);
+        if (options_.bounding == format::TetraBounding::tetra) return;
+        node.radius_min = float_below(std::clamp(least, 0.0, kMost));
+    }
+
+    /// A ray from the centre crosses triangles of one cone only: that of its direction,
+    /// closed, even when it is perturbed.
+    void find_inside() {
+        if (result_.nodes.empty() || result_.tree.centre_count > 0) return;
+        const TetraNode& leaf = result_.nodes.back();
+        const Double3 from = behind_centre(input_.centre, tetra_cone(leaf.key));
+        int winding = 0;
+        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+            const std::uint32_t triangle = reference_of(result_.references[i]);
+            winding += winding_term(from, input_.centre, input_.corners(triangle)).crossings;
+        }
+        if (winding != 0) result_.tree.flags |= format::tetra_centre_inside;
+    }
+
+    void fill_top() {
+        format::TetraTree& tree = result_.tree;
+        while (tree.top_level < tree.level &&
+               format::tetra_cones(tree.top_level + 1) <= 2 * result_.nodes.size()) {
+            ++tree.top_level;
+        }
+        result_.top.assign(format::tetra_cones(tree.top_level), 0);
+        for (std::uint32_t i = 0; i < result_.nodes.size(); ++i) {
+            const TetraNode& node = result_.nodes[i];
+            const std::uint32_t level = tetra_level(node.key);
+            if (level > tree.top_level) break;
+            if (level < tree.top_level && (node.flags & format::tetra_inner) != 0) continue;
+            const std::uint32_t below = 2 * (tree.top_level - level);
+            const std::size_t first = (std::size_t{node.key} << below) - result_.top.size();
+            std::fill_n(result_.top.begin() + static_cast<std::ptrdiff_t>(first),
+                        std::size_t{1} << below, i + 1);
+        }
+    }
+
+    TetraInput input_;
+    TetraTreeOptions options_;
+    TetraTree result_;
+    std::int32_t exponent_ = 0;               ///< of input_.scale
+    std::unique_ptr<PlacedVertex[]> places_;  ///< per vertex
+    std::unique_ptr<float[]> reach_;          ///< per vertex: sum of the sizes, scaled
+    std::unique_ptr<std::uint32_t[]> home_;   ///< per triangle
+    std::unique_ptr<std::uint8_t[]> mask_;    ///< per reference of a level
+};
+
+}  // namespace
+
+TetraTree build_tetra_tree(std::span<const Double3> positions, std::span<const Triangle> triangles,
+                           const TetraTreeOptions& options) {
+    format::FloatEnvironment environment;
+    const GuardedFor guarded(environment, options.parallel_for);
+    TetraTreeOptions inside = options;
+    inside.parallel_for = guarded;
+    return TreeBuilder(positions, triangles, inside).build();
+}
+
+}  // namespace cdprep::build

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cdprep/study/overlap_through.h"
+#include "cdprep/visitor.h"
+#include "walk/find_contact.h"
+#include "walk/walk_pairs.h"
+
+namespace cdprep {
+
+/// A question about two models through a structure of both.
+struct QuestionThrough {
+    const StructureOptions& through;
+    const Model& a;
+    const Model& b;
+    const Placement& placement;
+    Workspace& workspace;
+    const PairOptions& options;
+    Search search;  ///< first: whoever asks ends at the first pair
+};
+
+/// Calls `visit` with every pair of triangles in contact, tree order, each once, until it
+/// returns false; returns false when it did. Neither model is empty.
+using ContactVisitor = Visitor<TreePair>;
+
+bool visit_contacts_through_trees(const QuestionThrough& question, ContactVisitor visit) noexcept;
+
+}  // namespace cdprep

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "cdprep/advanced/build_octree.h"
+#include "cdprep/model.h"
+#include "cdprep/study/overlap_through.h"
+#include "cells/octree_cells.h"
+
+namespace cdprep {
+
+/// What a search says when no node has that key, or no leaf holds that point.
+inline constexpr std::uint32_t kNoNode = 0xffffffffU;
+
+/// The parts of a hashed octree that a search reads: a model's or a builder's, which outlive
+/// it. Safe to search when find_damage found nothing: then tops rise from 0 to the number of
+/// leaves, all numbers name nodes, and every chain ends. A search reads nodes and, when there
+/// are any, what it is named for, which then must be there: an octree may be baked without.
+struct OctreeIndex {
+    std::uint32_t top_level = 0;  ///< as format::OctreeGrid
+    std::uint32_t slot_bits = 0;
+    std::uint32_t deepest = 0;  ///< level of the last node
+    std::span<const format::OctreeNode> nodes;
+    std::span<const std::uint64_t> leaf_codes;
+    std::span<const std::uint32_t> leaf_nodes;
+    std::span<const std::uint32_t> top;
+    std::span<const std::uint32_t> modulus_table;
+    std::span<const std::uint32_t> mixed_table;
+};
+
+/// The index of a model that has octree().grid, or of a builder's octree; empty without nodes.
+[[nodiscard]] OctreeIndex octree_index(const Model& model) noexcept;
+[[nodiscard]] OctreeIndex octree_index(const build::Octree& octree) noexcept;
+
+/// The key of the cell of `level` in which the finest cell `code` lies.
+inline std::uint64_t key_at(std::uint64_t code, std::uint32_t level) noexcept {
+    assert(level <= format::kOctreeBits && code >> (3 * format::kOctreeBits) == 0);
+    return (std::uint64_t{1} << (3 * level)) | (code >> (3 * (format::kOctreeBits - level)));
+}
+
+inline bool is_leaf(const format::OctreeNode& node) noexcept {
+    return (node.count & format::kInnerNode) == 0;
+}
+
+/// The node of a key among those chained from a slot on, or kNoNode. O(length of the chain).
+inline std::uint32_t find_chained(const OctreeIndex& index, std::span<const std::uint32_t> table,
+                                  std::uint64_t slot, std::uint64_t key) noexcept {
+    assert(slot >> index.slot_bits == 0);
+    assert(table.size() == (std::size_t{1} << index.slot_bits) + index.nodes.size());
+    const std::uint32_t* next = table.data() + (std::size_t{1} << index.slot_bits);
+    for (std::uint32_t entry = table[slot]; entry != 0; entry = next[entry - 1]) {
+        assert(entry <= index.nodes.size());
+        if (index.nodes[entry - 1].key == key) return entry - 1;
+    }
+    return kNoNode;
+}
+
+/// The node of a key by bisection of the nodes themselves, which are sorted: no table is
+/// read. O(log nodes): when searches overlap five to nine times as slow as a table, one after
+/// the other one to three times (octree_top_bench).
+inline std::uint32_t find_node_in_order(const OctreeIndex& index, std::uint64_t key) noexcept {
+    const auto at = std::lower_bound(
+        index.nodes.begin(), index.nodes.end(), key,
+        [](const format::OctreeNode& node, std::uint64_t limit) { return node.key < limit; });
+    if (at == index.nodes.end() || at->key != key) return kNoNode;
+    return static_cast<std::uint32_t>(at - index.nodes.begin());
+}
+
+/// find_leaf() by the sorted leaves; there are nodes. Leaves do not overlap, so the one that
+/// begins last before `code` or there holds it, if any does: empty cells are not stored,
+/// and it may end before.
+inline std::uint32_t find_sorted_leaf(const OctreeIndex& index, std::uint64_t code) noexcept {
+    const std::uint64_t cell = code >> (3 * (format::kOctreeBits - index.top_level));
+    assert(cell + 1 < index.top.size());
+    const std::uint64_t* const codes = index.leaf_codes.data();
+    // With branches: those that the processor guesses wrong cost less than waiting, step by
+    // step, for codes that are not in the caches (octree_top_bench).
+    const std::uint64_t* const after =
+        std::upper_bound(codes + index.top[cell], codes + index.top[cell + 1], code);
+    if (after == codes) return kNoNode;
+    const std::uint32_t node = index.leaf_nodes[static_cast<std::size_t>(after - codes) - 1];
+    const std::uint64_t key = index.nodes[node].key;
+    return key_at(code, level_of(key)) == key ? node : kNoNode;
+}
+
+/// find_leaf() by a chained table. The deepest stored cell that holds `code` is a leaf, or
+/// an inner node whose child there is empty.
+template <auto kSlotOf>
+std::uint32_t find_chained_leaf(const OctreeIndex& index, std::span<const std::uint32_t> table,
+                                std::uint64_t code) noexcept {
+    for (std::uint64_t key = key_at(code, index.deepest); key != 0; key >>= 3) {
+        const std::uint32_t node = find_chained(index, table, kSlotOf(key, index.slot_bits), key);
+        if (node != kNoNode) return is_leaf(index.nodes[node]) ? node : kNoNode;
+    }
+    return kNoNode;
+}
+
+/// The node of a key, an inner node or a leaf, or kNoNode; 0 is no node's key. By the table
+/// that `search` names; sorted leaves do not tell of inner nodes: find_node_in_order then.
+inline std::uint32_t find_node(const OctreeIndex& index, CellSearch search,
+                               std::uint64_t key) noexcept {
+    if (index.nodes.empty()) return kNoNode;
+    switch (search) {
+        case CellSearch::modulus:
+            return find_chained(index, index.modulus_table,
+                                format::modulus_slot(key, index.slot_bits), key);
+        case CellSearch::mixed:
+            return find_chained(index, index.mixed_table, format::mixed_slot(key, index.slot_bits),
+                                key);
+        case CellSearch::sorted:
+            break;
+    }
+    return find_node_in_order(index, key);
+}
+
+/// The leaf whose half-open cell holds the finest cell `code`, below 2^63, or kNoNode when
+/// no triangle touches its cell. The answer is the same whatever the search, and that of a
+/// descent from the root. Sorted: O(log of the leaves in one cell of top_level), one
+/// bisection. The others go up from the deepest level: O(levels between that and the
+/// answer) chains.
+inline std::uint32_t find_leaf(const OctreeIndex& index, CellSearch search,
+                               std::uint64_t code) noexcept {
+    if (index.nodes.empty()) return kNoNode;
+    switch (search) {
+        case CellSearch::modulus:
+            return find_chained_leaf<format::modulus_slot>(index, index.modulus_table, code);
+        case CellSearch::mixed:
+            return find_chained_leaf<format::mixed_slot>(index, index.mixed_table, code);
+        case CellSearch::sorted:
+            break;
+    }
+    return find_sorted_leaf(index, code);
+}
+
+}  // namespace cdprep

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "core/damage_sentence.h"
+
+#include "cdprep/format/sections.h"
+
+namespace cdprep {
+namespace {
+
+std::string number(std::uint64_t value) {
+    return std::to_string(value);
+}
+
+/// What is wrong, without the file and without the way out.
+std::string fault(const format::Damage& damage) {
+    using Kind = format::DamageKind;
+    const std::string section =
+        damage.section == format::SectionId{0}
+            ? "the user block"
+            : "section " + std::string(format::section_name(damage.section));
+    const std::string at = " at byte " + number(damage.at);
+    const std::string found = number(damage.found);
+    const std::string limit = number(damage.limit);
+    switch (damage.kind) {
+        case Kind::too_short:
+            return "has " + found + " bytes, but needs at least " + limit;
+        case Kind::bad_magic:
+            return "is not a finished bake: its first bytes are not cdprep's";
+        case Kind::bad_version:
+            return "written as format " + found + "; this program reads " + limit;
+        case Kind::bad_byte_order:
+            return "written on a machine of another byte order or number format";
+        case Kind::bad_file_size:
+            return "has " + found + " bytes, but its header says " + limit;
+        case Kind::bad_header:
+            return section + at + " is damaged: found " + found + ", expected " + limit;
+        case Kind::rewritten:
+            return "rewritten by another HDF5 tool, so its section table is out of date";
+        case Kind::unknown_feature:
+            return "needs features " + found + "; this program knows " + limit;
+        case Kind::bad_section:
+            return section + at + " does not fit: found " + found + ", allowed " + limit;
+        case Kind::missing_section:
+            return section + " is missing";
+        case Kind::bad_checksum:
+            return section + at + " has checksum " + found + ", expected " + limit;
+        case Kind::bad_count:
+            return section + " holds " + found + " elements, expected " + limit;
+        case Kind::bad_index:
+            return section + at + " holds the index " + found + ", allowed is at most " + limit;
+        case Kind::bad_number:
+            return section + at + " holds a number that is not finite or too large";
+        case Kind::bad_order:
+            return section + at + " is out of order: found " + found + ", expected " + limit;
+        case Kind::bad_box:
+            return section + at + ": box " + found + " does not contain what lies below it";
+        case Kind::bad_fact:
+            return section + at + " states what the geometry does not bear out: found " + found +
+                   ", expected " + limit;
+    }
+    return section + at + " is damaged";
+}
+
+const char* way_out(format::DamageKind kind) {
+    using Kind = format::DamageKind;
+    switch (kind) {
+        case Kind::bad_magic:
+            return "Bake the mesh again, or give the path of a .cdp.h5 file.";
+        case Kind::bad_version:
+        case Kind::unknown_feature:
+            return "Bake it again, or update cdprep.";
+        case Kind::bad_byte_order:
+            return "Bake it on a little-endian machine.";
+        case Kind::rewritten:
+            return "Run cdprep reindex on it.";
+        default:
+            return "Copy the file again, or bake it again.";
+    }
+}
+
+}  // namespace
+
+std::string damage_sentence(std::string_view file, const format::Damage& damage) {
+    return std::string(file) + ": " + fault(damage) + ". " + way_out(damage.kind);
+}
+
+}  // namespace cdprep

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/model.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "cdprep/format/find_damage.h"
+#include "cdprep/format/sections.h"
+#include "core/damage_sentence.h"
+#include "core/mapped_file.h"
+#include "core/refusal_sentence.h"
+
+namespace cdprep {
+
+struct Model::State {
+    MappedFile mapping;  ///< or a copy; empty when the caller keeps the bytes
+    std::string name;    ///< of the file, for messages
+    std::span<const std::byte> file;
+    const format::FileHeader* header = nullptr;
+    SectionSet sections;
+    SectionSet in_file;  ///< also those that were not asked for
+    MeshView mesh;
+    SourceView source;
+    BvhView bvh;
+    OctreeView octree;
+    AdaptiveOctreeView adaptive_octree;
+    TetraTreeView tetra_tree;
+    HullView hulls;
+    PieceView pieces;
+    RecordView record;
+
+    void find_sections(SectionSet wanted);
+
+    /// A model without triangles has no leaves. Reads the header, which a RuntimeModel changes.
+    [[nodiscard]] bool is_exact() const noexcept {
+        return (header->flags & format::model_exact_leaves) != 0 && header->triangle_count > 0;
+    }
+    [[nodiscard]] bool has_exact_leaves() const noexcept {
+        return is_exact() && !bvh.leaves.empty();
+    }
+
+private:
+    /// Points `span` at the section when it is wanted and there.
+    template <class T>
+    void view(SectionId id, SectionSet wanted, std::span<const T>& span) {
+        const std::optional<format::SectionEntry> entry = format::find_section(file, id);
+        if (!entry) return;
+        in_file.insert(id);
+        if (!wanted.contains(id)) return;
+        sections.insert(id);
+        // The checker has proved offset, alignment and element size.
+        span = {reinterpret_cast<const T*>(file.data() + entry->offset),
+                static_cast<std::size_t>(entry->count)};
+    }
+    /// The same for a section of at most one element.
+    template <class T>
+    void view(SectionId id, SectionSet wanted, const T*& element) {
+        std::span<const T> span;
+        view(id, wanted, span);
+        if (!span.empty()) element = span.data();
+    }
+    /// The same for text.
+    void view(SectionId id, SectionSet wanted, std::string_view& text) {
+        std::span<const char> span;
+        view(id, wanted, span);
+        text = {span.data(), span.size()};
+    }
+};
+
+void Model::State::find_sections(SectionSet wanted) {
+    header = reinterpret_cast<const format::FileHeader*>(file.data());
+    bvh.shape = format::bvh_shape(header->triangle_count);
+#define CDPREP_MESH_SECTION(member, name, ...) view(SectionId::name, wanted, mesh.member);
+#define CDPREP_SOURCE_SECTION(member, name, ...) view(SectionId::name, wanted, source.member);
+#define CDPREP_BVH_SECTION(member, name, ...) view(SectionId::name, wanted, bvh.member);
+#define CDPREP_OCTREE_SECTION(member, name, ...) view(SectionId::name, wanted, octree.member);
+#define CDPREP_ADAPTIVE_OCTREE_SECTION(member, name, ...) \
+    view(SectionId::name, wanted, adaptive_octree.member);
+#define CDPREP_TETRA_TREE_SECTION(member, name, ...) \
+    view(SectionId::name, wanted, tetra_tree.member);
+#define CDPREP_HULL_SECTION(member, name, ...) view(SectionId::name, wanted, hulls.member);
+#define CDPREP_PIECE_SECTION(member, name, ...) view(SectionId::name, wanted, pieces.member);
+#define CDPREP_RECORD_SECTION(member, name, ...) view(SectionId::name, wanted, record.member);
+#include "cdprep/format/section_table.inc"
+}
+
+namespace {
+
+Error damaged(std::string_view name, const format::Damage& damage) {
+    return {ErrorCode::unreadable, damage_sentence(name, damage)};
+}
+
+}  // namespace
+
+Model::Model(std::unique_ptr<State> state) noexcept
+    : state_(std::move(state)), served_(served_by(state_->sections, state_->is_exact())) {}
+Model::Model(Model&& other) noexcept
+    : state_(std::move(other.state_)), served_(std::exchange(other.served_, Ask::nothing)) {}
+Model& Model::operator=(Model&& other) noexcept {
+    std::swap(state_, other.state_);
+    std::swap(served_, other.served_);
+    return *this;
+}
+Model::~Model() = default;
+
+Result<Model> Model::open(const std::filesystem::path& path, const OpenOptions& options) {
+    const bool is_copied = options.mode == OpenMode::copy;
+    Result<MappedFile> mapped = is_copied ? MappedFile::copy(path) : MappedFile::map(path);
+    if (!mapped) return mapped.error();
+    OpenOptions named = options;
+    const std::string name = path.string();
+    named.name = name;
+    Result<Model> model = from_bytes(mapped.value().bytes(), named);
+    if (model) model.value().state_->mapping = std::move(mapped).value();
+    return model;
+}
+
+Result<Model> Model::open(const std::filesystem::path& path, Ask asks) {
+    return open(path, OpenOptions{.asks = asks});
+}
+
+Result<Model> Model::open(const std::filesystem::path& path, SectionSet wanted) {
+    return open(path, OpenOptions{.sections = wanted});
+}
+
+Result<Model> Model::open(std::span<const std::byte> bytes, const OpenOptions& options) {
+    return from_bytes(bytes, options);
+}
+
+Result<Model> Model::open(std::span<const std::byte> bytes, SectionSet wanted) {
+    return from_bytes(bytes, OpenOptions{.sections = wanted});
+}
+
+Result<Model> Model::from_bytes(std::span<const std::byte> bytes, const OpenOptions& options) {
+    const std::string name(options.name);
+    const auto misaligned =
+        reinterpret_cast<std::uintptr_t>(bytes.data()) % format::kSectionAlignment;
+    if (misaligned != 0) {
+        return Error{ErrorCode::bad_argument,
+                     name + ": the bytes start " + std::to_string(misaligned) +
+                         " past a multiple of " + std::to_string(format::kSectionAlignment) +
+                         "; they must start at one."};
+    }
+    const SectionSet unless_said = options.asks == Ask::nothing ? SectionSet::all() : SectionSet{};
+    SectionSet wanted = options.sections.value_or(unless_said);
+    wanted.insert(sections_for(options.asks));
+    if (const auto damage = format::find_damage(bytes, wanted)) return damaged(name, *damage);
+    auto state = std::make_unique<State>();
+    state->file = bytes;
+    state->name = name;
+    state->find_sections(wanted);
+    Model model(std::move(state));
+    if (const std::optional<Refusal> refused = model.refusal(options.asks)) {
+        return Error{ErrorCode::bad_argument, refused->message};
+    }
+    return model;
+}
+
+Result<Model> Model::open_trusted(const std::filesystem::path& path) {
+    Result<MappedFile> mapped = MappedFile::map(path);
+    if (!mapped) return mapped.error();
+    auto state = std::make_unique<State>();
+    state->mapping = std::move(mapped).value();
+    state->file = state->mapping.bytes();
+    state->name = path.string();
+    if (const auto damage = format::find_header_damage(state->file)) {
+        return damaged(path.string(), *damage);
+    }
+    state->find_sections(SectionSet::all());
+    return Model(std::move(state));
+}
+
+std::optional<Refusal> Model::refusal(Ask asks) const {
+    if (serves(asks)) return std::nullopt;
+    using Reason = Refusal::Reason;
+    if (state_ == nullptr) {
+        return Refusal{Reason::not_opened, "The model was moved away: it can be asked nothing."};
+    }
+    const bool exact_leaves = state_->is_exact();
+    const Ask refused = without(asks, served_);
+    const Ask missing = without(refused, served_by(state_->in_file, exact_leaves));
+    if (missing == Ask::nothing) {
+        return Refusal{
+            Reason::not_opened,
+            refusal_sentence(state_->name, refused, {state_->sections, exact_leaves, is_balanced()},
+                             Reason::not_opened)};
+    }
+    return Refusal{
+        Reason::not_baked,
+        refusal_sentence(state_->name, missing, {state_->in_file, exact_leaves, is_balanced()},
+                         Reason::not_baked)};
+}
+
+std::uint32_t Model::triangle_count() const noexcept {
+    return state_->header->triangle_count;
+}
+std::uint32_t Model::vertex_count() const noexcept {
+    return state_->header->vertex_count;
+}
+const format::FileHeader& Model::header() const noexcept {
+    return *state_->header;
+}
+SectionSet Model::sections() const noexcept {
+    return state_->sections;
+}
+const MeshView& Model::mesh() const noexcept {
+    return state_->mesh;
+}
+const SourceView& Model::source() const noexcept {
+    return state_->source;
+}
+const BvhView& Model::bvh() const noexcept {
+    return state_->bvh;
+}
+const OctreeView& Model::octree() const noexcept {
+    return state_->octree;
+}
+const AdaptiveOctreeView& Model::adaptive_octree() const noexcept {
+    return state_->adaptive_octree;
+}
+const TetraTreeView& Model::tetra_tree() const noexcept {
+    return state_->tetra_tree;
+}
+const HullView& Model::hulls() const noexcept {
+    return state_->hulls;
+}
+const PieceView& Model::pieces() const noexcept {
+    return state_->pieces;
+}
+const RecordView& Model::record() const noexcept {
+    return state_->record;
+}
+bool Model::has_exact_leaves() const noexcept {
+    return state_->has_exact_leaves();
+}
+bool Model::is_balanced() const noexcept {
+    return (state_->header->flags & format::model_balanced) != 0;
+}
+
+std::string_view Model::name(SectionId names, std::uint32_t index) const noexcept {
+    std::string_view rest;
+    if (names == SectionId::instance_names) rest = state_->source.instance_names;
+    if (names == SectionId::group_names) rest = state_->source.group_names;
+    if (names == SectionId::material_names) rest = state_->source.material_names;
+    for (std::uint32_t i = 0; !rest.empty(); ++i) {
+        const std::size_t end = rest.find('\0');
+        if (i == index) return rest.substr(0, end);
+        if (end == std::string_view::npos) break;
+        rest.remove_prefix(end + 1);
+    }
+    return {};
+}
+
+}  // namespace cdprep

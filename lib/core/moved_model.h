@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdint>
+
+#include "cdprep/model.h"
+#include "cdprep/pose.h"
+#include "core/moved_point.h"
+#include "exact/triangle_contact.h"
+
+namespace cdprep {
+
+/// An axis-aligned box in double precision.
+struct Box3 {
+    Double3 lower;
+    Double3 upper;
+};
+
+/// Closed: touching boxes overlap.
+inline bool overlap(const Box3& a, const Box3& b) noexcept {
+    return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
+           b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
+}
+
+/// The widest gap between two boxes along an axis, each difference rounded once: what they hold
+/// is no nearer, up to that. Negative where they overlap along all three.
+inline double axis_gap(const Box3& a, const Box3& b) noexcept {
+    return std::max({a.lower.x - b.upper.x, b.lower.x - a.upper.x, a.lower.y - b.upper.y,
+                     b.lower.y - a.upper.y, a.lower.z - b.upper.z, b.lower.z - a.upper.z});
+}
+
+/// Closed: a point of the border is held.
+inline bool holds(const Box3& box, const Double3& p) noexcept {
+    return overlap(box, {p, p});
+}
+
+inline Box3 box_around(const Corners& t) noexcept {
+    const auto& [a, b, c] = t;
+    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
+            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
+}
+
+/// A model as one query sees it: where its vertices are after moving.
+struct MovedModel {
+    const Model* model;
+    const Pose* pose;  ///< null: the model stays as it is
+
+    MovedModel(const Model& of, const Pose* by) noexcept
+        : model(&of),
+          pose(by),
+          exact_leaves_(of.has_exact_leaves() ? of.bvh().leaves.data() : nullptr),
+          triangles_(of.mesh().triangles.data()),
+          floats_(of.mesh().positions_f32.empty() ? nullptr : of.mesh().positions_f32.data()),
+          doubles_(of.mesh().positions_f64.data()) {}
+
+    /// Corners of triangle `index` of the tree order. Exactly the points that
+    /// the query answers for.
+    [[nodiscard]] Corners corners(std::uint32_t index) const noexcept {
+        assert(index < model->triangle_count());
+        if (exact_leaves_ != nullptr) {
+            const format::BvhLeaf& leaf = exact_leaves_[index / format::kBvhWidth];
+            const std::uint32_t lane = index % format::kBvhWidth;
+            return {at(leaf, 0, lane), at(leaf, 1, lane), at(leaf, 2, lane)};
+        }
+        const format::Triangle& triangle = triangles_[index];
+        return {position(triangle.vertex[0]), position(triangle.vertex[1]),
+                position(triangle.vertex[2])};
+    }
+    [[nodiscard]] Double3 position(std::uint32_t vertex) const noexcept {
+        if (floats_ == nullptr) return placed(doubles_[vertex]);
+        return placed({floats_[vertex].x, floats_[vertex].y, floats_[vertex].z});
+    }
+
+private:
+    [[nodiscard]] Double3 placed(const Double3& p) const noexcept {
+        return pose == nullptr ? p : moved_point(*pose, p);
+    }
+    [[nodiscard]] Double3 at(const format::BvhLeaf& leaf, std::size_t corner,
+                             std::size_t lane) const noexcept {
+        const auto& rows = leaf.corner[corner];
+        return placed({rows[0][lane], rows[1][lane], rows[2][lane]});
+    }
+
+    // Kept here: looked up anew, they cost more than the corners themselves.
+    const format::BvhLeaf* exact_leaves_;  ///< or null
+    const format::Triangle* triangles_;
+    const format::Float3* floats_;  ///< or null
+    const Double3* doubles_;
+};
+
+/// The two models of a question, each with the pose that moves it.
+inline MovedModel moved_a(const Model& a, const Placement& placement) noexcept {
+    return {a, placement.a_is_moved() ? &placement.pose_a() : nullptr};
+}
+inline MovedModel moved_b(const Model& b, const Placement& placement) noexcept {
+    return {b, placement.b_is_moved() ? &placement.pose_b() : nullptr};
+}
+
+}  // namespace cdprep

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "exact/point_triangle_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+// All work is done relative to q and scaled by a power of two so that the largest
+// corner coordinate is about 1; u = 2^-53, M the largest |corner - q|.
+//
+// Every candidate is a point of the triangle: it is put together from corners with
+// weights that are not negative and add up to 1, off by less than 8 u M. So its
+// distance is an upper bound, give or take 16 u M, however badly the weights are
+// known. The lower bound takes what the weights may be wrong by.
+//
+// Edges. One projection; the place along the edge is off by a few u M, so the
+// distance is within 16 u M.
+//
+// Face. With n = (b - a) x (c - a) and L the longest edge, n is off by at most
+// 8 u L^2, in relative terms 8 u L^2 / |n|, which tilts the plane by as much. The
+// foot's places along the edges, taken relative to an end of each (the edge enters
+// the product, not two far corners), are off by that tilt and 8 u M. Both together
+// stay below eta = 64 u M (1 + L^2 / |n|). A foot that is wrongly thought inside or
+// outside is within eta of an edge, so the other's distance is right within eta.
+//
+// Support. Whatever p is, the triangle lies beyond the plane through its corner
+// that is least in p's direction: min(corner . p) / |p| is a lower bound, tight
+// when p is near the nearest point. Its products, sum, division and the corners
+// themselves are off by at most 8 u M. Near the surface p's direction is not
+// known well enough, and the bounds above are the better ones.
+//
+// Slivers. Where eta is larger than the inradius |n| / perimeter, the face is left
+// out of the lower bound: every point of it is within the inradius of an edge.
+
+namespace cdprep {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+constexpr double kCandidateError = 16 * kUnit;
+constexpr double kFaceError = 64 * kUnit;
+constexpr double kSupportError = 8 * kUnit;
+constexpr double kLeastSquarable = 0x1p-400;
+
+struct Vector {
+    double x, y, z;
+};
+
+Vector operator-(const Vector& a, const Vector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Vector operator+(const Vector& a, const Vector& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Vector operator*(double s, const Vector& a) {
+    return {s * a.x, s * a.y, s * a.z};
+}
+double dot(const Vector& a, const Vector& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+Vector cross(const Vector& a, const Vector& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+double length(const Vector& a) {
+    return std::sqrt(dot(a, a));
+}
+
+struct Nearest {
+    Vector point;
+    double distance;
+};
+
+/// The point of the segment nearest to the origin.
+Nearest nearest_on_edge(const Vector& a, const Vector& b) {
+    const Vector edge = b - a;
+    const double squared = dot(edge, edge);
+    const double t = squared > 0 ? std::clamp(-dot(a, edge) / squared, 0.0, 1.0) : 0.0;
+    const Vector point = t <= 0.5 ? a + t * edge : b - (1 - t) * edge;
+    return {point, length(point)};
+}
+
+Nearest nearest_on_edges(const Vector& a, const Vector& b, const Vector& c) {
+    Nearest best = nearest_on_edge(a, b);
+    for (const Nearest& edge : {nearest_on_edge(b, c), nearest_on_edge(c, a)}) {
+        if (edge.distance < best.distance) best = edge;
+    }
+    return best;
+}
+
+/// The foot of the origin, when it lies inside the triangle as far as rounding
+/// lets one see; n is the triangle's normal.
+std::optional<Vector> foot_inside(const Vector& a, const Vector& b, const Vector& c,
+                                  const Vector& n) {
+    const double at_a = dot(n, cross(b, c - b));
+    const double at_b = dot(n, cross(c, a - c));
+    const double at_c = dot(n, cross(a, b - a));
+    const double all = at_a + at_b + at_c;
+    if (!(std::min({at_a, at_b, at_c}) >= 0 && all > 0)) return std::nullopt;
+    return (at_a / all) * a + (at_b / all) * b + (at_c / all) * c;
+}
+
+/// A lower bound from the plane across `nearest`; `farthest` is the distance of
+/// the farthest corner.
+double support_bound(const std::array<Vector, 3>& corner, const Nearest& nearest, double farthest) {
+    if (nearest.distance < kLeastSquarable) return 0;
+    const Vector& p = nearest.point;
+    const double least = std::min({dot(corner[0], p), dot(corner[1], p), dot(corner[2], p)});
+    return least / nearest.distance - kSupportError * farthest;
+}
+
+}  // namespace
+
+PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t) noexcept {
+    double size = 0;
+    std::array<Vector, 3> corner;
+    for (std::size_t i = 0; i < 3; ++i) {
+        corner[i] = {t[i].x - q.x, t[i].y - q.y, t[i].z - q.z};
+        size = std::max(
+            {size, std::fabs(corner[i].x), std::fabs(corner[i].y), std::fabs(corner[i].z)});
+    }
+    if (size == 0) return {q, 0, 0, 0};
+    const int exponent = -std::ilogb(size);
+    for (Vector& v : corner) {
+        v = {std::ldexp(v.x, exponent), std::ldexp(v.y, exponent), std::ldexp(v.z, exponent)};
+    }
+    const auto& [a, b, c] = corner;
+    const double farthest = std::max({length(a), length(b), length(c)});
+    const Vector n = cross(b - a, c - a);
+    const double ab = length(b - a), bc = length(c - b), ca = length(a - c);
+    const double longest = std::max({ab, bc, ca});
+    const double height = length(n);
+
+    Nearest best = nearest_on_edges(a, b, c);
+    const double on_edges = best.distance;
+    if (const std::optional<Vector> foot = foot_inside(a, b, c, n)) {
+        if (const double distance = length(*foot); distance < on_edges) best = {*foot, distance};
+    }
+    const double rounding = 8 * kUnit * longest * longest;  // of n
+    const double inradius = longest > 0 ? (height + rounding) / (ab + bc + ca) : 0;
+    const double eta =
+        height > 2 * rounding ? kFaceError * farthest * (1 + longest * longest / height) : inradius;
+    const double candidate_error = kCandidateError * farthest;
+    const double upper = best.distance + candidate_error;
+    const double by_error =
+        eta < inradius ? best.distance - eta : on_edges - candidate_error - inradius;
+    const double lower = std::max(by_error, support_bound(corner, best, farthest));
+    const auto back = [&](double x) { return std::ldexp(x, -exponent); };
+    // The last factor covers the roundings of these sums; scaling back may round
+    // a subnormal, so one step outwards covers that.
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const double outer = std::nextafter(back(upper * (1 + 4 * kUnit)), kInfinity);
+    const double inner = std::nextafter(back(lower * (1 - 4 * kUnit)), -kInfinity);
+    return {{q.x + back(best.point.x), q.y + back(best.point.y), q.z + back(best.point.z)},
+            back(best.distance),
+            std::max(0.0, inner),
+            outer};
+}
+
+}  // namespace cdprep

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/moved_model.h"
+#include "exact/triangle_contact.h"
+
+namespace cdprep {
+
+/// Returns whether the triangle and the solid box have a common point. Exact: all
+/// comparisons are of coordinates or signs of orient2d() and orient3d(). A box may be
+/// flat; one whose lower exceeds its upper is empty. Corners may be collinear or equal.
+[[nodiscard]] bool triangle_touches_box(const Corners& t, const Box3& box) noexcept;
+
+}  // namespace cdprep

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "exact/triangle_distance.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "exact/double_double.h"
+
+// Two triangles that do not touch are nearest where an edge of each (nine pairs,
+// corners included) or a corner of one and the face of the other (six) are nearest
+// (Larsen, Gottschalk, Lin and Manocha 1999). All work is relative to a corner of A
+// and scaled by a power of two so that the largest coordinate, M, is about 1. Let e
+// be the unit roundoff of the numbers in use.
+//
+// Every candidate is a pair of points of the triangles: each is put together from
+// corners with weights in [0, 1] that add up to 1, off by less than 8 e M. So their
+// distance is an upper bound, give or take 24 e M, however badly the weights are
+// known.
+//
+// The lower bound does not trust the candidates at all. Whatever the direction w,
+// the planes across it through A's farthest and B's nearest corner lie
+// (min w.b - max w.a) / |w| apart, and so do the triangles, at least. The dot
+// products, the difference, the root and the quotient are off by 24 e M. With w
+// between the nearest points the bound is tight; where w is off by an angle, it
+// loses that angle times the size of a triangle.
+
+namespace cdprep {
+namespace {
+
+constexpr double kDoubleError = 24 * 0x1p-53;
+constexpr double kDoubleDoubleError = 24 * 0x1p-100;
+
+template <class T>
+struct Vector {
+    T x, y, z;
+};
+
+template <class T>
+Vector<T> operator-(const Vector<T>& a, const Vector<T>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T>
+Vector<T> operator+(const Vector<T>& a, const Vector<T>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T>
+Vector<T> operator*(const T& s, const Vector<T>& a) {
+    return {s * a.x, s * a.y, s * a.z};
+}
+template <class T>
+T dot(const Vector<T>& a, const Vector<T>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T>
+Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class T>
+using Triangle = std::array<Vector<T>, 3>;
+
+// Written to be chosen among, not branched on: which way a triangle lies, nobody can guess.
+template <class T>
+T within_unit(const T& t) {
+    const T from_zero = t < T(0.0) ? T(0.0) : t;
+    return from_zero > T(1.0) ? T(1.0) : from_zero;
+}
+
+/// A point of each triangle.
+template <class T>
+struct Nearest {
+    Vector<T> on_a{};
+    Vector<T> on_b{};
+    T squared = std::numeric_limits<double>::infinity();
+
+    void offer(const Nearest& other) {
+        if (other.squared < squared) *this = other;
+    }
+};
+
+template <class T>
+Nearest<T> pair_of(const Vector<T>& a, const Vector<T>& b) {
+    const Vector<T> w = b - a;
+    return {a, b, dot(w, w)};
+}
+
+/// Ericson 2005, 5.1.9, with the ends of both segments tried by clamping.
+template <class T>
+Nearest<T> nearest_on_edges(const Vector<T>& p, const Vector<T>& p_end, const Vector<T>& q,
+                            const Vector<T>& q_end) {
+    const Vector<T> u = p_end - p;
+    const Vector<T> v = q_end - q;
+    const Vector<T> r = p - q;
+    const T uu = dot(u, u);
+    const T vv = dot(v, v);
+    const T uv = dot(u, v);
+    const T ur = dot(u, r);
+    const T vr = dot(v, r);
+    const T zero(0.0);
+    const T denominator = uu * vv - uv * uv;
+    const T along = within_unit((uv * vr - ur * vv) / denominator);
+    T s = denominator > zero ? along : zero;
+    const T across = within_unit((uv * s + vr) / vv);
+    const T t = vv > zero ? across : zero;
+    const T back = within_unit((uv * t - ur) / uu);
+    s = uu > zero ? back : zero;
+    const T one(1.0);
+    return pair_of((one - s) * p + s * p_end, (one - t) * q + t * q_end);
+}
+
+/// The foot of p on the triangle's plane, when it lies inside.
+template <class T>
+bool foot_inside(const Vector<T>& p, const Triangle<T>& t, Vector<T>& foot) {
+    const Vector<T> n = cross(t[1] - t[0], t[2] - t[0]);
+    const Triangle<T> d = {t[0] - p, t[1] - p, t[2] - p};
+    const T at_a = dot(n, cross(d[1], t[2] - t[1]));
+    const T at_b = dot(n, cross(d[2], t[0] - t[2]));
+    const T at_c = dot(n, cross(d[0], t[1] - t[0]));
+    const T all = at_a + at_b + at_c;
+    const T zero(0.0);
+    if (at_a < zero || at_b < zero || at_c < zero || !(all > zero)) return false;
+    foot = (at_a / all) * t[0] + (at_b / all) * t[1] + (at_c / all) * t[2];
+    return true;
+}
+
+template <class T>
+Nearest<T> nearest_points(const Triangle<T>& a, const Triangle<T>& b) {
+    // Compared when all are known: so none waits for the one before.
+    std::array<Nearest<T>, 9> on_edges;
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            on_edges[3 * i + j] = nearest_on_edges(a[i], a[(i + 1) % 3], b[j], b[(j + 1) % 3]);
+        }
+    }
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < 9; ++i) {
+        best = on_edges[i].squared < on_edges[best].squared ? i : best;
+    }
+    Nearest<T> nearest = on_edges[best];
+    Vector<T> foot{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (foot_inside(b[i], a, foot)) nearest.offer(pair_of(foot, b[i]));
+        if (foot_inside(a[i], b, foot)) nearest.offer(pair_of(a[i], foot));
+    }
+    return nearest;
+}
+
+/// Bounds of the distance, scaled.
+struct Interval {
+    double lower;
+    double upper;
+};
+
+template <class T>
+Interval interval_of(const Triangle<T>& a, const Triangle<T>& b, const Nearest<T>& nearest,
+                     double error) {
+    const Vector<T> w = nearest.on_b - nearest.on_a;
+    const T length = square_root(nearest.squared);
+    const double upper = static_cast<double>(length) + error;
+    if (!(nearest.squared > T(0x1p-800))) return {0, upper};
+    T least = dot(w, b[0]);
+    T greatest = dot(w, a[0]);
+    for (std::size_t i = 1; i < 3; ++i) {
+        const T at_b = dot(w, b[i]);
+        const T at_a = dot(w, a[i]);
+        if (at_b < least) least = at_b;
+        if (at_a > greatest) greatest = at_a;
+    }
+    const double lower = static_cast<double>((least - greatest) / length) - error;
+    return {std::max(0.0, lower), upper};
+}
+
+/// Multiplies by a power of two, in two steps because one may leave the range.
+class Scale {
+public:
+    explicit Scale(int exponent) noexcept
+        : first_(std::ldexp(1.0, exponent / 2)),
+          second_(std::ldexp(1.0, exponent - exponent / 2)) {}
+    double operator()(double x) const noexcept {
+        return x * first_ * second_;
+    }
+
+private:
+    double first_;
+    double second_;
+};
+
+template <class T>
+Triangle<T> scaled(const Corners& corners, const Double3& origin, const Scale& scale) {
+    const auto at = [&](double x, double from) {
+        // Scaled before the difference: exact, and so is the difference in twice
+        // the precision.
+        return T(scale(x)) - T(scale(from));
+    };
+    Triangle<T> result{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Double3& p = corners[i];
+        result[i] = {at(p.x, origin.x), at(p.y, origin.y), at(p.z, origin.z)};
+    }
+    return result;
+}
+
+template <class T>
+TriangleDistance measured(const Corners& a, const Corners& b, int exponent, double error) {
+    const Scale scale(exponent);
+    const Scale unscale(-exponent);
+    const Triangle<T> at_a = scaled<T>(a, a[0], scale);
+    const Triangle<T> at_b = scaled<T>(b, a[0], scale);
+    const Nearest<T> nearest = nearest_points(at_a, at_b);
+    const Interval interval = interval_of(at_a, at_b, nearest, error);
+    const auto back = [&](const Vector<T>& p) {
+        const auto moved = [&](const T& x, double from) {
+            return unscale(static_cast<double>(x + T(scale(from))));
+        };
+        return Double3{moved(p.x, a[0].x), moved(p.y, a[0].y), moved(p.z, a[0].z)};
+    };
+    // Scaling back may round a subnormal: one step outwards covers that.
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const double lower = std::nextafter(unscale(interval.lower), -kInfinity);
+    return {std::max(0.0, lower), std::nextafter(unscale(interval.upper), kInfinity),
+            back(nearest.on_a), back(nearest.on_b)};
+}
+
+/// The exponent of two that brings the largest difference to about 1.
+int exponent_of(const Corners& a, const Corners& b) {
+    double size = 0;
+    for (const Corners* corners : {&a, &b}) {
+        for (const Double3& p : *corners) {
+            size = std::max(
+                {size, std::fabs(p.x - a[0].x), std::fabs(p.y - a[0].y), std::fabs(p.z - a[0].z)});
+        }
+    }
+    return size > 0 ? -std::ilogb(size) : 0;
+}
+
+/// Where the segment meets the triangle's plane, when that lies inside.
+bool crossing(const Vector<double>& p, const Vector<double>& q, const Triangle<double>& t,
+              Vector<double>& point) {
+    const Vector<double> n = cross(t[1] - t[0], t[2] - t[0]);
+    const double at_p = dot(n, p - t[0]);
+    const double at_q = dot(n, q - t[0]);
+    if (!(at_p * at_q < 0)) return false;
+    const double s = at_p / (at_p - at_q);
+    const Vector<double> at = (1 - s) * p + s * q;
+    Vector<double> foot{};
+    if (!foot_inside(at, t, foot)) return false;
+    point = at;
+    return true;
+}
+
+}  // namespace
+
+Double3 common_point(const Corners& a, const Corners& b) noexcept {
+    const int exponent = exponent_of(a, b);
+    const Scale scale(exponent);
+    const Scale unscale(-exponent);
+    const Triangle<double> at_a = scaled<double>(a, a[0], scale);
+    const Triangle<double> at_b = scaled<double>(b, a[0], scale);
+    // Crossing triangles: an edge of one pierces the other. Else they touch where
+    // they are nearest.
+    Vector<double> point = nearest_points(at_a, at_b).on_a;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (crossing(at_a[i], at_a[(i + 1) % 3], at_b, point) ||
+            crossing(at_b[i], at_b[(i + 1) % 3], at_a, point)) {
+            break;
+        }
+    }
+    return {a[0].x + unscale(point.x), a[0].y + unscale(point.y), a[0].z + unscale(point.z)};
+}
+
+TriangleDistance triangle_distance(const Corners& a, const Corners& b, bool tight) noexcept {
+    const int exponent = exponent_of(a, b);
+    const TriangleDistance first = measured<double>(a, b, exponent, kDoubleError);
+    assert(first.lower <= first.upper);
+    if (!tight || is_tight(first)) return first;
+    const TriangleDistance second = measured<DoubleDouble>(a, b, exponent, kDoubleDoubleError);
+    return second.upper - second.lower < first.upper - first.lower ? second : first;
+}
+
+}  // namespace cdprep

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "pieces/contact_side.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+#include "cdprep/hulls.h"
+#include "exact/point_triangle_distance.h"
+#include "pieces/piece_parts.h"
+#include "walk/contact_pairs.h"
+
+namespace cdprep {
+namespace {
+
+using format::EdgeConvexity;
+
+/// Of two unit directions that are one but for rounding: 1 - 1e-10 stands for 1.4e-5 radians, far
+/// more than what rounding turns a direction by, far less than what bends a surface.
+constexpr double kAligned = 1 - 1e-10;
+/// Corners of one height but for rounding, as a share of the hull's extent along a direction.
+constexpr double kLevel = 1e-9;
+/// What a unit direction leans by rounding alone, at most.
+constexpr double kNoLean = 1e-12;
+
+/// Whether a triangle's normal is far off a unit direction either way, at the cost of a few
+/// products: what underflows or overflows is not.
+bool clearly_turns_from(const Corners& t, const Double3& direction) {
+    constexpr double kFar = 0.99;
+    const Double3 n = cross(t[1] - t[0], t[2] - t[0]);
+    const double along = dot(n, direction);
+    return along * along < kFar * dot(n, n);
+}
+
+unsigned corner_of(const format::Triangle& triangle, std::uint32_t vertex) {
+    unsigned k = 0;
+    while (k < 3 && triangle.vertex[k] != vertex) ++k;
+    return k;
+}
+
+}  // namespace
+
+ContactSide::ContactSide(const MovedModel& model, std::uint32_t piece) noexcept
+    : model_(&model),
+      triangles_(part_of_piece(model.model->pieces().triangles, *model.model, piece,
+                               &format::Piece::first_triangle)),
+      contained_((model.model->pieces().pieces[piece].flags & format::piece_contained) != 0),
+      hull_(feature_hull(*model.model, piece)) {
+    assert(!triangles_.empty());
+    place();
+}
+
+void ContactSide::place() noexcept {
+    const std::uint32_t count = hull_.points.count;
+    const std::size_t blocks = (count + format::kHullLanes - 1) / format::kHullLanes;
+    if (blocks > kMostPlaced) return;
+    Double3 p{};
+    for (std::uint32_t i = 0; i < blocks * format::kHullLanes; ++i) {
+        if (i < count) p = model_->position(hull_.points.corners[i]);
+        auto& at = placed_[i / format::kHullLanes].at;
+        at[0][i % format::kHullLanes] = p.x;
+        at[1][i % format::kHullLanes] = p.y;
+        at[2][i % format::kHullLanes] = p.z;
+    }
+    placed_points_.blocks = std::span(placed_).first(blocks);
+    placed_points_.count = count;
+}
+
+ConvexPoints ContactSide::points_of(std::uint32_t triangle) const noexcept {
+    assert(triangle < model_->model->triangle_count());
+    ConvexPoints points = hull_.points;
+    points.corners = model_->model->mesh().triangles[triangle].vertex;
+    points.count = 3;
+    return points;
+}
+
+std::optional<PieceFeature> ContactSide::find_feature(const VertexSet& set) const noexcept {
+    if (set.count == 0 || set.count > 3) return std::nullopt;
+    for (const std::uint32_t t : triangles_) {
+        const format::Triangle& triangle = model_->model->mesh().triangles[t];
+        unsigned has = 0;
+        for (std::size_t i = 0; i < set.count; ++i) {
+            has += corner_of(triangle, set.vertex[i]) < 3 ? 1U : 0U;
+        }
+        if (has != set.count) continue;
+        if (set.count == 3) return PieceFeature{FeatureKind::face, t, 0};
+        const unsigned first = corner_of(triangle, set.vertex[0]);
+        if (set.count == 1) return PieceFeature{FeatureKind::vertex, t, first};
+        const unsigned second = corner_of(triangle, set.vertex[1]);
+        const bool in_order = (first + 1) % 3 == second;
+        return PieceFeature{FeatureKind::edge, t, in_order ? first : second};
+    }
+    return std::nullopt;
+}
+
+std::uint32_t ContactSide::nearest_triangle(const Double3& near) const noexcept {
+    std::uint32_t best = triangles_[0];
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t t : triangles_) {
+        const Corners at = model_->corners(t);
+        if (!(axis_gap({near, near}, box_around(at)) < least)) continue;
+        const double distance = point_triangle_distance(near, at).computed;
+        if (distance < least) least = distance, best = t;
+    }
+    return best;
+}
+
+std::optional<PieceFeature> ContactSide::find_face(const Double3& direction,
+                                                   const Double3& near) const noexcept {
+    std::optional<PieceFeature> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t t : triangles_) {
+        const Corners at = model_->corners(t);
+        if (clearly_turns_from(at, direction)) continue;
+        const double along = dot(unit_normal(at), direction);
+        // What nobody's inside is behind of is met from either side.
+        if ((is_contained() ? along : std::fabs(along)) < kAligned) continue;
+        const double distance = point_triangle_distance(near, at).computed;
+        if (distance < least) least = distance, best = PieceFeature{FeatureKind::face, t, 0};
+    }
+    return best;
+}
+
+PieceFeature ContactSide::feature_along(const Double3& direction,
+                                        const Double3& near) const noexcept {
+    if (const auto face = find_face(direction, near)) return *face;
+    double most = -std::numeric_limits<double>::infinity(), least = -most;
+    for (std::uint32_t i = 0; i < points().count; ++i) {
+        const double height = dot(direction, corner(i));
+        most = std::max(most, height);
+        least = std::min(least, height);
+    }
+    VertexSet level;
+    for (std::uint32_t i = 0; i < points().count; ++i) {
+        if (dot(direction, corner(i)) >= most - kLevel * (most - least)) {
+            level.add(points().corners[i]);
+        }
+    }
+    if (const auto feature = find_feature(level)) return *feature;
+    return {FeatureKind::face, nearest_triangle(near), 0};
+}
+
+// --- Edges inside the surface --------------------------------------------------------
+
+/// Calls visit(triangle, edges) with the piece's triangles that have the feature, and a bit for
+/// each edge of theirs that has it.
+template <class Visit>
+void ContactSide::each_around(const PieceFeature& feature, Visit&& visit) const noexcept {
+    const format::Triangle& own = model_->model->mesh().triangles[feature.triangle];
+    const std::uint32_t from = own.vertex[feature.corner];
+    const std::uint32_t to = own.vertex[(feature.corner + 1) % 3];
+    for (const std::uint32_t t : triangles_) {
+        if (feature.kind == FeatureKind::face) {
+            if (t == feature.triangle) visit(t, 0U);
+            continue;
+        }
+        const format::Triangle& triangle = model_->model->mesh().triangles[t];
+        const unsigned k = corner_of(triangle, from);
+        if (k == 3) continue;
+        const unsigned previous = (k + 2) % 3;
+        if (feature.kind == FeatureKind::vertex) {
+            visit(t, 1U << k | 1U << previous);
+        } else if (triangle.vertex[(k + 1) % 3] == to) {
+            visit(t, 1U << k);
+        } else if (triangle.vertex[previous] == to) {
+            visit(t, 1U << previous);
+        }
+    }
+}
+
+double ContactSide::facing(const PieceFeature& feature, const Double3& direction) const noexcept {
+    double most = -1;
+    each_around(feature, [&](std::uint32_t t, unsigned) {
+        most = std::max(most, dot(normal_of(t), direction));
+    });
+    return most;
+}
+
+bool ContactSide::is_seen_from_behind(const PieceFeature& feature,
+                                      const Double3& direction) const noexcept {
+    return is_contained() && facing(feature, direction) < -kNoLean;
+}
+
+/// Whether another triangle of the piece has the edge: then the hull says how normals stand.
+bool ContactSide::is_inner(std::uint32_t triangle, unsigned edge) const noexcept {
+    const auto& vertex = model_->model->mesh().triangles[triangle].vertex;
+    const std::uint32_t from = vertex[edge], to = vertex[(edge + 1) % 3];
+    return std::any_of(triangles_.begin(), triangles_.end(), [&](std::uint32_t t) {
+        const format::Triangle& other = model_->model->mesh().triangles[t];
+        return t != triangle && corner_of(other, from) < 3 && corner_of(other, to) < 3;
+    });
+}
+
+std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feature,
+                                                        const Double3& direction,
+                                                        double least) const noexcept {
+    std::optional<Lean> most;
+    each_around(feature, [&](std::uint32_t t, unsigned edges) {
+        const std::uint8_t bits = model_->model->mesh().edge_convexity[t];
+        const Corners at = model_->corners(t);
+        const Double3 front = unit_normal(at);
+        const bool from_front = is_contained() || dot(front, direction) >= 0;
+        // Seen from behind what is convex is reflex.
+        const EdgeConvexity inward = from_front ? EdgeConvexity::reflex : EdgeConvexity::convex;
+        for (unsigned k = 0; k < 3; ++k) {
+            const EdgeConvexity edge = format::edge_convexity(bits, k);
+            const bool goes_on = edge == EdgeConvexity::flat || edge == inward;
+            if ((edges >> k & 1) == 0 || !goes_on) continue;
+            const Double3 outward = cross(unit(at[(k + 1) % 3] - at[k]), front);
+            const double by = dot(outward, direction);
+            if (!(by > least) || is_inner(t, k)) continue;
+            least = by;
+            most = Lean{by, outward, from_front ? front : -front};
+        }
+    });
+    return most;
+}
+
+std::optional<Double3> ContactSide::upright(const PieceFeature& feature,
+                                            const Double3& direction) const noexcept {
+    if (feature.kind == FeatureKind::face) return std::nullopt;
+    const auto first = find_lean(feature, direction, 0);
+    if (!first) return std::nullopt;
+    if (feature.kind == FeatureKind::edge) return first->face;
+    // Out of the one edge, and if that leads over another, along what is upright on both.
+    const Double3 turned = unit(direction - first->by * first->outward);
+    const auto second = find_lean(feature, turned, kNoLean);
+    if (!second) return turned;
+    const Double3 both = cross(first->outward, second->outward);
+    if (!(dot(both, both) > kNoLean)) return first->face;
+    return dot(both, first->face) < 0 ? unit(-both) : unit(both);
+}
+
+ContactFeature ContactSide::in_source(const PieceFeature& feature) const noexcept {
+    const Model& model = *model_->model;
+    const std::uint32_t vertex = model.mesh().triangles[feature.triangle].vertex[feature.corner];
+    const auto source = model.source().vertex;
+    const bool is_edge = feature.kind == FeatureKind::edge;
+    return {feature.kind, static_cast<std::uint8_t>(is_edge ? feature.corner : 0),
+            source_number(model, feature.triangle), source.empty() ? vertex : source[vertex]};
+}
+
+}  // namespace cdprep

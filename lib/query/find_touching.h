@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "cdprep/format/float_environment.h"
+#include "cdprep/points.h"
+#include "core/require.h"
+#include "core/smallest.h"
+#include "core/sort_numbers.h"
+#include "query/touching_shapes.h"
+#include "walk/contact_pairs.h"
+#include "walk/walk_model.h"
+
+namespace cdprep {
+
+inline bool is_identity(const Pose& pose) noexcept {
+    constexpr std::array<double, 9> kStill = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    return pose.rotation() == kStill && pose.translation() == Double3{0, 0, 0};
+}
+
+/// The model as a question about a shape sees it.
+inline MovedModel placed(const Model& model, const Pose& world_from_model) noexcept {
+    return {model, is_identity(world_from_model) ? nullptr : &world_from_model};
+}
+
+/// The class that compares a shape with the boxes of a model: made from a MovedModel and the
+/// shape. judge(node) says which boxes the shape may touch and which it holds entirely;
+/// touches(corners) decides exactly. The file of each shape names its own as `Type`.
+template <class S>
+struct AmongBoxesOf;
+
+/// Calls `found` with every triangle, tree order, that touches the shape, until it
+/// returns false; returns false when it did.
+template <class S, class Found>
+bool for_each_touching(const Model& model, const S& asked, Workspace& workspace,
+                       const ShapeOptions& options, Found&& found) noexcept {
+    const MovedModel moved = placed(model, options.world_from_model);
+    const typename AmongBoxesOf<S>::Type shape(moved, asked);
+    const bool skips = options.degenerate == Degenerate::skip;
+    const auto look_at = [&](const TriangleRun& run, bool certain) {
+        for (std::uint32_t i = run.first; i < run.last; ++i) {
+            if (skips && is_marked_degenerate(model, i)) continue;
+            if (!certain && !shape.touches(moved.corners(i))) continue;
+            if (!found(i)) return false;
+        }
+        return true;
+    };
+    return walk_nodes(
+        model, workspace.storage(), [&](const format::BvhNode& node) { return shape.judge(node); },
+        [&](const TriangleRun& run) { return look_at(run, false); },
+        [&](const TriangleRun& run) { return look_at(run, true); });
+}
+
+template <class S>
+bool TouchingShape<S>::any(const Model& model, const S& shape, Workspace& workspace,
+                           const ShapeOptions& options) noexcept {
+    const format::FloatEnvironment environment;
+    require(model, Ask::touch);
+    return !for_each_touching(model, shape, workspace, options,
+                              [](std::uint32_t) { return false; });
+}
+
+template <class S>
+std::size_t TouchingShape<S>::all(const Model& model, const S& shape, Workspace& workspace,
+                                  std::span<std::uint32_t> room,
+                                  const ShapeOptions& options) noexcept {
+    const format::FloatEnvironment environment;
+    require(model, Ask::touch);
+    Smallest<std::uint32_t> smallest(room);
+    for_each_touching(model, shape, workspace, options, [&](std::uint32_t i) {
+        smallest.add(source_number(model, i));
+        return true;
+    });
+    sort_numbers(smallest.kept(), workspace.storage().frontier);
+    return smallest.count();
+}
+
+template <class S>
+bool TouchingShape<S>::visit(const Model& model, const S& shape, Workspace& workspace,
+                             TriangleVisitor visit, const ShapeOptions& options) noexcept {
+    format::FloatEnvironment environment;
+    require(model, Ask::touch);
+    return for_each_touching(model, shape, workspace, options, [&](std::uint32_t i) {
+        const std::uint32_t source = source_number(model, i);
+        return environment.outside([&] { return visit(source); });
+    });
+}
+
+}  // namespace cdprep

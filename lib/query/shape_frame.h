@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/moved_model.h"
+
+namespace cdprep {
+
+/// A vector in the coordinates of a model's boxes.
+using FrameVector = std::array<double, 3>;
+
+/// Takes a shape from the world into the coordinates of a model's boxes, where the
+/// model, as stored, lies within [-1, 1].
+///
+/// What lies d apart there, a stored vertex and a point of the shape, is within slack()
+/// of d apart in the world, scaled. Let r, s and t be the largest |coordinate| of the
+/// model, the shape and the translation. Unmoved, taking the shape's points over is off
+/// by u (r + s), u = 2^-53, and working with them in double by some 16 u more of it.
+/// Moved, a vertex is off its place by 5 u (3 r + t) per axis; R^T stands for the inverse
+/// of R, which it is within 3e-12, so a point of the shape is off by 3e-12 (s + t) sqrt 3
+/// and lengths by 2e-12 of themselves. Numbers that leave the range become infinite or
+/// NaN, and those prune nothing.
+class ShapeFrame {
+public:
+    ShapeFrame(const MovedModel& model, double shape_reach) noexcept
+        : header_(model.model->header()), pose_(model.pose) {
+        constexpr double kStillSlack = 0x1p-45;
+        constexpr double kMovedSlack = 0x1p-35;
+        const double shift = pose_ == nullptr ? 0 : largest(pose_->translation());
+        const double reach =
+            scaled(shape_reach) + scaled(largest(header_.frame_origin)) + scaled(shift) + 1;
+        slack_ = (pose_ == nullptr ? kStillSlack : kMovedSlack) * reach;
+    }
+
+    /// Frame units, > 0.
+    [[nodiscard]] double slack() const noexcept {
+        return slack_;
+    }
+    [[nodiscard]] double scaled(double length) const noexcept {
+        return std::ldexp(length, header_.frame_exponent);
+    }
+    [[nodiscard]] FrameVector at(const Double3& p) const noexcept {
+        const Double3 local = pose_ == nullptr ? p : turned_back(p);
+        const Double3& o = header_.frame_origin;
+        return {scaled(local.x - o.x), scaled(local.y - o.y), scaled(local.z - o.z)};
+    }
+
+    [[nodiscard]] static double largest(const Double3& p) noexcept {
+        return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
+    }
+
+private:
+    [[nodiscard]] Double3 turned_back(const Double3& p) const noexcept {
+        const std::array<double, 9>& r = pose_->rotation();
+        const Double3& t = pose_->translation();
+        const double x = p.x - t.x, y = p.y - t.y, z = p.z - t.z;
+        return {r[0] * x + r[3] * y + r[6] * z, r[1] * x + r[4] * y + r[7] * z,
+                r[2] * x + r[5] * y + r[8] * z};
+    }
+
+    const format::FileHeader& header_;
+    const Pose* pose_;
+    double slack_;
+};
+
+}  // namespace cdprep

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdint>
+
+#include "walk/walk_pairs.h"
+
+namespace cdprep {
+
+/// Walks one hierarchy, smallest bound first among siblings. `bound(node, box)`
+/// gives a lower bound of what the box can hold, `leaf(index)` handles a leaf
+/// and returns the bound beyond which nothing is of interest any more.
+template <class Bound, class Leaf>
+void walk_ordered(const Model& model, Workspace::Storage& scratch, double limit, Bound&& bound,
+                  Leaf&& leaf) noexcept {
+    const Tree tree(model);
+    if (tree.triangles == 0) return;
+    std::size_t depth = 0;
+    scratch.bounded[depth++] = {0, tree.shape.levels, 0};
+    while (depth > 0) {
+        const BoundedPlace top = scratch.bounded[--depth];
+        if (top.bound > limit) continue;
+        if (top.height == 0) {
+            limit = std::min(limit, leaf(top.index));
+            continue;
+        }
+        const TestedBoxes boxes = boxes_of(tree, {top.height, top.index}, true);
+        assert(depth + (boxes.last - boxes.first) <= scratch.bounded.size());
+        const auto first = scratch.bounded.begin() + static_cast<std::ptrdiff_t>(depth);
+        auto last = first;
+        for (std::uint32_t box = boxes.first; box < boxes.last; ++box) {
+            const double value = bound(tree.nodes[boxes.node], box);
+            if (value > limit) continue;
+            *last++ = {value, boxes.first_below.height, boxes.first_below.index + box};
+        }
+        std::sort(first, last, [](const BoundedPlace& a, const BoundedPlace& b) {
+            return a.bound > b.bound;  // the last is taken first
+        });
+        depth += static_cast<std::size_t>(last - first);
+    }
+}
+
+}  // namespace cdprep

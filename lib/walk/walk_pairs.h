@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "cdprep/model.h"
+#include "core/prefetch.h"
+#include "walk/box_placement.h"
+#include "walk/workspace_storage.h"
+
+namespace cdprep {
+
+/// A node of the packed hierarchy, or a leaf. Height 0 is a leaf, height h > 0
+/// node `index` of level h - 1.
+struct TreePlace {
+    std::uint32_t height;
+    std::uint32_t index;
+};
+
+/// Two places in one word: heights take four bits, indices of leaves 28.
+struct PendingPair {
+    TreePlace a;
+    TreePlace b;
+
+    [[nodiscard]] std::uint64_t packed() const noexcept {
+        assert(a.height < 16 && a.index < (1U << 28));
+        assert(b.height < 16 && b.index < (1U << 28));
+        const std::uint64_t half_a = std::uint64_t{a.height} << 28 | a.index;
+        const std::uint64_t half_b = std::uint64_t{b.height} << 28 | b.index;
+        return half_a << 32 | half_b;
+    }
+    [[nodiscard]] static PendingPair unpacked(std::uint64_t bits) noexcept {
+        return {{static_cast<std::uint32_t>(bits >> 60),
+                 static_cast<std::uint32_t>(bits >> 32) & 0xfffffff},
+                {static_cast<std::uint32_t>(bits >> 28) & 0xf,
+                 static_cast<std::uint32_t>(bits) & 0xfffffff}};
+    }
+};
+
+/// Whether both places of a packed pair are at most so high; leaves for 0.
+inline bool is_down_at(std::uint64_t pair, std::uint32_t height) noexcept {
+    return static_cast<std::uint32_t>(pair >> 60) <= height &&
+           (static_cast<std::uint32_t>(pair >> 28) & 0xf) <= height;
+}
+static_assert(format::kMaxTriangles / format::kBvhWidth < (1U << 28));
+static_assert(format::kMaxBvhLevels < 16);
+
+/// A hierarchy as a walk sees it.
+struct Tree {
+    const format::BvhNode* nodes;
+    const format::OrientedNode* oriented;  ///< or null
+    const format::SweptNode* swept;        ///< or null
+    format::SweptKind swept_kind;
+    format::BvhShape shape;
+    std::uint32_t triangles;
+
+    explicit Tree(const Model& model) noexcept
+        : nodes(model.bvh().nodes.data()),
+          oriented(model.bvh().oriented.data()),
+          swept(model.bvh().swept.data()),
+          swept_kind(format::swept_kind(model.header().flags)),
+          shape(model.bvh().shape),
+          triangles(model.triangle_count()) {}
+};
+
+/// One side of a step: the node whose boxes are tested, and which of them.
+struct TestedBoxes {
+    std::uint32_t node;     ///< index
+    std::uint32_t first;    ///< box
+    std::uint32_t last;     ///< one past
+    TreePlace first_below;  ///< what box 0 of the node stands for
+};
+
+/// The children of a place, or, when it is to stay, its own box among its
+/// siblings.
+inline TestedBoxes boxes_of(const Tree& tree, const TreePlace& place, bool descend) noexcept {
+    const format::BvhShape& shape = tree.shape;
+    if (descend) {
+        assert(place.height > 0 && place.height <= shape.levels);
+        assert(place.index < shape.count[place.height - 1]);
+        const std::uint32_t level = place.height - 1;
+        return {shape.first[level] + place.index,
+                0,
+                shape.used_boxes(level, place.index),
+                {level, place.index * format::kBvhWidth}};
+    }
+    assert(place.height < shape.levels);  // a root has no siblings
+    const std::uint32_t box = place.index % format::kBvhWidth;
+    const std::uint32_t parent = place.index / format::kBvhWidth;
+    return {shape.first[place.height] + parent,
+            box,
+            box + 1,
+            {place.height, parent * format::kBvhWidth}};
+}
+
+/// Half the sum of the edges of a place's box, in pair units.
+inline float box_size(const Tree& tree, const TreePlace& place, float scale) noexcept {
+    const format::BvhShape& shape = tree.shape;
+    assert(place.height <= shape.levels);
+    if (place.height == shape.levels) return 3 * scale;  // the root fills the frame
+    const format::BvhNode& node =
+        tree.nodes[shape.first[place.height] + place.index / format::kBvhWidth];
+    const std::uint32_t box = place.index % format::kBvhWidth;
+    float size = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        size += node.upper[axis][box] - node.lower[axis][box];
+    }
+    return size * scale;
+}
+
+/// Which sides go a level down.
+struct WaysDown {
+    bool a;
+    bool b;
+};
+
+/// Sizes of two boxes.
+struct SizePair {
+    float a;
+    float b;
+};
+
+/// Both when their boxes are of similar size, else the larger; a leaf never, a
+/// root always (it has no siblings to be tested among). `sizes()` is called when it
+/// matters.
+template <class Sizes>
+WaysDown choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
+                        Sizes sizes) noexcept {
+    constexpr float kSimilar = 2.5F;
+    assert(pair.a.height > 0 || pair.b.height > 0);
+    const bool a_can = pair.a.height > 0;
+    const bool b_can = pair.b.height > 0;
+    if (pair.a.height == a.shape.levels || pair.b.height == b.shape.levels) {
+        return {a_can, b_can};
+    }
+    if (!a_can || !b_can) return {a_can, b_can};
+    // Absolute, and asked so that absurd sizes of a damaged file (negative, not a
+    // number) still take one side down: else the walk would not end.
+    const SizePair size = sizes();
+    const float size_a = std::fabs(size.a);
+    const float size_b = std::fabs(size.b);
+    return {!(kSimilar * size_a < size_b), !(kSimilar * size_b < size_a)};
+}
+
+/// Adds the boxes that a step tests.
+inline void count_step(const Tree& a, const Tree& b, const PendingPair& pair,
+                       const WaysDown& descent, QueryCounts& counts) noexcept {
+    const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
+    const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
+    counts.box_pairs += std::uint64_t{side_a.last - side_a.first} * (side_b.last - side_b.first);
+    ++counts.node_pairs;
+}
+
+/// Of a node's swept spheres, what its kind's test reads.
+inline void prefetch_swept(const format::SweptNode& node, format::SweptKind kind) noexcept {
+    prefetch(&node.centre);
+    prefetch(&node.radius);
+    for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(kind); ++k) prefetch(&node.side[k]);
+}
+
+/// Asks ahead for what the walk will read of some children: nodes of `below`, one a
+/// bit.
+inline void prefetch_children(const Tree& tree, const TreePlace& below, unsigned bits) noexcept {
+    if (below.height == 0) return;
+    const std::uint32_t first = tree.shape.first[below.height - 1] + below.index;
+    for (; bits != 0; bits &= bits - 1) {
+        const std::uint32_t index = first + static_cast<std::uint32_t>(std::countr_zero(bits));
+        assert(index < tree.shape.node_count);
+        prefetch(&tree.nodes[index]);
+        if (tree.oriented != nullptr) {
+            prefetch(&tree.oriented[index]);
+        } else if (tree.swept != nullptr) {
+            prefetch_swept(tree.swept[index], tree.swept_kind);
+        }
+    }
+}
+
+/// Which hits a walk is after.
+enum class Search : std::uint8_t {
+    all,    ///< every pair of leaves; oriented boxes prune
+    first,  ///< deepest first, so that a hit comes early
+};
+
+/// Where the box around a place's children stands among its siblings, or null for
+/// a root.
+inline const float* box_around(const Tree& tree, const TreePlace& place) noexcept {
+    if (place.height == tree.shape.levels) return nullptr;
+    const std::uint32_t node = tree.shape.first[place.height] + place.index / format::kBvhWidth;
+    return &tree.nodes[node].lower[0][place.index % format::kBvhWidth];
+}
+
+inline kernels::NodeBoxes node_boxes(const Tree& tree, const TestedBoxes& side) noexcept {
+    const float* oriented =
+        tree.oriented == nullptr ? nullptr : tree.oriented[side.node].axis[0][0].data();
+    const float* swept = tree.swept == nullptr ? nullptr : tree.swept[side.node].centre[0].data();
+    return {tree.nodes[side.node].lower[0].data(), oriented, swept};
+}
+
+/// Which bounds a question takes where both models have both.
+enum class Prefer : std::uint8_t {
+    oriented,  ///< separates with less work
+    swept,     ///< comes closer to the distance
+};
+
+/// The tests that suit what both models have: swept spheres of one kind, or else what
+/// Table's own make of the boxes.
+inline kernels::BoundTests tests_for(const Tree& a, const Tree& b, Prefer prefer) noexcept {
+    const kernels::Table& kernel = kernels::active();
+    const bool oriented = a.oriented != nullptr && b.oriented != nullptr;
+    const bool swept = a.swept != nullptr && b.swept != nullptr && a.swept_kind == b.swept_kind;
+    if (swept && (prefer == Prefer::swept || !oriented)) {
+        return kernel.swept[static_cast<std::size_t>(a.swept_kind)];
+    }
+    return {kernel.overlapping_boxes, kernel.overlap_depths, kernel.near_boxes};
+}
+
+inline std::uint8_t chosen(const TestedBoxes& side) noexcept {
+    assert(side.first < side.last && side.last <= format::kBvhWidth);
+    return static_cast<std::uint8_t>((1U << side.last) - (1U << side.first));
+}
+
+/// Asks ahead for what the walk will read of a step's children.
+inline void prefetch_step(const Tree& a, const Tree& b, const OpenStep& step) noexcept {
+    const PendingPair below = PendingPair::unpacked(step.base);
+    prefetch_children(a, below.a, kernels::boxes_of_a(step.pairs));
+    prefetch_children(b, below.b, kernels::boxes_of_b(step.pairs));
+}
+
+/// Tests the children of a pair that are no two leaves. Sets `depths` with
+/// Search::first.
+template <Search kSearch>
+void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed,
+               const kernels::BoundTests& tests, const PendingPair& pair, const WaysDown& descent,
+               OpenStep& step, kernels::BoxDepths& depths) noexcept {
+    const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
+    const TestedBoxes side_b = boxes_of(b, pair.b, descent.b);
+    const kernels::BoxChoice choice = {chosen(side_a), chosen(side_b),
+                                       descent.a && descent.b ? box_around(a, pair.a) : nullptr};
+    const kernels::NodeBoxes in_a = node_boxes(a, side_a);
+    const kernels::NodeBoxes in_b = node_boxes(b, side_b);
+    // A step to the deepest pair was not foreseen, and a test comes to the oriented boxes
+    // late: meanwhile they are on their way. Those of all children would be too many.
+    if (kSearch == Search::first && a.oriented != nullptr && b.oriented != nullptr) {
+        prefetch(&a.oriented[side_a.node]);
+        prefetch(&b.oriented[side_b.node]);
+    }
+    step.base = PendingPair{side_a.first_below, side_b.first_below}.packed();
+    step.pairs = kSearch == Search::first
+                     ? tests.depths(placed.placement, in_a, in_b, choice, step.sizes, depths)
+                     : tests.overlapping(placed.placement, in_a, in_b, choice, step.sizes);
+}
+
+inline unsigned first_of(kernels::BoxPairs pairs) noexcept {
+    assert(pairs != 0);
+    return static_cast<unsigned>(std::countr_zero(pairs));
+}
+
+/// The bit of the pair that overlaps most, of those that are left of a step.
+inline unsigned deepest_of(kernels::BoxPairs pairs, const kernels::BoxPairFloats& depths) noexcept {
+    unsigned deepest = first_of(pairs);
+    float most = (&depths.value[0][0])[deepest];
+    for (kernels::BoxPairs rest = pairs & (pairs - 1); rest != 0; rest &= rest - 1) {
+        const unsigned bit = first_of(rest);
+        const float depth = (&depths.value[0][0])[bit];
+        if (depth > most) {
+            most = depth;
+            deepest = bit;
+        }
+    }
+    return deepest;
+}
+
+/// Where a walk of all begins: both roots.
+inline PendingPair roots(const Tree& a, const Tree& b) noexcept {
+    return {{a.shape.levels, 0}, {b.shape.levels, 0}};
+}
+
+/// Walks two hierarchies from `start` down, depth first, and calls `reach(pair)` for
+/// each pair of places, both at most `floor` high, that no box test separates, until
+/// it returns false. Returns false when it did. Both models need nodes and triangles.
+template <Search kSearch, class Reach>
+bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& a, const Tree& b,
+                     const PlacedBoxes& placed, Workspace::Storage& scratch,
+                     Reach&& reach) noexcept {
+    assert(a.triangles > 0 && b.triangles > 0);
+    if (is_down_at(start.packed(), floor)) return reach(start);
+    const kernels::BoundTests tests = tests_for(a, b, Prefer::oriented);
+    kernels::BoxDepths depths;
+    const auto best_of = [&](const OpenStep& step) {
+        return kSearch == Search::first ? depths.deepest : first_of(step.pairs);
+    };
+    const auto pick = [&](kernels::BoxPairs pairs) {
+        return kSearch == Search::first ? deepest_of(pairs, depths) : first_of(pairs);
+    };
+    std::size_t depth = 0;
+    OpenedPair next{start.packed(), box_size(a, start.a, placed.placement.scale_a),
+                    box_size(b, start.b, placed.placement.scale_b)};
+    for (;;) {
+        const PendingPair pair = PendingPair::unpacked(next.pair);
+        const WaysDown descent = choose_descent(a, b, pair, [&] {
+            return SizePair{next.size_a, next.size_b};
+        });
+        assert(depth < scratch.open_steps.size());
+        OpenStep& step = scratch.open_steps[depth];
+        if (scratch.counts != nullptr) count_step(a, b, pair, descent, *scratch.counts);
+        open_step<kSearch>(a, b, placed, tests, pair, descent, step, depths);
+        if (is_down_at(step.base, floor)) {
+            for (bool best = true; step.pairs != 0; best = false) {
+                const std::uint64_t at = step.take(best ? best_of(step) : pick(step.pairs)).pair;
+                if (!reach(PendingPair::unpacked(at))) return false;
+            }
+        } else if (step.pairs != 0) {
+            if (kSearch == Search::all) prefetch_step(a, b, step);
+            next = step.take(best_of(step));
+            if (step.pairs != 0) ++depth;
+            continue;
+        }
+        if (depth == 0) return true;
+        OpenStep& top = scratch.open_steps[depth - 1];
+        next = top.take(first_of(top.pairs));
+        if (top.pairs == 0) --depth;
+    }
+}
+
+/// Calls `leaf(index_a, index_b)` for each pair of leaves that no box test separates,
+/// until it returns false. Returns false when it did.
+template <Search kSearch, class Leaf>
+bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
+                Workspace::Storage& scratch, Leaf&& leaf) noexcept {
+    if (a.triangles == 0 || b.triangles == 0 || placed.apart) return true;
+    return walk_pairs_from<kSearch>(
+        roots(a, b), 0, a, b, placed, scratch,
+        [&](const PendingPair& pair) { return leaf(pair.a.index, pair.b.index); });
+}
+
+}  // namespace cdprep
