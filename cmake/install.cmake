@@ -1,7 +1,7 @@
 # Install rules, exported targets (find_package(cdprep)) and pkg-config.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS cdprep_format cdprep EXPORT cdprepTargets
+install(TARGETS cdprep_format cdprep cdprep_cells EXPORT cdprepTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY format/include/ lib/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -39,7 +39,8 @@ int check_pairs(Call& call, const Batch<Answer>& batch, Check&& check) {
         const cdprep_pair* const pair = element(batch.pairs, i);
         if (const int code = check_stride(call, name, batch.pairs, pair)) return code;
         AskedPair asked;
-        if (const int code = read_pair(call, name, batch.question, pair, asked)) return code;
+        if (const int code = read_pair(call, name, batch.question, pair, *batch.workspace, asked))
+            return code;
         if (const int code = check(call, i, asked)) return code;
     }
     return CDPREP_OK;
@@ -71,7 +72,10 @@ int ask_pairs(const Batch<Answer>& batch, CheckOptions&& check_options, Check&& 
             AskedPair asked;
             Call again(nullptr);
             const cdprep_pair* const pair = element(batch.pairs, i);
-            if (read_pair(again, {"pairs", i}, batch.question, pair, asked) != CDPREP_OK) return;
+            if (read_pair(again, {"pairs", i}, batch.question, pair, *batch.workspace, asked) !=
+                CDPREP_OK) {
+                return;
+            }
             ask(batch.answers[i], asked, lanes[lane]);
         });
         return CDPREP_OK;

@@ -7,7 +7,7 @@
 
 #include "c/c_mesh.h"
 #include "c/c_model.h"
-#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/cells/level_of_detail.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/sections.h"
 

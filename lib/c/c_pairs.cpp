@@ -9,10 +9,10 @@
 
 #include "c/pair_answers.h"
 #include "c/pair_cache_words.h"
-#include "cdprep/advanced/level_of_detail.h"
 #include "cdprep/pairs.h"
 #include "cdprep/parallel.h"
 #include "core/smallest.h"
+#include "walk/cell_searches.h"
 
 namespace cdprep::c {
 namespace {
@@ -115,7 +115,7 @@ Ask needs_of(std::uint32_t through) noexcept {
 }
 
 int read_pair(Call& call, const Name& name, const PairQuestion& question, const cdprep_pair* given,
-              AskedPair& asked) {
+              const cdprep_workspace& workspace, AskedPair& asked) {
     cdprep_pair pair;
     if (const int code = read_input(call, name, given, pair)) return code;
     if (const int code =
@@ -127,6 +127,7 @@ int read_pair(Call& call, const Name& name, const PairQuestion& question, const 
     if (pair.body == CDPREP_SOLID) needs = needs | Ask::solid;
     if (const int code = check_serves(call, name.of("a"), *pair.a, needs)) return code;
     if (const int code = check_serves(call, name.of("b"), *pair.b, needs)) return code;
+    if (const int code = check_cells(call, workspace, needs)) return code;
     asked.a = &pair.a->model;
     asked.b = &pair.b->model;
     asked.options.body = pair.body == CDPREP_SOLID ? Body::solid : Body::surface;
@@ -193,8 +194,9 @@ int cdprep_collide_at_level(const cdprep_pair* pair, uint32_t level, cdprep_work
                             uint32_t* hit, cdprep_error* error) {
     return ask_pair(cdprep::c::kCollideAtLevel, pair, workspace, hit, "hit", error,
                     nothing_to_check, [&](const AskedPair& asked, Workspace& scratch) {
+                        const auto& cells = cdprep::require_cells(scratch);
                         *hit =
-                            cdprep::c::word(collide_at_level(asked.pair(), level, scratch).answer);
+                            cdprep::c::word(cells.collide_at_level(asked.pair(), level, scratch));
                     });
 }
 

@@ -83,7 +83,7 @@ struct AskedPair {
 
 /// Checks all of a pair, or finds what was checked before.
 int read_pair(Call& call, const Name& name, const PairQuestion& question, const cdprep_pair* given,
-              AskedPair& asked);
+              const cdprep_workspace& workspace, AskedPair& asked);
 
 /// The structure, and what a model needs to be asked through it.
 [[nodiscard]] Structure structure_of(std::uint32_t through) noexcept;
@@ -156,7 +156,8 @@ int ask_pair(const PairQuestion& question, const cdprep_pair* pair, cdprep_works
         if (answer == nullptr) return call.need(nullptr, {answer_name});
         if (const int code = check(call)) return code;
         AskedPair asked;
-        if (const int code = read_pair(call, {"pair"}, question, pair, asked)) return code;
+        if (const int code = read_pair(call, {"pair"}, question, pair, *workspace, asked))
+            return code;
         InUse use;
         if (const int code = use.begin(call, *workspace)) return code;
         assert(!workspace->lanes.empty());

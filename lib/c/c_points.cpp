@@ -299,7 +299,7 @@ int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* work
                          cdprep_point_state* answers, cdprep_error* error) {
     return ask_each(
         query, workspace, answers, "answers", error,
-        [](Call& call, const cdprep_point_query& asked) -> int {
+        [&](Call& call, const cdprep_point_query& asked) -> int {
             if (const int code = cdprep::c::check_points(call, asked)) return code;
             if (!cdprep::c::is_infinite(asked.max_distance)) {
                 return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of("max_distance"),
@@ -312,8 +312,11 @@ int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* work
                                    "is CDPREP_THROUGH_PIECES, through which this question cannot "
                                    "go.");
             }
-            return check_serves(call, kQuery.of("model"), *asked.model,
-                                Ask::inside | cdprep::c::needs_of(asked.through));
+            const Ask needs = Ask::inside | cdprep::c::needs_of(asked.through);
+            if (const int code = check_serves(call, kQuery.of("model"), *asked.model, needs)) {
+                return code;
+            }
+            return check_cells(call, *workspace, needs);
         },
         [](cdprep_point_state& to, const cdprep_point_query& asked, size_t i, Workspace& scratch) {
             const cdprep::Inclusion found =

@@ -34,13 +34,17 @@ static_assert(alignof(cdprep_workspace) <= CDPREP_ALIGNMENT && alignof(QueryCoun
 static_assert(sizeof(QueryCounts) <= sizeof(cdprep_counts));
 static_assert(std::is_trivially_destructible_v<QueryCounts>);
 
+const CellSearches* cells_of(const cdprep_workspace_options& options) noexcept {
+    return reinterpret_cast<const CellSearches*>(options.cells);
+}
+
 /// Where each part of the block begins.
 struct Layout {
-    explicit Layout(std::uint32_t lanes) noexcept
+    Layout(std::uint32_t lanes, const CellSearches* cells) noexcept
         : objects(aligned(sizeof(cdprep_workspace))),
           counts(objects + aligned(lanes * sizeof(Workspace))),
           scratch(counts + aligned(lanes * sizeof(QueryCounts))),
-          scratch_size(aligned(Workspace::size())),
+          scratch_size(aligned(Workspace::size(cells))),
           size(scratch + lanes * scratch_size) {
         assert(lanes > 0 && lanes <= kMostLanes);
     }
@@ -64,14 +68,15 @@ int read(Call& call, const cdprep_workspace_options* given, Asked& asked) noexce
         return call.refuse(CDPREP_WHY_NO_MEANING, name.of("lanes"),
                            "is %u, but options.run is null: nobody runs them.", options.lanes);
     }
-    asked.size = Layout(options.lanes).size;
+    asked.size = Layout(options.lanes, cells_of(options)).size;
     return read_allocator(call, name.of("allocator"), options.allocator, asked.allocator);
 }
 
 /// Makes all objects in the block.
 cdprep_workspace* make_in(const Asked& asked, std::byte* block, const Memory& memory) noexcept {
     const std::uint32_t lanes = asked.options.lanes;
-    const Layout layout(lanes);
+    const CellSearches* const cells = cells_of(asked.options);
+    const Layout layout(lanes, cells);
     assert(layout.size == asked.size);
     assert(reinterpret_cast<std::uintptr_t>(block) % CDPREP_ALIGNMENT == 0);
     auto* const objects = reinterpret_cast<Workspace*>(block + layout.objects);
@@ -79,7 +84,7 @@ cdprep_workspace* make_in(const Asked& asked, std::byte* block, const Memory& me
     for (std::uint32_t i = 0; i < lanes; ++i) {
         const std::span<std::byte> scratch(block + layout.scratch + i * layout.scratch_size,
                                            layout.scratch_size);
-        std::optional<Workspace> lane = Workspace::in_memory(scratch);
+        std::optional<Workspace> lane = Workspace::in_memory(scratch, cells);
         if (!lane) return nullptr;
         new (objects + i) Workspace{std::move(*lane)};
         new (counts + i) QueryCounts{};
@@ -91,6 +96,7 @@ cdprep_workspace* make_in(const Asked& asked, std::byte* block, const Memory& me
                                         asked.options.run,
                                         asked.options.context,
                                         memory,
+                                        cells != nullptr,
                                         false};
 }
 
@@ -128,6 +134,15 @@ int InUse::begin(Call& call, cdprep_workspace& workspace) noexcept {
     }
     workspace_ = &workspace;
     return CDPREP_OK;
+}
+
+int check_cells(Call& call, const cdprep_workspace& workspace, Ask needs) noexcept {
+    constexpr Ask kCells =
+        Ask::octree | Ask::adaptive_octree | Ask::hashed_octree | Ask::tetra_tree;
+    if (workspace.has_cells || (needs & kCells) == Ask::nothing) return CDPREP_OK;
+    return call.refuse(CDPREP_WHY_NO_MEANING, {"workspace"},
+                       "asks no octrees and tetra-trees: set cells in its options to "
+                       "cdprep_cells().");
 }
 
 void CallersThreads::operator()(std::size_t count, Task task) const {

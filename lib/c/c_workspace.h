@@ -9,6 +9,7 @@
 #include "c/memory.h"
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/ask.h"
 #include "cdprep/workspace.h"
 
 /// A workspace of one or more lanes. The object, the lanes' objects, their counts and their
@@ -19,6 +20,7 @@ struct cdprep_workspace {
     void (*run)(void*, std::size_t, cdprep_task, const void*);
     void* context;
     cdprep::c::Memory memory;  ///< none when the caller's
+    bool has_cells;
     std::atomic<bool> in_use = false;
 };
 
@@ -48,6 +50,10 @@ public:
 private:
     cdprep_workspace* workspace_ = nullptr;
 };
+
+/// Refuses a workspace without the searches through octrees and tetra-trees where `needs` has
+/// such a structure.
+int check_cells(Call& call, const cdprep_workspace& workspace, Ask needs) noexcept;
 
 /// The caller's threads, as questions take them: each task runs once, whatever `run` does.
 class CallersThreads {

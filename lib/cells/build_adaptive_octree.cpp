@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/build_adaptive_octree.h"
+#include "cdprep/cells/build_adaptive_octree.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "build/chunks.h"
 #include "build/frame_map.h"
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_octree.h"
 #include "cdprep/format/float_environment.h"
 #include "cells/cell_boxes.h"
 #include "cells/choose_split.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_octree.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/build_tetra_tree.h"
+#include "cdprep/cells/build_tetra_tree.h"
 
 #include <bit>
 #include <cassert>
@@ -8,7 +8,7 @@
 
 #include "build/chunks.h"
 #include "build/frame_map.h"
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_octree.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/octree.h"
 #include "cells/cone_children.h"

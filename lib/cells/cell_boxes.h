@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/advanced/build_adaptive_octree.h"
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_adaptive_octree.h"
+#include "cdprep/cells/build_octree.h"
 
 namespace cdprep::build {
 

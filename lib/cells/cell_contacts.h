@@ -5,7 +5,8 @@
 #include <optional>
 #include <span>
 
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells/overlap_through.h"
+#include "cells/cell_storage.h"
 #include "walk/contact_pairs.h"
 
 namespace cdprep {
@@ -33,6 +34,7 @@ public:
                  const PlacedBoxes& placed, LeafTest leaf_test, const PairOptions& options,
                  Workspace::Storage& scratch, Found found, Owns owns) noexcept
         : scratch_(scratch),
+          cells_(cells_of(scratch)),
           leaf_test_(leaf_test),
           options_(options),
           a_(moved_a(a, placement)),
@@ -51,14 +53,14 @@ public:
     /// when `found` ended the question.
     bool add(const LeafLanes& a, const LeafLanes& b, std::uint64_t place) noexcept {
         const std::uint64_t pairs = pairs_of(a.lanes, b.lanes);
-        TestedPairs::Held held = scratch_.tested_pairs.hold(a.leaf, b.leaf, pairs);
+        TestedPairs::Held held = cells_.tested_pairs.hold(a.leaf, b.leaf, pairs);
         if (held.fresh == 0) return true;
         if (!held.has_room) {
             if (!flush()) return false;
-            held = scratch_.tested_pairs.hold(a.leaf, b.leaf, pairs);
+            held = cells_.tested_pairs.hold(a.leaf, b.leaf, pairs);
             forgets_ |= !held.has_room;
         }
-        scratch_.pending_leaves[batch_.size()] = {place, held.fresh, held.has_room};
+        cells_.pending_leaves[batch_.size()] = {place, held.fresh, held.has_room};
         batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
         return batch_.size() < most_ || flush();
     }
@@ -66,7 +68,7 @@ public:
     /// The same for who brings no two leaves twice: nothing is remembered, and `owns` is
     /// asked about all answers.
     bool add_once(const LeafLanes& a, const LeafLanes& b) noexcept {
-        scratch_.pending_leaves[batch_.size()] = {0, ~std::uint64_t{0}, false};
+        cells_.pending_leaves[batch_.size()] = {0, ~std::uint64_t{0}, false};
         batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
         return batch_.size() < most_ || flush();
     }
@@ -112,7 +114,7 @@ private:
 
     /// Two triangles of pair `pair` are in contact.
     bool answer(std::size_t pair, std::uint32_t at_a, std::uint32_t at_b) noexcept {
-        const PendingLeaves& leaves = scratch_.pending_leaves[pair];
+        const PendingLeaves& leaves = cells_.pending_leaves[pair];
         const std::uint32_t bit = 8 * (at_b % format::kBvhWidth) + at_a % format::kBvhWidth;
         answered_ |= 1U << pair;
         if (((leaves.fresh >> bit) & 1) == 0) return true;
@@ -121,13 +123,14 @@ private:
     }
     void settle(std::size_t count) noexcept {
         for (std::size_t i = 0; i < count; ++i) {
-            if (!scratch_.pending_leaves[i].is_held) continue;
+            if (!cells_.pending_leaves[i].is_held) continue;
             const kernels::LeafPair& pair = batch_.pair(i);
-            scratch_.tested_pairs.settle(pair.number_a, pair.number_b, ((answered_ >> i) & 1) != 0);
+            cells_.tested_pairs.settle(pair.number_a, pair.number_b, ((answered_ >> i) & 1) != 0);
         }
     }
 
     Workspace::Storage& scratch_;
+    CellStorage& cells_;
     LeafTest leaf_test_;
     PairOptions options_;
     MovedModel a_;

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "cells/cell_bounds.h"
 #include "exact/triangle_contact.h"
-#include "walk/cell_bounds.h"
 
 namespace cdprep {
 

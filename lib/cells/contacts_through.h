@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/visitor.h"
 #include "walk/find_contact.h"
 #include "walk/walk_pairs.h"

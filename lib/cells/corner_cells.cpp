@@ -101,7 +101,7 @@ bool visit_by_corners(const QuestionThrough& question, ContactVisitor visit) noe
     const PotentialSet potential(question.a, b, question.placement);
     if (potential.is_empty()) return true;
     Workspace::Storage& scratch = question.workspace.storage();
-    scratch.tested_pairs.begin();
+    cells_of(scratch).tested_pairs.begin();
     const CornerCells cells(question.a, b, question.placement, question.through.search);
     const auto found = [&](std::uint32_t at_a, std::uint32_t at_b) { return visit({at_a, at_b}); };
     const auto owns = [&](std::uint64_t place, std::uint32_t at_a, std::uint32_t at_b) {

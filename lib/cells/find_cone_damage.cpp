@@ -5,12 +5,12 @@
 #include <cmath>
 #include <vector>
 
+#include "cells/cell_bounds.h"
 #include "cells/cone_faces.h"
 #include "cells/cone_reach.h"
 #include "cells/tetra_cones.h"
 #include "core/list_places.h"
 #include "core/moved_model.h"
-#include "walk/cell_bounds.h"
 
 // As find_list_damage.cpp: every triangle goes down into each child whose closed cone it
 // touches, stored or not, and must find itself in each leaf. What of it surely lies there,

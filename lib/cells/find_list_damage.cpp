@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/find_list_damage.h"
+#include "cdprep/cells/find_list_damage.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "cdprep/format/float_environment.h"
+#include "cells/cell_bounds.h"
 #include "cells/find_cone_damage.h"
 #include "cells/octree_codes.h"
 #include "cells/split_box.h"
 #include "core/list_places.h"
 #include "exact/triangle_box.h"
-#include "walk/cell_bounds.h"
 
 // Every triangle goes down the tree by itself, into each child whose closed cell it touches,
 // stored or not. It must find every such child, and itself in each leaf; when the places

@@ -360,13 +360,13 @@ void KeyedWalk<Contacts>::add_listed(std::span<const std::uint32_t> references,
         const std::uint32_t triangle = reference & ~format::kSharedReference;
         const std::uint32_t of_this = triangle / kTrianglesOfNode;
         if (of_this != node && leaves != 0) {
-            scratch_.candidate_nodes.add(node, rows * leaves);
+            cells_of(scratch_).candidate_nodes.add(node, rows * leaves);
             leaves = 0;
         }
         node = of_this;
         leaves |= 1U << (triangle / format::kBvhWidth % format::kBvhWidth);
     }
-    if (leaves != 0) scratch_.candidate_nodes.add(node, rows * leaves);
+    if (leaves != 0) cells_of(scratch_).candidate_nodes.add(node, rows * leaves);
 }
 
 template <class Contacts>
@@ -391,7 +391,7 @@ void KeyedWalk<Contacts>::gather(std::span<const KeyedCell> cells) noexcept {
 template <class Contacts>
 bool KeyedWalk<Contacts>::look_at(const TestedBoxes& side,
                                   std::span<const KeyedCell> cells) noexcept {
-    CandidateNodes& candidates = scratch_.candidate_nodes;
+    CandidateNodes& candidates = cells_of(scratch_).candidate_nodes;
     for (std::uint32_t from = 0; from != CandidateNodes::kNoLimit; from = candidates.limit()) {
         candidates.begin(from);
         gather(cells);
@@ -418,7 +418,7 @@ kernels::BoxPairs KeyedWalk<Contacts>::meeting(const CandidateNode& candidate,
 template <class Contacts>
 bool KeyedWalk<Contacts>::test_candidates(const TestedBoxes& side) noexcept {
     kernels::BoxPairs all = 0;
-    for (const CandidateNode& candidate : scratch_.candidate_nodes.nodes()) {
+    for (const CandidateNode& candidate : cells_of(scratch_).candidate_nodes.nodes()) {
         all |= candidate.pairs;
         for (kernels::BoxPairs pairs = meeting(candidate, side); pairs != 0; pairs &= pairs - 1) {
             const auto bit = static_cast<std::uint32_t>(std::countr_zero(pairs));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/cells/level_of_detail.h"
 
 #include <algorithm>
 #include <array>
@@ -13,6 +13,7 @@
 #include "core/moved_model.h"
 #include "core/moved_point.h"
 #include "core/require.h"
+#include "walk/cell_searches.h"
 
 // A solid lies below the outer facets of its cones: a ray from the centre leaves it for
 // good at its last triangle. It holds all that is below the inner facets when it is closed
@@ -222,6 +223,7 @@ CoarseCollision collide_at_level(const Pair& pair, std::uint32_t level,
     const Placement& placement = pair.placement;
     const format::FloatEnvironment environment;
     require(a, b, Ask::tetra_tree);
+    static_cast<void>(require_cells(workspace));
     if (a.triangle_count() == 0 || b.triangle_count() == 0) return {Answer::no, 0, 0};
     CoarseCollision result{Answer::unknown, level_error(a, level), level_error(b, level)};
     if (!may_meet(a, b, placement, level, workspace.storage())) {

@@ -4,8 +4,8 @@
 #include <array>
 #include <span>
 
-#include "walk/cell_bounds.h"
-#include "walk/node_lists.h"
+#include "cells/cell_bounds.h"
+#include "cells/node_lists.h"
 #include "walk/workspace_storage.h"
 
 namespace cdprep {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_octree.h"
 
 namespace cdprep::build {
 

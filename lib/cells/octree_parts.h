@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 
+#include "cells/cell_bounds.h"
 #include "cells/octree_search.h"
-#include "walk/cell_bounds.h"
 
 namespace cdprep {
 

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_octree.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/model.h"
-#include "cdprep/study/overlap_through.h"
 #include "cells/octree_cells.h"
 
 namespace cdprep {

@@ -4,9 +4,9 @@
 #include <cassert>
 #include <span>
 
+#include "cells/cell_bounds.h"
 #include "cells/octree_cells.h"
 #include "exact/triangle_box.h"
-#include "walk/cell_bounds.h"
 
 namespace cdprep {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "cdprep/advanced/build_tetra_tree.h"
+#include "cdprep/cells/build_tetra_tree.h"
 #include "cells/cone_children.h"
 
 namespace cdprep::build {

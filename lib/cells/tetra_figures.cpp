@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/study/tetra_figures.h"
+#include "cdprep/cells/tetra_figures.h"
 
 #include <algorithm>
 #include <bit>

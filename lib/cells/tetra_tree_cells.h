@@ -5,8 +5,8 @@
 #include <cassert>
 #include <span>
 
+#include "cells/cell_bounds.h"
 #include "cells/tetra_cones.h"
-#include "walk/cell_bounds.h"
 
 namespace cdprep {
 

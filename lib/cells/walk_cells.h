@@ -5,8 +5,8 @@
 #include <cassert>
 #include <cmath>
 
-#include "cdprep/study/overlap_through.h"
-#include "walk/cell_bounds.h"
+#include "cdprep/cells/overlap_through.h"
+#include "cells/cell_storage.h"
 #include "walk/walk_pairs.h"
 
 namespace cdprep {
@@ -58,8 +58,8 @@ public:
     /// Keeps bounds and counts steps in the workspace, which no walk within this one may.
     void use(Workspace::Storage& scratch) noexcept {
         counts_ = scratch.counts;
-        kept_a_ = &scratch.bounds_a;
-        kept_b_ = &scratch.bounds_b;
+        kept_a_ = &cells_of(scratch).bounds_a;
+        kept_b_ = &cells_of(scratch).bounds_b;
         ++kept_a_->question;
         ++kept_b_->question;
     }

@@ -70,8 +70,9 @@ public:
         CellContacts contacts(question_.a, question_.b, question_.placement, placed_,
                               question_.through.leaf_test, question_.options, scratch, found, owns);
         if (kSearch == Search::first) contacts.hurry();
-        MeetCells meet(question_.a, question_.b, placed_, scratch.node_lists_a,
-                       scratch.node_lists_b, &scratch.met_nodes);
+        CellStorage& cells = cells_of(scratch);
+        MeetCells meet(question_.a, question_.b, placed_, cells.node_lists_a, cells.node_lists_b,
+                       &cells.met_nodes);
         CellWalk<kSearch, TreeA, TreeB, AllLanes> walk(a_, b_, placed_, question_.through.descent,
                                                        AllLanes{});
         walk.use(scratch);
@@ -103,9 +104,9 @@ private:
 
     [[nodiscard]] std::uint64_t remembered_first_place(std::uint32_t at_a,
                                                        std::uint32_t at_b) const noexcept {
-        Workspace::Storage& scratch = question_.workspace.storage();
-        const std::uint64_t walk = scratch.bounds_a.question;
-        FirstPlaces::Slot& slot = scratch.first_places.of(at_a, at_b);
+        CellStorage& cells = cells_of(question_.workspace.storage());
+        const std::uint64_t walk = cells.bounds_a.question;
+        FirstPlaces::Slot& slot = cells.first_places.of(at_a, at_b);
         if (slot.walk != walk || slot.at_a != at_a || slot.at_b != at_b) {
             slot = {walk, at_a, at_b, first_place(at_a, at_b)};
         }
@@ -174,8 +175,9 @@ bool walk_structure(const QuestionThrough& question, const PlacedBoxes& placed,
 bool visit_contacts_through_trees(const QuestionThrough& question, ContactVisitor visit) noexcept {
     const PlacedBoxes placed = place_boxes(question.a, question.b, question.placement);
     if (placed.apart) return true;
-    question.workspace.storage().tested_pairs.begin();
-    question.workspace.storage().met_nodes.begin();
+    CellStorage& cells = cells_of(question.workspace.storage());
+    cells.tested_pairs.begin();
+    cells.met_nodes.begin();
     return question.search == Search::first ? walk_structure<Search::first>(question, placed, visit)
                                             : walk_structure<Search::all>(question, placed, visit);
 }

@@ -14,6 +14,19 @@
 
 namespace cdprep {
 
+namespace {
+
+/// Few files have them.
+struct CellViews {
+    OctreeView octree;
+    AdaptiveOctreeView adaptive_octree;
+    TetraTreeView tetra_tree;
+};
+
+const CellViews kNoCells;
+
+}  // namespace
+
 struct Model::State {
     MappedFile mapping;  ///< or a copy; empty when the caller keeps the bytes
     std::string name;    ///< of the file, for messages
@@ -24,9 +37,7 @@ struct Model::State {
     MeshView mesh;
     SourceView source;
     BvhView bvh;
-    OctreeView octree;
-    AdaptiveOctreeView adaptive_octree;
-    TetraTreeView tetra_tree;
+    std::unique_ptr<const CellViews> cells;  ///< null: none
     HullView hulls;
     PieceView pieces;
     RecordView record;
@@ -71,19 +82,27 @@ private:
 
 void Model::State::find_sections(SectionSet wanted) {
     header = reinterpret_cast<const format::FileHeader*>(file.data());
+    CellViews of_cells;
     bvh.shape = format::bvh_shape(header->triangle_count);
 #define CDPREP_MESH_SECTION(member, name, ...) view(SectionId::name, wanted, mesh.member);
 #define CDPREP_SOURCE_SECTION(member, name, ...) view(SectionId::name, wanted, source.member);
 #define CDPREP_BVH_SECTION(member, name, ...) view(SectionId::name, wanted, bvh.member);
-#define CDPREP_OCTREE_SECTION(member, name, ...) view(SectionId::name, wanted, octree.member);
+#define CDPREP_OCTREE_SECTION(member, name, ...) \
+    view(SectionId::name, wanted, of_cells.octree.member);
 #define CDPREP_ADAPTIVE_OCTREE_SECTION(member, name, ...) \
-    view(SectionId::name, wanted, adaptive_octree.member);
+    view(SectionId::name, wanted, of_cells.adaptive_octree.member);
 #define CDPREP_TETRA_TREE_SECTION(member, name, ...) \
-    view(SectionId::name, wanted, tetra_tree.member);
+    view(SectionId::name, wanted, of_cells.tetra_tree.member);
 #define CDPREP_HULL_SECTION(member, name, ...) view(SectionId::name, wanted, hulls.member);
 #define CDPREP_PIECE_SECTION(member, name, ...) view(SectionId::name, wanted, pieces.member);
 #define CDPREP_RECORD_SECTION(member, name, ...) view(SectionId::name, wanted, record.member);
 #include "cdprep/format/section_table.inc"
+    bool has_cells = false;
+#define CDPREP_OCTREE_SECTION(member, name, ...) has_cells |= sections.contains(SectionId::name);
+#define CDPREP_ADAPTIVE_OCTREE_SECTION CDPREP_OCTREE_SECTION
+#define CDPREP_TETRA_TREE_SECTION CDPREP_OCTREE_SECTION
+#include "cdprep/format/section_table.inc"
+    if (has_cells) cells = std::make_unique<const CellViews>(of_cells);
 }
 
 namespace {
@@ -215,13 +234,13 @@ const BvhView& Model::bvh() const noexcept {
     return state_->bvh;
 }
 const OctreeView& Model::octree() const noexcept {
-    return state_->octree;
+    return state_->cells ? state_->cells->octree : kNoCells.octree;
 }
 const AdaptiveOctreeView& Model::adaptive_octree() const noexcept {
-    return state_->adaptive_octree;
+    return state_->cells ? state_->cells->adaptive_octree : kNoCells.adaptive_octree;
 }
 const TetraTreeView& Model::tetra_tree() const noexcept {
-    return state_->tetra_tree;
+    return state_->cells ? state_->cells->tetra_tree : kNoCells.tetra_tree;
 }
 const HullView& Model::hulls() const noexcept {
     return state_->hulls;

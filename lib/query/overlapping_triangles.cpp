@@ -3,9 +3,9 @@
 
 #include "cdprep/format/float_environment.h"
 #include "cdprep/pairs.h"
-#include "cdprep/study/overlap_through.h"
 #include "core/require.h"
 #include "query/cached_contacts.h"
+#include "walk/cell_searches.h"
 #include "walk/smallest_pairs.h"
 
 namespace cdprep {
@@ -13,14 +13,19 @@ namespace cdprep {
 std::size_t overlaps(const Pair& pair, Workspace& workspace,
                      std::span<TrianglePair> room) noexcept {
     const format::FloatEnvironment environment;
-    const Structure through = pair.options.through;
-    if (through != Structure::bvh) {
-        return overlaps_through(pair, {.structure = through}, workspace, room);
-    }
     const Model &a = pair.a, &b = pair.b;
-    require(a, b, Ask::overlap);
+    const Structure through = pair.options.through;
+    require(a, b, Ask::overlap | ask_of(through));
+    if (through != Structure::bvh && through != Structure::pieces) {
+        return require_cells(workspace).overlaps(pair, workspace, room);
+    }
     return keep_smallest_pairs(a, b, workspace, room, [&](auto&& found) {
-        for_each_contact(a, b, pair.placement, workspace, pair.options, pair.cache, found);
+        if (through == Structure::bvh) {
+            for_each_contact(a, b, pair.placement, workspace, pair.options, pair.cache, found);
+        } else if (a.triangle_count() > 0 && b.triangle_count() > 0) {
+            for_each_contact<Search::all, PieceTrees>(a, b, pair.placement, workspace, pair.options,
+                                                      found);  // a triangle is in one piece
+        }
     });
 }
 

@@ -10,10 +10,15 @@
 #include "core/moved_model.h"
 #include "core/prefetch.h"
 #include "walk/box_placement.h"
-#include "walk/node_lists.h"
 #include "walk/workspace_storage.h"
 
 namespace cdprep {
+
+/// Some triangles of a BVH leaf.
+struct LeafLanes {
+    std::uint32_t leaf;
+    std::uint8_t lanes;  ///< bit set
+};
 
 /// How the leaves of two models stand to each other.
 [[nodiscard]] kernels::LeafPlacement place_leaves(const Model& a, const Model& b,

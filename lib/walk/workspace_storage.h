@@ -13,10 +13,6 @@
 #include "cdprep/workspace.h"
 #include "core/sort_pairs.h"
 #include "kernels/kernels.h"
-#include "walk/candidate_nodes.h"
-#include "walk/cell_bounds.h"
-#include "walk/node_lists.h"
-#include "walk/tested_pairs.h"
 
 namespace cdprep {
 
@@ -92,8 +88,6 @@ inline constexpr std::size_t kMaxNearPieces = 4096;
 
 struct Workspace::Storage {
     // What begins cache lines stands first: nothing is lost between.
-    NodeLists<64> node_lists_a;
-    NodeLists<64> node_lists_b;
     kernels::LeafScratch leaf_scratch;
     GatheredLeaves gathered_a;
     GatheredLeaves gathered_b;
@@ -108,16 +102,11 @@ struct Workspace::Storage {
     std::array<BoundedPlace, kMaxBoundedPlaces> bounded;
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     SortScratch sort_scratch;
-    TestedPairs tested_pairs;
-    FirstPlaces first_places;
-    std::array<PendingLeaves, kernels::kLeafBatch> pending_leaves;  ///< of leaf_pairs
-    MetNodes met_nodes;
-    KeptBounds bounds_a;
-    KeptBounds bounds_b;
-    CandidateNodes candidate_nodes;
     std::array<NearPieces, kMaxNearPieces> near_pieces;
     std::array<std::uint16_t, kFrontRoom + 2 * kernels::kLanes> weak_planes;  ///< of a PairFront
-    QueryCounts* counts = nullptr;  ///< or null: nobody asked
+    QueryCounts* counts = nullptr;        ///< or null: nobody asked
+    const CellSearches* cells = nullptr;  ///< or null: none through octrees and tetra-trees
+    void* cell_storage = nullptr;         ///< of cells
 };
 
 }  // namespace cdprep

@@ -12,8 +12,8 @@
 #include "support/exact_distance.h"
 #include "support/hard_distances.h"
 
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/pairs.h"
-#include "cdprep/study/overlap_through.h"
 
 namespace cdprep::test {
 namespace {

@@ -11,6 +11,7 @@
 #include "accuracy/mesh_variants.h"
 #include "support/hard_points.h"
 
+#include "cdprep/cells.h"
 #include "cdprep/points.h"
 
 namespace cdprep::test {
@@ -91,7 +92,7 @@ private:
     Scoreboard& board_;
     std::string id_;
     std::size_t turn_ = 0;
-    Workspace workspace_;
+    Workspace workspace_{cells()};
     CWorkspace c_workspace_;
 };
 

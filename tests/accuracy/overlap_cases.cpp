@@ -18,9 +18,10 @@
 #include "support/waiting_leaves.h"
 
 #include "cdprep/advanced/convex_penetration.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/pairs.h"
 #include "cdprep/parallel.h"
-#include "cdprep/study/overlap_through.h"
 
 namespace cdprep::test {
 namespace {
@@ -222,7 +223,7 @@ private:
     const AskedModel* a_ = nullptr;
     const AskedModel* b_ = nullptr;
     const MeshVariant* variant_ = nullptr;
-    Workspace workspace_;
+    Workspace workspace_{cells()};
     CWorkspace c_workspace_;
 };
 
@@ -346,7 +347,7 @@ void score_triangles(const HardCaseOptions& options, Scoreboard& board) {
 /// Too many pairs to list: they are counted.
 void score_count(const HardMeshes& hard, Scoreboard& board) {
     const AskedModel a(hard.a, 1), b(hard.b, 1);
-    Workspace workspace;
+    Workspace workspace(cells());
     const std::size_t count = in_mode([&] {
         return overlaps({a.model(), b.model(), hard.placement}, workspace, {});
     });
@@ -359,7 +360,7 @@ void score_count(const HardMeshes& hard, Scoreboard& board) {
 /// pointed to it, where a batch was tested amid a pair of leaves. How many are tested at once
 /// must not matter.
 void score_waiting_leaves(const HardCaseOptions& options, Scoreboard& board) {
-    Workspace workspace;
+    Workspace workspace(cells());
     for (const std::uint32_t seed : {64U, 65U, 66U}) {
         const WaitingLeaves leaves =
             waiting_leaves(seed, options.size == CaseSize::full ? 30'000 : 3'000);

@@ -16,8 +16,8 @@
 #include <memory>
 
 #include "bench_input.h"
-#include "cdprep/advanced/build_octree.h"
-#include "cdprep/study/octree_figures.h"
+#include "cdprep/cells/build_octree.h"
+#include "cdprep/cells/octree_figures.h"
 #include "crew.h"
 #include "support/more_sections.h"
 

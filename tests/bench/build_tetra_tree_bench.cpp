@@ -13,8 +13,8 @@
 #include <memory>
 
 #include "bench_input.h"
-#include "cdprep/advanced/build_octree.h"
-#include "cdprep/study/tetra_figures.h"
+#include "cdprep/cells/build_octree.h"
+#include "cdprep/cells/tetra_figures.h"
 #include "crew.h"
 #include "support/more_sections.h"
 

@@ -28,8 +28,8 @@
 #include "bench_input.h"
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/pairs.h"
-#include "cdprep/study/overlap_through.h"
 
 namespace cdprep {
 namespace {

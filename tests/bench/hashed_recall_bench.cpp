@@ -32,7 +32,8 @@
 #include "support/open_tiny.h"
 #include "walk/contact_pairs.h"
 
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 
 namespace cdprep {
 namespace {
@@ -88,7 +89,7 @@ private:
     const Model& a_;
     const Model& b_;
     CellSearch search_;
-    Workspace workspace_;
+    Workspace workspace_{cells()};
     std::vector<TrianglePair> missed_;
 };
 

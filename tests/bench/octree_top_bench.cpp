@@ -21,7 +21,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells/overlap_through.h"
 #include "core/prefetch.h"
 #include "octree_meshes.h"
 

@@ -32,8 +32,8 @@
 
 #include "bench_input.h"
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/pairs.h"
-#include "cdprep/study/overlap_through.h"
 
 #ifdef CDPREP_HAVE_FCL
 #include "fcl_models.h"

@@ -24,7 +24,8 @@
 
 #include "bench_input.h"
 #include "cdprep/advanced/query_counts.h"
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 
@@ -163,7 +164,7 @@ QueryCounts counts_of(const Contender& contender, bool overlap, const std::vecto
 /// The hierarchy comes first of the contenders.
 void compare(const std::string& pair, std::size_t kind, bool overlap, std::size_t rounds,
              const std::vector<Contender>& contenders, const std::vector<Pose>& poses) {
-    Workspace workspace;
+    Workspace workspace(cells());
     std::vector<TrianglePair> pairs(kMostPairs);
     std::vector<std::vector<double>> medians(contenders.size());
     for (const Pose& pose : poses) {

@@ -213,7 +213,10 @@ bool is_finite(const cdprep_nearest& n) {
 class Caller {
 public:
     Caller(Draw& draw, const Models& models) : draw_(draw), models_(models) {
-        MUST(cdprep_workspace_make(nullptr, nullptr, 0, &workspace_, nullptr) == CDPREP_OK);
+        cdprep_workspace_options options;
+        cdprep_workspace_options_init(&options, sizeof options);
+        if (draw.one_in(2)) options.cells = cdprep_cells();
+        MUST(cdprep_workspace_make(&options, nullptr, 0, &workspace_, nullptr) == CDPREP_OK);
     }
     Caller(const Caller&) = delete;
     Caller& operator=(const Caller&) = delete;

@@ -18,17 +18,18 @@
 #include "support/tiny_pieces.h"
 
 #include "cdprep/advanced/convex_penetration.h"
-#include "cdprep/advanced/find_list_damage.h"
-#include "cdprep/advanced/level_of_detail.h"
 #include "cdprep/advanced/pair_front.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/find_list_damage.h"
+#include "cdprep/cells/level_of_detail.h"
+#include "cdprep/cells/octree_figures.h"
+#include "cdprep/cells/overlap_through.h"
+#include "cdprep/cells/tetra_figures.h"
 #include "cdprep/contacts.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
 #include "cdprep/points.h"
-#include "cdprep/study/octree_figures.h"
-#include "cdprep/study/overlap_through.h"
-#include "cdprep/study/tetra_figures.h"
 #include "hull/find_hull_falsehood.h"
 
 namespace {
@@ -241,7 +242,7 @@ void ask_features(const Model& model) {
 }
 
 void ask(const Model& model) {
-    static Workspace workspace;
+    static Workspace workspace(cells());
     if (model.serves(kPairs)) ask_pair(model, workspace);
     if (model.serves(kPairs | Ask::pieces)) ask_through_pieces(model, workspace);
     if (model.serves(Ask::contacts)) {

@@ -77,11 +77,14 @@ private:
     cdprep_model* model_ = nullptr;
 };
 
-/// A workspace with default options.
+/// A workspace for all structures.
 class CWorkspace {
 public:
     CWorkspace() {
-        if (cdprep_workspace_make(nullptr, nullptr, 0, &workspace_, nullptr) != CDPREP_OK) {
+        cdprep_workspace_options options;
+        cdprep_workspace_options_init(&options, sizeof options);
+        options.cells = cdprep_cells();
+        if (cdprep_workspace_make(&options, nullptr, 0, &workspace_, nullptr) != CDPREP_OK) {
             std::abort();
         }
     }

@@ -8,9 +8,9 @@
 #include "support/answer_bytes.h"
 #include "support/run_threads.h"
 
-#include "cdprep/advanced/level_of_detail.h"
 #include "cdprep/cdprep.hpp"
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells/level_of_detail.h"
+#include "cdprep/cells/overlap_through.h"
 
 // Every question of the C++ API in one form, for tests that ask all of them.
 

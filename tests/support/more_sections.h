@@ -6,9 +6,9 @@
 
 #include "support/tiny_baker.h"
 
-#include "cdprep/advanced/build_adaptive_octree.h"
-#include "cdprep/advanced/build_octree.h"
-#include "cdprep/advanced/build_tetra_tree.h"
+#include "cdprep/cells/build_adaptive_octree.h"
+#include "cdprep/cells/build_octree.h"
+#include "cdprep/cells/build_tetra_tree.h"
 #include "cdprep/model.h"
 
 namespace cdprep::test {

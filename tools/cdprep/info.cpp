@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "cdprep/advanced/find_list_damage.h"
+#include "cdprep/cells/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model.h"
 #include "command.h"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/contacts.h"
-#include "cdprep/study/overlap_through.h"
 #include "interrupt.h"
 #include "open_for.h"
 #include "query.h"

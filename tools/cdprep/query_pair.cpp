@@ -14,12 +14,13 @@
 #include <vector>
 
 #include "cdprep/advanced/convex_distance.h"
-#include "cdprep/advanced/level_of_detail.h"
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/level_of_detail.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
-#include "cdprep/study/overlap_through.h"
 #include "interrupt.h"
 #include "open_for.h"
 #include "query.h"
@@ -254,7 +255,7 @@ private:
     const Model& b_;
     PairOptions options_;
     DistanceOptions errors_;
-    Workspace workspace_;
+    Workspace workspace_{cells()};
     std::vector<TrianglePair> pairs_ = std::vector<TrianglePair>(4096);
     std::vector<Crossing> crossings_;
     QueryCounts counts_;

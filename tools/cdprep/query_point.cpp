@@ -7,8 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/points.h"
-#include "cdprep/study/overlap_through.h"
 #include "interrupt.h"
 #include "open_for.h"
 #include "points_file.h"
@@ -141,7 +142,7 @@ Exit run(const Arguments& arguments, const Question<Place>& question) {
     if (!model) return fail("query", model.error());
     const Result<std::vector<Place>> places = question.read(arguments.places);
     if (!places) return fail("query", places.error());
-    Workspace workspace;
+    Workspace workspace(cells());
     report::Answers answers(std::cout, parse_answer_format(arguments.format));
     std::vector<std::uint8_t> shades;
     for (std::size_t i = 0; i < places.value().size() && !is_interrupted(); ++i) {

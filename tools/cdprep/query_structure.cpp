@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells/overlap_through.h"
 #include "report/structure_name.h"
 #include "usage.h"
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "cdprep/advanced/structure.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/result.h"
-#include "cdprep/study/overlap_through.h"
 #include "command.h"
 
 namespace cdprep::cli {

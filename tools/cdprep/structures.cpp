@@ -5,7 +5,7 @@
 #include <array>
 #include <sstream>
 
-#include "cdprep/advanced/structure_presets.h"
+#include "cdprep/cells/structure_presets.h"
 #include "cdprep/format/limits.h"
 #include "convex/enclosing_hull.h"
 #include "report/nearest_word.h"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cdprep/advanced/convex_distance.h"
-#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/cells/level_of_detail.h"
 #include "cdprep/contacts.h"
 #include "cdprep/pairs.h"
 #include "cdprep/points.h"

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "cdprep/cells/octree_figures.h"
+#include "cdprep/cells/tetra_figures.h"
 #include "cdprep/model.h"
-#include "cdprep/study/octree_figures.h"
-#include "cdprep/study/tetra_figures.h"
 #include "report/structure_settings.h"
 
 namespace cdprep::report {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/cell_searches.h"
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells/overlap_through.h"
 
 namespace cdprep::study::search {
 

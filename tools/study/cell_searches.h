@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_octree.h"
 #include "study/pointer_octrees.h"
 #include "study/search_contenders.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells/overlap_through.h"
 #include "study/cells.h"
 #include "study/strategy.h"
 

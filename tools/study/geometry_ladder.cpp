@@ -11,7 +11,8 @@
 #include <utility>
 
 #include "cdprep/advanced/convex_distance.h"
-#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/level_of_detail.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
 #include "convex/convex_hull.h"
@@ -465,7 +466,7 @@ private:
     Ladder& ladder_;
     Outside outside_;
     std::deque<Contender> contenders_;
-    Workspace workspace_;
+    Workspace workspace_{cells()};
     BoundingSphere sphere_a_;
     BoundingSphere sphere_b_;
     BoundingBox aligned_a_;

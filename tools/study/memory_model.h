@@ -9,11 +9,11 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/advanced/build_adaptive_octree.h"
 #include "cdprep/advanced/build_bvh.h"
-#include "cdprep/advanced/build_octree.h"
-#include "cdprep/advanced/build_tetra_tree.h"
 #include "cdprep/advanced/parallel_for.h"
+#include "cdprep/cells/build_adaptive_octree.h"
+#include "cdprep/cells/build_octree.h"
+#include "cdprep/cells/build_tetra_tree.h"
 #include "cdprep/model.h"
 #include "mesh/mesh.h"
 #include "mesh/stop.h"

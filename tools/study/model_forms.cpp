@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "cdprep/advanced/structure_presets.h"
+#include "cdprep/cells/structure_presets.h"
 
 namespace cdprep::study {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_octree.h"
 #include "cdprep/pose.h"
 
 namespace cdprep::study {

@@ -8,9 +8,10 @@
 #include <utility>
 
 #include "cdprep/advanced/query_counts.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/points.h"
 #include "cdprep/pose.h"
-#include "cdprep/study/overlap_through.h"
 #include "cells/potential_set.h"
 #include "study/cells.h"
 #include "walk/contact_pairs.h"
@@ -162,7 +163,7 @@ Table pruning_table(const std::vector<StudyMesh>& meshes, const std::vector<Pair
         table.columns.push_back({column.key, column.title, Unit::count});
     }
     table.columns.push_back({"recall", "literal recall", Unit::share});
-    Workspace workspace;
+    Workspace workspace(cells());
     std::vector<TrianglePair> missed;
     for (const PairStudy& study : studies) {
         const Model& a = forms[study.a]->tuned_hashed.model;

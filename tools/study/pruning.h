@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "cdprep/advanced/structure.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/model.h"
 #include "cdprep/pairs.h"
 #include "cdprep/pose.h"
-#include "cdprep/study/overlap_through.h"
 #include "cdprep/workspace.h"
 #include "study/pair_study.h"
 #include "study/table.h"

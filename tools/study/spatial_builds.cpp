@@ -8,12 +8,12 @@
 #include <span>
 #include <utility>
 
-#include "cdprep/advanced/build_adaptive_octree.h"
 #include "cdprep/advanced/build_bvh.h"
-#include "cdprep/advanced/build_octree.h"
-#include "cdprep/advanced/build_tetra_tree.h"
-#include "cdprep/study/octree_figures.h"
-#include "cdprep/study/tetra_figures.h"
+#include "cdprep/cells/build_adaptive_octree.h"
+#include "cdprep/cells/build_octree.h"
+#include "cdprep/cells/build_tetra_tree.h"
+#include "cdprep/cells/octree_figures.h"
+#include "cdprep/cells/tetra_figures.h"
 #include "mesh/tree_order.h"
 
 namespace cdprep::study {

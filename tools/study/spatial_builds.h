@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cdprep/advanced/parallel_for.h"
-#include "cdprep/advanced/structure_presets.h"
+#include "cdprep/cells/structure_presets.h"
 #include "study/study_mesh.h"
 #include "study/timing.h"
 

@@ -2,9 +2,9 @@
 #include "study/strategy.h"
 
 #include "cdprep/advanced/convex_distance.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
-#include "cdprep/study/overlap_through.h"
 
 namespace cdprep::study {
 

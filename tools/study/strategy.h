@@ -12,9 +12,10 @@
 #include "cdprep/advanced/convex_points.h"
 #include "cdprep/advanced/query_counts.h"
 #include "cdprep/advanced/structure.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/contacts.h"
 #include "cdprep/pairs.h"
-#include "cdprep/study/overlap_through.h"
 #include "study/model_forms.h"
 
 namespace cdprep::study {
@@ -79,7 +80,7 @@ private:
     const Model& b_;
     std::optional<ConvexPoints> hull_a_;
     std::optional<ConvexPoints> hull_b_;
-    Workspace workspace_;
+    Workspace workspace_{cells()};
     std::vector<TrianglePair> pairs_;
 };
 

@@ -2,7 +2,7 @@
 #pragma once
 
 /// The C++ API: models, poses, and the questions about them. Headers in cdprep/advanced/ and
-/// cdprep/study/ are included by those who need them.
+/// cdprep/cells/ are included by those who need them.
 
 #include "cdprep/ask.h"
 #include "cdprep/build.h"

@@ -8,21 +8,29 @@
 
 namespace cdprep {
 
+struct CellSearches;
 struct QueryCounts;
 
 /// Scratch memory for queries, owned by the caller: queries never allocate.
 ///
 /// One workspace serves any number of models and questions, one at a time; each thread needs its
-/// own. It allocates about 880 KiB once, when it is made. Half of that is for octrees and
-/// tetra-trees alone.
+/// own. It allocates about SIZE KiB once, when it is made.
 class Workspace {
 public:
+    /// Serves every question but those through octrees and tetra-trees.
     Workspace();
 
+    /// Serves those too, and takes CELLS KiB more. `cells` is cells() of <cdprep/cells.h>.
+    ///
+    ///     cdprep::Workspace workspace(cdprep::cells());
+    explicit Workspace(const CellSearches& cells);
+
     /// Makes a workspace in the caller's memory, which outlives it. Allocates nothing. Returns
-    /// nothing if the memory is smaller than size() or not aligned to alignment().
-    [[nodiscard]] static std::optional<Workspace> in_memory(std::span<std::byte> memory) noexcept;
-    [[nodiscard]] static std::size_t size() noexcept;       ///< bytes
+    /// nothing if the memory is smaller than size() or not aligned to alignment(). Null cells:
+    /// as Workspace().
+    [[nodiscard]] static std::optional<Workspace> in_memory(
+        std::span<std::byte> memory, const CellSearches* cells = nullptr) noexcept;
+    [[nodiscard]] static std::size_t size(const CellSearches* cells = nullptr) noexcept;  ///< bytes
     [[nodiscard]] static std::size_t alignment() noexcept;  ///< bytes, a power of two
 
     Workspace(Workspace&&) noexcept;

@@ -4,10 +4,11 @@
 #include <cstring>
 #include <random>
 
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/pairs.h"
 #include "cdprep/points.h"
-#include "cdprep/study/overlap_through.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/random_pose.h"
@@ -84,7 +85,7 @@ TEST(AbsurdBoxes, EveryQuestionEnds) {
         reseal(file.span());
         const auto model = Model::open(file.span());
         ASSERT_TRUE(model) << model.error().message;
-        Workspace workspace;
+        Workspace workspace(cells());
         std::vector<TrianglePair> pairs(100);
         const Model& m = model.value();
         for (const Placement& placement :
@@ -121,7 +122,7 @@ TEST(AbsurdBoxes, EveryQuestionThroughAHashedOctreeEnds) {
         const auto model = Model::open(file.span());
         ASSERT_TRUE(model) << model.error().message;
         const Model& m = model.value();
-        Workspace workspace;
+        Workspace workspace(cells());
         for (const Placement& placement :
              {Placement::b_moves(Pose()), Placement::world(random_pose(random, 1), Pose())}) {
             for (const Structure structure :

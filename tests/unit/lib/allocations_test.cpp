@@ -8,11 +8,12 @@
 
 #include "cdprep/advanced/convex_penetration.h"
 #include "cdprep/advanced/refit_bvh.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/contacts.h"
 #include "cdprep/pairs.h"
 #include "cdprep/parallel.h"
 #include "cdprep/points.h"
-#include "cdprep/study/overlap_through.h"
 #include "support/every_structure.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
@@ -21,7 +22,7 @@
 #include "support/tiny_pieces.h"
 
 #include "cdprep/advanced/pair_front.h"
-#include "walk/workspace_storage.h"
+#include "cells/cell_storage.h"
 
 namespace {
 std::atomic<std::size_t> allocations = 0;
@@ -89,13 +90,13 @@ TEST(Allocations, NoStructureAllocates) {
     const TestMesh sphere = icosphere(3), ring = torus(1, 0.25, 24, 12);
     const OpenModel a = with_trees(bake_tiny(sphere.positions, sphere.triangles));
     const OpenModel b = with_trees(bake_tiny(ring.positions, ring.triangles));
-    Workspace workspace;
+    Workspace workspace(cells());
     std::vector<TrianglePair> pairs(10'000);
     const Placement placement = Placement::b_moves(Pose());
     std::size_t found = 0;
     const std::size_t before = allocations;
     for (const std::size_t buckets : {TestedPairs::kBuckets, std::size_t{1}}) {
-        workspace.storage().tested_pairs.limit(buckets);
+        cells_of(workspace.storage()).tested_pairs.limit(buckets);
         for (const Structure structure :
              {Structure::octree, Structure::adaptive_octree, Structure::tetra_tree}) {
             for (const LeafTest test : {LeafTest::guigue_devillers, LeafTest::feito_torres}) {
@@ -115,7 +116,7 @@ TEST(Allocations, NoQuestionAllocates) {
     const OpenModel ring = open_tiny(torus(1, 0.25, 40, 20), {.double_precision = true});
     const Model& a = sphere.model;
     const Model& b = ring.model;
-    Workspace workspace;
+    Workspace workspace(cells());
     PairCache cache;
     std::vector<TrianglePair> pairs(100'000);
     std::vector<std::uint32_t> triangles(a.triangle_count() + b.triangle_count());
@@ -210,7 +211,7 @@ TEST(Allocations, NoQuestionAllocates) {
 // By hand: of these points two are in the tube.
 TEST(Allocations, NoStructureAllocatesToTellWhatIsInside) {
     const OpenModel ring = open_with_every_structure(torus(1, 0.25, 40, 20), {.level = 5});
-    Workspace workspace;
+    Workspace workspace(cells());
     int inside = 0;
     const std::size_t before = allocations;
     for (const Structure structure : kStructures) {
@@ -227,7 +228,7 @@ TEST(Allocations, NoQuestionThroughAHashedOctreeAllocates) {
     const TestMesh sphere = icosphere(3), ring = torus(1, 0.25, 24, 12);
     const OpenModel a = open_tiny(with_octree(bake_tiny(sphere.positions, sphere.triangles)));
     const OpenModel b = open_tiny(with_octree(bake_tiny(ring.positions, ring.triangles)));
-    Workspace workspace;
+    Workspace workspace(cells());
     std::vector<TrianglePair> pairs(10'000);
     std::mt19937 random(2);
     std::vector<Placement> placements;
@@ -274,7 +275,7 @@ TEST(Allocations, NoQuestionThroughPiecesAllocates) {
         with_piece_tree(bake_tiny(ring.positions, ring.triangles, {.double_precision = true})));
     const StructureOptions through = {.structure = Structure::pieces};
     const std::vector<Placement> placements = some_placements();
-    Workspace workspace;
+    Workspace workspace(cells());
     PieceCache cache;
     std::vector<TrianglePair> pairs(10'000);
     std::size_t hits = 0, misses = 0;
@@ -325,7 +326,7 @@ TEST(Allocations, NoContactAllocates) {
     const OpenModel b =
         open_tiny(with_contacts(with_pieces(bake_tiny(ring.positions, ring.triangles))));
     const std::vector<Placement> placements = some_placements();
-    Workspace workspace;
+    Workspace workspace(cells());
     std::vector<Contact> room(20);
     std::size_t found = 0, most = 0, overlapping = 0;
     const auto visit = [&](const Contact& contact) {

@@ -2,7 +2,7 @@
 // In a program of its own, whose memory is all counted.
 #include <gtest/gtest.h>
 
-#include "cdprep/advanced/build_adaptive_octree.h"
+#include "cdprep/cells/build_adaptive_octree.h"
 #include "support/counted_memory.h"
 #include "support/meshes.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/build_adaptive_octree.h"
+#include "cdprep/cells/build_adaptive_octree.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <functional>
 #include <thread>
 
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_octree.h"
 #include "support/exact_box.h"
 #include "support/meshes.h"
 #include "support/run_threads.h"

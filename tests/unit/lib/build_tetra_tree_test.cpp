@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/build_tetra_tree.h"
+#include "cdprep/cells/build_tetra_tree.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <set>
 #include <thread>
 
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_octree.h"
 #include "cdprep/format/octree.h"
 #include "support/exact_cone.h"
 #include "support/meshes.h"

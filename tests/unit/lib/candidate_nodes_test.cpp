@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "walk/candidate_nodes.h"
+#include "cells/candidate_nodes.h"
 
 #include <gtest/gtest.h>
 

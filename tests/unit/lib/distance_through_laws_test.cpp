@@ -10,7 +10,7 @@
 
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/query_counts.h"
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells/overlap_through.h"
 #include "support/guarded_pages.h"
 #include "support/hard_distances.h"
 #include "support/hard_triangles.h"

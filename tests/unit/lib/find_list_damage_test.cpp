@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/find_list_damage.h"
+#include "cdprep/cells/find_list_damage.h"
 
 #include <gtest/gtest.h>
 

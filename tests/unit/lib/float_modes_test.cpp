@@ -11,23 +11,24 @@
 #include <type_traits>
 #include <vector>
 
-#include "cdprep/advanced/build_adaptive_octree.h"
-#include "cdprep/advanced/build_octree.h"
-#include "cdprep/advanced/build_tetra_tree.h"
 #include "cdprep/advanced/closest_features.h"
 #include "cdprep/advanced/convex_penetration.h"
-#include "cdprep/advanced/find_list_damage.h"
-#include "cdprep/advanced/level_of_detail.h"
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/refit_bvh.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/build_adaptive_octree.h"
+#include "cdprep/cells/build_octree.h"
+#include "cdprep/cells/build_tetra_tree.h"
+#include "cdprep/cells/find_list_damage.h"
+#include "cdprep/cells/level_of_detail.h"
+#include "cdprep/cells/overlap_through.h"
+#include "cdprep/cells/tetra_figures.h"
 #include "cdprep/contacts.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
 #include "cdprep/parallel.h"
 #include "cdprep/points.h"
-#include "cdprep/study/overlap_through.h"
-#include "cdprep/study/tetra_figures.h"
 #include "support/answer_bytes.h"
 #include "support/every_structure.h"
 #include "support/float_modes.h"
@@ -113,7 +114,7 @@ std::vector<Scene> scenes() {
 TEST(FloatModes, ChangeNoAnswerAboutTwoModels) {
     for (const Scene& s : scenes()) {
         const Model &a = s.a.model, &b = s.b.model;
-        Workspace workspace;
+        Workspace workspace(cells());
         std::vector<Workspace> workspaces(3);
         std::vector<TrianglePair> pairs(20'000);
         std::vector<std::uint64_t> bits_a(a.triangle_count() / 64 + 1);
@@ -238,7 +239,7 @@ void ask_touching(const Model& model, const Shape& shape, const ShapeOptions& op
 TEST(FloatModes, ChangeNoAnswerAboutOneModel) {
     for (const Scene& s : scenes()) {
         const Model& model = s.b.model;
-        Workspace workspace;
+        Workspace workspace(cells());
         const auto each = [&](const char* name, const Question& question) {
             expect_same_in_every_mode(s.name + ": " + name, question);
         };
@@ -361,7 +362,7 @@ TEST(FloatModes, ChangeNoContact) {
         const Placement placement =
             Placement::b_moves(Pose::from_quaternion(5, 1, 2, 3, shift).value());
         const double near = 0.0625 * scale;
-        Workspace workspace;
+        Workspace workspace(cells());
         std::vector<Contact> room(20);
         const ContactOptions options = {.tolerance = near, .manifold = Manifold::four};
         const std::string at = "contacts at 2^" + std::to_string(std::ilogb(scale));

@@ -10,9 +10,10 @@
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "support/random_pose.h"
-#include "walk/workspace_storage.h"
+#include "cells/cell_storage.h"
 
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 
 namespace cdprep::test {
 namespace {
@@ -71,7 +72,7 @@ TEST(HashedOverlapLaws, AgreesWithBruteForce) {
     constexpr int kRounds = 40;
     std::mt19937 random(kSeed);
     std::size_t hits = 0, asked = 0;
-    Workspace workspace;
+    Workspace workspace(cells());
     for (int round = 0; round < kRounds; ++round) {
         const bool coarse = round % 2 == 0;
         const int more = round % 3 == 0 ? 60 : 0;
@@ -107,7 +108,7 @@ TEST(HashedOverlapLaws, AgreesWithTheHierarchyWhateverBoundsTheFileHas) {
     std::mt19937 random(17);
     const TestMesh a = icosphere(4), b = torus(1, 0.25, 40, 20);
     std::size_t found = 0, missed = 0;
-    Workspace workspace;
+    Workspace workspace(cells());
     for (const build::BvhBounds bounds :
          {build::BvhBounds::aligned, build::BvhBounds::oriented, build::BvhBounds::swept_lines}) {
         const OpenModel model_a = open_with_octree(
@@ -133,7 +134,7 @@ TEST(HashedOverlapLaws, AgreesWithTheHierarchyWhateverBoundsTheFileHas) {
 // Where libraries in use report pairs that are none or lose pairs: the hierarchy's answer,
 // which hard_placements_test holds against the definition.
 TEST(HashedOverlapLaws, HardPlacementsHaveTheirPairs) {
-    Workspace workspace;
+    Workspace workspace(cells());
     for (const HardPlacement& p : hard_placements()) {
         SCOPED_TRACE(p.name);
         for (const std::uint32_t level : {2U, 7U}) {
@@ -159,11 +160,11 @@ TEST(HashedOverlapLaws, AnswersAreTheSameHoweverLittleRoomThereIs) {
     std::size_t pairs = 0;
     for (int round = 0; round < 10; ++round) {
         const Placement placement = Placement::b_moves(random_pose(random, 0.5));
-        Workspace roomy;
+        Workspace roomy(cells());
         const auto expected = all_pairs(model_a.model, model_b.model, placement, roomy);
         for (const std::uint32_t room : {2U, 3U, 7U, 30U}) {
-            Workspace workspace;
-            workspace.storage().candidate_nodes.set_room(room);
+            Workspace workspace(cells());
+            cells_of(workspace.storage()).candidate_nodes.set_room(room);
             expect_pairs(model_a.model, model_b.model, placement, workspace, expected);
             if (::testing::Test::HasFatalFailure()) return;
         }
@@ -180,7 +181,7 @@ TEST(HashedOverlapLaws, MoreCandidatesThanThereIsRoomForComeOnce) {
     const TestMesh a = copies_of_one_triangle(kCopies), b = copies_of_one_triangle(3);
     const OpenModel model_a = open_with_octree(a, {.level = 3, .threshold = 1});
     const OpenModel model_b = open_with_octree(b, {.level = 3, .threshold = 1});
-    Workspace workspace;
+    Workspace workspace(cells());
     const auto pairs = pairs_through(hashed(CellSearch::sorted), model_a.model, model_b.model,
                                      Placement::b_moves(Pose()), workspace);
     EXPECT_EQ(pairs.size(), 3U * kCopies);
@@ -191,7 +192,7 @@ TEST(HashedOverlapLaws, MoreCandidatesThanThereIsRoomForComeOnce) {
 // search, and it is not all of them.
 TEST(HashedOverlapLaws, TheLiteralFormFindsAPartOfThePairs) {
     std::mt19937 random(31);
-    Workspace workspace;
+    Workspace workspace(cells());
     std::size_t all = 0, found = 0;
     for (int round = 0; round < 30; ++round) {
         const TestMesh a = round % 2 == 0 ? icosphere(3) : random_soup(random(), 300, 0.2);

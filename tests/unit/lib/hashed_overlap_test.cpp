@@ -13,7 +13,8 @@
 #include "support/random_pose.h"
 
 #include "cdprep/advanced/query_counts.h"
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 
 namespace cdprep::test {
 namespace {
@@ -37,7 +38,7 @@ struct TwoModels {
 
     [[nodiscard]] std::vector<TrianglePair> through(const StructureOptions& structure,
                                                     const Placement& placement) const {
-        Workspace workspace;
+        Workspace workspace(cells());
         std::vector<TrianglePair> pairs(
             overlaps_through({a.model, b.model, placement}, structure, workspace, {}));
         pairs.resize(overlaps_through({a.model, b.model, placement}, structure, workspace, pairs));
@@ -173,7 +174,7 @@ TEST(HashedOverlapDeathTest, StopsWhereAModelWasNotBakedForIt) {
     const OpenModel whole = open_tiny(with_octree(bake_tiny(cube.positions, cube.triangles)));
     const OpenModel without_tables =
         open_tiny(with_octree(bake_tiny(cube.positions, cube.triangles), {.hashed = false}));
-    Workspace workspace;
+    Workspace workspace(cells());
     for (const Structure structure : {Structure::hashed_octree, Structure::hashed_octree_literal}) {
         const StructureOptions through = {.structure = structure};
         EXPECT_TRUE(
@@ -194,7 +195,7 @@ TEST(HashedOverlapDeathTest, StopsWhereAModelWasNotBakedForIt) {
 TEST(HashedOverlap, TheWorkOfOnePairIsCountedExactly) {
     const TwoModels models(one_triangle({0, 0, 0}, {4, 0, 0}, {0, 4, 0}),
                            one_triangle({1, 1, -1}, {1, 1, 1}, {2, 1, 1}), {.level = 0});
-    Workspace workspace;
+    Workspace workspace(cells());
     QueryCounts counts;
     workspace.count_into(&counts);
     const Pair pair = {models.a.model, models.b.model, kAsTheyAre};
@@ -212,7 +213,7 @@ TEST(HashedOverlap, QuestionsAreCounted) {
     const Placement placement =
         Placement::b_moves(Pose::from_quaternion(1, 0.1, 0, 0, {0.5, 0.25, 0}).value());
     for (const Structure structure : {Structure::hashed_octree, Structure::hashed_octree_literal}) {
-        Workspace workspace;
+        Workspace workspace(cells());
         QueryCounts counts;
         workspace.count_into(&counts);
         const StructureOptions through = {.structure = structure};

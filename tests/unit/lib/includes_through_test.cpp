@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "cdprep/cells.h"
 #include "cdprep/points.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +48,7 @@ public:
 
 private:
     OpenModel open_;
-    Workspace workspace_;
+    Workspace workspace_{cells()};
 };
 
 // P02, P03: by hand, a cube's inside, seen from its centre along diagonals and edges; the
@@ -234,7 +235,7 @@ TEST(IncludesThrough, LooksAtOneConeOrOneRowOfCells) {
 TEST(IncludesThroughDeathTest, StopsWhereAModelWasNotBakedForIt) {
     int asked = 0;
     const OpenModel cube = open_tiny(cube_at(-2, 2), {.double_precision = true});
-    Workspace workspace;
+    Workspace workspace(cells());
     for (const Structure structure : kStructures) {
         if (structure == Structure::bvh) continue;
         ++asked;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/cells/level_of_detail.h"
+#include "cdprep/cells.h"
 
 #include <gtest/gtest.h>
 
@@ -63,7 +64,7 @@ TEST(LevelOfDetail, NeverContradictsTheSolids) {
     const OpenModel b = with_cones(bumpy(2), 4);
     std::mt19937 random(3);
     std::uniform_real_distribution<double> gap(0, 3.2);
-    Workspace workspace;
+    Workspace workspace(cells());
     int known_yes = 0;
     int known_no = 0;
     int last_unknown = 0;
@@ -97,7 +98,7 @@ TEST(LevelOfDetail, NeverContradictsTheSolids) {
 
 TEST(LevelOfDetail, ThreeAnswersOfTwoSpheres) {
     const OpenModel a = with_cones(in_floats(icosphere(4)), 5);
-    Workspace workspace;
+    Workspace workspace(cells());
     const auto answer = [&](double gap, std::uint32_t level) {
         return collide_at_level({a.model, a.model, shifted({gap, 0.1, 0.2})}, level, workspace)
             .answer;
@@ -115,7 +116,7 @@ TEST(LevelOfDetail, OpenOrHollowModelsAreNeverCertainToCollide) {
     open.triangles.pop_back();
     const OpenModel a = with_cones(open, 3);
     const OpenModel b = with_cones(in_floats(icosphere(2)), 3);
-    Workspace workspace;
+    Workspace workspace(cells());
     EXPECT_EQ(collide_at_level({a.model, b.model, shifted({0.1, 0, 0})}, 3, workspace).answer,
               Answer::unknown);
     EXPECT_EQ(collide_at_level({a.model, b.model, shifted({4, 0, 0})}, 3, workspace).answer,
@@ -130,7 +131,7 @@ TEST(LevelOfDetail, OpenOrHollowModelsAreNeverCertainToCollide) {
 TEST(LevelOfDetailDeathTest, StopsWhereAModelWasNotBakedForIt) {
     const OpenModel sphere = with_cones(in_floats(icosphere(2)), 3);
     const OpenModel bare = open_tiny(in_floats(icosphere(1)));
-    Workspace workspace;
+    Workspace workspace(cells());
     const Placement near = shifted({0.5, 0, 0});
     EXPECT_DEATH((void)collide_at_level({sphere.model, bare.model, near}, 2, workspace),
                  "tetra-tree needs");
@@ -141,7 +142,7 @@ TEST(LevelOfDetail, OddModels) {
     const OpenModel sphere = with_cones(in_floats(icosphere(2)), 3);
     const OpenModel empty = with_cones({}, 3);
     const OpenModel flat = with_cones(fan(7), 3);  // triangles hold the centre
-    Workspace workspace;
+    Workspace workspace(cells());
     const Placement near = shifted({0.5, 0, 0});
     EXPECT_EQ(collide_at_level({sphere.model, empty.model, near}, 2, workspace).answer, Answer::no);
     EXPECT_EQ(collide_at_level({sphere.model, flat.model, near}, 2, workspace).answer,
@@ -156,7 +157,7 @@ TEST(LevelOfDetail, AnyScale) {
         const TestMesh mesh = moved_by(icosphere(3), scale, {0, 0, 0});
         const OpenModel a = open_tiny(with_tetra_tree(
             bake_tiny(mesh.positions, mesh.triangles, {.double_precision = true}), {.level = 4}));
-        Workspace workspace;
+        Workspace workspace(cells());
         const auto answer = [&](double gap) {
             return collide_at_level(
                        {a.model, a.model, shifted({gap * scale, 0.1 * scale, 0.2 * scale})}, 4,

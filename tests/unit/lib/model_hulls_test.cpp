@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "cdprep/advanced/find_list_damage.h"
+#include "cdprep/cells/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
 #include "hull/find_hull_falsehood.h"
 #include "support/more_sections.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/study/octree_figures.h"
+#include "cdprep/cells/octree_figures.h"
 
 #include <gtest/gtest.h>
 

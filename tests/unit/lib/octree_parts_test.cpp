@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cells/octree_codes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"

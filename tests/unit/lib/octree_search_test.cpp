@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cells/octree_codes.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"

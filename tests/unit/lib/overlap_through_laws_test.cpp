@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 
 #include <gtest/gtest.h>
 
@@ -114,7 +115,7 @@ TEST(OverlapThroughLaws, AgreesWithBruteForce) {
     constexpr int kRounds = 24;
     std::mt19937 random(kSeed);
     std::size_t touching = 0, asked = 0, none = 0, placed = 0;
-    Workspace workspace;
+    Workspace workspace(cells());
     for (int round = 0; round < kRounds; ++round) {
         SCOPED_TRACE("seed " + std::to_string(kSeed) + ", round " + std::to_string(round));
         const bool coarse = round % 2 == 0;
@@ -156,7 +157,7 @@ TEST(OverlapThroughLaws, AgreesWithTheHierarchyInRandomPoses) {
     const OpenModel b =
         open_all(torus(1, 0.3, 48, 24), {.level = 5, .threshold = 16, .boxes = true},
                  {.double_precision = true});
-    Workspace workspace;
+    Workspace workspace(cells());
     int hits = 0;
     for (int round = 0; round < 200; ++round) {
         const Placement placement = Placement::b_moves(random_pose(random, 2.2));
@@ -180,7 +181,7 @@ TEST(OverlapThroughLaws, AgreesWithTheHierarchyInRandomPoses) {
 // against each of the other's.
 TEST(OverlapThroughLaws, CellsThatListThousandsOfTrianglesHaveTheirPairs) {
     std::mt19937 random(19);
-    Workspace workspace;
+    Workspace workspace(cells());
     for (const std::uint32_t level : {0U, 1U}) {
         const OpenModel a = open_all(icosphere(4), {.level = level, .threshold = 8});
         const OpenModel b = open_all(torus(1, 0.3, 64, 32), {.level = level, .threshold = 8});
@@ -200,7 +201,7 @@ TEST(OverlapThroughLaws, CellsThatListThousandsOfTrianglesHaveTheirPairs) {
 // waits to be tested must not give way to others, also where a batch was tested amid a pair.
 TEST(OverlapThroughLaws, PiecesKeepWaitingLeaves) {
     const WaitingLeaves leaves = waiting_leaves(64, 3000);
-    Workspace workspace;
+    Workspace workspace(cells());
     const Pairs expected = pairs_in_leaves(leaves, 1, workspace);
     EXPECT_GT(expected.size(), 1000u);
     const Pairs pairs = pairs_in_leaves(leaves, kernels::kLeafBatch, workspace);
@@ -209,7 +210,7 @@ TEST(OverlapThroughLaws, PiecesKeepWaitingLeaves) {
 
 // Where libraries in use lose pairs; the hierarchy is held against exact numbers there.
 TEST(OverlapThroughLaws, HardPlacementsHaveTheirPairs) {
-    Workspace workspace;
+    Workspace workspace(cells());
     for (const HardPlacement& p : hard_placements()) {
         SCOPED_TRACE(p.name);
         const OpenModel a = open_all(p.a, {.level = 3, .boxes = true}, {.double_precision = true});
@@ -238,9 +239,9 @@ TEST(OverlapThroughLaws, HardPlacementsHaveTheirPairs) {
 // of cells that list both owns it. The oracle is the same question with room.
 TEST(OverlapThroughLaws, EachPairIsOneAnswerWithoutRoom) {
     std::mt19937 random(77);
-    Workspace workspace;
-    Workspace narrow;
-    narrow.storage().tested_pairs.limit(1);  // eight pairs of leaves
+    Workspace workspace(cells());
+    Workspace narrow(cells());
+    cells_of(narrow.storage()).tested_pairs.limit(1);  // eight pairs of leaves
     std::size_t count = 0;
     for (int round = 0; round < 6; ++round) {
         const bool soup = round % 2 == 0;
@@ -268,7 +269,7 @@ TEST(OverlapThroughLaws, EachPairIsOneAnswerWithoutRoom) {
 
 TEST(OverlapThroughLaws, OptionsMeanWhatTheyMeanForTheHierarchy) {
     std::mt19937 random(3);
-    Workspace workspace;
+    Workspace workspace(cells());
     std::size_t closed = 0, others = 0;
     for (int round = 0; round < 10; ++round) {
         const OpenModel a = open_all(coarse_grid_soup(random(), 50, 2), {.level = 2});
@@ -291,7 +292,7 @@ TEST(OverlapThroughLaws, OptionsMeanWhatTheyMeanForTheHierarchy) {
 TEST(OverlapThroughLaws, ShortSpansKeepTheSmallest) {
     const OpenModel a = open_all(icosphere(2), {.level = 2});
     const OpenModel b = open_all(torus(1, 0.25, 16, 8), {.level = 3});
-    Workspace workspace;
+    Workspace workspace(cells());
     const Placement placement = Placement::b_moves(Pose());
     const Pairs all = all_pairs(a.model, b.model, placement, workspace);
     ASSERT_GT(all.size(), 20u);
@@ -310,7 +311,7 @@ TEST(OverlapThroughLaws, LargeTrianglesMeetSmallCells) {
     const TestMesh large = {{{-10, -8, 0.1}, {10, -9, 0.2}, {0.5, 10, -0.1}}, {{{0, 1, 2}}}};
     const OpenModel a = open_all(small, {.level = 5});
     const OpenModel b = open_all(large, {.level = 5, .boxes = true});
-    Workspace workspace;
+    Workspace workspace(cells());
     const Placement still = Placement::b_moves(Pose());
     const Pairs expected = brute_force_pairs(small, large, still);
     ASSERT_GT(expected.size(), 50u);
@@ -322,7 +323,7 @@ TEST(OverlapThroughLaws, LargeTrianglesMeetSmallCells) {
 TEST(OverlapThroughLaws, TrianglesOnCellBoundariesAreOneAnswerEach) {
     const TestMesh planes = triangles_on_cell_planes();
     const TestMesh around = joined(planes, in_floats(fan(12)));
-    Workspace workspace;
+    Workspace workspace(cells());
     for (const std::uint32_t level : {1U, 3U}) {
         const OpenModel a = open_all(around, {.level = level, .boxes = level % 2 == 0});
         const OpenModel b = open_all(planes, {.level = 2, .threshold = 2});
@@ -344,7 +345,7 @@ TEST(OverlapThroughLaws, TrivialMeshesHaveAnswers) {
         TestMesh{}, TestMesh{{{1, 1, 1}, {1, 1, 1}, {1, 1, 1}}, {{{0, 1, 2}}, {{0, 0, 0}}}},
         TestMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{{0, 1, 2}}}}, grid_sheet(6, 6),
         copies_of_one_triangle(40)};
-    Workspace workspace;
+    Workspace workspace(cells());
     for (const TestMesh& a : meshes) {
         for (const TestMesh& b : meshes) {
             const OpenModel model_a = open_all(a, {.level = 4, .boxes = true});
@@ -359,7 +360,7 @@ TEST(OverlapThroughLaws, TrivialMeshesHaveAnswers) {
 // Scale and place change nothing, by powers of two exactly: from 2^-900 to 2^900, and
 // where a model of extent 1e-3 lies 1e6 away.
 TEST(OverlapThroughLaws, AnyScaleAndPlaceAnswersAlike) {
-    Workspace workspace;
+    Workspace workspace(cells());
     const TestMesh a = icosphere(2), b = torus(1, 0.25, 16, 8);
     const Placement still = Placement::b_moves(Pose());
     const Pairs expected = brute_force_pairs(a, b, still);
@@ -393,7 +394,7 @@ TEST(OverlapThroughLaws, AnyScaleAndPlaceAnswersAlike) {
 TEST(OverlapThroughLawsDeathTest, QuestionsStopWhereAModelWasNotBakedForThem) {
     const OpenModel with = open_all(icosphere(2), {});
     const OpenModel without = open_tiny(icosphere(2));
-    Workspace workspace;
+    Workspace workspace(cells());
     const Placement still = Placement::b_moves(Pose());
     for (const Structure structure : kStructures) {
         const StructureOptions through = {.structure = structure};
@@ -415,7 +416,7 @@ TEST(OverlapThroughLaws, ReadOnlyTheSectionsThatTheyName) {
     const AlignedBytes file =
         on_pages(with_all(bake_tiny(mesh.positions, mesh.triangles), {.level = 4, .threshold = 8}));
     const OpenModel whole = open_tiny(AlignedBytes(file.span()));
-    Workspace workspace;
+    Workspace workspace(cells());
     const Placement placement =
         Placement::b_moves(Pose::from_quaternion(1, 0.5, 0.25, 0.125, {0.5, 0.25, 0.125}).value());
     const Pairs expected = all_pairs(whole.model, whole.model, placement, workspace);
@@ -449,7 +450,7 @@ TEST(OverlapThroughLaws, WhetherAnyOverlapNeedsNoNumbersOfTriangles) {
         bake_tiny(mesh.positions, mesh.triangles, {.leave_out = {SectionId::source_triangle}});
     const OpenModel model = open_tiny(with_octree(plain, {.hashed = true}));
     ASSERT_FALSE(model.model.serves(Ask::overlap));
-    Workspace workspace;
+    Workspace workspace(cells());
     const Placement still = Placement::b_moves(Pose());
     for (const Structure structure :
          {Structure::bvh, Structure::octree, Structure::hashed_octree}) {

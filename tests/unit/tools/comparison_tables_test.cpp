@@ -6,7 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "cdprep/study/overlap_through.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
 #include "study/pair_tables.h"
 #include "study/peer_tables.h"
 #include "study/preparation.h"
@@ -188,7 +189,7 @@ TEST(Pruning, ACornerSearchMissesALargeTriangle) {
     parts.octree = build::OctreeOptions{.level = 5, .threshold = 8};
     const MemoryModel little = make_memory_model(test::mesh_of(test::icosphere(3)), parts).value();
     const MemoryModel large = make_memory_model(test::mesh_of(flat), parts).value();
-    Workspace workspace;
+    Workspace workspace(cells());
     std::vector<TrianglePair> missed;
     const Pruning pruning =
         prune(little.model, large.model, Pose(), CellSearch::modulus, workspace, missed);

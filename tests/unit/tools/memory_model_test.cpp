@@ -3,10 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include "cdprep/advanced/level_of_detail.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/level_of_detail.h"
+#include "cdprep/cells/overlap_through.h"
 #include "cdprep/contacts.h"
 #include "cdprep/hulls.h"
-#include "cdprep/study/overlap_through.h"
 #include "support/open_tiny.h"
 #include "unit/tools/soup_of.h"
 
@@ -15,7 +16,7 @@ namespace {
 
 std::vector<TrianglePair> pairs_of(const Model& a, const Model& b, const StructureOptions& through,
                                    const Placement& placement) {
-    Workspace workspace;
+    Workspace workspace(cells());
     std::vector<TrianglePair> pairs(10'000);
     pairs.resize(overlaps_through({a, b, placement}, through, workspace, pairs));
     return pairs;
@@ -48,7 +49,7 @@ TEST(MemoryModel, AnswersAsAFileDoesThroughEveryPart) {
     EXPECT_TRUE(find_hull(model, format::HullScope::whole));
     EXPECT_EQ(bytes_of(made.value(), {SectionId::triangles}), mesh.triangles.size() * 12);
     EXPECT_EQ(bytes_of(made.value(), {SectionId::triangle_piece}), mesh.triangles.size() * 4);
-    Workspace workspace;
+    Workspace workspace(cells());
     EXPECT_GT(contacts({model, model, placement}, workspace, {}, {.tolerance = 0.01}), 0U);
 }
 

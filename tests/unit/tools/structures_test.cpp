@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cdprep/advanced/structure_presets.h"
+#include "cdprep/cells/structure_presets.h"
 
 namespace cdprep::cli {
 namespace {

@@ -5,11 +5,11 @@
 #include <span>
 #include <vector>
 
-#include "cdprep/advanced/build_adaptive_octree.h"
 #include "cdprep/advanced/build_bvh.h"
 #include "cdprep/advanced/build_image.h"
-#include "cdprep/advanced/build_octree.h"
-#include "cdprep/advanced/build_tetra_tree.h"
+#include "cdprep/cells/build_adaptive_octree.h"
+#include "cdprep/cells/build_octree.h"
+#include "cdprep/cells/build_tetra_tree.h"
 #include "cdprep/format/section_set.h"
 
 namespace cdprep::build {

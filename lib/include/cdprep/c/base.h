@@ -134,6 +134,11 @@ typedef struct cdprep_allocator {
 /* Scratch memory for questions, and the caller's threads. */
 typedef struct cdprep_workspace cdprep_workspace;
 
+/* The searches through octrees and tetra-trees, which only programs link that ask through these:
+ * the library cdprep_cells. */
+typedef struct cdprep_cell_searches cdprep_cell_searches;
+CDPREP_API const cdprep_cell_searches* cdprep_cells(void);
+
 /* Runs one task. */
 typedef void (*cdprep_task)(const void* work, size_t number);
 
@@ -148,14 +153,16 @@ typedef struct cdprep_workspace_options {
     void (*run)(void* context, size_t count, cdprep_task task, const void* work);
     void* context;                     /* handed to `run` */
     const cdprep_allocator* allocator; /* null: malloc(); read once */
+    /* Null. cdprep_cells(), to ask through octrees and tetra-trees. */
+    const cdprep_cell_searches* cells;
 } cdprep_workspace_options;
 
 /* Makes default options: one lane, no threads. Writes `size` bytes, which is
  * sizeof(cdprep_workspace_options). Null does nothing. */
 CDPREP_API void cdprep_workspace_options_init(cdprep_workspace_options* options, size_t size);
 
-/* Stores how many bytes cdprep_workspace_make() needs for these options: about 880 KiB a lane.
- * `options` may be null. */
+/* Stores how many bytes cdprep_workspace_make() needs for these options: about SIZE KiB a lane, and
+ * CELLS KiB more with `cells`. `options` may be null. */
 CDPREP_API int cdprep_workspace_size(const cdprep_workspace_options* options, size_t* size,
                                      cdprep_error* error);
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "cdprep/advanced/build_tetra_tree.h"
+#include "cdprep/cells/build_tetra_tree.h"
 #include "cdprep/model.h"
 
 namespace cdprep {

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
-#include "cdprep/advanced/build_adaptive_octree.h"
-#include "cdprep/advanced/build_octree.h"
+#include "cdprep/cells/build_adaptive_octree.h"
+#include "cdprep/cells/build_octree.h"
 #include "cdprep/model.h"
 
 namespace cdprep {

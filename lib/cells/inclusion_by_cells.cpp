@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/points.h"
+#include "cells/inclusion_by_cells.h"
 
 #include <algorithm>
 #include <array>
@@ -9,16 +9,13 @@
 #include <limits>
 #include <span>
 
-#include "cdprep/format/float_environment.h"
 #include "cells/adaptive_octree_tree.h"
 #include "cells/octree_codes.h"
 #include "cells/octree_tree.h"
 #include "cells/tetra_cones.h"
 #include "core/moved_model.h"
-#include "core/require.h"
 #include "exact/predicates.h"
 #include "exact/winding.h"
-#include "query/inclusion_by_bvh.h"
 #include "walk/box_placement.h"
 #include "walk/workspace_storage.h"
 
@@ -284,12 +281,8 @@ Inclusion through_keys(const Model& model, const Double3& q, QueryCounts* counts
 
 }  // namespace
 
-Inclusion points_inside(const Model& model, const Double3& p, Workspace& workspace,
-                        Structure through) noexcept {
-    const format::FloatEnvironment environment;
-    require(model, Ask::inside | ask_of(through));
-    if (!model.is_balanced() || model.triangle_count() == 0)
-        return inclusion_by_bvh(model, p, workspace);
+Inclusion inclusion_by_cells(const Model& model, const Double3& p, Workspace& workspace,
+                             Structure through) noexcept {
     QueryCounts* counts = workspace.storage().counts;
     switch (through) {
         case Structure::tetra_tree:
@@ -298,14 +291,9 @@ Inclusion points_inside(const Model& model, const Double3& p, Workspace& workspa
             return through_cells(OctreeTree(model), model, p, counts);
         case Structure::adaptive_octree:
             return through_cells(AdaptiveOctreeTree(model), model, p, counts);
-        case Structure::hashed_octree:
-        case Structure::hashed_octree_literal:
+        default:
             return through_keys(model, p, counts);
-        case Structure::bvh:
-        case Structure::pieces:  // nothing is asked of one model through them
-            break;
     }
-    return inclusion_by_bvh(model, p, workspace);
 }
 
 }  // namespace cdprep

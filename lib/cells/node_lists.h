@@ -14,12 +14,6 @@
 
 namespace cdprep {
 
-/// Some triangles of a BVH leaf.
-struct LeafLanes {
-    std::uint32_t leaf;
-    std::uint8_t lanes;  ///< bit set
-};
-
 /// A node of the BVH's lowest level.
 struct LowNode {
     std::uint32_t number;  ///< of level 0

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+#include "cdprep/format/float_environment.h"
+#include "cdprep/points.h"
+#include "core/require.h"
+#include "query/inclusion_by_bvh.h"
+#include "walk/cell_searches.h"
+
+namespace cdprep {
+
+Inclusion points_inside(const Model& model, const Double3& p, Workspace& workspace,
+                        Structure through) noexcept {
+    const format::FloatEnvironment environment;
+    require(model, Ask::inside | ask_of(through));
+    // Through pieces no question about one model is asked.
+    const bool by_bvh = through == Structure::bvh || through == Structure::pieces ||
+                        !model.is_balanced() || model.triangle_count() == 0;
+    return by_bvh ? inclusion_by_bvh(model, p, workspace)
+                  : require_cells(workspace).points_inside(model, p, workspace, through);
+}
+
+}  // namespace cdprep
