@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cells/cell_storage.h"
 #include "support/brute_force.h"
 #include "support/guarded_pages.h"
 #include "support/hard_meshes.h"
