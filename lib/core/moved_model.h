@@ -1,47 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstdint>
 
 #include "cdprep/model.h"
 #include "cdprep/pose.h"
 #include "core/moved_point.h"
-#include "exact/triangle_contact.h"
+#include "exact/box3.h"
 
 namespace cdprep {
-
-/// An axis-aligned box in double precision.
-struct Box3 {
-    Double3 lower;
-    Double3 upper;
-};
-
-/// Closed: touching boxes overlap.
-inline bool overlap(const Box3& a, const Box3& b) noexcept {
-    return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
-           b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
-}
-
-/// The widest gap between two boxes along an axis, each difference rounded once: what they hold
-/// is no nearer, up to that. Negative where they overlap along all three.
-inline double axis_gap(const Box3& a, const Box3& b) noexcept {
-    return std::max({a.lower.x - b.upper.x, b.lower.x - a.upper.x, a.lower.y - b.upper.y,
-                     b.lower.y - a.upper.y, a.lower.z - b.upper.z, b.lower.z - a.upper.z});
-}
-
-/// Closed: a point of the border is held.
-inline bool holds(const Box3& box, const Double3& p) noexcept {
-    return overlap(box, {p, p});
-}
-
-inline Box3 box_around(const Corners& t) noexcept {
-    const auto& [a, b, c] = t;
-    return {{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y}), std::min({a.z, b.z, c.z})},
-            {std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y}), std::max({a.z, b.z, c.z})}};
-}
 
 /// A model as one query sees it: where its vertices are after moving.
 struct MovedModel {

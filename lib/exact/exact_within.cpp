@@ -7,11 +7,11 @@
 #include <cmath>
 #include <limits>
 
-#include "core/moved_model.h"
+#include "exact/box3.h"
 #include "exact/point_triangle_distance.h"
 #include "exact/triangle_distance.h"
+#include "exact/vectors.h"
 #include "exact/wide_vector.h"
-#include "query/shape_frame.h"
 
 // Two that do not touch are nearest at a corner of one and a corner, edge or face of
 // the other, or at an edge of each. Every such place whose feet lie within is a pair
@@ -154,14 +154,6 @@ bool boxes_are_apart(std::span<const Double3> points, const Corners& t, double d
 
 enum class Quick : std::uint8_t { no, yes, unsure };
 
-FrameVector relative(const Double3& p, const Double3& origin) noexcept {
-    return {p.x - origin.x, p.y - origin.y, p.z - origin.z};
-}
-
-double inner(const FrameVector& a, const FrameVector& b) noexcept {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /// What most triangles near a point or segment need: a corner is near enough, or the
 /// triangle lies beyond the plane across the way from the segment to its middle.
 ///
@@ -169,36 +161,28 @@ double inner(const FrameVector& a, const FrameVector& b) noexcept {
 /// differences, feet and dot products with unit vectors are off by less than 64 u M.
 Quick quick_answer(std::span<const Double3> points, const Corners& t, double distance) noexcept {
     if (points.size() > 2) return Quick::unsure;
-    const FrameVector along = relative(points.back(), points[0]);
-    std::array<FrameVector, 3> corner{};
-    double size = std::max({std::fabs(along[0]), std::fabs(along[1]), std::fabs(along[2])});
-    for (std::size_t i = 0; i < 3; ++i) {
-        corner[i] = relative(t[i], points[0]);
-        for (const double x : corner[i]) size = std::max(size, std::fabs(x));
-    }
+    const Double3 along = points.back() - points[0];
+    const Corners corner = {t[0] - points[0], t[1] - points[0], t[2] - points[0]};
+    const double size = std::max({largest_of(along), largest_of(corner[0]), largest_of(corner[1]),
+                                  largest_of(corner[2])});
     // Squares keep their digits, and finite.
     if (!(size > 0x1p-400 && size < 0x1p400 && distance < 0x1p400)) return Quick::unsure;
     const double margin = 64 * 0x1p-53 * (size + distance);
-    const double squared = inner(along, along);
-    const auto from_segment = [&](const FrameVector& p) {
-        const double place = squared > 0 ? inner(p, along) / squared : 0;
-        const double s = std::min(std::max(place, 0.0), 1.0);
-        return FrameVector{p[0] - s * along[0], p[1] - s * along[1], p[2] - s * along[2]};
+    const double squared = dot(along, along);
+    const auto from_segment = [&](const Double3& p) {
+        const double place = squared > 0 ? dot(p, along) / squared : 0;
+        return p - std::min(std::max(place, 0.0), 1.0) * along;
     };
     if (const double near = distance - margin; near > 0x1p-400) {
-        for (const FrameVector& p : corner) {
-            const FrameVector w = from_segment(p);
-            if (inner(w, w) <= near * near) return Quick::yes;
+        for (const Double3& p : corner) {
+            const Double3 w = from_segment(p);
+            if (dot(w, w) <= near * near) return Quick::yes;
         }
     }
-    FrameVector middle{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        middle[i] = (corner[0][i] + corner[1][i] + corner[2][i]) * (1.0 / 3);
-    }
-    const FrameVector w = from_segment(middle);
-    const double length = std::sqrt(inner(w, w));
-    const double least = std::min({inner(w, corner[0]), inner(w, corner[1]), inner(w, corner[2])});
-    const double gap = least - std::max(0.0, inner(w, along));
+    const Double3 w = from_segment((1.0 / 3) * (corner[0] + corner[1] + corner[2]));
+    const double length = std::sqrt(dot(w, w));
+    const double least = std::min({dot(w, corner[0]), dot(w, corner[1]), dot(w, corner[2])});
+    const double gap = least - std::max(0.0, dot(w, along));
     return length > margin && gap > (distance + margin) * length ? Quick::no : Quick::unsure;
 }
 

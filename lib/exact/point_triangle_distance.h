@@ -5,14 +5,6 @@
 
 namespace cdprep {
 
-/// How far a point is from a triangle.
-struct PointTriangleDistance {
-    Double3 nearest;  ///< on the triangle up to rounding
-    double computed;  ///< the rounded distance to `nearest`
-    double lower;     ///< proved: the exact distance is at least this, >= 0
-    double upper;     ///< proved: and at most this
-};
-
 /// Works for triangles without area and for all sizes from subnormals to
 /// kMaxCoordinate. The interval is at most 32 u of the farthest corner's distance
 /// wide, u = 2^-53, unless the point is much nearer than that: then up to 200 u,

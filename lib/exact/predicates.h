@@ -5,16 +5,9 @@
 #include <array>
 #include <cmath>
 
-#include "cdprep/format/geometry.h"
+#include "cdprep/exact/predicates.h"
 
 namespace cdprep {
-
-using format::Double3;
-
-/// A point of a coordinate plane.
-struct Double2 {
-    double x, y;
-};
 
 /// Returns the sign, -1, 0 or 1, of det[a-c, b-c]: positive when a, b, c turn
 /// counter-clockwise. Exact for all finite inputs, subnormals included. Never
@@ -30,13 +23,10 @@ struct Double2 {
 [[nodiscard]] inline int orient3d(const Double3& a, const Double3& b, const Double3& c,
                                   const Double3& d) noexcept;
 
-/// Three points, in the order that turns counter-clockwise where it matters.
-using ThreePoints = std::array<Double3, 3>;
-
 /// Returns orient3d(plane[0], plane[1], plane[2], p) for three points p: the
 /// plane's normal is worked out once.
-[[nodiscard]] inline std::array<int, 3> plane_signs(const ThreePoints& plane,
-                                                    const ThreePoints& points) noexcept;
+[[nodiscard]] inline std::array<int, 3> plane_signs(const Corners& plane,
+                                                    const Corners& points) noexcept;
 
 /// What orient3d() does where its filter cannot decide; for orient3d() alone.
 [[nodiscard]] int orient3d_beyond_filter(const Double3& a, const Double3& b, const Double3& c,
@@ -94,8 +84,8 @@ inline int orient3d(const Double3& a, const Double3& b, const Double3& c,
 }
 
 /// plane_signs(), with 2 where the filter cannot tell.
-inline std::array<int, 3> filtered_plane_signs(const ThreePoints& plane,
-                                               const ThreePoints& points) noexcept {
+inline std::array<int, 3> filtered_plane_signs(const Corners& plane,
+                                               const Corners& points) noexcept {
     const auto& [a, b, c] = plane;
     const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
     const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
@@ -114,8 +104,8 @@ inline std::array<int, 3> filtered_plane_signs(const ThreePoints& plane,
     return signs;
 }
 
-inline std::array<int, 3> plane_signs(const ThreePoints& plane,
-                                      const ThreePoints& points) noexcept {
+inline std::array<int, 3> plane_signs(const Corners& plane,
+                                      const Corners& points) noexcept {
     std::array<int, 3> signs = filtered_plane_signs(plane, points);
     for (std::size_t i = 0; i < 3; ++i) {
         if (signs[i] != 2) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/moved_model.h"
+#include "exact/box3.h"
 #include "exact/triangle_contact.h"
 
 namespace cdprep {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/moved_model.h"
+#include "exact/box3.h"
 
 // The same 13 directions as in triangle_box.cpp, in double, where rounding cannot change
 // the answer.

@@ -1,27 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <optional>
 
-#include "cdprep/format/geometry.h"
+#include "cdprep/exact/triangles.h"
 
 namespace cdprep {
-
-using format::Double3;
-
-/// Three corners; collinear and coincident ones are allowed: then the triangle
-/// is the segment or point that they span.
-using Corners = std::array<Double3, 3>;
-
-/// How two triangles stand to each other.
-enum class TriangleContact : std::uint8_t {
-    disjoint,         ///< no common point
-    touch,            ///< common points, but no crossing and no shared area
-    cross,            ///< their insides cross: not in one plane
-    coplanar_overlap  ///< one plane, shared area
-};
 
 /// Returns whether the two triangles have a common point. Exact; the sign test
 /// of Guigue and Devillers (2003), with exact planar and degenerate cases.
@@ -46,20 +30,6 @@ enum class TriangleContact : std::uint8_t {
 /// Returns how the two stand. Exact. A degenerate triangle has no inside: it can
 /// only touch.
 [[nodiscard]] TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept;
-
-/// An edge of one triangle that meets the other's plane in one point.
-struct PiercingEdge {
-    Double3 from;
-    Double3 to;
-    bool of_a;
-};
-
-/// The edges on which the two ends of a common segment lie.
-struct CrossingEnds {
-    PiercingEdge first;
-    PiercingEdge second;
-    bool is_point;  ///< both ends are one point
-};
 
 /// Returns what bounds the common segment of two triangles that touch, or nothing when
 /// both lie in one plane or one has no area. Exact.

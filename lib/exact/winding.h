@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/winding.h"
 
 namespace cdprep {
-
-/// What one triangle adds to the winding number around q.
-struct WindingTerm {
-    int crossings;    ///< 1 from behind, -1 from the front, 0 none
-    bool on_surface;  ///< q lies on the triangle; `crossings` is then 0
-};
 
 /// Counts the crossing of the triangle with the ray that starts at q and runs
 /// away from o, as an outward-wound surface counts it. Exact. The origin is

@@ -8,7 +8,7 @@
 #include "build/chunks.h"
 #include "convex/convex_hull.h"
 #include "convex/flat_turn.h"
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {
@@ -125,7 +125,7 @@ private:
     }
     [[nodiscard]] bool is_behind(std::uint32_t triangle, const Double3& p) const {
         const Corners c = rules_.solids.corners_of(triangle);
-        return orient3d(c[0], c[1], c[2], p) >= 0;
+        return exact::orient3d(c[0], c[1], c[2], p) >= 0;
     }
 
     /// Corners beside each corner of the hull.

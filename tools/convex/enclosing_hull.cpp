@@ -8,8 +8,8 @@
 #include <map>
 
 #include "convex/exact_hull.h"
-#include "exact/point_triangle_distance.h"
-#include "exact/predicates.h"
+#include "cdprep/exact/triangles.h"
+#include "cdprep/exact/predicates.h"
 
 // K half-spaces that touch the hull contain it, and their intersection has at most 2 K - 4
 // corners. Greedily: the corner farthest from the hull is cut off by the plane through its
@@ -176,7 +176,7 @@ public:
             if (height < std::min(highest, 0.0) - doubts_[g]) continue;
             for (std::uint32_t f = exact_->groups[g]; f < exact_->groups[g + 1]; ++f) {
                 const Facet& facet = exact_->facets[f];
-                const PointTriangleDistance found = point_triangle_distance(
+                const PointTriangleDistance found = exact::point_triangle_distance(
                     p, {corners[facet[0]], corners[facet[1]], corners[facet[2]]});
                 if (found.upper < best.upper) best = found;
             }
@@ -265,7 +265,7 @@ bool contains(const ConvexHull& outer, std::span<const Double3> points) {
     for (std::size_t g = 0; g + 1 < outer.groups.size(); ++g) {
         const Facet& facet = outer.facets[outer.groups[g]];
         for (const Double3& p : points) {
-            if (orient3d(outer.points[facet[0]], outer.points[facet[1]], outer.points[facet[2]],
+            if (exact::orient3d(outer.points[facet[0]], outer.points[facet[1]], outer.points[facet[2]],
                          p) < 0) {
                 return false;
             }

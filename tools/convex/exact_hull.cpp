@@ -7,8 +7,8 @@
 #include <tuple>
 
 #include "convex/quickhull.h"
-#include "exact/predicates.h"
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/predicates.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/disjoint_sets.h"
 
 namespace cdprep::convex {
@@ -32,10 +32,10 @@ struct DistinctPoints {
     std::vector<std::uint32_t> number;  ///< the least of the input
 
     [[nodiscard]] bool collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-        return is_degenerate({at[a], at[b], at[c]});
+        return exact::is_degenerate({at[a], at[b], at[c]});
     }
     [[nodiscard]] int side(const Facet& facet, std::uint32_t p) const {
-        return orient3d(at[facet[0]], at[facet[1]], at[facet[2]], at[p]);
+        return exact::orient3d(at[facet[0]], at[facet[1]], at[facet[2]], at[p]);
     }
 };
 
@@ -124,7 +124,7 @@ struct Projection {
 Projection projection_of(const DistinctPoints& points, const Facet& plane) {
     for (int axis = 0; axis < 2; ++axis) {
         const Projection flat = {axis};
-        if (orient2d(flat(points.at[plane[0]]), flat(points.at[plane[1]]),
+        if (exact::orient2d(flat(points.at[plane[0]]), flat(points.at[plane[1]]),
                      flat(points.at[plane[2]])) != 0) {
             return flat;
         }
@@ -136,7 +136,7 @@ Projection projection_of(const DistinctPoints& points, const Facet& plane) {
 void add_to_chain(Polygon& chain, std::size_t first, std::uint32_t p, const DistinctPoints& points,
                   Projection flat) {
     while (chain.size() >= first + 2 &&
-           orient2d(flat(points.at[chain[chain.size() - 2]]), flat(points.at[chain.back()]),
+           exact::orient2d(flat(points.at[chain[chain.size() - 2]]), flat(points.at[chain.back()]),
                     flat(points.at[p])) <= 0) {
         chain.pop_back();
     }

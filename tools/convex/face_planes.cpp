@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "build/chunks.h"
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
@@ -89,7 +89,7 @@ double FacePlanes::least_length(std::uint32_t triangle) const {
 
 bool FacePlanes::admits_exactly(std::uint32_t triangle, std::uint32_t vertex) const {
     const auto& v = mesh_.triangles[triangle].vertex;
-    return orient3d(mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]],
+    return exact::orient3d(mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]],
                     mesh_.positions[vertex]) >= 0;
 }
 

@@ -14,8 +14,8 @@
 
 #include "cdprep/hulls.h"
 #include "core/list_places.h"
-#include "exact/predicates.h"
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/predicates.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/point_tree.h"
 
 // A triangle is cut in its own coordinates: a point of it is a sum of its corners with weights,
@@ -118,7 +118,7 @@ public:
     [[nodiscard]] bool is_covered(const format::Triangle& triangle) {
         Corners corners;
         for (std::size_t k = 0; k < 3; ++k) corners[k] = position(triangle.vertex[k]);
-        if (is_degenerate(corners)) return true;
+        if (exact::is_degenerate(corners)) return true;
         // The next triangle is often in the same part.
         if (last_ < parts_.size()) {
             const auto lines = lines_of(parts_[last_], corners);
@@ -159,7 +159,7 @@ private:
     static std::optional<Lines> lines_of_body(const Part& part, const Corners& corners) {
         std::vector<const format::HullFacet*> crossing;
         for (const format::HullFacet& facet : part.facets) {
-            const auto signs = plane_signs(plane_of(part, facet), corners);
+            const auto signs = exact::plane_signs(plane_of(part, facet), corners);
             const auto [least, most] = std::minmax_element(signs.begin(), signs.end());
             if (*least >= 0) continue;
             if (*most <= 0) return std::nullopt;
@@ -167,7 +167,7 @@ private:
         }
         Lines lines;
         for (const format::HullFacet* facet : crossing) {
-            const ThreePoints plane = plane_of(part, *facet);
+            const Corners plane = plane_of(part, *facet);
             const Row at = exact(plane[0]);
             const Row normal = cross(minus(exact(plane[1]), at), minus(exact(plane[2]), at));
             Row line;
@@ -179,8 +179,8 @@ private:
 
     /// Of a polygon, by its edges, seen along an axis from which it has an area.
     static std::optional<Lines> lines_of_sheet(const Part& part, const Corners& corners) {
-        const ThreePoints plane = plane_of(part, part.facets.front());
-        for (const int sign : plane_signs(plane, corners)) {
+        const Corners plane = plane_of(part, part.facets.front());
+        for (const int sign : exact::plane_signs(plane, corners)) {
             if (sign != 0) return std::nullopt;
         }
         double Double3::*x = nullptr;
@@ -190,7 +190,7 @@ private:
         for (std::size_t k = 0; k < 3 && turn == 0; ++k) {
             x = kAxes[k];
             y = kAxes[(k + 1) % 3];
-            turn = orient2d(flat(plane[0]), flat(plane[1]), flat(plane[2]));
+            turn = exact::orient2d(flat(plane[0]), flat(plane[1]), flat(plane[2]));
         }
         const std::uint32_t front = part.facets.front().group;
         Lines lines;
@@ -201,7 +201,7 @@ private:
                 const Double3 to = part.points.point(facet.point[(i + 1) % 3]);
                 std::array<int, 3> signs;
                 for (std::size_t k = 0; k < 3; ++k) {
-                    signs[k] = turn * orient2d(flat(from), flat(to), flat(corners[k]));
+                    signs[k] = turn * exact::orient2d(flat(from), flat(to), flat(corners[k]));
                 }
                 const auto [least, most] = std::minmax_element(signs.begin(), signs.end());
                 if (*least >= 0) continue;
@@ -219,7 +219,7 @@ private:
         return lines;
     }
 
-    static ThreePoints plane_of(const Part& part, const format::HullFacet& facet) {
+    static Corners plane_of(const Part& part, const format::HullFacet& facet) {
         return {part.points.point(facet.point[0]), part.points.point(facet.point[1]),
                 part.points.point(facet.point[2])};
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 
 namespace cdprep::convex {
 
@@ -10,7 +10,7 @@ namespace cdprep::convex {
     const auto seen = [axis](const Double3& p) {
         return axis == 0 ? Double2{p.y, p.z} : axis == 1 ? Double2{p.z, p.x} : Double2{p.x, p.y};
     };
-    return orient2d(seen(a), seen(b), seen(c));
+    return exact::orient2d(seen(a), seen(b), seen(c));
 }
 
 /// Returns the first axis along which the three points are seen to turn: a plane through

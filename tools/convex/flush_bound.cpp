@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "exact/point_triangle_distance.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
@@ -56,7 +56,7 @@ public:
         double radius = kInfinity;
         for (const auto& f : hull_.facets) {
             const Corners facet = {hull_.points[f[0]], hull_.points[f[1]], hull_.points[f[2]]};
-            radius = std::min(radius, point_triangle_distance(middle, facet).lower);
+            radius = std::min(radius, exact::point_triangle_distance(middle, facet).lower);
         }
         radius -= solid_.slack();
         if (!(radius > deepest)) return std::nullopt;

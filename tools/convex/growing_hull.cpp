@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {
@@ -33,17 +33,17 @@ bool parted(const Sides& a, const Sides& b) {
 }  // namespace
 
 int GrowingHull::side(const Facet& facet, const Double3& p) const {
-    return orient3d(points_[facet.corner[0]], points_[facet.corner[1]], points_[facet.corner[2]],
+    return exact::orient3d(points_[facet.corner[0]], points_[facet.corner[1]], points_[facet.corner[2]],
                     p);
 }
 
 bool GrowingHull::find_start(std::array<std::uint32_t, 4>& start) const {
     const auto count = static_cast<std::uint32_t>(points_.size());
     std::uint32_t third = 2;
-    while (third < count && is_degenerate({points_[0], points_[1], points_[third]})) ++third;
+    while (third < count && exact::is_degenerate({points_[0], points_[1], points_[third]})) ++third;
     if (third >= count) return false;
     for (std::uint32_t i = 2; i < count; ++i) {
-        const int sign = orient3d(points_[0], points_[1], points_[third], points_[i]);
+        const int sign = exact::orient3d(points_[0], points_[1], points_[third], points_[i]);
         if (sign == 0) continue;
         start = {0, 1, third, i};
         if (sign < 0) std::swap(start[0], start[1]);
@@ -181,7 +181,7 @@ bool GrowingHull::is_parted_by_facet(const Corners& triangle, bool& has_corner_i
 bool GrowingHull::is_parted_by_plane(const Corners& triangle) const {
     Sides sides;
     for (const Double3& p : points_) {
-        sides.add(orient3d(triangle[0], triangle[1], triangle[2], p));
+        sides.add(exact::orient3d(triangle[0], triangle[1], triangle[2], p));
         if (sides.both()) return false;
     }
     return sides.one();
@@ -201,11 +201,11 @@ bool GrowingHull::is_parted_at_hull_edge(const Corners& triangle) const {
             const Double3 &u = points_[from], &w = points_[to];
             for (std::size_t i = 0; i < 3; ++i) {
                 Sides hull, others;
-                hull.add(orient3d(u, w, triangle[i], points_[facet.corner[(k + 2) % 3]]));
-                hull.add(orient3d(u, w, triangle[i], points_[apex]));
+                hull.add(exact::orient3d(u, w, triangle[i], points_[facet.corner[(k + 2) % 3]]));
+                hull.add(exact::orient3d(u, w, triangle[i], points_[apex]));
                 if (!hull.one()) continue;
-                others.add(orient3d(u, w, triangle[i], triangle[(i + 1) % 3]));
-                others.add(orient3d(u, w, triangle[i], triangle[(i + 2) % 3]));
+                others.add(exact::orient3d(u, w, triangle[i], triangle[(i + 1) % 3]));
+                others.add(exact::orient3d(u, w, triangle[i], triangle[(i + 2) % 3]));
                 if (parted(hull, others)) return true;
             }
         }
@@ -219,10 +219,10 @@ bool GrowingHull::is_parted_at_triangle_edge(const Corners& triangle) const {
         for (const Double3& corner : points_) {
             Sides hull, others;
             for (const Double3& p : points_) {
-                hull.add(orient3d(a, b, corner, p));
+                hull.add(exact::orient3d(a, b, corner, p));
                 if (hull.both()) break;
             }
-            others.add(orient3d(a, b, corner, triangle[(i + 2) % 3]));
+            others.add(exact::orient3d(a, b, corner, triangle[(i + 2) % 3]));
             if (parted(hull, others)) return true;
         }
     }

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/triangles.h"
 
 namespace cdprep::convex {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "convex/flush_bound.h"
-#include "exact/point_triangle_distance.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
@@ -126,7 +126,7 @@ private:
             cell.outside = true;
         }
         const Corners& t = solid_.tree().corners(near.triangle);
-        cell.upper = point_triangle_distance(at, t).upper + radius;
+        cell.upper = exact::point_triangle_distance(at, t).upper + radius;
         if (cell.upper > prune_below()) {
             cell.upper = std::min(cell.upper, bound_by_corners(c, near.triangle));
         }
@@ -151,7 +151,7 @@ private:
         std::array<double, 8> to_first{};
         std::size_t worst = 0;
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            to_first[i] = point_triangle_distance(corners[i], t).upper;
+            to_first[i] = exact::point_triangle_distance(corners[i], t).upper;
             if (to_first[i] > to_first[worst]) worst = i;
         }
         const std::uint32_t other = nearest(corners[worst], triangle).triangle;
@@ -159,7 +159,7 @@ private:
         const Corners& u = solid_.tree().corners(other);
         double of_both = 0;
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            const double to_second = point_triangle_distance(corners[i], u).upper;
+            const double to_second = exact::point_triangle_distance(corners[i], u).upper;
             of_both = std::max(of_both, to_first[i] / 2 + to_second / 2);
         }
         return std::min(to_first[worst], of_both) + solid_.slack();

@@ -55,7 +55,7 @@ bool PatchSet::lie_in_one_plane(std::uint32_t a, std::uint32_t b) const {
     if (!patches_[a].is_flat || !patches_[b].is_flat) return false;
     const Corners plane = rules_.solids.corners_of(faces(a)[0]);
     for (const Double3& p : rules_.solids.corners_of(faces(b)[0])) {
-        if (orient3d(plane[0], plane[1], plane[2], p) != 0) return false;
+        if (exact::orient3d(plane[0], plane[1], plane[2], p) != 0) return false;
     }
     return true;
 }

@@ -8,7 +8,7 @@
 #include "build/chunks.h"
 #include "convex/convex_hull.h"
 #include "convex/flat_turn.h"
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 
 namespace cdprep::convex {
 namespace {
@@ -78,7 +78,7 @@ private:
         const auto& at = mesh_.positions;
         return std::all_of(v.begin(), v.end(),
                            [&](std::uint32_t corner) {
-                               return orient3d(plane[0], plane[1], plane[2], at[corner]) == 0;
+                               return exact::orient3d(plane[0], plane[1], plane[2], at[corner]) == 0;
                            }) &&
                flat_turn(axis, at[v[0]], at[v[1]], at[v[2]]) == turn;
     }

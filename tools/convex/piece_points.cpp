@@ -7,7 +7,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
@@ -76,7 +76,7 @@ std::vector<std::uint32_t> choose_owners(std::size_t cell_count,
 bool is_within_polygon(const ConvexHull& hull, const Double3& p) {
     for (const auto& f : hull.facets) {
         const Double3 &a = hull.points[f[0]], &b = hull.points[f[1]], &c = hull.points[f[2]];
-        if (orient3d(a, b, c, p) != 0) return false;
+        if (exact::orient3d(a, b, c, p) != 0) return false;
     }
     for (const auto& f : hull.facets) {
         const Double3 &a = hull.points[f[0]], &b = hull.points[f[1]], &c = hull.points[f[2]];
@@ -86,9 +86,9 @@ bool is_within_polygon(const ConvexHull& hull, const Double3& p) {
               std::pair(&Double3::z, &Double3::x)}) {
             const Double2 pa = {a.*x, a.*y}, pb = {b.*x, b.*y}, pc = {c.*x, c.*y},
                           pp = {p.*x, p.*y};
-            const int s = orient2d(pa, pb, pp);
-            const int t = orient2d(pb, pc, pp);
-            const int u = orient2d(pc, pa, pp);
+            const int s = exact::orient2d(pa, pb, pp);
+            const int t = exact::orient2d(pb, pc, pp);
+            const int u = exact::orient2d(pc, pa, pp);
             const bool mixed = std::min({s, t, u}) < 0 && std::max({s, t, u}) > 0;
             within = within && !mixed;
         }
@@ -147,22 +147,22 @@ private:
 
     bool is_behind_all(const Double3& p, std::span<const std::uint32_t> facets) {
         for (const std::uint32_t facet : facets) {
-            const ThreePoints& t = facets_[facet];
+            const Corners& t = facets_[facet];
             ++proof_.tests;
-            if (orient3d(t[0], t[1], t[2], p) < 0) return false;
+            if (exact::orient3d(t[0], t[1], t[2], p) < 0) return false;
         }
         return true;
     }
 
-    bool is_behind(const mesh::Box& box, const ThreePoints& facet) {
+    bool is_behind(const mesh::Box& box, const Corners& facet) {
         const auto& [low, high] = box;
-        const std::array<ThreePoints, 3> corners = {
+        const std::array<Corners, 3> corners = {
             {{low, high, {low.x, low.y, high.z}},
              {{{low.x, high.y, low.z}, {low.x, high.y, high.z}, {high.x, low.y, low.z}}},
              {{{high.x, low.y, high.z}, {high.x, high.y, low.z}, high}}}};
-        for (const ThreePoints& three : corners) {
+        for (const Corners& three : corners) {
             proof_.tests += 3;
-            for (const int sign : plane_signs(facet, three)) {
+            for (const int sign : exact::plane_signs(facet, three)) {
                 if (sign < 0) return false;
             }
         }
@@ -170,7 +170,7 @@ private:
     }
 
     std::vector<Double3> points_;
-    std::vector<ThreePoints> facets_;
+    std::vector<Corners> facets_;
     EnclosureProof proof_;
 };
 

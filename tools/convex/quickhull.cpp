@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 
 // Why points in front of no new face may be dropped: let q have been in front of a removed
 // face f and be outside the new hull, in front of some face g of it. If g is not new, it was
@@ -94,7 +94,7 @@ private:
 
     void add_tetrahedron(const std::array<std::uint32_t, 4>& first) {
         auto [a, b, c, d] = first;
-        if (orient3d(points_[a], points_[b], points_[c], points_[d]) < 0) std::swap(b, c);
+        if (exact::orient3d(points_[a], points_[b], points_[c], points_[d]) < 0) std::swap(b, c);
         add_face(a, b, c, {1, 2, 3});
         add_face(b, a, d, {0, 3, 2});
         add_face(c, b, d, {0, 1, 3});

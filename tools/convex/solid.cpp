@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact/winding.h"
+#include "cdprep/exact/winding.h"
 #include "mesh/component_numbers.h"
 #include "mesh/nesting.h"
 #include "mesh/topology.h"
@@ -60,11 +60,11 @@ Solid::Solid(const mesh::Mesh& mesh, Reference reference, ParallelFor parallel_f
 }
 
 void Solid::count_around(const Double3& p, std::vector<Around>& around) const {
-    const Double3 before = before_along_x(p, diagonal());
+    const Double3 before = exact::before_along_x(p, diagonal());
     tree_.along_x(p, [&](std::uint32_t triangle) {
         const std::uint32_t body = body_of_[triangle];
         if (!closed_[body]) return;
-        const WindingTerm term = winding_term(before, p, tree_.corners(triangle));
+        const WindingTerm term = exact::winding_term(before, p, tree_.corners(triangle));
         auto at = std::find_if(around.begin(), around.end(),
                                [body](const Around& a) { return a.body == body; });
         if (at == around.end()) at = around.insert(around.end(), {body, 0, false});

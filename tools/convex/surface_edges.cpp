@@ -5,7 +5,7 @@
 #include <span>
 
 #include "convex/flat_turn.h"
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 #include "mesh/degenerate.h"
 
 namespace cdprep::convex {
@@ -29,7 +29,7 @@ EdgeKind kind_by_bend(const mesh::Mesh& mesh, HalfEdge h, HalfEdge twin) {
     const auto at = [&](std::uint32_t vertex) { return mesh.positions[vertex]; };
     const Double3 a = at(mesh::start_of(triangles, h)), b = at(mesh::end_of(triangles, h));
     const Double3 c = at(mesh::apex_of(triangles, h)), d = at(mesh::apex_of(triangles, twin));
-    const int sign = orient3d(a, b, c, d);
+    const int sign = exact::orient3d(a, b, c, d);
     if (sign != 0) return sign > 0 ? EdgeKind::convex : EdgeKind::reflex;
     const int axis = axis_of_turn(a, b, c);
     return flat_turn(axis, a, b, c) == flat_turn(axis, b, a, d) ? EdgeKind::flat : EdgeKind::fold;

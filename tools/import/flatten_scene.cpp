@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "cdprep/format/limits.h"
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 #include "import/join_chunks.h"
 
 namespace cdprep::import {
@@ -52,7 +52,7 @@ bool mirrors(const Affine& m) {
                      [](double x) { return std::fabs(x) <= format::kMaxCoordinate; })) {
         return false;
     }
-    return orient3d({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {0, 0, 0}) < 0;
+    return exact::orient3d({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {0, 0, 0}) < 0;
 }
 
 /// Arrays that follow each other in bytes nobody has aligned or checked.

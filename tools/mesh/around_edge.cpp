@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -14,7 +14,7 @@ int turn_in(int plane, const Double3& a, const Double3& b, const Double3& c) {
     const auto flat = [plane](const Double3& p) {
         return plane == 0 ? Double2{p.y, p.z} : plane == 1 ? Double2{p.z, p.x} : Double2{p.x, p.y};
     };
-    return orient2d(flat(a), flat(b), flat(c));
+    return exact::orient2d(flat(a), flat(b), flat(c));
 }
 
 }  // namespace
@@ -61,7 +61,7 @@ bool AroundEdge::opens(HalfEdge h) const {
 int AroundEdge::sector(HalfEdge h) const {
     if (plane_ == kNoPlane) return 0;
     const Double3 &low = positions_[lower_], &up = positions_[upper_];
-    const int side = orient3d(low, up, reference_, apex(h));
+    const int side = exact::orient3d(low, up, reference_, apex(h));
     if (side != 0) return side < 0 ? 1 : 3;
     return turn_in(plane_, low, up, apex(h)) == -turn_ ? 2 : 0;
 }
@@ -72,7 +72,7 @@ std::vector<HalfEdge> AroundEdge::sorted(std::span<const HalfEdge> uses) const {
         const int sector_a = sector(a), sector_b = sector(b);
         if (sector_a != sector_b) return sector_a < sector_b;
         if (sector_a % 2 == 1) {
-            const int side = orient3d(positions_[lower_], positions_[upper_], apex(a), apex(b));
+            const int side = exact::orient3d(positions_[lower_], positions_[upper_], apex(a), apex(b));
             if (side != 0) return side < 0;
         }
         if (opens(a) != opens(b)) return opens(b);

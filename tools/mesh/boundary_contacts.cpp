@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/boundary.h"
 #include "mesh/close_groups.h"
 #include "mesh/source_places.h"
@@ -79,7 +79,7 @@ Box box_of(const Double3& a, const Double3& b) {
 
 /// Exactly on the segment, ends among it.
 bool lies_on(const Double3& p, const Double3& a, const Double3& b) {
-    return box_of(a, b).contains(p) && is_degenerate({a, p, b});
+    return box_of(a, b).contains(p) && exact::is_degenerate({a, p, b});
 }
 
 struct OnSegment {

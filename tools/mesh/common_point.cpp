@@ -65,7 +65,7 @@ double in_both(double x, double a0, double a1, double a2, double b0, double b1, 
 
 Double3 common_point(const Corners& a, const Corners& b) {
     Double3 point{};
-    if (const auto ends = crossing_ends(a, b)) {
+    if (const auto ends = exact::crossing_ends(a, b)) {
         point = between(end_of(ends->first, a, b), end_of(ends->second, a, b), 0.5);
     } else {
         point = middle_of_overlap(a, b);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/triangles.h"
 
 namespace cdprep::mesh {
 

@@ -12,8 +12,8 @@
 #include <limits>
 #include <map>
 
-#include "exact/predicates.h"
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/predicates.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/repair_steps.h"
 
 namespace cdprep::mesh {
@@ -62,7 +62,7 @@ int best_axis(const Corners& c) {
         const auto seen = [axis](const Double3& p) {
             return Double2{component(p, (axis + 1) % 3), component(p, (axis + 2) % 3)};
         };
-        if (orient2d(seen(c[0]), seen(c[1]), seen(c[2])) != 0) return axis;
+        if (exact::orient2d(seen(c[0]), seen(c[1]), seen(c[2])) != 0) return axis;
     }
     return axes[0];
 }
@@ -183,7 +183,7 @@ RepairMesh joined(RepairMesh mesh) {
     std::vector<bool> kept(mesh.triangles.size());
     for (std::uint32_t t = 0; t < kept.size(); ++t) {
         kept[t] =
-            !repeats_corner(mesh.triangles[t]) && !is_degenerate(CutTriangle::corners_of(mesh, t));
+            !repeats_corner(mesh.triangles[t]) && !exact::is_degenerate(CutTriangle::corners_of(mesh, t));
     }
     keep_triangles(mesh, kept);
     return mesh;

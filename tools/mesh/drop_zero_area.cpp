@@ -3,7 +3,7 @@
 #include <string>
 #include <unordered_map>
 
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/repair_steps.h"
 
 namespace cdprep::mesh {
@@ -91,7 +91,7 @@ private:
             return refuse(t, "has its longest edge in common with several triangles");
         }
         const HalfEdge other = uses[0] / 3 == t ? uses[1] : uses[0];
-        if (is_degenerate(corners_of(mesh_, other / 3))) {
+        if (exact::is_degenerate(corners_of(mesh_, other / 3))) {
             return refuse(t, "its neighbour across the longest edge has none either");
         }
         return flip(t, v, a, b, other);
@@ -151,7 +151,7 @@ Stepped drop_zero_area(RepairMesh mesh) {
     StepReport report(RepairStep::drop_zero_area);
     std::vector<std::uint32_t> flat;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-        if (is_degenerate(corners_of(mesh, t))) flat.push_back(t);
+        if (exact::is_degenerate(corners_of(mesh, t))) flat.push_back(t);
     }
     if (!flat.empty()) ZeroAreaDrop(mesh, report).run(std::move(flat));
     if (!report.dropped.empty()) drop_unused_vertices(mesh, report.unused);

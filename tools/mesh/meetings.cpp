@@ -5,7 +5,7 @@
 #include <tuple>
 #include <utility>
 
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/common_point.h"
 
 namespace cdprep::mesh {
@@ -121,7 +121,7 @@ public:
 
     /// A triangle with its copies: CDP0204 and 0205 tell of them.
     void add_copies(const CopyList& list) {
-        if (is_degenerate(corners_of(sound_.mesh, list[0]))) return;
+        if (exact::is_degenerate(corners_of(sound_.mesh, list[0]))) return;
         counts_.self_intersecting_pairs += list.size() * (list.size() - 1) / 2;
         result_.any = true;
         result_.self_crossing[component_of(list[0])] = true;

@@ -15,8 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "exact/exact_within.h"
-#include "exact/point_triangle_distance.h"
+#include "cdprep/exact/triangles.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -94,8 +93,8 @@ struct Piece {
 
 /// At least the distance of a point and a triangle; 0 exactly where the point is on it.
 double distance_at_most(const Double3& p, const Corners& t) {
-    const PointTriangleDistance found = point_triangle_distance(p, t);
-    return found.lower == 0 && is_within_exactly({&p, 1}, t, 0) ? 0 : found.upper;
+    const PointTriangleDistance found = exact::point_triangle_distance(p, t);
+    return found.lower == 0 && exact::is_within({&p, 1}, t, 0) ? 0 : found.upper;
 }
 
 bool lexicographically_less(const Double3& a, const Double3& b) {
@@ -116,7 +115,7 @@ bool less_corners(const Corners& a, const Corners& b) {
 /// are one: of collinear points the first and the last are its ends.
 Corners shape_of(const Corners& c) {
     const Corners sorted = ordered(c);
-    return is_degenerate(c) ? Corners{sorted[0], sorted[2], sorted[2]} : sorted;
+    return exact::is_degenerate(c) ? Corners{sorted[0], sorted[2], sorted[2]} : sorted;
 }
 
 std::vector<Corners> cut_in_middles(const Corners& c) {
@@ -134,7 +133,7 @@ Piece bounded(const Corners& corners, const Surface& surface, double& lower) {
     std::array<Corners, 3> near;
     for (std::size_t k = 0; k < 3; ++k) {
         near[k] = surface.nearest(corners[k]);
-        const PointTriangleDistance found = point_triangle_distance(corners[k], near[k]);
+        const PointTriangleDistance found = exact::point_triangle_distance(corners[k], near[k]);
         most = std::max(most, distance_at_most(corners[k], near[k]));
         lower = std::max(lower, found.lower);
     }
@@ -372,7 +371,7 @@ std::vector<std::optional<double>> find_pieces(const TriangleSoup& soup,
         const std::uint32_t source = all[i].source;
         if (i + 1 < all.size() && all[i + 1].source == source) continue;
         const Corners whole = corners_of(soup, soup.triangles[source]);
-        if (!is_degenerate(whole)) bounds[source] = distance_to_pieces(whole, pieces);
+        if (!exact::is_degenerate(whole)) bounds[source] = distance_to_pieces(whole, pieces);
         pieces.clear();
     }
     return bounds;

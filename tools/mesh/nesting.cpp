@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "exact/winding.h"
+#include "cdprep/exact/winding.h"
 #include "mesh/point_tree.h"
 
 namespace cdprep::mesh {
@@ -34,7 +34,7 @@ struct Around {
 
     /// The point, from where its ray comes, and a triangle.
     void add(const Double3& q, const Double3& o, const Corners& t) {
-        const WindingTerm term = winding_term(o, q, t);
+        const WindingTerm term = exact::winding_term(o, q, t);
         winding += term.crossings;
         on_surface |= term.on_surface;
     }

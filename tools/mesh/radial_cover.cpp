@@ -9,8 +9,8 @@
 #include <limits>
 #include <vector>
 
-#include "exact/predicates.h"
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/predicates.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/vectors.h"
 
 // A region of directions is a set of convex cones, each the common part of half-spaces
@@ -173,15 +173,15 @@ struct RadialCover::Data {
     }
 
     /// Of each of three vertices, its side of a plane through the vertices `held`.
-    [[nodiscard]] std::array<int, 3> sides(const ThreePoints& plane,
+    [[nodiscard]] std::array<int, 3> sides(const Corners& plane,
                                            const std::array<std::uint32_t, 3>& held,
                                            const std::array<std::uint32_t, 3>& vertices) const {
-        const ThreePoints points = places(vertices);
+        const Corners points = places(vertices);
         std::array<int, 3> signs = filtered_plane_signs(plane, points);
         for (std::size_t i = 0; i < 3; ++i) {
             if (signs[i] != 2) continue;
             const bool is_on = std::find(held.begin(), held.end(), vertices[i]) != held.end();
-            signs[i] = is_on ? 0 : orient3d(plane[0], plane[1], plane[2], points[i]);
+            signs[i] = is_on ? 0 : exact::orient3d(plane[0], plane[1], plane[2], points[i]);
         }
         return signs;
     }
@@ -408,7 +408,7 @@ RadialCover::RadialCover(const Double3& centre, std::span<const Double3> positio
     data_->turn.reserve(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i) {
         const Corners t = data_->corners(i);
-        data_->turn.push_back(static_cast<std::int8_t>(orient3d(t[0], t[1], t[2], centre)));
+        data_->turn.push_back(static_cast<std::int8_t>(exact::orient3d(t[0], t[1], t[2], centre)));
     }
 }
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "exact/winding.h"
+#include "cdprep/exact/winding.h"
 
 namespace cdprep::mesh {
 
@@ -18,7 +18,7 @@ namespace cdprep::mesh {
         std::max({t[0].x, t[1].x, t[2].x}) < p.x) {
         return {0, false};
     }
-    return winding_term({p.x - 1 - 2 * std::abs(p.x), p.y, p.z}, p, t);
+    return exact::winding_term({p.x - 1 - 2 * std::abs(p.x), p.y, p.z}, p, t);
 }
 
 }  // namespace cdprep::mesh

@@ -4,7 +4,7 @@
 #include <deque>
 #include <optional>
 
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 #include "mesh/around_edge.h"
 #include "mesh/cut_crossings.h"
 #include "mesh/ray_along_x.h"
@@ -175,7 +175,7 @@ private:
                 const std::uint32_t other = a == lowest ? b : a;
                 const Double2 at = seen(lowest), there = seen(other);
                 if (at.x == there.x && at.y == there.y) continue;
-                if (to == kNone || orient2d(at, seen(to), there) < 0) {
+                if (to == kNone || exact::orient2d(at, seen(to), there) < 0) {
                     outline = h;
                     to = other;
                 }

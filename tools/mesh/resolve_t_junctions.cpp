@@ -5,8 +5,7 @@
 #include <array>
 #include <map>
 
-#include "exact/point_triangle_distance.h"
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/repair_steps.h"
 
 namespace cdprep::mesh {
@@ -67,9 +66,9 @@ private:
         const Double3& a = mesh_.positions[start_of(mesh_.triangles, h)];
         const Double3& b = mesh_.positions[end_of(mesh_.triangles, h)];
         const Double3& p = mesh_.positions[vertex];
-        if (width_ == 0) return is_between(a, b, p) && is_degenerate({a, b, p});
+        if (width_ == 0) return is_between(a, b, p) && exact::is_degenerate({a, b, p});
         const double at = along(a, b, p), whole = along(a, b, b);
-        return at > 0 && at < whole && point_triangle_distance(p, {a, b, b}).upper <= width_;
+        return at > 0 && at < whole && exact::point_triangle_distance(p, {a, b, b}).upper <= width_;
     }
 
     std::map<HalfEdge, std::vector<std::uint32_t>> find_cuts() {
@@ -113,7 +112,7 @@ private:
             if (width_ > 0) {
                 report_.moved = std::max(
                     report_.moved,
-                    point_triangle_distance(mesh_.positions[vertex], {from, to, to}).upper);
+                    exact::point_triangle_distance(mesh_.positions[vertex], {from, to, to}).upper);
             }
         }
         vertices.push_back(b);

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/arc.h"
 
 namespace cdprep::mesh {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/exact_volume.h"
 #include "mesh/vectors.h"
 
@@ -199,7 +199,7 @@ private:
 
     static void judge(std::uint32_t source, const Corners& t, const Shape& shape,
                       double sliver_ratio, FindingList& findings, DefectCounts& counts) {
-        if (!shape.has_area && is_degenerate(t)) {
+        if (!shape.has_area && exact::is_degenerate(t)) {
             ++counts.zero_area_triangles;
             findings.add(Rule::zero_area, [&] {
                 const double edge = std::ldexp(std::sqrt(shape.longest_squared), shape.exponent);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/triangle_meeting.h"
 
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -10,13 +10,13 @@ using Signs = std::array<int, 3>;
 
 /// Whether the segment runs through the inside of the triangle, neither end in its plane.
 bool pierces(const Double3& from, const Double3& to, const Corners& t) {
-    const int e0 = orient3d(from, to, t[0], t[1]);
+    const int e0 = exact::orient3d(from, to, t[0], t[1]);
     if (e0 == 0) return false;
-    return orient3d(from, to, t[1], t[2]) == e0 && orient3d(from, to, t[2], t[0]) == e0;
+    return exact::orient3d(from, to, t[1], t[2]) == e0 && exact::orient3d(from, to, t[2], t[0]) == e0;
 }
 
 bool an_edge_pierces(const Corners& a, const Corners& b) {
-    const Signs sides = plane_signs(b, a);
+    const Signs sides = exact::plane_signs(b, a);
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t next = (i + 1) % 3;
         if (sides[i] * sides[next] < 0 && pierces(a[i], a[next], b)) return true;
@@ -26,7 +26,7 @@ bool an_edge_pierces(const Corners& a, const Corners& b) {
 
 /// Whether b lies in a's plane; a has area.
 bool in_one_plane(const Corners& a, const Corners& b) {
-    return plane_signs(a, b) == Signs{0, 0, 0};
+    return exact::plane_signs(a, b) == Signs{0, 0, 0};
 }
 
 /// Whether two points on a line through `from`, other than it, lie on one side of it.
@@ -40,14 +40,14 @@ bool same_way(const Double3& from, const Double3& p, const Double3& q) {
 bool edges_overlap(const Corners& a, const Corners& b) {
     for (const std::size_t i : {1, 2}) {
         for (const std::size_t j : {1, 2}) {
-            if (is_degenerate({a[0], a[i], b[j]}) && same_way(a[0], a[i], b[j])) return true;
+            if (exact::is_degenerate({a[0], a[i], b[j]}) && same_way(a[0], a[i], b[j])) return true;
         }
     }
     return false;
 }
 
 std::optional<Meeting> flat_meeting_at_corner(const Corners& a, const Corners& b) {
-    if (classify_contact(a, b) == TriangleContact::coplanar_overlap) return Meeting::fold;
+    if (exact::classify_contact(a, b) == TriangleContact::coplanar_overlap) return Meeting::fold;
     // Sectors without common area: what is left is a common ray.
     return edges_overlap(a, b) ? std::optional(Meeting::edge_overlap) : std::nullopt;
 }
@@ -64,7 +64,7 @@ Meeting meeting_across(const Corners& a, const Corners& b) noexcept {
 }
 
 std::optional<Meeting> meeting_apart(const Corners& a, const Corners& b) noexcept {
-    switch (classify_contact(a, b)) {
+    switch (exact::classify_contact(a, b)) {
         case TriangleContact::disjoint:
             return std::nullopt;
         case TriangleContact::touch:
@@ -83,19 +83,19 @@ std::optional<Meeting> meeting_apart(const Corners& a, const Corners& b) noexcep
 // (counted up along n_b), it passes the line on the side of n_a x n_b, and for b with the
 // two exchanged on the side of n_b x n_a. orient3d() is positive below, for both alike.
 std::optional<Meeting> meeting_at_corner(const Corners& a, const Corners& b) noexcept {
-    const int a1 = orient3d(b[0], b[1], b[2], a[1]);
-    const int a2 = orient3d(b[0], b[1], b[2], a[2]);
+    const int a1 = exact::orient3d(b[0], b[1], b[2], a[1]);
+    const int a2 = exact::orient3d(b[0], b[1], b[2], a[2]);
     if (a1 == a2) return a1 == 0 ? flat_meeting_at_corner(a, b) : std::nullopt;
-    const int b1 = orient3d(a[0], a[1], a[2], b[1]);
-    const int b2 = orient3d(a[0], a[1], a[2], b[2]);
+    const int b1 = exact::orient3d(a[0], a[1], a[2], b[1]);
+    const int b2 = exact::orient3d(a[0], a[1], a[2], b[2]);
     if (b1 == b2) return std::nullopt;
     const bool reach_alike = sign_of(a1 - a2) == -sign_of(b1 - b2);
     return reach_alike ? std::optional(Meeting::corner_crossing) : std::nullopt;
 }
 
 std::optional<Meeting> meeting_at_edge(const Corners& a, const Corners& b) noexcept {
-    if (orient3d(a[0], a[1], a[2], b[2]) != 0) return std::nullopt;
-    const bool overlap = classify_contact(a, b) == TriangleContact::coplanar_overlap;
+    if (exact::orient3d(a[0], a[1], a[2], b[2]) != 0) return std::nullopt;
+    const bool overlap = exact::classify_contact(a, b) == TriangleContact::coplanar_overlap;
     return overlap ? std::optional(Meeting::fold) : std::nullopt;
 }
 

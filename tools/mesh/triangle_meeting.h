@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/triangles.h"
 #include "mesh/self_intersections.h"
 
 namespace cdprep::mesh {

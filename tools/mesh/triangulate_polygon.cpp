@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "exact/predicates.h"
+#include "cdprep/exact/predicates.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -81,7 +81,7 @@ bool is_strictly_convex(std::span<const Double2> flat) {
         const Double2& a = flat[i];
         const Double2& b = flat[(i + 1) % n];
         const Double2& c = flat[(i + 2) % n];
-        if (orient2d(a, b, c) <= 0) return false;
+        if (exact::orient2d(a, b, c) <= 0) return false;
         if (less(a, b) != less(b, c)) ++direction_changes;
     }
     return direction_changes == 2;
@@ -115,13 +115,13 @@ struct Ear {
 /// are apart exactly when a line along an edge of one of them parts them.
 bool enters(const Ear& ear, const Double2& p, const Double2& q) {
     const auto outside = [&](const Double2& from, const Double2& to) {
-        return orient2d(from, to, p) <= 0 && orient2d(from, to, q) <= 0;
+        return exact::orient2d(from, to, p) <= 0 && exact::orient2d(from, to, q) <= 0;
     };
     if (outside(ear.a, ear.b) || outside(ear.b, ear.c) || outside(ear.c, ear.a)) return false;
     if (equal(p, q)) return true;
-    const int a = orient2d(p, q, ear.a);
-    const int b = orient2d(p, q, ear.b);
-    const int c = orient2d(p, q, ear.c);
+    const int a = exact::orient2d(p, q, ear.a);
+    const int b = exact::orient2d(p, q, ear.b);
+    const int c = exact::orient2d(p, q, ear.c);
     return std::min({a, b, c}) < 0 && std::max({a, b, c}) > 0;
 }
 
@@ -183,7 +183,7 @@ private:
     }
 
     [[nodiscard]] int turn(std::uint32_t i) const {
-        return orient2d(flat_[previous_[i]], flat_[i], flat_[next_[i]]);
+        return exact::orient2d(flat_[previous_[i]], flat_[i], flat_[next_[i]]);
     }
 
     bool is_spike(std::uint32_t i) {
@@ -208,7 +208,7 @@ private:
             if (!overlap(box, box_of(from, to))) continue;
             if (enters(ear, from, to)) return false;
             if (cut == Cut::clear && is_between(ear.a, from, ear.c) &&
-                orient2d(ear.a, from, ear.c) == 0) {
+                exact::orient2d(ear.a, from, ear.c) == 0) {
                 return false;
             }
         }

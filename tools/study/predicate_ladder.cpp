@@ -5,7 +5,7 @@
 
 #include "cdprep/pairs.h"
 #include "core/moved_model.h"
-#include "exact/triangle_contact.h"
+#include "cdprep/exact/triangles.h"
 #include "study/naive_contact.h"
 #include "study/seeded_random.h"
 #include "study/storage_ladder.h"
@@ -59,7 +59,7 @@ std::vector<Candidate> find_candidates(const Climb& climb) {
         for (const TrianglePair& pair : pairs) {
             const Corners a = in_a.corners(place_a[pair.a]);
             const Corners b = in_b.corners(place_b[pair.b]);
-            const bool touch = contact_beyond_filter(a, b) != TriangleContact::disjoint;
+            const bool touch = exact::contact_without_filter(a, b) != TriangleContact::disjoint;
             candidates.push_back({a, b, i, touch});
         }
     }
@@ -100,10 +100,10 @@ std::vector<Contender> all_contenders(bool has_float) {
         naive<double>(1e-12));
     add("double", "signs in double as they come out", Promise::none, naive<double>(0));
     add("filter, then exact", "signs in double where they are certain, integers elsewhere",
-        Promise::exact, [](const Candidate& pair) { return triangles_touch(pair.a, pair.b); });
+        Promise::exact, [](const Candidate& pair) { return exact::triangles_touch(pair.a, pair.b); });
     add("always exact", "integers or expansions for every pair", Promise::exact,
         [](const Candidate& pair) {
-            return contact_beyond_filter(pair.a, pair.b) != TriangleContact::disjoint;
+            return exact::contact_without_filter(pair.a, pair.b) != TriangleContact::disjoint;
         });
     return contenders;
 }

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The public functions of this room: the private ones, each in the default floating-point
+// environment. Queries call the private ones, which are inline where that pays.
+#include "cdprep/exact/predicates.h"
+#include "cdprep/exact/triangles.h"
+#include "cdprep/exact/winding.h"
+#include "cdprep/format/float_environment.h"
+#include "exact/exact_within.h"
+#include "exact/point_triangle_distance.h"
+#include "exact/predicates.h"
+#include "exact/triangle_contact.h"
+#include "exact/winding.h"
+
+namespace cdprep::exact {
+
+using format::FloatEnvironment;
+
+int orient2d(const Double2& a, const Double2& b, const Double2& c) noexcept {
+    const FloatEnvironment environment;
+    return cdprep::orient2d(a, b, c);
+}
+
+int orient3d(const Double3& a, const Double3& b, const Double3& c, const Double3& d) noexcept {
+    const FloatEnvironment environment;
+    return cdprep::orient3d(a, b, c, d);
+}
+
+std::array<int, 3> plane_signs(const Corners& plane,
+                               const std::array<Double3, 3>& points) noexcept {
+    const FloatEnvironment environment;
+    return cdprep::plane_signs(plane, points);
+}
+
+bool triangles_touch(const Corners& a, const Corners& b) noexcept {
+    const FloatEnvironment environment;
+    return cdprep::triangles_touch(a, b);
+}
+
+TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept {
+    const FloatEnvironment environment;
+    return cdprep::classify_contact(a, b);
+}
+
+TriangleContact contact_without_filter(const Corners& a, const Corners& b) noexcept {
+    const FloatEnvironment environment;
+    return contact_beyond_filter(a, b);
+}
+
+std::optional<CrossingEnds> crossing_ends(const Corners& a, const Corners& b) noexcept {
+    const FloatEnvironment environment;
+    return cdprep::crossing_ends(a, b);
+}
+
+bool is_degenerate(const Corners& t) noexcept {
+    const FloatEnvironment environment;
+    return cdprep::is_degenerate(t);
+}
+
+PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t) noexcept {
+    const FloatEnvironment environment;
+    return cdprep::point_triangle_distance(q, t);
+}
+
+bool is_within(std::span<const Double3> corners, const Corners& t, double distance) noexcept {
+    const FloatEnvironment environment;
+    return is_within_exactly(corners, t, distance);
+}
+
+WindingTerm winding_term(const Double3& o, const Double3& q, const Corners& t) noexcept {
+    const FloatEnvironment environment;
+    return cdprep::winding_term(o, q, t);
+}
+
+Double3 before_along_x(const Double3& q, double reach) noexcept {
+    const FloatEnvironment environment;
+    return cdprep::before_along_x(q, reach);
+}
+
+}  // namespace cdprep::exact

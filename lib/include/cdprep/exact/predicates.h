@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "cdprep/format/geometry.h"
+
+namespace cdprep {
+
+using format::Double3;
+
+/// A point of a coordinate plane.
+struct Double2 {
+    double x, y;
+};
+
+/// The three corners of a triangle. Collinear and equal ones are allowed: the triangle is then the
+/// segment or the point that they span.
+using Corners = std::array<Double3, 3>;
+
+}  // namespace cdprep
+
+/// Exact geometric tests for offline programs: hulls, repair, studies. The signs and answers are
+/// those of real arithmetic on the given doubles. All coordinates are finite. Each function sets
+/// the default floating-point environment for its duration and restores the caller's, and none
+/// allocates.
+namespace cdprep::exact {
+
+/// Returns the sign, -1, 0 or 1, of det[a-c, b-c]: positive when a, b, c turn
+/// counter-clockwise. Takes nanoseconds; microseconds at worst.
+///
+/// Five stages: a filter in double, equal points, machine integers, expansions (Shewchuk 1997),
+/// integers of any length.
+[[nodiscard]] int orient2d(const Double2& a, const Double2& b, const Double2& c) noexcept;
+
+/// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]: positive when d lies behind the plane, seen
+/// from the side where a, b, c turn counter-clockwise. Cost and stages as orient2d().
+[[nodiscard]] int orient3d(const Double3& a, const Double3& b, const Double3& c,
+                           const Double3& d) noexcept;
+
+/// Returns orient3d(plane[0], plane[1], plane[2], p) for each of three points p; faster than three
+/// calls.
+[[nodiscard]] std::array<int, 3> plane_signs(const Corners& plane,
+                                             const std::array<Double3, 3>& points) noexcept;
+
+}  // namespace cdprep::exact

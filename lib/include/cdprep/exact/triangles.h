@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "cdprep/exact/predicates.h"
+
+namespace cdprep {
+
+/// How two triangles meet.
+enum class TriangleContact : std::uint8_t {
+    disjoint,         ///< no common point
+    touch,            ///< common points, but no crossing and no shared area
+    cross,            ///< their insides cross: not in one plane
+    coplanar_overlap  ///< one plane, shared area
+};
+
+/// An edge of one triangle that meets the other's plane in one point.
+struct PiercingEdge {
+    Double3 from;
+    Double3 to;
+    bool of_a;  ///< an edge of A, else of B
+};
+
+/// The edges that hold the two ends of a common segment.
+struct CrossingEnds {
+    PiercingEdge first;
+    PiercingEdge second;
+    bool is_point;  ///< both ends are one point
+};
+
+/// The distance of a point from a triangle.
+struct PointTriangleDistance {
+    Double3 nearest;  ///< on the triangle, up to rounding
+    double computed;  ///< the rounded distance to `nearest`
+    double lower;     ///< proved: the exact distance is at least this, >= 0
+    double upper;     ///< proved: and at most this
+};
+
+}  // namespace cdprep
+
+namespace cdprep::exact {
+
+/// Returns whether two triangles have a common point. Exact. Takes some 30 ns where a filter in
+/// double decides; microseconds at worst (Guigue and Devillers 2003, with exact signs).
+[[nodiscard]] bool triangles_touch(const Corners& a, const Corners& b) noexcept;
+
+/// Returns how two triangles meet. Exact. A triangle without area has no inside: it can only
+/// touch. Cost as triangles_touch().
+[[nodiscard]] TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept;
+
+/// Returns what classify_contact() returns, without its filter: for studies of what the filter
+/// saves. Exact.
+[[nodiscard]] TriangleContact contact_without_filter(const Corners& a, const Corners& b) noexcept;
+
+/// Returns the edges that bound the common segment of two triangles that touch. Returns nothing
+/// when both lie in one plane or one has no area. Exact.
+[[nodiscard]] std::optional<CrossingEnds> crossing_ends(const Corners& a,
+                                                        const Corners& b) noexcept;
+
+/// Returns whether the corners are collinear. Exact.
+[[nodiscard]] bool is_degenerate(const Corners& t) noexcept;
+
+/// Returns the distance of `q` from a triangle, with or without area, as a proved interval.
+///
+/// The interval is at most 32 u of the farthest corner's distance wide, u = 2^-53, unless the
+/// point is much nearer than that: then up to 200 u, and more for slivers. Works for all sizes
+/// from subnormal numbers to format::kMaxCoordinate. Takes some 50 ns.
+[[nodiscard]] PointTriangleDistance point_triangle_distance(const Double3& q,
+                                                            const Corners& t) noexcept;
+
+/// Returns whether a point, segment or triangle, given by its 1 to 3 corners, is at most
+/// `distance` from a triangle; equal counts. Exact. False for a negative distance or NaN. Takes
+/// microseconds where double does not decide, and some 20 KiB of stack.
+[[nodiscard]] bool is_within(std::span<const Double3> corners, const Corners& t,
+                             double distance) noexcept;
+
+}  // namespace cdprep::exact

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cdprep/exact/predicates.h"
+
+namespace cdprep {
+
+/// What one triangle adds to the winding number of a surface around a point.
+struct WindingTerm {
+    int crossings;    ///< 1 from behind, -1 from the front, 0 none
+    bool on_surface;  ///< the point lies on the triangle; `crossings` is then 0
+};
+
+}  // namespace cdprep
+
+namespace cdprep::exact {
+
+/// Returns what triangle `t` adds to the winding number around q: the crossing of `t` with the ray
+/// that starts at q and runs away from o. Exact. `o` differs from q.
+///
+/// Over a closed surface the terms add up to the winding number, whatever o is. The origin is
+/// perturbed symbolically to o + (e, e^2, e^3), e infinitely small, so that no ray meets an edge or
+/// a vertex. A triangle without area adds nothing. (Feito and Torres 1997, with another rule for
+/// vertices.)
+[[nodiscard]] WindingTerm winding_term(const Double3& o, const Double3& q,
+                                       const Corners& t) noexcept;
+
+/// Returns an `o` for winding_term() whose ray runs from q along +x: a point `reach` before q.
+/// `reach` is about the model's size: with a much smaller step, the filter decides few triangles.
+/// Differs from q unless |q.x| is near the largest double.
+[[nodiscard]] Double3 before_along_x(const Double3& q, double reach) noexcept;
+
+}  // namespace cdprep::exact
