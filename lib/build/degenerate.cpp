@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
 #include "cdprep/advanced/mesh_arrays.h"
 #include "cdprep/format/float_environment.h"

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 
 namespace cdprep::build {
 namespace {

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
 #include "build/lanes.h"
 #include "build/make_nodes.h"

@@ -3,7 +3,7 @@
 
 #include <cassert>
 
-#include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "build/lanes.h"
 
 namespace cdprep::build {

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 
 // Swept spheres in the manner of Larsen, Gottschalk, Lin and Manocha 1999: along the
 // axes of the oriented box, a ball around the surface's shadow on the axes that are not

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <limits>
 
-#include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
 #include "cells/octree_cells.h"
 #include "cells/octree_codes.h"

@@ -9,7 +9,7 @@
 #include "cells/cone_faces.h"
 #include "cells/cone_reach.h"
 #include "cells/tetra_cones.h"
-#include "core/list_places.h"
+#include "cells/list_places.h"
 #include "core/moved_model.h"
 
 // As find_list_damage.cpp: every triangle goes down into each child whose closed cone it
@@ -46,7 +46,7 @@ public:
             const Double3& c = tree_.centre;
             if (triangles_touch({c, c, c}, t)) {
                 if (!find_reference(references_, 0, tree_.centre_count, i)) {
-                    return wrong_fact(file_, SectionId::tetra_tree, 0, tree_.centre_count, i);
+                    return format::wrong_fact(file_, SectionId::tetra_tree, 0, tree_.centre_count, i);
                 }
                 ++at_centre;
                 continue;
@@ -60,10 +60,10 @@ public:
             places += places_.size();
         }
         if (at_centre != tree_.centre_count) {
-            return wrong_fact(file_, SectionId::tetra_tree, 0, tree_.centre_count, at_centre);
+            return format::wrong_fact(file_, SectionId::tetra_tree, 0, tree_.centre_count, at_centre);
         }
         if (places != references_.size()) {
-            return wrong_fact(file_, SectionId::tetra_references, 0, references_.size(), places);
+            return format::wrong_fact(file_, SectionId::tetra_references, 0, references_.size(), places);
         }
         return find_narrow_cone();
     }
@@ -75,7 +75,7 @@ private:
             const bool is_there = next < octants_ && nodes_[next].key == key;
             const std::uint32_t number = is_there ? next++ : 0;
             if (!triangle_touches_cone(t, tree_.centre, tetra_cone(key))) continue;
-            if (!is_there) return wrong_fact(file_, SectionId::tetra_nodes, 0, 0, key);
+            if (!is_there) return format::wrong_fact(file_, SectionId::tetra_nodes, 0, 0, key);
             if (const Found damage = send_down(t, triangle, number)) return damage;
         }
         return std::nullopt;
@@ -91,7 +91,7 @@ private:
             const std::uint32_t key = node.key << 2 | child;
             if (!triangle_touches_cone(t, tree_.centre, tetra_cone(key))) continue;
             if ((children >> child & 1) == 0) {
-                return wrong_fact(file_, SectionId::tetra_nodes, number, children,
+                return format::wrong_fact(file_, SectionId::tetra_nodes, number, children,
                                   children | 1U << child);
             }
             const int before = std::popcount(children & ((1U << child) - 1));
@@ -160,7 +160,7 @@ private:
         const format::TetraNode& leaf = nodes_[number];
         const auto place = find_reference(references_, leaf.first, leaf.count, triangle);
         if (!place) {
-            return wrong_fact(file_, SectionId::tetra_nodes, number, leaf.count, triangle);
+            return format::wrong_fact(file_, SectionId::tetra_nodes, number, leaf.count, triangle);
         }
         places_.push_back(*place);
         add_reach(cone_faces(tetra_cone(leaf.key)), seen_triangle(tree_.centre, t, scale_),
@@ -182,7 +182,7 @@ private:
             const double nearest = reach_[i].least * kThird * (1 + kRounding);
             const double farthest = reach_[i].greatest * kThird * (1 - kRounding);
             if (nearest < node.radius_min || farthest > node.radius_max) {
-                format::Damage damage = wrong_fact(file_, SectionId::tetra_nodes, i, i, 0);
+                format::Damage damage = format::wrong_fact(file_, SectionId::tetra_nodes, i, i, 0);
                 damage.kind = format::DamageKind::bad_box;
                 return damage;
             }

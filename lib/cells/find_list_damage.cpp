@@ -11,7 +11,7 @@
 #include "cells/find_cone_damage.h"
 #include "cells/octree_codes.h"
 #include "cells/split_box.h"
-#include "core/list_places.h"
+#include "cells/list_places.h"
 #include "exact/triangle_box.h"
 
 // Every triangle goes down the tree by itself, into each child whose closed cell it touches,
@@ -134,7 +134,7 @@ public:
             places += places_.size();
         }
         if (places == cells_.references().size()) return std::nullopt;
-        return wrong_fact(file_, Cells::kReferences, 0, cells_.references().size(), places);
+        return format::wrong_fact(file_, Cells::kReferences, 0, cells_.references().size(), places);
     }
 
 private:
@@ -150,7 +150,7 @@ private:
     [[nodiscard]] Found find_outside() const {
         for (std::uint32_t i = 0; i < model_.triangle_count(); ++i) {
             for (const Double3& p : moved_.corners(i)) {
-                if (!cells_.is_inside(p)) return wrong_fact(file_, Cells::kTree, 0, i, 0);
+                if (!cells_.is_inside(p)) return format::wrong_fact(file_, Cells::kTree, 0, i, 0);
             }
         }
         return std::nullopt;
@@ -166,7 +166,7 @@ private:
             if (!below || !triangle_touches_box(t, *below)) continue;
             const std::uint32_t children = node.count & 0xff;
             if ((children >> child & 1) == 0) {
-                return wrong_fact(file_, Cells::kNodes, number, children, children | 1U << child);
+                return format::wrong_fact(file_, Cells::kNodes, number, children, children | 1U << child);
             }
             const int before = std::popcount(children & ((1U << child) - 1));
             const std::uint32_t next = node.first + static_cast<std::uint32_t>(before);
@@ -180,7 +180,7 @@ private:
                   const Box3& cell) {
         const Node& leaf = cells_.nodes()[number];
         const auto place = find_reference(cells_.references(), leaf.first, leaf.count, triangle);
-        if (!place) return wrong_fact(file_, Cells::kNodes, number, leaf.count, triangle);
+        if (!place) return format::wrong_fact(file_, Cells::kNodes, number, leaf.count, triangle);
         places_.push_back(*place);
         return cells_.boxes().empty() ? std::nullopt : find_small_box(t, number, cell);
     }
@@ -200,7 +200,7 @@ private:
             is_outside(1, std::max(a.y, cell.lower.y), std::min(b.y, cell.upper.y)) ||
             is_outside(2, std::max(a.z, cell.lower.z), std::min(b.z, cell.upper.z));
         if (!is_small) return std::nullopt;
-        return wrong_fact(file_, Cells::kBoxes, number, number, 0);
+        return format::wrong_fact(file_, Cells::kBoxes, number, number, 0);
     }
     /// As far off as coordinates in the frame are rounded.
     static double above(double x) {
@@ -218,7 +218,7 @@ private:
             if ((node.count & kInnerNode) == 0) continue;
             const auto children = static_cast<std::size_t>(std::popcount(node.count & 0xff));
             for (const format::CellBox& child : boxes.subspan(node.first, children)) {
-                if (!holds(boxes[i], child)) return wrong_fact(file_, Cells::kBoxes, i, i, 0);
+                if (!holds(boxes[i], child)) return format::wrong_fact(file_, Cells::kBoxes, i, i, 0);
             }
         }
         return std::nullopt;
@@ -243,7 +243,7 @@ Found find_lost_node(std::span<const std::byte> file, const Model& model, Sectio
         const std::uint64_t slot = slot_of(nodes[i].key, bits);
         std::uint32_t at = table[slot];
         while (at != 0 && at != i + 1) at = next[at - 1];
-        if (at == 0) return wrong_fact(file, id, slot, table[slot], i + 1);
+        if (at == 0) return format::wrong_fact(file, id, slot, table[slot], i + 1);
     }
     return std::nullopt;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 
 // The step. Planes rise strictly, and no vertex that is more than a step inside is taken to
 // be outside, when a step is at least 2 ulp of every plane: the rounding of a plane moves it

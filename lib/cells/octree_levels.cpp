@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cells/octree_codes.h"
 #include "cells/octree_grid.h"
 #include "exact/triangle_box.h"

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/octree.h"
 
 namespace cdprep::build {

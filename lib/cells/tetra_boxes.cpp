@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
 #include "build/oriented_axes.h"
 #include "cdprep/format/octree.h"

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "build/chunks.h"
+#include "cdprep/advanced/parallel_for.h"
 #include "build/frame_map.h"
 
 namespace cdprep::build {

@@ -8,7 +8,6 @@
 
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
-#include "core/damage_sentence.h"
 #include "core/mapped_file.h"
 #include "core/refusal_sentence.h"
 
@@ -108,7 +107,7 @@ void Model::State::find_sections(SectionSet wanted) {
 namespace {
 
 Error damaged(std::string_view name, const format::Damage& damage) {
-    return {ErrorCode::unreadable, damage_sentence(name, damage)};
+    return {ErrorCode::unreadable, format::damage_sentence(name, damage)};
 }
 
 }  // namespace
@@ -220,6 +219,9 @@ std::uint32_t Model::vertex_count() const noexcept {
 }
 const format::FileHeader& Model::header() const noexcept {
     return *state_->header;
+}
+std::span<const std::byte> Model::bytes() const noexcept {
+    return state_->file;
 }
 SectionSet Model::sections() const noexcept {
     return state_->sections;

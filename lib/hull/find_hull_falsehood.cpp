@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "hull/find_hull_falsehood.h"
+#include "cdprep/advanced/find_falsehood.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,6 @@
 
 #include "cdprep/advanced/convex_distance.h"
 #include "cdprep/hulls.h"
-#include "core/list_places.h"
 #include "exact/predicates.h"
 #include "hull/hull_points.h"
 
@@ -100,7 +99,7 @@ public:
             if (is_in(last)) continue;
             last = 0;
             while (last < parts.size() && !is_in(last)) ++last;
-            if (last == parts.size()) return wrong_fact(file_, SectionId::hulls, *first, v, 0);
+            if (last == parts.size()) return format::wrong_fact(file_, SectionId::hulls, *first, v, 0);
         }
         return std::nullopt;
     }
@@ -151,7 +150,7 @@ private:
                                              std::array<std::uint32_t, 2>{source, 0});
             const bool named = at != by_source_.end() && (*at)[0] == source &&
                                equal(vertices_[(*at)[1]], hull_point(points, p));
-            if (!named) return wrong_fact(file_, SectionId::hull_vertices, place, source, 0);
+            if (!named) return format::wrong_fact(file_, SectionId::hull_vertices, place, source, 0);
         }
         return std::nullopt;
     }
@@ -172,7 +171,7 @@ private:
                              hull_point(points, point[2]), hull_point(points, *far));
                 const bool flat = facet.group == other.group || hull.dimension == 2;
                 if (flat ? sign == 0 : sign > 0) continue;
-                return wrong_fact(file_, SectionId::hull_facets, hull.first_facet + f,
+                return format::wrong_fact(file_, SectionId::hull_facets, hull.first_facet + f,
                                   facet.across[i], f);
             }
         }
@@ -198,7 +197,7 @@ private:
         }
         std::sort(stored.begin(), stored.end());
         if (edges == stored) return std::nullopt;
-        return wrong_fact(file_, SectionId::hull_neighbours, hull.first_neighbour, stored.size(),
+        return format::wrong_fact(file_, SectionId::hull_neighbours, hull.first_neighbour, stored.size(),
                           edges.size());
     }
 
@@ -224,7 +223,7 @@ private:
             const FarBehind far_behind(a, b, c);
             for (const Double3& p : inside) {
                 if (!far_behind(p) && orient3d(a, b, c, p) < 0) {
-                    return wrong_fact(file_, SectionId::hulls, number, g, hull.group_count);
+                    return format::wrong_fact(file_, SectionId::hulls, number, g, hull.group_count);
                 }
             }
         }
@@ -233,7 +232,7 @@ private:
             hull.dimension == 0 && std::all_of(inside.begin(), inside.end(), [&](const Double3& p) {
                 return equal(p, hull_point(points, 0));
             });
-        return all ? Found{} : wrong_fact(file_, SectionId::hulls, number, 0, 0);
+        return all ? Found{} : format::wrong_fact(file_, SectionId::hulls, number, 0, 0);
     }
 
     std::span<const std::byte> file_;

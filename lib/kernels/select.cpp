@@ -5,8 +5,17 @@
 #include <cpuid.h>
 #endif
 
+#include "cdprep/advanced/query_counts.h"
 #include "curve.h"
 #include "kernels.h"
+
+namespace cdprep {
+
+const char* kernel_name() noexcept {
+    return kernels::active().name;
+}
+
+}  // namespace cdprep
 
 namespace cdprep::kernels {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pieces/find_piece_falsehood.h"
+#include "cdprep/advanced/find_falsehood.h"
 
 #include <algorithm>
 #include <vector>
@@ -7,7 +7,6 @@
 #include "cdprep/advanced/convex_distance.h"
 #include "cdprep/format/sections.h"
 #include "core/moved_model.h"
-#include "hull/hull_blocks.h"
 #include "pieces/piece_contact.h"
 
 namespace cdprep {
@@ -44,15 +43,15 @@ bool is_true(const PieceNodeHull& hull, const std::vector<Double3>& corners) {
     const Placement still = Placement::b_moves(Pose());
     const ConvexPoints around = hull_points(hull);
     for (const Double3& p : corners) {
-        const auto block = blocks_of({&p, 1});
+        const auto block = hull_blocks({&p, 1});
         if (!convex_collide(around, points_in(block, 1), still)) return false;
     }
-    const std::vector<HullBlock> blocks = blocks_of(corners);
+    const std::vector<HullBlock> blocks = hull_blocks(corners);
     const ConvexPoints below = points_in(blocks, corners.size());
     constexpr double kRounded = 1 + 0x1p-40;
     for (std::uint32_t i = 0; i < hull.count; ++i) {
         const Double3 corner = around.point(i);
-        const auto block = blocks_of({&corner, 1});
+        const auto block = hull_blocks({&corner, 1});
         const auto apart = convex_distance(below, points_in(block, 1), still);
         if (!apart || apart->lower > hull.slack * kRounded) return false;
     }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "query/self_walk.h"
+#include "cdprep/advanced/self_walk.h"
 
 #include <algorithm>
 #include <bit>
 #include <cassert>
 
+#include "cdprep/format/float_environment.h"
 #include "core/prefetch.h"
 #include "walk/box_placement.h"
 #include "walk/leaf_batch.h"
+#include "walk/workspace_storage.h"
 
 namespace cdprep {
 namespace {
@@ -32,31 +34,58 @@ constexpr kernels::BoxPairs once_each() noexcept {
 
 }  // namespace
 
-/// Collects pairs of leaves and tests their triangles many at a time.
-class SelfWalk::Batch {
+/// The hierarchy, as the walk reads it.
+class SelfWalk::Tree {
 public:
-    Batch(const SelfWalk& walk, Workspace::Storage& scratch,
+    class Batch;
+
+    Tree(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
+         ParallelFor parallel_for);
+
+    /// Calls step(pair) for each pair of children whose boxes overlap.
+    template <class Step>
+    void for_children(const NodePair& pair, Step&& step) const;
+
+    [[nodiscard]] NodePair root() const noexcept {
+        return {shape_.levels, 0, 0};
+    }
+
+private:
+    void read_leaves(std::span<const format::Triangle> triangles, ParallelFor parallel_for);
+
+    const build::Bvh& bvh_;
+    format::BvhShape shape_;
+    kernels::BoxPlacement boxes_;
+    kernels::LeafPlacement leaves_;
+    std::vector<std::uint32_t> corner_numbers_;  ///< per leaf [corner][lane]
+    std::vector<std::uint8_t> used_;             ///< per leaf, bit set of triangles
+};
+
+/// Collects pairs of leaves and tests their triangles many at a time.
+class SelfWalk::Tree::Batch {
+public:
+    Batch(const Tree& tree, Workspace::Storage& scratch,
           const std::function<void(const SelfPair&)>& found)
-        : walk_(walk), scratch_(scratch), found_(found) {
+        : tree_(tree), scratch_(scratch), found_(found) {
         scratch_.leaf_scratch.begin();
     }
 
     void add(std::uint32_t leaf_a, std::uint32_t leaf_b) {
-        const BvhLeaf* leaves = walk_.bvh_.leaves.data();
+        const BvhLeaf* leaves = tree_.bvh_.leaves.data();
         prefetch(&leaves[leaf_b]);
         assert(count_ < kernels::kLeafBatch);
         scratch_.leaf_pairs[count_++] = {leaves[leaf_a].corner[0][0].data(),
                                          leaves[leaf_b].corner[0][0].data(),
                                          leaf_a,
                                          leaf_b,
-                                         walk_.used_[leaf_a],
-                                         walk_.used_[leaf_b]};
+                                         tree_.used_[leaf_a],
+                                         tree_.used_[leaf_b]};
         if (count_ == kernels::kLeafBatch) flush();
     }
 
     void flush() {
         const std::size_t contacts = kernels::active().find_own_contacts(
-            walk_.leaves_, scratch_.leaf_pairs.data(), count_, walk_.corner_numbers_.data(),
+            tree_.leaves_, scratch_.leaf_pairs.data(), count_, tree_.corner_numbers_.data(),
             scratch_.leaf_scratch);
         count_ = 0;
         for (std::size_t i = 0; i < contacts; ++i) {
@@ -68,31 +97,28 @@ public:
     }
 
 private:
-    const SelfWalk& walk_;
+    const Tree& tree_;
     Workspace::Storage& scratch_;
     const std::function<void(const SelfPair&)>& found_;
     std::size_t count_ = 0;
 };
 
-SelfWalk::SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
-                   ParallelFor parallel_for)
+SelfWalk::Tree::Tree(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
+                     ParallelFor parallel_for)
     : bvh_(bvh), shape_(format::bvh_shape(static_cast<std::uint32_t>(bvh.order.size()))) {
     const PlacedBoxes placed = place_upon_itself(bvh.frame.origin, bvh.frame.exponent);
     boxes_ = placed.placement;
     leaves_ = place_leaves(bvh, placed);
-    if (bvh.order.empty()) return;
     read_leaves(triangles, parallel_for);
-    find_starts();
 }
 
-void SelfWalk::read_leaves(std::span<const format::Triangle> triangles, ParallelFor parallel_for) {
+void SelfWalk::Tree::read_leaves(std::span<const format::Triangle> triangles,
+                                 ParallelFor parallel_for) {
     const std::size_t leaves = bvh_.leaves.size();
     corner_numbers_.resize(leaves * kNumbersPerLeaf);
     used_.resize(leaves);
     constexpr std::size_t kLeavesPerTask = 4096;
-    const auto read = [&](std::size_t task) {
-        const std::size_t first = task * kLeavesPerTask * kBvhWidth;
-        const std::size_t last = std::min(bvh_.order.size(), first + kLeavesPerTask * kBvhWidth);
+    const auto read = [&](std::size_t first, std::size_t last) {
         for (std::size_t at = first; at < last; ++at) {
             const std::uint32_t triangle = bvh_.order[at];
             const std::size_t leaf = at / kBvhWidth, lane = at % kBvhWidth;
@@ -103,15 +129,11 @@ void SelfWalk::read_leaves(std::span<const format::Triangle> triangles, Parallel
             used_[leaf] = static_cast<std::uint8_t>(used_[leaf] | 1U << lane);
         }
     };
-    parallel_for((leaves + kLeavesPerTask - 1) / kLeavesPerTask, read);
-}
-
-std::size_t SelfWalk::part_count() const noexcept {
-    return std::min(kParts, starts_.size());
+    for_chunks(bvh_.order.size(), kLeavesPerTask * kBvhWidth, parallel_for, read);
 }
 
 template <class Step>
-void SelfWalk::for_children(const NodePair& pair, Step&& step) const {
+void SelfWalk::Tree::for_children(const NodePair& pair, Step&& step) const {
     assert(pair.height > 0 && pair.a <= pair.b);
     const std::uint32_t level = pair.height - 1;
     const auto chosen = [&](std::uint32_t node) {
@@ -131,32 +153,26 @@ void SelfWalk::for_children(const NodePair& pair, Step&& step) const {
     }
 }
 
-void SelfWalk::find_starts() {
-    starts_ = {{shape_.levels, 0, 0}};
+SelfWalk::SelfWalk(const build::Bvh& bvh, std::span<const format::Triangle> triangles,
+                   ParallelFor parallel_for) {
+    const format::FloatEnvironment environment;
+    tree_ = std::make_unique<const Tree>(bvh, triangles, parallel_for);
+    if (bvh.order.empty()) return;
+    starts_ = {tree_->root()};
     std::vector<NodePair> below;
     while (starts_.size() < kParts && starts_.front().height > 1) {
         below.clear();
         for (const NodePair& pair : starts_) {
-            for_children(pair, [&](const NodePair& child) { below.push_back(child); });
+            tree_->for_children(pair, [&](const NodePair& child) { below.push_back(child); });
         }
         starts_.swap(below);
     }
 }
 
-/// Looks at the children of the next node pair.
-std::size_t SelfWalk::step(Rest& rest, Batch& batch) const {
-    const NodePair pair = rest.open_.back();
-    rest.open_.pop_back();
-    std::size_t work = 1;
-    for_children(pair, [&](const NodePair& child) {
-        if (child.height == 0) {
-            batch.add(child.a, child.b);
-            ++work;
-        } else {
-            rest.open_.push_back(child);
-        }
-    });
-    return work;
+SelfWalk::~SelfWalk() = default;
+
+std::size_t SelfWalk::part_count() const noexcept {
+    return std::min(kParts, starts_.size());
 }
 
 SelfWalk::Rest SelfWalk::part(std::size_t number) const {
@@ -169,11 +185,33 @@ SelfWalk::Rest SelfWalk::part(std::size_t number) const {
     return rest;
 }
 
-void SelfWalk::run(Rest& rest, Workspace::Storage& scratch,
+void SelfWalk::run(Rest& rest, Workspace& workspace,
                    const std::function<void(const SelfPair&)>& found,
                    const std::function<bool(std::size_t)>& is_enough) const {
-    Batch batch(*this, scratch, found);
-    while (!rest.empty() && !is_enough(step(rest, batch))) {
+    format::FloatEnvironment environment;
+    const std::function<void(const SelfPair&)> outside = [&](const SelfPair& pair) {
+        environment.outside([&] { found(pair); });
+    };
+    Tree::Batch batch(*tree_, workspace.storage(), outside);
+    // Looks at the children of the next node pair.
+    const auto step = [&] {
+        const NodePair pair = rest.open_.back();
+        rest.open_.pop_back();
+        std::size_t work = 1;
+        tree_->for_children(pair, [&](const NodePair& child) {
+            if (child.height == 0) {
+                batch.add(child.a, child.b);
+                ++work;
+            } else {
+                rest.open_.push_back(child);
+            }
+        });
+        return work;
+    };
+    bool enough = false;
+    while (!rest.empty() && !enough) {
+        const std::size_t work = step();
+        enough = environment.outside([&] { return is_enough(work); });
     }
     batch.flush();
 }

@@ -30,7 +30,7 @@
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
 #include "cdprep/points.h"
-#include "hull/find_hull_falsehood.h"
+#include "cdprep/advanced/find_falsehood.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "build/piece_boxes.h"
+#include "cdprep/advanced/build_piece_boxes.h"
 #include "support/more_sections.h"
 
 #include "cdprep/format/pieces.h"
@@ -71,7 +71,7 @@ std::vector<TinySection> piece_tree_sections(const Model& model,
     const BuilderInput input = builder_input(model);
     const format::FileHeader& header = model.header();
     const build::PieceBoxes boxes =
-        build::make_piece_boxes({input.positions, input.triangles, pieces, triangles},
+        build::build_piece_boxes({input.positions, input.triangles, pieces, triangles},
                                 {header.frame_origin, header.frame_exponent}, serial_for);
     const std::vector<format::PieceNodeHull> hulls(
         format::piece_hull_count(

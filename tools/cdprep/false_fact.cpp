@@ -23,6 +23,8 @@
 namespace cdprep::cli {
 namespace {
 
+using mesh::largest_of;
+
 using Found = std::optional<FalseFact>;
 using mesh::Double3;
 
@@ -70,10 +72,6 @@ Found first_of(const Checks&... checks) {
 
 double coordinate(const Double3& p, std::size_t axis) {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
-double largest_of(const Double3& a) {
-    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
 
 constexpr std::array<const char*, 3> kAxisName = {"x", "y", "z"};

@@ -5,18 +5,15 @@
 #include <memory>
 #include <vector>
 
+#include "cdprep/advanced/find_falsehood.h"
 #include "cdprep/cells/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model.h"
 #include "command.h"
 #include "convex/contact_arrays.h"
 #include "convex/find_cover_falsehood.h"
-#include "core/damage_sentence.h"
-#include "core/mapped_file.h"
 #include "false_fact.h"
-#include "hull/find_hull_falsehood.h"
 #include "open_for.h"
-#include "pieces/find_piece_falsehood.h"
 #include "program_threads.h"
 #include "report/info_report.h"
 
@@ -39,31 +36,31 @@ std::vector<format::SectionEntry> table_of(std::span<const std::byte> file,
     return entries;
 }
 
+/// Returns a sentence about what is safe to query but not right, or nothing.
+std::string find_false_content(const std::string& file, const Model& model) {
+    const std::span<const std::byte> bytes = model.bytes();
+    auto damage = format::find_deep_damage(bytes);
+    if (!damage) damage = find_list_damage(bytes, model);
+    if (!damage) damage = find_hull_falsehood(bytes, model);
+    if (!damage) damage = convex::find_cover_falsehood(bytes, model);
+    if (!damage) damage = convex::find_convexity_falsehood(bytes, model);
+    if (!damage) damage = find_piece_falsehood(bytes, model);
+    if (damage) return format::damage_sentence(file, *damage);
+    const Threads threads(0);
+    const auto fact = find_false_fact(model, threads.parallel_for());
+    return fact ? false_fact_sentence(file, *fact) : "";
+}
+
 Exit run(const Arguments& arguments) {
-    const Result<MappedFile> mapped = MappedFile::map(arguments.file);
-    if (!mapped) return fail("info", mapped.error());
-    const std::span<const std::byte> bytes = mapped.value().bytes();
-    const std::string file = arguments.file.string();
-    const Result<Model> opened = Model::open(bytes, {.name = file});
+    const Result<Model> opened = Model::open(arguments.file);
     if (!opened) return fail("info", baked_first(arguments.file, opened.error()));
-    if (arguments.deep) {
-        auto damage = format::find_deep_damage(bytes);
-        if (!damage) damage = find_list_damage(bytes, opened.value());
-        if (!damage) damage = find_hull_falsehood(bytes, opened.value());
-        if (!damage) damage = convex::find_cover_falsehood(bytes, opened.value());
-        if (!damage) damage = convex::find_convexity_falsehood(bytes, opened.value());
-        if (!damage) damage = find_piece_falsehood(bytes, opened.value());
-        if (damage) {
-            return fail("info", {ErrorCode::unreadable, damage_sentence(file, *damage)});
-        }
-        const Threads threads(0);
-        if (const auto fact = find_false_fact(opened.value(), threads.parallel_for())) {
-            return fail("info", {ErrorCode::unreadable,
-                                 false_fact_sentence(arguments.file.string(), *fact)});
-        }
-    }
     const Model& model = opened.value();
-    const std::vector<format::SectionEntry> table = table_of(bytes, model.header());
+    const std::string file = arguments.file.string();
+    if (arguments.deep) {
+        const std::string false_content = find_false_content(file, model);
+        if (!false_content.empty()) return fail("info", {ErrorCode::unreadable, false_content});
+    }
+    const std::vector<format::SectionEntry> table = table_of(model.bytes(), model.header());
     std::cout << (arguments.format == "json" ? report::info_json(file, model, table)
                                              : report::info_text(file, model, table));
     return Exit::success;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cdprep/advanced/parallel_for.h"
 #include "convex/close_regions.h"
 
 #include <algorithm>
 #include <array>
 #include <numeric>
 
-#include "build/chunks.h"
 #include "convex/convex_hull.h"
 #include "convex/flat_turn.h"
 #include "cdprep/exact/predicates.h"
@@ -61,7 +61,7 @@ Grouped connected(const PatchRules& rules, Joins joins) {
 template <class Body>
 void for_groups(const Grouped& groups, ParallelFor parallel_for, Body body) {
     constexpr std::size_t kAtATime = 1024;
-    build::for_chunks(groups.count(), kAtATime, parallel_for,
+    for_chunks(groups.count(), kAtATime, parallel_for,
                       [&](std::size_t first, std::size_t last) {
                           for (std::size_t i = first; i < last; ++i) body(i);
                       });

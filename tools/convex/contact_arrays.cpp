@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cdprep/advanced/parallel_for.h"
 #include "convex/contact_arrays.h"
 
 #include <algorithm>
 #include <array>
 
-#include "build/chunks.h"
 #include "convex/surface_edges.h"
-#include "core/list_places.h"
 
 namespace cdprep::convex {
 namespace {
@@ -82,7 +81,7 @@ std::vector<PieceAdjacency> find_adjacency(const PieceArrays& pieces, ParallelFo
         return piece < pieces.pieces.size() ? pieces.pieces[piece].first_facet
                                             : pieces.facets.size();
     };
-    build::for_chunks(pieces.pieces.size(), kAtATime, parallel_for,
+    for_chunks(pieces.pieces.size(), kAtATime, parallel_for,
                       [&](std::size_t first, std::size_t last) {
                           for (std::size_t i = first; i < last; ++i) {
                               const std::size_t begin = begin_of(i);
@@ -128,7 +127,7 @@ std::optional<format::Damage> find_convexity_falsehood(std::span<const std::byte
     const std::vector<std::uint8_t> found = find_convexity(mesh_of(model), serial_for);
     const auto [at, right] = std::mismatch(stored.begin(), stored.end(), found.begin());
     if (at == stored.end()) return std::nullopt;
-    return wrong_fact(file, SectionId::edge_convexity,
+    return format::wrong_fact(file, SectionId::edge_convexity,
                       static_cast<std::uint64_t>(at - stored.begin()), *at, *right);
 }
 

@@ -11,6 +11,9 @@
 namespace cdprep::convex {
 namespace {
 
+
+using mesh::middle_of;
+
 constexpr double kSampling = 0.4;    ///< of a spacing: sides of the last triangles
 constexpr double kCentreWay = 0.67;  ///< of the longest side: from the centre to a corner
 constexpr double kRounded = 1e-5;    ///< of a spacing: more than what rounding to float does
@@ -28,10 +31,6 @@ constexpr double kFewestNodes = 4096;  ///< however much one takes
 double apart(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
     return std::sqrt(mesh::dot(ab, ab));
-}
-
-Double3 middle(const Double3& a, const Double3& b) {
-    return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
 }
 
 /// Where a point lies in a grid: the cube's first node, and how far in.
@@ -149,7 +148,7 @@ std::size_t DistanceField::fill(const Block& block, double beyond) {
     const std::size_t x1 = std::min(x0 + kBlock, count_[0]);
     const std::size_t y1 = std::min(y0 + kBlock, count_[1]);
     const std::size_t z1 = std::min(z0 + kBlock, count_[2]);
-    const Double3 centre = middle(node(x0, y0, z0), node(x1 - 1, y1 - 1, z1 - 1));
+    const Double3 centre = middle_of(node(x0, y0, z0), node(x1 - 1, y1 - 1, z1 - 1));
     const double radius = apart(centre, node(x0, y0, z0)) + spacing_;
     TriangleTree::Nearest near = solid_->tree().nearest(centre);
     const bool one_sided = near.distance > radius;
@@ -271,7 +270,7 @@ void DistanceField::sample(std::array<Double3, 3> corners, Detail detail, Estima
     if (longest <= kSampling * spacing_) return;
     if (longest > ab)
         std::rotate(corners.begin(), corners.begin() + (longest == bc ? 1 : 2), corners.end());
-    const Double3 cut = middle(corners[0], corners[1]);
+    const Double3 cut = middle_of(corners[0], corners[1]);
     sample({corners[0], cut, corners[2]}, detail, most);
     sample({cut, corners[1], corners[2]}, detail, most);
 }

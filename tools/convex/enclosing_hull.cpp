@@ -10,6 +10,7 @@
 #include "convex/exact_hull.h"
 #include "cdprep/exact/triangles.h"
 #include "cdprep/exact/predicates.h"
+#include "mesh/vectors.h"
 
 // K half-spaces that touch the hull contain it, and their intersection has at most 2 K - 4
 // corners. Greedily: the corner farthest from the hull is cut off by the plane through its
@@ -20,6 +21,14 @@
 // the planes move outwards by more until it passes.
 namespace cdprep::convex {
 namespace {
+
+
+using mesh::cross;
+using mesh::dot;
+using mesh::largest_of;
+using mesh::minus;
+using mesh::plus;
+using mesh::scaled;
 
 /// In units of half the largest side: how far planes stay off at first, which is what rounding
 /// costs corners of well-shaped intersections.
@@ -32,30 +41,6 @@ constexpr double kHeightError = 0x1p-45;
 
 using Facet = std::array<std::uint32_t, 3>;
 
-double dot(const Double3& a, const Double3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-Double3 cross(const Double3& a, const Double3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-Double3 difference(const Double3& a, const Double3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-Double3 scaled(const Double3& a, double factor) {
-    return {a.x * factor, a.y * factor, a.z * factor};
-}
-
-Double3 sum(const Double3& a, const Double3& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
-double largest(const Double3& a) {
-    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
-}
-
 bool is_finite(const Double3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
@@ -66,11 +51,11 @@ struct Frame {
     int exponent;
 
     [[nodiscard]] Double3 inwards(const Double3& p) const {
-        const Double3 d = difference(p, origin);
+        const Double3 d = minus(p, origin);
         return {std::ldexp(d.x, -exponent), std::ldexp(d.y, -exponent), std::ldexp(d.z, -exponent)};
     }
     [[nodiscard]] Double3 outwards(const Double3& y) const {
-        return sum(
+        return plus(
             {std::ldexp(y.x, exponent), std::ldexp(y.y, exponent), std::ldexp(y.z, exponent)},
             origin);
     }
@@ -79,10 +64,10 @@ struct Frame {
 Frame frame_of(std::span<const Double3> points) {
     Double3 mean = {};
     for (const Double3& p : points) {
-        mean = sum(mean, scaled(p, 1 / static_cast<double>(points.size())));
+        mean = plus(mean, scaled(p, 1 / static_cast<double>(points.size())));
     }
     double size = 0;
-    for (const Double3& p : points) size = std::max(size, largest(difference(p, mean)));
+    for (const Double3& p : points) size = std::max(size, largest_of(minus(p, mean)));
     return {mean, std::ilogb(size) + 1};
 }
 
@@ -102,7 +87,7 @@ struct Corner {
 Double3 meeting_point(const HalfSpace& a, const HalfSpace& b, const HalfSpace& c) {
     const Double3 bc = cross(b.normal, c.normal), ca = cross(c.normal, a.normal),
                   ab = cross(a.normal, b.normal);
-    return scaled(sum(sum(scaled(bc, a.height), scaled(ca, b.height)), scaled(ab, c.height)),
+    return scaled(plus(plus(scaled(bc, a.height), scaled(ca, b.height)), scaled(ab, c.height)),
                   1 / dot(a.normal, bc));
 }
 
@@ -143,11 +128,11 @@ public:
         for (std::size_t g = 0; g + 1 < exact.groups.size(); ++g) {
             const Facet& facet = exact.facets[exact.groups[g]];
             const Double3& a = points_[facet[0]];
-            const Double3 u = difference(points_[facet[1]], a);
-            const Double3 v = difference(points_[facet[2]], a);
+            const Double3 u = minus(points_[facet[1]], a);
+            const Double3 v = minus(points_[facet[2]], a);
             normals_.push_back(cross(u, v));
             heights_.push_back(dot(normals_.back(), a));
-            doubts_.push_back(kHeightError * largest(u) * largest(v));
+            doubts_.push_back(kHeightError * largest_of(u) * largest_of(v));
         }
     }
 
@@ -219,7 +204,7 @@ public:
         std::optional<HalfSpace> plane;
         for (const Corner& corner : corners) {
             const PointTriangleDistance& nearest = nearest_to(corner);
-            const Double3 way = difference(corner.at, nearest.nearest);
+            const Double3 way = minus(corner.at, nearest.nearest);
             const double length = std::sqrt(dot(way, way));
             if (!(length > worst)) continue;
             worst = length;

@@ -10,9 +10,13 @@
 #include "cdprep/exact/predicates.h"
 #include "cdprep/exact/triangles.h"
 #include "mesh/disjoint_sets.h"
+#include "mesh/vectors.h"
 
 namespace cdprep::convex {
 namespace {
+
+
+using mesh::largest_of;
 
 using Facet = std::array<std::uint32_t, 3>;
 using Polygon = std::vector<std::uint32_t>;
@@ -86,10 +90,6 @@ Double3 normal_of(const Double3& a, const Double3& b, const Double3& c) {
     return {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
 }
 
-double size_of(const Double3& v) {
-    return std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
-}
-
 /// Four points as far from each other as a quick look finds them: a hull that begins with
 /// a large tetrahedron has fewer points outside it.
 std::array<std::uint32_t, 4> wide_tetrahedron(const DistinctPoints& points, const Span& span) {
@@ -97,7 +97,7 @@ std::array<std::uint32_t, 4> wide_tetrahedron(const DistinctPoints& points, cons
     const Double3 a = points.at[wide[0]], b = points.at[wide[1]];
     double most = 0;
     for (std::uint32_t p = 0; p < points.at.size(); ++p) {
-        const double size = size_of(normal_of(a, b, points.at[p]));
+        const double size = largest_of(normal_of(a, b, points.at[p]));
         if (size > most) most = size, wide[2] = p;
     }
     const Double3 normal = normal_of(a, b, points.at[wide[2]]);

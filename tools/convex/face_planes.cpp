@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cdprep/advanced/parallel_for.h"
 #include "convex/face_planes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "build/chunks.h"
 #include "cdprep/exact/predicates.h"
 #include "mesh/vectors.h"
 
@@ -50,7 +50,7 @@ FacePlanes::FacePlanes(const mesh::Mesh& mesh, double tolerance, ParallelFor par
     : mesh_(mesh), tolerance_(tolerance), planes_(mesh.triangles.size()) {
     const Double3 extent = extent_of(mesh);
     constexpr std::size_t kAtATime = 1 << 14;
-    build::for_chunks(planes_.size(), kAtATime, parallel_for,
+    for_chunks(planes_.size(), kAtATime, parallel_for,
                       [&](std::size_t first, std::size_t last) {
                           for (std::size_t t = first; t < last; ++t) {
                               planes_[t] = plane_of(static_cast<std::uint32_t>(t), extent);

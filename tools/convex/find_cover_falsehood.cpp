@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "cdprep/hulls.h"
-#include "core/list_places.h"
 #include "cdprep/exact/predicates.h"
 #include "cdprep/exact/triangles.h"
 #include "mesh/point_tree.h"
@@ -259,7 +258,7 @@ std::optional<format::Damage> find_cover_falsehood(std::span<const std::byte> fi
     CoverCheck check(model, *first);
     for (std::uint32_t i = 0; i < model.mesh().triangles.size(); ++i) {
         if (check.is_covered(model.mesh().triangles[i])) continue;
-        return wrong_fact(file, format::SectionId::hulls, *first, i, 0);
+        return format::wrong_fact(file, format::SectionId::hulls, *first, i, 0);
     }
     return std::nullopt;
 }

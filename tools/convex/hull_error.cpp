@@ -14,6 +14,9 @@
 namespace cdprep::convex {
 namespace {
 
+
+using mesh::middle_of;
+
 constexpr std::size_t kMostDepthTests = 20'000'000;  ///< of triangles against planes
 constexpr std::size_t kTestsOfCell = 500;            ///< that take as long as a cell
 constexpr double kSkin = 0.02;   ///< of the error: what bounds of the inside may add
@@ -34,10 +37,6 @@ struct Cell {
 double apart(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
     return std::sqrt(mesh::dot(ab, ab));
-}
-
-Double3 middle(const Double3& a, const Double3& b) {
-    return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
 }
 
 Double3 mean(std::span<const Double3> points) {
@@ -178,7 +177,7 @@ private:
                 to = k;
             }
         }
-        const Double3 cut = middle(cell.corner[from], cell.corner[to]);
+        const Double3 cut = middle_of(cell.corner[from], cell.corner[to]);
         for (const std::size_t end : {from, to}) {
             Cell half = cell;
             half.corner[end] = cut;
@@ -212,7 +211,7 @@ private:
         mesh::Box box;
         for (const Double3& p : hull.points) box.add(p);
         std::vector<Plane> planes;
-        Cube root{middle(box.lower, box.upper), box.diagonal() / 2, {}, 0, false, 0};
+        Cube root{middle_of(box.lower, box.upper), box.diagonal() / 2, {}, 0, false, 0};
         for (const auto& f : hull.facets) {
             const Double3& a = hull.points[f[0]];
             const Double3 n =

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "cdprep/advanced/convex_points.h"
-#include "hull/hull_blocks.h"
 
 namespace cdprep::convex {
 namespace {
@@ -114,7 +113,7 @@ void HullSections::add(format::HullScope scope, std::uint32_t number, const Mesh
     entry.first_start = end_of(starts);
     entry.distance = hull.distance;
     entry.reach = reach_of(found.points);
-    append(blocks, blocks_of(found.points));
+    append(blocks, hull_blocks(found.points));
     for (std::uint32_t i = 0; i < entry.point_count; ++i) {
         vertices.push_back(is_exact ? source_vertex[found.numbers[i]] : format::kNoVertex);
     }

@@ -13,6 +13,9 @@
 namespace cdprep::convex {
 namespace {
 
+
+using mesh::middle_of;
+
 using Cells = std::vector<std::uint32_t>;
 
 constexpr double kRounding = 1e-5;         ///< of the diagonal: what counts as exact
@@ -21,10 +24,6 @@ constexpr std::size_t kMostLooks = 2'000;  ///< of one trial within an error: th
 double squared(const Double3& a, const Double3& b) {
     const Double3 ab = mesh::minus(a, b);
     return mesh::dot(ab, ab);
-}
-
-Double3 middle(const Double3& a, const Double3& b) {
-    return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
 }
 
 class Joiner {
@@ -47,7 +46,7 @@ public:
             box.lower = {box.lower.x - near, box.lower.y - near, box.lower.z - near};
             box.upper = {box.upper.x + near, box.upper.y + near, box.upper.z + near};
             box_.push_back(box);
-            centre_.push_back(middle(box.lower, box.upper));
+            centre_.push_back(middle_of(box.lower, box.upper));
         }
     }
 
@@ -114,7 +113,7 @@ private:
     [[nodiscard]] bool bridges_gap(const ConvexHull& hull) const {
         for (std::size_t i = 0; i < hull.points.size(); ++i) {
             for (std::size_t k = i + 1; k < hull.points.size(); ++k) {
-                const Double3 p = middle(hull.points[i], hull.points[k]);
+                const Double3 p = middle_of(hull.points[i], hull.points[k]);
                 if (solid_.tree().nearest(p).distance > error_ && !solid_.includes(p)) return true;
             }
         }

@@ -10,6 +10,9 @@
 namespace cdprep::convex {
 namespace {
 
+
+using mesh::largest_of;
+
 using mesh::Double3;
 
 constexpr double kUnit = 0x1p-53;  ///< the relative error of one operation
@@ -34,10 +37,6 @@ Double3 box_centre(const mesh::Mesh& mesh) {
     }
     return {0.5 * lower.x + 0.5 * upper.x, 0.5 * lower.y + 0.5 * upper.y,
             0.5 * lower.z + 0.5 * upper.z};
-}
-
-double largest_of(const Double3& a) {
-    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
 
 /// The absolute values of the products of a cross product, component by component.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cdprep/advanced/parallel_for.h"
 #include "convex/piece_arrays.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "build/chunks.h"
 #include "convex/convex_hull.h"
 #include "convex/flat_turn.h"
 #include "cdprep/exact/predicates.h"
@@ -105,7 +105,7 @@ PieceArrays make_piece_arrays(const mesh::Mesh& mesh, SurfacePieces pieces,
     constexpr std::size_t kAtATime = 512;
     const std::size_t count = pieces.pieces.size();
     std::vector<PieceArrays> parts((count + kAtATime - 1) / kAtATime);
-    build::for_chunks(count, kAtATime, parallel_for, [&](std::size_t first, std::size_t last) {
+    for_chunks(count, kAtATime, parallel_for, [&](std::size_t first, std::size_t last) {
         PieceArrays& part = parts[first / kAtATime];
         for (std::size_t i = first; i < last; ++i) {
             const PieceHull hull(mesh, pieces.of(i));

@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-#include "build/piece_boxes.h"
+#include "cdprep/advanced/build_piece_boxes.h"
 
 #include "convex/convex_hull.h"
 #include "convex/enclosing_hull.h"
@@ -124,7 +124,7 @@ std::vector<PieceNodeHull> hulls_around(const std::vector<PieceLeaf>& leaves,
 
 PieceTree make_piece_tree(const mesh::Mesh& mesh, const PieceArrays& pieces,
                           const build::Frame& frame, ParallelFor parallel_for) {
-    build::PieceBoxes boxes = build::make_piece_boxes(
+    build::PieceBoxes boxes = build::build_piece_boxes(
         {mesh.positions, mesh.triangles, pieces.pieces, pieces.triangles}, frame, parallel_for);
     PieceTree tree = {std::move(boxes.nodes), std::move(boxes.swept), std::move(boxes.leaves), {}};
     tree.hulls = hulls_around(tree.leaves, mesh, pieces, parallel_for);

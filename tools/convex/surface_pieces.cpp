@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "cdprep/advanced/parallel_for.h"
 #include "convex/surface_pieces.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "build/chunks.h"
 #include "cdprep/advanced/build_bvh.h"
 #include "convex/close_regions.h"
 #include "convex/grow_patches.h"
@@ -80,7 +80,7 @@ void describe(const PatchRules& rules, PatchSet& patches, std::span<const std::u
                 piece.contained && piece.outer_error == 0 && patches.is_contained(patch, scope);
         }
     };
-    build::for_chunks(result.pieces.size(), kAtATime, options.parallel_for, run);
+    for_chunks(result.pieces.size(), kAtATime, options.parallel_for, run);
 }
 
 /// places[order[i]] is i.

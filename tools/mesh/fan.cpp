@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/fan.h"
+#include "mesh/vectors.h"
 
 #include <algorithm>
 #include <array>
@@ -31,19 +32,6 @@ constexpr double kLargestWay = 1e50;
 constexpr double kLeastBound = 1e-200;
 
 constexpr std::array<std::size_t, 3> kNextCorner = {1, 2, 0};
-
-double largest(const Double3& p) {
-    return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
-}
-Double3 difference(const Double3& p, const Double3& q) {
-    return {p.x - q.x, p.y - q.y, p.z - q.z};
-}
-Double3 cross(const Double3& p, const Double3& q) {
-    return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
-}
-double dot(const Double3& p, const Double3& q) {
-    return p.x * q.x + p.y * q.y + p.z * q.z;
-}
 
 /// A value whose size says what its sign is; `product` that of the two ways it is of.
 bool is_certain(double value, double product, double direction) {
@@ -135,8 +123,8 @@ bool Fan::chain_many() {
 bool Fan::look(const Mesh& mesh, std::uint32_t vertex) {
     const Double3& at = mesh.positions[vertex];
     for (std::size_t i = 0; i < rays(); ++i) {
-        way_[i] = difference(mesh.positions[from_[i]], at);
-        far_[i] = largest(way_[i]);
+        way_[i] = minus(mesh.positions[from_[i]], at);
+        far_[i] = largest_of(way_[i]);
         if (far_[i] > kLargestWay) return false;
     }
     along_ = {0, 0, 0};

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "cdprep/exact/triangles.h"
+#include "mesh/vectors.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -79,10 +80,6 @@ double apart(const Double3& a, const Double3& b) {
     return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-Double3 middle(const Double3& a, const Double3& b) {
-    return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
-}
-
 struct Piece {
     Corners corners;
     double upper;
@@ -119,9 +116,9 @@ Corners shape_of(const Corners& c) {
 }
 
 std::vector<Corners> cut_in_middles(const Corners& c) {
-    const Double3 ab = middle(c[0], c[1]);
+    const Double3 ab = middle_of(c[0], c[1]);
     if (c[1] == c[2]) return {{c[0], ab, ab}, {ab, c[1], c[1]}};
-    const Double3 bc = middle(c[1], c[2]), ca = middle(c[2], c[0]);
+    const Double3 bc = middle_of(c[1], c[2]), ca = middle_of(c[2], c[0]);
     return {{c[0], ab, ca}, {ab, c[1], bc}, {ca, bc, c[2]}, {ab, bc, ca}};
 }
 

@@ -13,14 +13,10 @@
 namespace cdprep::mesh {
 namespace {
 
-Double3 times(double factor, const Double3& p) {
-    return {factor * p.x, factor * p.y, factor * p.z};
-}
-
 /// Of length 1; as it is when its length is next to nothing.
 Double3 normalized(const Double3& p) {
     const double length = std::sqrt(dot(p, p));
-    return length > kDirectionMargin ? times(1 / length, p) : p;
+    return length > kDirectionMargin ? scaled(p, 1 / length) : p;
 }
 
 }  // namespace
@@ -29,11 +25,10 @@ SeenTriangle::SeenTriangle(const Double3& eye, const Corners& triangle) : cosine
     for (std::size_t i = 0; i < 3; ++i) to_[i] = direction(eye, triangle[i]);
     for (std::size_t i = 0; i < 3; ++i) {
         const Double3 face = normalized(cross(to_[i], to_[(i + 1) % 3]));
-        face_[i] = dot(face, to_[(i + 2) % 3]) > 0 ? times(-1, face) : face;
+        face_[i] = dot(face, to_[(i + 2) % 3]) > 0 ? scaled(face, -1) : face;
         for (std::size_t j = 0; j < 3; ++j) cosine_[i][j] = dot(to_[i], to_[j]);
     }
-    middle_ = times(1.0 / 3, {to_[0].x + to_[1].x + to_[2].x, to_[0].y + to_[1].y + to_[2].y,
-                              to_[0].z + to_[1].z + to_[2].z});
+    middle_ = scaled(plus(plus(to_[0], to_[1]), to_[2]), 1.0 / 3);
 }
 
 bool SeenTriangle::is_apart(const Double3& centre, double radius) const {
@@ -47,7 +42,7 @@ bool SeenTriangle::is_apart(const Double3& centre, double radius) const {
         const bool others_below = along[j] <= along[i] * cosine_[i][j] + kDirectionMargin &&
                                   along[k] <= along[i] * cosine_[i][k] + kDirectionMargin;
         if (!others_below || along[i] < 0) continue;
-        const Double3 away = minus(centre, times(along[i], to_[i]));
+        const Double3 away = minus(centre, scaled(to_[i], along[i]));
         if (separates(normalized(away), centre, radius)) return true;
     }
     return along[0] <= 0 && along[1] <= 0 && along[2] <= 0 &&
@@ -58,7 +53,7 @@ bool SeenTriangle::separates(const Double3& normal, const Double3& centre, doubl
     const double gap = dot(normal, centre) - radius;
     if (!(gap > 0)) return false;
     // Edges of the cone lie in the plane of the nearest point: it is tilted away from them.
-    const Double3 tilted = minus(normal, times(gap / 4, middle_));
+    const Double3 tilted = minus(normal, scaled(middle_, gap / 4));
     for (const Double3& to : to_) {
         if (!(dot(tilted, to) < -kDirectionMargin)) return false;
     }

@@ -13,7 +13,7 @@
 #include "mesh/neighbour_meetings.h"
 #include "mesh/triangle_meeting.h"
 #include "mesh/vertex_stars.h"
-#include "query/self_walk.h"
+#include "cdprep/advanced/self_walk.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -71,8 +71,7 @@ public:
 
     void go_on(SearchTurn& turn) {
         Workspace workspace;
-        walk_->run(
-            rest_, workspace.storage(), [&](const SelfPair& pair) { ask(pair, turn); },
+        walk_->run(rest_, workspace, [&](const SelfPair& pair) { ask(pair, turn); },
             [&](std::size_t work) { return turn.count(work); });
     }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "mesh/source_places.h"
+#include "mesh/vectors.h"
 
 #include <algorithm>
 #include <tuple>
@@ -12,10 +13,6 @@ std::uint32_t source_corner(const TriangleSoup& soup, const SoundMesh& sound,
     const auto corner = static_cast<std::size_t>(std::find(corners.begin(), corners.end(), vertex) -
                                                  corners.begin());
     return soup.triangles[sound.source_triangle[triangle]].vertex[corner];
-}
-
-Double3 middle_of(const Double3& a, const Double3& b) {
-    return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
 }
 
 Place place_of_edge(const TriangleSoup& soup, const SoundMesh& sound, const FlawedEdge& edge,

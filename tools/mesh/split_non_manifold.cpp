@@ -4,6 +4,7 @@
 
 #include "mesh/around_edge.h"
 #include "mesh/repair_steps.h"
+#include "mesh/vectors.h"
 
 namespace cdprep::mesh {
 namespace {
@@ -37,10 +38,6 @@ std::vector<HalfEdge> pair_all(const RepairMesh& mesh, const EdgeUses& edges) {
         if (edges.of(edge).size() > 2) pair_around(mesh, edges.of(edge), twins);
     }
     return twins;
-}
-
-Double3 middle_of(const Double3& a, const Double3& b) {
-    return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
 }
 
 /// Cuts the triangle of h at a vertex on h. The half that keeps the triangle's number has

@@ -13,12 +13,8 @@
 namespace cdprep::mesh {
 namespace {
 
-Double3 times(const Double3& a, double factor) {
+Double3 scaled(const Double3& a, double factor) {
     return {a.x * factor, a.y * factor, a.z * factor};
-}
-
-double largest_of(const Double3& a) {
-    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
 
 /// The double nearest to it that is finite.
@@ -82,7 +78,7 @@ Shape shape_far_out(const Corners& t) {
     const int second = std::ilogb(length);
     // Two steps: 2^-second alone may be no double.
     const auto scaled = [second](const Double3& p) {
-        return times(times(p, std::ldexp(1.0, -second / 2)), std::ldexp(1.0, second / 2 - second));
+        return scaled(scaled(p, std::ldexp(1.0, -second / 2)), std::ldexp(1.0, second / 2 - second));
     };
     Shape shape = shape_of_edges(scaled(u), scaled(v));
     shape.exponent = first + second;

@@ -1,22 +1,38 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "cdprep/format/geometry.h"
 
 namespace cdprep::mesh {
 
-// Rounded, operation by operation.
+using format::Double3;
 
-[[nodiscard]] inline format::Double3 minus(const format::Double3& a, const format::Double3& b) {
+// Points and directions in double, rounded as written.
+
+[[nodiscard]] inline Double3 plus(const Double3& a, const Double3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+[[nodiscard]] inline Double3 minus(const Double3& a, const Double3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-
-[[nodiscard]] inline double dot(const format::Double3& a, const format::Double3& b) {
+[[nodiscard]] inline Double3 scaled(const Double3& a, double factor) {
+    return {a.x * factor, a.y * factor, a.z * factor};
+}
+[[nodiscard]] inline double dot(const Double3& a, const Double3& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-
-[[nodiscard]] inline format::Double3 cross(const format::Double3& a, const format::Double3& b) {
+[[nodiscard]] inline Double3 cross(const Double3& a, const Double3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+/// Does not overflow.
+[[nodiscard]] inline Double3 middle_of(const Double3& a, const Double3& b) {
+    return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
+}
+[[nodiscard]] inline double largest_of(const Double3& a) {
+    return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
 
 }  // namespace cdprep::mesh

@@ -20,7 +20,7 @@
 #include "convex/solid.h"
 #include "study/bounding_shapes.h"
 #include "study/bytes_read.h"
-#include "study/float_contacts.h"
+#include "cdprep/advanced/float_contacts.h"
 #include "study/octree_level.h"
 #include "study/piece_set.h"
 
@@ -404,7 +404,7 @@ private:
             hit = contact.certain || doubt_hits;
             return !hit;
         };
-        visit_float_contacts(climb_.a.model, climb_.b.model, placement(number), workspace_,
+        visit_float_contacts({climb_.a.model, climb_.b.model, placement(number)}, workspace_,
                              FloatSearch::first, visit);
         return hit;
     }
@@ -426,7 +426,7 @@ private:
                 if (contact.certain || doubt_counts) found.push_back({contact.a, contact.b});
                 return true;
             };
-            visit_float_contacts(climb_.a.model, climb_.b.model, placement(i), workspace_,
+            visit_float_contacts({climb_.a.model, climb_.b.model, placement(i)}, workspace_,
                                  FloatSearch::all, find);
             std::ranges::sort(wanted);
             std::ranges::sort(found);

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "kernels/kernels.h"
+#include "cdprep/advanced/query_counts.h"
 
 namespace cdprep::study {
 namespace {
@@ -60,7 +60,7 @@ Machine describe_machine() {
     machine.system = system_name();
     machine.compiler = compiler_name();
     machine.build = CDPREP_BUILD_TYPE;
-    machine.kernels = kernels::active().name;
+    machine.kernels = kernel_name();
     return machine;
 }
 

@@ -7,12 +7,16 @@
 
 #include "cdprep/format/checksum.h"
 #include "cdprep/pairs.h"
-#include "exact/vectors.h"
+#include "mesh/vectors.h"
 #include "study/rigid_truth.h"
 #include "study/seeded_random.h"
 
 namespace cdprep::study {
 namespace {
+
+using mesh::minus;
+using mesh::plus;
+using mesh::scaled;
 
 // Shares of the diagonal.
 constexpr double kDeepest = 0.15;
@@ -55,6 +59,8 @@ Extent extent_of(const Model& model) {
 struct Pair {
     const Model& a;
     const Model& b;
+    SourceTriangles triangles_a;
+    SourceTriangles triangles_b;
     Extent of_a;
     Extent of_b;
     double diagonal;
@@ -65,7 +71,7 @@ Pair pair_of(const Model& a, const Model& b) {
     const Extent of_b = extent_of(b);
     const double smaller = std::min(of_a.diagonal(), of_b.diagonal());
     const double larger = std::max(of_a.diagonal(), of_b.diagonal());
-    return {a, b, of_a, of_b, smaller > 0 ? smaller : larger};
+    return {a, b, SourceTriangles(a), SourceTriangles(b), of_a, of_b, smaller > 0 ? smaller : larger};
 }
 
 /// A straight way on which B comes to A: at `s` its middle is at target + s * direction.
@@ -83,7 +89,7 @@ public:
     }
 
     [[nodiscard]] Pose at(double s) const {
-        return turned(target_ + s * direction_ - offset_);
+        return turned(minus(plus(target_, scaled(direction_, s)), offset_));
     }
     [[nodiscard]] const std::array<double, 4>& quaternion() const {
         return quaternion_;
@@ -171,8 +177,9 @@ StudyPose ask(const Pair& pair, const Pose& pose, double in, Workspace& workspac
     asked.gap_lower = apart->lower;
     asked.gap_upper = apart->upper;
     if (asked.hit) asked.depth = std::max(0.0, in) * pair.diagonal;
-    asked.is_rigid = asked.hit ? crosses_when_rigid(pair.a, pair.b, pose, workspace)
-                               : is_apart_when_rigid(pair.b, pose, apart->lower);
+    asked.is_rigid =
+        asked.hit ? crosses_when_rigid(pair.triangles_a, pair.triangles_b, pose, workspace)
+                  : is_apart_when_rigid(pair.b, pose, apart->lower);
     return asked;
 }
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "cdprep/pairs.h"
-#include "core/moved_model.h"
 #include "cdprep/exact/triangles.h"
 #include "study/naive_contact.h"
 #include "study/seeded_random.h"
+#include "study/source_triangles.h"
 #include "study/storage_ladder.h"
 
 namespace cdprep::study {
@@ -30,15 +30,10 @@ std::vector<Candidate> find_candidates(const Climb& climb) {
     std::vector<Candidate> candidates;
     Workspace workspace;
     SeededRandom random(climb.set.seed);
-    std::vector<std::uint32_t> place_a(climb.a.model.triangle_count());
-    std::vector<std::uint32_t> place_b(climb.b.model.triangle_count());
-    const auto note_places = [](const Model& model, std::vector<std::uint32_t>& place) {
-        for (std::uint32_t i = 0; i < place.size(); ++i) place[model.source().triangle[i]] = i;
-    };
-    note_places(climb.a.model, place_a);
-    note_places(climb.b.model, place_b);
+    const SourceTriangles in_a(climb.a.model);
+    const SourceTriangles in_b(climb.b.model);
     for (std::size_t i = 0; i < climb.set.poses.size() && !climb.must_stop(); ++i) {
-        const Placement placement = Placement::b_moves(climb.set.poses[i].a_from_b);
+        const Pose& pose = climb.set.poses[i].a_from_b;
         std::vector<TrianglePair> pairs;
         std::size_t met = 0;
         const auto keep = [&](const TrianglePair& pair) {
@@ -51,14 +46,12 @@ std::vector<Candidate> find_candidates(const Climb& climb) {
             }
             return true;
         };
-        visit_pairs_within({climb.a.model, climb.b.model, placement}, kNearby * climb.set.diagonal,
+        visit_pairs_within({climb.a.model, climb.b.model, Placement::b_moves(pose)}, kNearby * climb.set.diagonal,
                            workspace, keep);
         std::ranges::sort(pairs);
-        const MovedModel in_a = moved_a(climb.a.model, placement);
-        const MovedModel in_b = moved_b(climb.b.model, placement);
         for (const TrianglePair& pair : pairs) {
-            const Corners a = in_a.corners(place_a[pair.a]);
-            const Corners b = in_b.corners(place_b[pair.b]);
+            const Corners a = in_a.corners(pair.a);
+            const Corners b = in_b.corners(pair.b, pose);
             const bool touch = exact::contact_without_filter(a, b) != TriangleContact::disjoint;
             candidates.push_back({a, b, i, touch});
         }

@@ -5,12 +5,17 @@
 #include <array>
 #include <cmath>
 
-#include "core/moved_model.h"
-#include "exact/vectors.h"
-#include "walk/contact_pairs.h"
+#include "cdprep/pairs.h"
+#include "mesh/vectors.h"
+#include "study/source_triangles.h"
 
 namespace cdprep::study {
 namespace {
+
+using mesh::cross;
+using mesh::dot;
+using mesh::largest_of;
+using mesh::minus;
 
 constexpr double kUnit = 0x1p-53;
 
@@ -27,9 +32,9 @@ double reach_of(const Model& model) noexcept {
 /// points that are each off by `shift` along an axis.
 int certain_side(const Double3& a, const Double3& b, const Double3& c, const Double3& d,
                  double shift) noexcept {
-    const Double3 u = a - d;
-    const Double3 v = b - d;
-    const Double3 w = c - d;
+    const Double3 u = minus(a, d);
+    const Double3 v = minus(b, d);
+    const Double3 w = minus(c, d);
     const double volume = dot(u, cross(v, w));
     const double most = std::max({largest_of(u), largest_of(v), largest_of(w)}) + 2 * shift;
     // Entries are off by 2 shift: three rows of six products each. Rounding of the entries
@@ -66,20 +71,17 @@ bool is_apart_when_rigid(const Model& b, const Pose& a_from_b, double gap) noexc
     return gap > 2 * rounding_of_pose(b, a_from_b);  // the square root of three axes
 }
 
-bool crosses_when_rigid(const Model& a, const Model& b, const Pose& a_from_b,
-                        Workspace& workspace) noexcept {
-    const double shift = rounding_of_pose(b, a_from_b);
-    const Placement placement = Placement::b_moves(a_from_b);
-    const MovedModel in_a = moved_a(a, placement);
-    const MovedModel in_b = moved_b(b, placement);
+bool crosses_when_rigid(const SourceTriangles& a, const SourceTriangles& b, const Pose& a_from_b,
+                        Workspace& workspace) {
+    const double shift = rounding_of_pose(b.model(), a_from_b);
     bool is_certain = false;
-    for_each_contact<Search::all>(
-        a, b, placement, workspace, {}, [&](std::uint32_t at_a, std::uint32_t at_b) {
-            const Corners of_a = in_a.corners(at_a);
-            const Corners of_b = in_b.corners(at_b);
-            is_certain = pierces_any(of_a, of_b, shift) || pierces_any(of_b, of_a, shift);
-            return !is_certain;
-        });
+    const auto look_at = [&](const TrianglePair& pair) {
+        const Corners of_a = a.corners(pair.a);
+        const Corners of_b = b.corners(pair.b, a_from_b);
+        is_certain = pierces_any(of_a, of_b, shift) || pierces_any(of_b, of_a, shift);
+        return !is_certain;
+    };
+    visit_overlaps({a.model(), b.model(), Placement::b_moves(a_from_b)}, workspace, look_at);
     return is_certain;
 }
 

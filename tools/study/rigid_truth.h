@@ -4,6 +4,7 @@
 #include "cdprep/model.h"
 #include "cdprep/pose.h"
 #include "cdprep/workspace.h"
+#include "study/source_triangles.h"
 
 namespace cdprep::study {
 
@@ -18,7 +19,7 @@ namespace cdprep::study {
 /// Whether some edge of one surface goes through some triangle of the other by so much that
 /// it does after the exact rotation too. False proves nothing. Costs as an overlap, much less
 /// where the first pairs settle it.
-[[nodiscard]] bool crosses_when_rigid(const Model& a, const Model& b, const Pose& a_from_b,
-                                      Workspace& workspace) noexcept;
+[[nodiscard]] bool crosses_when_rigid(const SourceTriangles& a, const SourceTriangles& b,
+                                      const Pose& a_from_b, Workspace& workspace);
 
 }  // namespace cdprep::study

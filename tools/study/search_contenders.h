@@ -17,12 +17,15 @@
 #include "cells/octree_codes.h"
 #include "cells/octree_search.h"
 #include "mesh/mesh.h"
+#include "mesh/vectors.h"
 #include "study/flush_caches.h"
 
 /// How octrees' cells are found, as benchmarks and comparisons time it.
 namespace cdprep::study::search {
 
 using format::Double3;
+using mesh::dot;
+using mesh::minus;
 using study::bytes_of;
 using study::Memory;
 using study::memory_of;
@@ -48,13 +51,6 @@ inline QuerySet uniform_set(const format::OctreeGrid& grid, std::size_t count, R
         set.points.push_back({along(grid.origin.x), along(grid.origin.y), along(grid.origin.z)});
     }
     return set;
-}
-
-inline Double3 minus(const Double3& a, const Double3& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline double dot(const Double3& a, const Double3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 inline std::array<Double3, 3> corners_of(const mesh::Mesh& mesh, std::size_t triangle) {

@@ -120,6 +120,10 @@ public:
 
     [[nodiscard]] const format::FileHeader& header() const noexcept;
 
+    /// The bytes of the file: mapped, copied or the caller's. find_deep_damage() and the functions
+    /// of find_falsehood.h read them.
+    [[nodiscard]] std::span<const std::byte> bytes() const noexcept;
+
     /// Sections that were asked for and are present.
     [[nodiscard]] SectionSet sections() const noexcept;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pieces/find_piece_falsehood.h"
+#include "cdprep/advanced/find_falsehood.h"
 
 #include <gtest/gtest.h>
 

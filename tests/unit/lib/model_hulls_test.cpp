@@ -8,7 +8,7 @@
 
 #include "cdprep/cells/find_list_damage.h"
 #include "cdprep/format/find_damage.h"
-#include "hull/find_hull_falsehood.h"
+#include "cdprep/advanced/find_falsehood.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 

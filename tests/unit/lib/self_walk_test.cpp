@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "query/self_walk.h"
+#include "cdprep/advanced/self_walk.h"
 
 #include <gtest/gtest.h>
 
@@ -61,7 +61,7 @@ std::vector<Pair> walk(const test::TestMesh& mesh, build::Quality quality,
         };
         while (!rest.empty()) {
             std::size_t left = steps;
-            walk.run(rest, workspace.storage(), found, [&](std::size_t) { return --left == 0; });
+            walk.run(rest, workspace, found, [&](std::size_t) { return --left == 0; });
         }
     }
     std::sort(pairs.begin(), pairs.end());

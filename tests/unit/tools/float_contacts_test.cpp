@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/float_contacts.h"
+#include "cdprep/advanced/float_contacts.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(FloatContacts, HoldTheExactSetAndAreRightWhereCertain) {
             return true;
         };
         EXPECT_TRUE(
-            visit_float_contacts(a.model, b.model, placement, workspace, FloatSearch::all, visit));
+            visit_float_contacts({a.model, b.model, placement}, workspace, FloatSearch::all, visit));
         std::ranges::sort(left);
         EXPECT_TRUE(std::ranges::includes(left, exact));
         bool found = false;
@@ -42,7 +42,7 @@ TEST(FloatContacts, HoldTheExactSetAndAreRightWhereCertain) {
             return false;
         };
         const bool whole =
-            visit_float_contacts(a.model, b.model, placement, workspace, FloatSearch::first, first);
+            visit_float_contacts({a.model, b.model, placement}, workspace, FloatSearch::first, first);
         EXPECT_EQ(whole, !found);
         EXPECT_TRUE(found || exact.empty());
     }

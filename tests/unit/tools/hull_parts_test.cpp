@@ -14,7 +14,7 @@
 #include "cdprep/pairs.h"
 #include "convex/find_cover_falsehood.h"
 #include "convex/hull_sections.h"
-#include "hull/find_hull_falsehood.h"
+#include "cdprep/advanced/find_falsehood.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"

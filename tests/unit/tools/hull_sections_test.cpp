@@ -16,7 +16,7 @@
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/hulls.h"
-#include "hull/find_hull_falsehood.h"
+#include "cdprep/advanced/find_falsehood.h"
 #include "support/meshes.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include "cdprep/format/section_set.h"
 
@@ -40,6 +42,16 @@ struct Damage {
     std::uint64_t found;  ///< see DamageKind
     std::uint64_t limit;  ///< see DamageKind, inclusive
 };
+
+/// Returns the damage of an element that does not agree with the geometry: DamageKind::bad_fact at
+/// element `index` of a section.
+[[nodiscard]] Damage wrong_fact(std::span<const std::byte> file, SectionId section,
+                                std::uint64_t index, std::uint64_t found,
+                                std::uint64_t expected) noexcept;
+
+/// Returns a sentence for people: the file, what is wrong, the number found, the number allowed,
+/// and what to do next.
+[[nodiscard]] std::string damage_sentence(std::string_view file, const Damage& damage);
 
 /// Checks the user block alone: magic, version, sizes, header checksum, the
 /// superblock stamp, and that every section entry lies inside the file without

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "cdprep/format/geometry.h"
 #include "cdprep/format/hull.h"
@@ -40,6 +41,9 @@ struct ConvexPoints {
     /// Returns the point of a number below `count`.
     [[nodiscard]] Double3 point(std::uint32_t number) const noexcept;
 };
+
+/// Returns points as ConvexPoints::blocks has them: lanes past the last one repeat it. Allocates.
+[[nodiscard]] std::vector<format::HullBlock> hull_blocks(std::span<const Double3> points);
 
 /// Points from which on neighbours pay.
 inline constexpr std::uint32_t kClimbFrom = 64;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <type_traits>
 
@@ -60,5 +62,16 @@ private:
 inline constexpr auto serial_for = [](std::size_t count, Task task) {
     for (std::size_t i = 0; i < count; ++i) task(i);
 };
+
+/// Runs body(first, last) for consecutive parts of [0, count), each a task of `size` items; the
+/// last may have fewer. `size` is not 0.
+template <class Body>
+void for_chunks(std::size_t count, std::size_t size, ParallelFor parallel_for, const Body& body) {
+    assert(size > 0);
+    parallel_for((count + size - 1) / size, [&](std::size_t chunk) {
+        const std::size_t first = chunk * size;
+        body(first, std::min(count, first + size));
+    });
+}
 
 }  // namespace cdprep

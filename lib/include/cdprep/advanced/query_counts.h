@@ -5,6 +5,10 @@
 
 namespace cdprep {
 
+/// Returns the name of the instruction set that queries use on this machine: "scalar", "avx2",
+/// "avx512". CDPREP_KERNELS in the environment chooses another.
+[[nodiscard]] const char* kernel_name() noexcept;
+
 /// Work of queries about two models, and of points_inside(). The counts serve tuning and
 /// comparisons on machines that are too noisy for a clock. Workspace::count_into() turns them on.
 /// They are not part of an answer: they depend on the instruction set and on the version of the

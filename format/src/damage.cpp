@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/damage_sentence.h"
+#include <optional>
 
+#include "cdprep/format/find_damage.h"
 #include "cdprep/format/sections.h"
 
-namespace cdprep {
+namespace cdprep::format {
 namespace {
 
 std::string number(std::uint64_t value) {
@@ -11,12 +12,12 @@ std::string number(std::uint64_t value) {
 }
 
 /// What is wrong, without the file and without the way out.
-std::string fault(const format::Damage& damage) {
-    using Kind = format::DamageKind;
+std::string fault(const Damage& damage) {
+    using Kind = DamageKind;
     const std::string section =
-        damage.section == format::SectionId{0}
+        damage.section == SectionId{0}
             ? "the user block"
-            : "section " + std::string(format::section_name(damage.section));
+            : "section " + std::string(section_name(damage.section));
     const std::string at = " at byte " + number(damage.at);
     const std::string found = number(damage.found);
     const std::string limit = number(damage.limit);
@@ -60,8 +61,8 @@ std::string fault(const format::Damage& damage) {
     return section + at + " is damaged";
 }
 
-const char* way_out(format::DamageKind kind) {
-    using Kind = format::DamageKind;
+const char* way_out(DamageKind kind) {
+    using Kind = DamageKind;
     switch (kind) {
         case Kind::bad_magic:
             return "Bake the mesh again, or give the path of a .cdp.h5 file.";
@@ -79,8 +80,15 @@ const char* way_out(format::DamageKind kind) {
 
 }  // namespace
 
-std::string damage_sentence(std::string_view file, const format::Damage& damage) {
+Damage wrong_fact(std::span<const std::byte> file, SectionId section, std::uint64_t index,
+                  std::uint64_t found, std::uint64_t expected) noexcept {
+    const std::optional<SectionEntry> entry = find_section(file, section);
+    const std::uint64_t at = entry ? entry->offset + index * entry->element_size : 0;
+    return {DamageKind::bad_fact, section, at, found, expected};
+}
+
+std::string damage_sentence(std::string_view file, const Damage& damage) {
     return std::string(file) + ": " + fault(damage) + ". " + way_out(damage.kind);
 }
 
-}  // namespace cdprep
+}  // namespace cdprep::format

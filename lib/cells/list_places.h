@@ -10,17 +10,8 @@
 
 #include "cdprep/format/find_damage.h"
 #include "cdprep/format/octree.h"
-#include "cdprep/format/sections.h"
 
 namespace cdprep {
-
-/// A fact of one element that the geometry does not bear out.
-inline format::Damage wrong_fact(std::span<const std::byte> file, format::SectionId id,
-                                 std::uint64_t index, std::uint64_t found, std::uint64_t expected) {
-    const auto entry = format::find_section(file, id);
-    const std::uint64_t at = entry ? entry->offset + index * entry->element_size : 0;
-    return {format::DamageKind::bad_fact, id, at, found, expected};
-}
 
 /// Where a list that rises names the triangle, among all references.
 inline std::optional<std::uint32_t> find_reference(std::span<const std::uint32_t> references,
@@ -44,7 +35,7 @@ inline std::optional<format::Damage> find_wrong_mark(std::span<const std::byte> 
         const std::uint32_t reference = references[place];
         const bool marked = (reference & format::kSharedReference) != 0;
         if (marked != (places.size() > 1)) {
-            return wrong_fact(file, id, place, reference, reference ^ format::kSharedReference);
+            return format::wrong_fact(file, id, place, reference, reference ^ format::kSharedReference);
         }
     }
     return std::nullopt;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "build/piece_boxes.h"
+#include "cdprep/advanced/build_piece_boxes.h"
 
 #include <algorithm>
 #include <array>
@@ -102,7 +102,7 @@ void bound_leaves(PieceBoxes& made, const PiecesOf& surface, const Frame& frame,
 
 }  // namespace
 
-PieceBoxes make_piece_boxes(const PiecesOf& surface, const Frame& frame, ParallelFor parallel_for) {
+PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame, ParallelFor parallel_for) {
     PieceBoxes made;
     made.leaves = cut_into_leaves(surface);
     if (made.leaves.size() > format::kMaxPieceLeaves) return {};

@@ -29,7 +29,7 @@ struct PieceBoxes {
 /// piece is cut into as few leaves as hold it, of about one length; leaves stand as
 /// build_bvh() would put triangles with their boxes. The same for any parallel_for. Nothing when
 /// there would be more than format::kMaxPieceLeaves leaves.
-[[nodiscard]] PieceBoxes make_piece_boxes(const PiecesOf& surface, const Frame& frame,
+[[nodiscard]] PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame,
                                           ParallelFor parallel_for);
 
 }  // namespace cdprep::build
