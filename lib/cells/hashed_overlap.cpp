@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "cells/cell_contacts.h"
-#include "cells/corner_cells.h"
 #include "cells/octree_codes.h"
 #include "cells/octree_parts.h"
 #include "walk/walk_pairs.h"
@@ -475,9 +474,6 @@ bool visit_swapped(const QuestionThrough& question, ContactVisitor visit) noexce
 
 bool visit_contacts_through_keys(const QuestionThrough& question, ContactVisitor visit) noexcept {
     if (!has_hashed_octree(question.a) || !has_hashed_octree(question.b)) return true;
-    if (question.through.structure == Structure::hashed_octree_literal) {
-        return visit_by_corners(question, visit);
-    }
     // Measured: the model with fewer triangles has fewer boxes to hold against the other's
     // cells, up to 5 times; the cells are sized for the other's triangles.
     return question.a.triangle_count() < question.b.triangle_count()

@@ -13,10 +13,6 @@ namespace cdprep {
 /// triangles, are held against the leaf cells below, and what those list is tested. Which
 /// model's octree it is, is chosen for speed and does not show.
 ///
-/// Structure::hashed_octree_literal: for each triangle of B that A's oriented box may hold
-/// (PotentialSet), what the leaf cells of A list in which its corners lie. Misses triangles
-/// that cross others between their corners.
-///
 /// Both models must serve Ask::hashed_octree.
 bool visit_contacts_through_keys(const QuestionThrough& question, ContactVisitor visit) noexcept;
 

@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <span>
 
+#include "cdprep/cells/octree_search.h"
+#include "cells/octree_cells.h"
 #include "cells/cell_bounds.h"
-#include "cells/octree_search.h"
 
 namespace cdprep {
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "cells/octree_search.h"
+#include "cdprep/cells/octree_search.h"
 
 #include <cassert>
+
+#include "cdprep/format/float_environment.h"
+#include "cells/octree_codes.h"
 
 namespace cdprep {
 
@@ -30,6 +33,11 @@ OctreeIndex octree_index(const build::Octree& octree) noexcept {
             .top = octree.top,
             .modulus_table = octree.modulus_table,
             .mixed_table = octree.mixed_table};
+}
+
+std::uint64_t code_of_point(const format::OctreeGrid& grid, const Double3& p) noexcept {
+    const format::FloatEnvironment environment;
+    return octree_code(octree_cell(grid, p));
 }
 
 }  // namespace cdprep

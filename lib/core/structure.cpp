@@ -10,7 +10,6 @@ Ask ask_of(Structure structure) noexcept {
         case Structure::adaptive_octree:
             return Ask::adaptive_octree;
         case Structure::hashed_octree:
-        case Structure::hashed_octree_literal:
             return Ask::hashed_octree;
         case Structure::tetra_tree:
             return Ask::tetra_tree;

@@ -35,7 +35,6 @@ constexpr std::array kThrough = {std::pair(Structure::bvh, "bvh"),
                                  std::pair(Structure::octree, "octree"),
                                  std::pair(Structure::adaptive_octree, "adaptive"),
                                  std::pair(Structure::hashed_octree, "hashed"),
-                                 std::pair(Structure::hashed_octree_literal, "literal"),
                                  std::pair(Structure::tetra_tree, "tetra-tree")};
 
 class Asker {

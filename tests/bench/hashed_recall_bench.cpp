@@ -26,7 +26,8 @@
 
 #include "bench_input.h"
 #include "cells/octree_codes.h"
-#include "cells/octree_search.h"
+#include "cdprep/cells/octree_search.h"
+#include "study/literal_octree.h"
 #include "study/pruning.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
@@ -39,8 +40,9 @@ namespace cdprep {
 namespace {
 
 constexpr std::array<const char*, 3> kKinds = {"light", "deep", "near"};
-constexpr std::array<Structure, 3> kContenders = {Structure::bvh, Structure::hashed_octree,
-                                                  Structure::hashed_octree_literal};
+enum class Contender : std::uint8_t { bvh, repaired, literal };
+constexpr std::array<Contender, 3> kContenders = {Contender::bvh, Contender::repaired,
+                                                  Contender::literal};
 
 test::OpenModel open_with_octree(const std::filesystem::path& path,
                                  const build::OctreeOptions& options) {
@@ -80,9 +82,17 @@ public:
     }
 
 private:
-    std::size_t count(Structure structure, const Placement& placement) {
-        return overlaps_through({a_, b_, placement}, {.structure = structure, .search = search_},
-                                workspace_, {});
+    std::size_t count(Contender contender, const Placement& placement) {
+        if (contender == Contender::bvh) return overlaps({a_, b_, placement}, workspace_, {});
+        if (contender == Contender::repaired) {
+            return overlaps_through({a_, b_, placement},
+                                    {.structure = Structure::hashed_octree, .search = search_},
+                                    workspace_, {});
+        }
+        std::size_t pairs = 0;
+        const auto keep = [&](const TrianglePair&) { return ++pairs > 0; };
+        study::visit_literal_overlaps(a_, b_, placement, {.search = search_}, keep);
+        return pairs;
     }
     void time(const Placement& placement, int rounds, Row& row);
 
@@ -110,7 +120,7 @@ void Study::time(const Placement& placement, int rounds, Row& row) {
 void Study::ask(const Pose& pose, int rounds, Row& row) {
     const Placement placement = Placement::b_moves(pose);
     const study::Pruning pruning = study::prune(a_, b_, pose, search_, workspace_, missed_);
-    const std::size_t repaired = count(Structure::hashed_octree, placement);
+    const std::size_t repaired = count(Contender::repaired, placement);
     if (static_cast<double>(repaired) != pruning.pairs) stop("The pairs differ.");
     row.sum += pruning;
     time(placement, rounds, row);

@@ -89,7 +89,7 @@ std::vector<Contender> top_contenders(const build::Octree& octree,
         made.push_back(contender(
             "top" + std::to_string(level) + "/" + name,
             memory_of(octree.nodes, octree.leaf_nodes, octree.leaf_codes, tops[level]),
-            [=](const Double3& p) { return find_leaf_by(index, code_at(grid, p), count); }));
+            [=](const Double3& p) { return find_leaf_by(index, code_of_point(grid, p), count); }));
     };
     const auto add_ahead = [&](std::uint32_t level) {
         const Codes all = octree.leaf_codes;

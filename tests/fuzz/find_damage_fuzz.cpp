@@ -86,7 +86,7 @@ void ask_structures(const Model& model, Workspace& workspace) {
         Placement::b_moves(Pose::from_quaternion(1, 2, 3, 4, {0.25, 0, 0}).value());
     for (const Structure structure :
          {Structure::octree, Structure::adaptive_octree, Structure::hashed_octree,
-          Structure::hashed_octree_literal, Structure::tetra_tree}) {
+          Structure::tetra_tree}) {
         if (!model.serves(ask_of(structure))) continue;
         if (model.serves(Ask::inside)) {
             (void)points_inside(model, {0.5, 0.5, 0.5}, workspace, structure);
@@ -98,9 +98,7 @@ void ask_structures(const Model& model, Workspace& workspace) {
                 const StructureOptions through = {.structure = structure, .search = search};
                 (void)overlaps_through({model, model, placement}, through, workspace, pairs);
                 (void)any_overlap_through({model, model, placement}, through, workspace);
-                const bool is_hashed = structure == Structure::hashed_octree ||
-                                       structure == Structure::hashed_octree_literal;
-                if (!is_hashed) break;
+                if (structure != Structure::hashed_octree) break;
             }
         }
         for (const Descent descent : {Descent::larger, Descent::a_first, Descent::b_first}) {

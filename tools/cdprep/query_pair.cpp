@@ -26,6 +26,8 @@
 #include "query.h"
 #include "query_placements.h"
 #include "query_structure.h"
+#include "report/structure_name.h"
+#include "study/literal_octree.h"
 #include "structures.h"
 #include "usage.h"
 
@@ -94,12 +96,24 @@ bool has_cells(Structure structure) {
     return structure != Structure::bvh && structure != Structure::pieces;
 }
 
+constexpr const char* kLiteral = "hashed-octree-literal";
+
+/// Whether the talk's search answers, which misses pairs.
+bool asks_literally(const Arguments& arguments) {
+    return arguments.question == Question::overlap && arguments.structure.structure == kLiteral;
+}
+
 /// Answers one placement after the other with buffers that are kept.
 class Asker {
 public:
     Asker(const Arguments& arguments, const StructureOptions& through, const Model& a,
           const Model& b)
-        : arguments_(arguments), through_(through), a_(a), b_(b), errors_(arguments.errors) {
+        : arguments_(arguments),
+          through_(through),
+          is_literal_(asks_literally(arguments)),
+          a_(a),
+          b_(b),
+          errors_(arguments.errors) {
         options_.body = arguments.as == "solid" ? Body::solid : Body::surface;
         options_.overlap = arguments.contact == "proper" ? Overlap::proper : Overlap::closed;
         options_.degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
@@ -171,7 +185,7 @@ private:
     report::PairAnswer ask(std::size_t number, const Placement& placement) {
         report::PairAnswer answer;
         answer.pose = number;
-        answer.is_approximate = through_.structure == Structure::hashed_octree_literal;
+        answer.is_approximate = is_literal_;
         if (arguments_.question == Question::overlap) {
             const std::size_t count =
                 arguments_.segments ? find_crossings(placement) : find_pairs(placement);
@@ -219,9 +233,28 @@ private:
     }
 
     std::size_t find_pairs(const Placement& placement) {
+        if (is_literal_) return find_pairs_literally(placement);
         return keep_pairs([&](std::span<TrianglePair> room) {
             return overlaps_through({a_, b_, placement, options_}, through_, workspace_, room);
         });
+    }
+
+    std::size_t find_pairs_literally(const Placement& placement) {
+        std::size_t count = 0;
+        if (!arguments_.count) pairs_.clear();
+        const auto keep = [&](const TrianglePair& pair) {
+            if (!arguments_.count) pairs_.push_back(pair);
+            ++count;
+            return true;
+        };
+        study::visit_literal_overlaps(a_, b_, placement,
+                                      {.search = through_.search,
+                                       .overlap = options_.overlap,
+                                       .degenerate = options_.degenerate,
+                                       .counts = arguments_.counts ? &counts_ : nullptr},
+                                      keep);
+        if (!arguments_.count) std::sort(pairs_.begin(), pairs_.end());
+        return count;
     }
 
     /// Calls `find(room)`, again with more room when the pairs did not fit; with none
@@ -251,6 +284,7 @@ private:
 
     const Arguments& arguments_;
     const StructureOptions through_;
+    const bool is_literal_;
     const Model& a_;
     const Model& b_;
     PairOptions options_;
@@ -379,23 +413,36 @@ const char* name_of(Question question) {
 
 /// Through what a question can be asked.
 std::span<const Structure> structures_serving(Question question) {
-    static constexpr std::array<Structure, 7> kAll = {Structure::bvh,
-                                                      Structure::pieces,
-                                                      Structure::octree,
-                                                      Structure::adaptive_octree,
-                                                      Structure::hashed_octree,
-                                                      Structure::tetra_tree,
-                                                      Structure::hashed_octree_literal};
+    static constexpr std::array<Structure, 6> kAll = {
+        Structure::bvh,           Structure::pieces,        Structure::octree,
+        Structure::adaptive_octree, Structure::hashed_octree, Structure::tetra_tree};
     const std::span<const Structure> all = kAll;
-    if (question == Question::overlap) return all;
-    // The talk's algorithm misses pairs: it can count, but not say that there are none.
-    return question == Question::collide ? all.first(6) : all.first(2);
+    const bool finds_pairs = question == Question::overlap || question == Question::collide;
+    return finds_pairs ? all : all.first(2);
+}
+
+/// Options that the talk's search does not serve.
+std::optional<Error> find_idle_for_literal(const Arguments& arguments) {
+    if (arguments.as == "solid") {
+        return Error{ErrorCode::bad_argument,
+                     "--as solid has to know that no triangles touch, and hashed-octree-literal "
+                     "misses some: ask through hashed-octree."};
+    }
+    if (arguments.structure.leaf_test.empty()) return std::nullopt;
+    return Error{ErrorCode::bad_argument,
+                 "--leaf-test is for every structure but bvh, pieces and hashed-octree-literal, "
+                 "but --structure is hashed-octree-literal."};
 }
 
 /// Fails where a question's other options need what only the hierarchy of boxes does.
 Result<StructureOptions> structure_of(const Arguments& arguments) {
-    Result<StructureOptions> through = parse_structure(
-        arguments.structure, name_of(arguments.question), structures_serving(arguments.question));
+    StructureWords words = arguments.structure;
+    if (asks_literally(arguments)) {
+        if (const auto error = find_idle_for_literal(arguments)) return *error;
+        words.structure = report::structure_name(Structure::hashed_octree);  // reads that file
+    }
+    Result<StructureOptions> through =
+        parse_structure(words, name_of(arguments.question), structures_serving(arguments.question));
     if (!through) return through;
     if (arguments.segments && through.value().structure != Structure::bvh) {
         return Error{ErrorCode::bad_argument,
@@ -406,11 +453,6 @@ Result<StructureOptions> structure_of(const Arguments& arguments) {
         return Error{ErrorCode::bad_argument,
                      "--level-of-detail is for --structure tetra-tree, but that is " +
                          arguments.structure.structure + "."};
-    }
-    if (arguments.as == "solid" && through.value().structure == Structure::hashed_octree_literal) {
-        return Error{ErrorCode::bad_argument,
-                     "--as solid has to know that no triangles touch, and hashed-octree-literal "
-                     "misses some: ask through hashed-octree."};
     }
     return through;
 }

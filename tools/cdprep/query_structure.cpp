@@ -11,10 +11,6 @@
 namespace cdprep::cli {
 namespace {
 
-bool is_hashed(Structure structure) {
-    return structure == Structure::hashed_octree || structure == Structure::hashed_octree_literal;
-}
-
 /// Of the structures that serve the question.
 Result<Structure> find_structure(const std::string& name, const char* question,
                                  std::span<const Structure> serving) {
@@ -39,10 +35,10 @@ std::optional<Error> find_idle_option(const StructureWords& words, Structure str
     if (!words.leaf_test.empty() && is_hierarchy) {
         return idle("--leaf-test", "every structure but bvh and pieces");
     }
-    if (!words.descent.empty() && (is_hierarchy || is_hashed(structure))) {
+    if (!words.descent.empty() && (is_hierarchy || structure == Structure::hashed_octree)) {
         return idle("--descent", "octree, octree-adaptive and tetra-tree");
     }
-    if (!words.search.empty() && !is_hashed(structure)) {
+    if (!words.search.empty() && structure != Structure::hashed_octree) {
         return idle("--search", "hashed-octree and hashed-octree-literal");
     }
     return std::nullopt;

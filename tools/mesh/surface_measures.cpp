@@ -13,10 +13,6 @@
 namespace cdprep::mesh {
 namespace {
 
-Double3 scaled(const Double3& a, double factor) {
-    return {a.x * factor, a.y * factor, a.z * factor};
-}
-
 /// The double nearest to it that is finite.
 double finite(double value) {
     constexpr double kLargest = std::numeric_limits<double>::max();

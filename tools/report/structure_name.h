@@ -15,12 +15,11 @@ struct StructureName {
     Structure structure;
     bool is_baked;  ///< --structures may ask for it; the others come of themselves, or with effects
 };
-inline constexpr std::array<StructureName, 7> kStructureNames = {{
+inline constexpr std::array<StructureName, 6> kStructureNames = {{
     {"bvh", Structure::bvh, false},
     {"octree", Structure::octree, true},
     {"octree-adaptive", Structure::adaptive_octree, true},
     {"hashed-octree", Structure::hashed_octree, true},
-    {"hashed-octree-literal", Structure::hashed_octree_literal, false},
     {"tetra-tree", Structure::tetra_tree, true},
     {"pieces", Structure::pieces, false},
 }};
@@ -32,11 +31,9 @@ inline constexpr std::array<StructureName, 7> kStructureNames = {{
     return "unknown";
 }
 
-/// What to bake so that questions can be asked through it; empty for what every bake
-/// has. The talk's algorithm asks the same file as the repaired one.
+/// What to bake so that questions can be asked through it; empty for what every bake has.
 [[nodiscard]] constexpr const char* baked_name(Structure structure) noexcept {
     if (structure == Structure::bvh) return "";
-    if (structure == Structure::hashed_octree_literal) structure = Structure::hashed_octree;
     return structure_name(structure);
 }
 

@@ -35,10 +35,10 @@ void add_hierarchical(const Forms& forms, std::vector<Contender>& to) {
         return find_by_centres(forms.centres.root(), p);
     }));
     to.push_back(contender("H2", memory_of(forms.plain.pool()), [&](const Double3& p) {
-        return find_by_bits(forms.plain.root(), code_at(grid, p));
+        return find_by_bits(forms.plain.root(), code_of_point(grid, p));
     }));
     to.push_back(contender("H3", memory_of(nodes), [&](const Double3& p) {
-        return find_by_masks(nodes, code_at(grid, p));
+        return find_by_masks(nodes, code_of_point(grid, p));
     }));
 }
 
@@ -49,24 +49,24 @@ void add_by_key(const Forms& forms, std::vector<Contender>& to) {
     const Memory modulus = memory_of(octree.nodes, octree.modulus_table);
     const Memory mixed = memory_of(octree.nodes, octree.mixed_table);
     to.push_back(contender("K0", modulus, [=, &grid](const Double3& p) {
-        return find_leaf(index, CellSearch::modulus, code_at(grid, p));
+        return find_leaf(index, CellSearch::modulus, code_of_point(grid, p));
     }));
     to.push_back(contender("K1", mixed, [=, &grid](const Double3& p) {
-        return find_leaf(index, CellSearch::mixed, code_at(grid, p));
+        return find_leaf(index, CellSearch::mixed, code_of_point(grid, p));
     }));
     to.push_back(contender("K2", mixed, [=, &grid](const Double3& p) {
-        return find_by_levels(index, code_at(grid, p));
+        return find_by_levels(index, code_of_point(grid, p));
     }));
     to.push_back(contender("L1", memory_of(octree.nodes, octree.leaf_nodes, octree.leaf_codes),
                            [=, &grid](const Double3& p) {
-                               const std::uint64_t code = code_at(grid, p);
+                               const std::uint64_t code = code_of_point(grid, p);
                                return last_leaf(index, count_without_branch(index.leaf_codes, code),
                                                 code);
                            }));
     to.push_back(
         contender("L2", memory_of(octree.nodes, octree.leaf_nodes, octree.leaf_codes, octree.top),
                   [=, &grid](const Double3& p) {
-                      return find_leaf(index, CellSearch::sorted, code_at(grid, p));
+                      return find_leaf(index, CellSearch::sorted, code_of_point(grid, p));
                   }));
 }
 

@@ -154,8 +154,7 @@ PairStudy study_pair(const ModelForms& a, const ModelForms& b, PoseSet poses,
         for (std::size_t asked = 0; asked < kAsked; ++asked) {
             contender.reasons[asked] = pair.find_reason(static_cast<Asked>(asked));
         }
-        const bool is_literal = strategy.through.structure == Structure::hashed_octree_literal;
-        if (is_literal && !options.literal) contender.reasons.fill("left out by --quick");
+        if (strategy.is_literal && !options.literal) contender.reasons.fill("left out by --quick");
     }
     compare_answers(asking, timing, study);
     for (std::size_t i = 0; i < asking.pairs.size(); ++i) {

@@ -6,19 +6,35 @@
 #include <cstdint>
 #include <vector>
 
-#include "cells/octree_search.h"
+#include "cdprep/cells/octree_search.h"
+#include "cdprep/points.h"
 
 namespace cdprep::study::search {
 
-/// Where a node's cell begins, and its level.
+/// Where a node's cell begins, in finest cells, and its level.
 struct NodeCell {
-    CellPlace first{};
+    std::array<std::uint32_t, 3> first{};
     std::uint32_t level = 0;
+
+    [[nodiscard]] std::uint32_t steps() const {
+        return 1U << (format::kOctreeBits - level);
+    }
 };
 
+/// The corner of the finest cell that is `ahead` steps along each axis, as format::OctreeGrid
+/// defines planes.
+inline Double3 corner_of(const format::OctreeGrid& grid, const NodeCell& cell,
+                         std::uint32_t ahead) {
+    const auto plane = [&](double origin, std::uint32_t i) {
+        return origin + static_cast<double>(i + ahead) * grid.step;
+    };
+    return {plane(grid.origin.x, cell.first[0]), plane(grid.origin.y, cell.first[1]),
+            plane(grid.origin.z, cell.first[2])};
+}
+
 inline NodeCell cell_of(std::uint64_t key) {
-    NodeCell cell{.level = level_of(key)};
-    const std::uint64_t code = code_of(key);
+    NodeCell cell{.level = format::level_of(key)};
+    const std::uint64_t code = format::code_of(key);
     for (std::uint32_t bit = 0; bit < format::kOctreeBits; ++bit) {
         for (std::uint32_t axis = 0; axis < 3; ++axis) {
             cell.first[axis] |= static_cast<std::uint32_t>((code >> (3 * bit + axis)) & 1U) << bit;
@@ -72,12 +88,12 @@ private:
 
 /// H0: a node has its box, and a search tests its children's, one after the other.
 struct BoxNode {
-    Box3 box{};
+    Box box{};
     std::array<BoxNode*, 8> children{};
     Ending ending;
 };
 
-inline bool holds_half_open(const Box3& box, const Double3& p) {
+inline bool holds_half_open(const Box& box, const Double3& p) {
     return p.x >= box.lower.x && p.x < box.upper.x && p.y >= box.lower.y && p.y < box.upper.y &&
            p.z >= box.lower.z && p.z < box.upper.z;
 }
@@ -85,7 +101,7 @@ inline bool holds_half_open(const Box3& box, const Double3& p) {
 inline PointerOctree<BoxNode> box_octree(const format::OctreeGrid& grid,
                                          const std::vector<format::OctreeNode>& nodes) {
     return {nodes, [&](BoxNode& node, const NodeCell& cell) {
-                node.box = octree_box(grid, cell.first, cell.level);
+                node.box = {corner_of(grid, cell, 0), corner_of(grid, cell, cell.steps())};
             }};
 }
 
@@ -107,10 +123,7 @@ struct CentreNode {
 inline PointerOctree<CentreNode> centre_octree(const format::OctreeGrid& grid,
                                                const std::vector<format::OctreeNode>& nodes) {
     return {nodes, [&](CentreNode& node, const NodeCell& cell) {
-                const std::uint32_t half = kOctreeSteps >> cell.level >> 1;
-                node.centre = {octree_plane(grid.origin.x, grid.step, cell.first[0] + half),
-                               octree_plane(grid.origin.y, grid.step, cell.first[1] + half),
-                               octree_plane(grid.origin.z, grid.step, cell.first[2] + half)};
+                node.centre = corner_of(grid, cell, cell.steps() / 2);
             }};
 }
 

@@ -12,9 +12,8 @@
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/points.h"
 #include "cdprep/pose.h"
-#include "cells/potential_set.h"
 #include "study/cells.h"
-#include "walk/contact_pairs.h"
+#include "study/literal_octree.h"
 
 namespace cdprep::study {
 namespace {
@@ -45,41 +44,39 @@ public:
            Workspace& workspace)
         : a_(a), b_(b), placement_(placement), search_(search), workspace_(workspace) {}
 
-    [[nodiscard]] std::vector<TrianglePair> pairs(Structure structure) {
-        std::vector<TrianglePair> found(count(structure));
-        found.resize(overlaps_through({a_, b_, placement_}, through(structure), workspace_, found));
+    [[nodiscard]] std::vector<TrianglePair> pairs() {
+        const Pair pair = {a_, b_, placement_};
+        std::vector<TrianglePair> found(overlaps(pair, workspace_, {}));
+        found.resize(overlaps(pair, workspace_, found));
         return found;
     }
-    [[nodiscard]] QueryCounts counts(Structure structure) {
+    /// The counts of the search as this library has it.
+    [[nodiscard]] QueryCounts repaired_counts() {
         QueryCounts counts;
         workspace_.count_into(&counts);
-        count(structure);
+        static_cast<void>(overlaps_through(
+            {a_, b_, placement_}, {.structure = Structure::hashed_octree, .search = search_},
+            workspace_, {}));
         workspace_.count_into(nullptr);
         return counts;
     }
+    /// What the talk's search finds, sorted, and its counts.
+    [[nodiscard]] std::vector<TrianglePair> literal_pairs(QueryCounts& counts) {
+        std::vector<TrianglePair> found;
+        const auto keep = [&](const TrianglePair& pair) {
+            found.push_back(pair);
+            return true;
+        };
+        visit_literal_overlaps(a_, b_, placement_, {.search = search_, .counts = &counts}, keep);
+        std::ranges::sort(found);
+        return found;
+    }
     /// Triangles of B in leaves that A's oriented box does not clip.
     [[nodiscard]] double leaves_left() {
-        const PotentialSet set(a_, b_, placement_);
-        double triangles = 0;
-        if (set.is_empty()) return 0;
-        walk_nodes(
-            b_, workspace_.storage(), [&](const format::BvhNode& node) { return set.judge(node); },
-            [&](const TriangleRun& run) {
-                triangles += run.last - run.first;
-                return true;
-            },
-            [](const TriangleRun&) { return true; });
-        return triangles;
+        return as_double(PotentialSet(a_, b_, placement_).triangles_in_leaves());
     }
 
 private:
-    [[nodiscard]] StructureOptions through(Structure structure) const {
-        return {.structure = structure, .search = search_};
-    }
-    std::size_t count(Structure structure) {
-        return overlaps_through({a_, b_, placement_}, through(structure), workspace_, {});
-    }
-
     const Model& a_;
     const Model& b_;
     const Placement& placement_;
@@ -124,12 +121,12 @@ Pruning prune(const Model& a, const Model& b, const Pose& a_from_b, CellSearch s
               Workspace& workspace, std::vector<TrianglePair>& missed) {
     const Placement placement = Placement::b_moves(a_from_b);
     Placed asked(a, b, placement, search, workspace);
-    const auto all = asked.pairs(Structure::bvh);
-    const auto found = asked.pairs(Structure::hashed_octree_literal);
+    const auto all = asked.pairs();
+    QueryCounts literal;
+    const auto found = asked.literal_pairs(literal);
     missed.clear();
     std::ranges::set_difference(all, found, std::back_inserter(missed));
-    const QueryCounts literal = asked.counts(Structure::hashed_octree_literal);
-    const QueryCounts repaired = asked.counts(Structure::hashed_octree);
+    const QueryCounts repaired = asked.repaired_counts();
     const Box box = {a.record().bounds->lower, a.record().bounds->upper};
     return {.pairs = as_double(all.size()),
             .found = as_double(found.size()),

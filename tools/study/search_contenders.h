@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "cells/octree_codes.h"
-#include "cells/octree_search.h"
+#include "cdprep/cells/octree_search.h"
 #include "mesh/mesh.h"
 #include "mesh/vectors.h"
 #include "study/flush_caches.h"
@@ -46,7 +45,7 @@ inline QuerySet uniform_set(const format::OctreeGrid& grid, std::size_t count, R
     QuerySet set{"uniform", {}};
     for (std::size_t i = 0; i < count; ++i) {
         const auto along = [&](double origin) {
-            return origin + share(random) * grid.step * kOctreeSteps;
+            return origin + share(random) * grid.step * (1U << format::kOctreeBits);
         };
         set.points.push_back({along(grid.origin.x), along(grid.origin.y), along(grid.origin.z)});
     }
@@ -145,11 +144,6 @@ inline QuerySet walk_set(const mesh::Mesh& mesh, std::size_t count, Random& rand
     return set;
 }
 
-/// The finest cell that holds a point, as the product finds it.
-inline std::uint64_t code_at(const format::OctreeGrid& grid, const Double3& p) {
-    return octree_code(octree_cell(grid, p));
-}
-
 /// How many of the rising codes are at most `code`. The number of steps depends on their
 /// number alone, and each moves without a branch.
 inline std::size_t count_without_branch(std::span<const std::uint64_t> codes, std::uint64_t code) {
@@ -169,7 +163,7 @@ inline std::uint32_t last_leaf(const OctreeIndex& index, std::size_t before, std
     if (before == 0) return kNoNode;
     const std::uint32_t node = index.leaf_nodes[before - 1];
     const std::uint64_t key = index.nodes[node].key;
-    return key_at(code, level_of(key)) == key ? node : kNoNode;
+    return key_at(code, format::level_of(key)) == key ? node : kNoNode;
 }
 
 /// One way to find the leaf of a point.

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "study/strategy.h"
 
+#include <algorithm>
+
 #include "cdprep/advanced/convex_distance.h"
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
+#include "study/literal_octree.h"
 
 namespace cdprep::study {
 
@@ -20,7 +23,9 @@ std::span<const Strategy> strategies() {
         {"hashed octree, literal",
          "paper",
          &ModelForms::paper,
-         {.structure = Structure::hashed_octree_literal, .search = CellSearch::modulus}},
+         {.structure = Structure::hashed_octree, .search = CellSearch::modulus},
+         false,
+         true},
         {"tetra-tree", "tuned", &ModelForms::tuned, {.structure = Structure::tetra_tree}},
         {"octree", "tuned", &ModelForms::tuned, {.structure = Structure::octree}},
         {"hashed octree",
@@ -65,10 +70,33 @@ std::string StrategyPair::find_reason(Asked asked) const {
 
 bool StrategyPair::collides(const Placement& placement) {
     if (strategy_.of_hulls) return convex_collide(*hull_a_, *hull_b_, placement);
+    if (strategy_.is_literal) {
+        bool hit = false;
+        const auto end = [&](const TrianglePair&) { return !(hit = true); };
+        visit_literally(placement, end);
+        return hit;
+    }
     return any_overlap_through({a_, b_, placement}, strategy_.through, workspace_);
 }
 
+void StrategyPair::visit_literally(const Placement& placement, PairVisitor keep) {
+    visit_literal_overlaps(a_, b_, placement,
+                           {.search = strategy_.through.search, .counts = counts_}, keep);
+}
+
 std::size_t StrategyPair::count_pairs(const Placement& placement) {
+    if (strategy_.is_literal) {
+        std::size_t count = 0;
+        const auto keep = [&](const TrianglePair& pair) {
+            if (count < pairs_.size()) pairs_[count] = pair;
+            ++count;
+            return true;
+        };
+        visit_literally(placement, keep);
+        std::sort(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(
+                                                       std::min(count, pairs_.size())));
+        return count;
+    }
     return overlaps_through({a_, b_, placement}, strategy_.through, workspace_, pairs_);
 }
 

@@ -32,11 +32,12 @@ struct Strategy {
     const char* setting;  ///< "paper", "tuned", or empty
     MemoryModel ModelForms::*form;
     StructureOptions through;
-    bool of_hulls = false;  ///< asks the models' hulls instead of them
+    bool of_hulls = false;    ///< asks the models' hulls instead of them
+    bool is_literal = false;  ///< the talk's search, which misses pairs (literal_octree.h)
 
     /// Whether answers about the models may be wrong.
     [[nodiscard]] bool is_approximate() const noexcept {
-        return of_hulls || through.structure == Structure::hashed_octree_literal;
+        return of_hulls || is_literal;
     }
 };
 
@@ -71,6 +72,7 @@ public:
 
     /// From now on counts what questions do; null ends that.
     void count_into(QueryCounts* counts) noexcept {
+        counts_ = counts;
         workspace_.count_into(counts);
     }
 
@@ -78,9 +80,13 @@ private:
     Strategy strategy_;
     const Model& a_;
     const Model& b_;
+    /// Calls `keep` with the pairs that the talk's search finds, until it returns false.
+    void visit_literally(const Placement& placement, PairVisitor keep);
+
     std::optional<ConvexPoints> hull_a_;
     std::optional<ConvexPoints> hull_b_;
     Workspace workspace_{cells()};
+    QueryCounts* counts_ = nullptr;
     std::vector<TrianglePair> pairs_;
 };
 

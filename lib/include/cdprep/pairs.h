@@ -46,8 +46,8 @@ struct PairOptions {
     Body body = Body::surface;
     Overlap overlap = Overlap::closed;
     Degenerate degenerate = Degenerate::keep;
-    /// The structure of both files that finds the answer. It changes speed only, except
-    /// Structure::hashed_octree_literal. A question that has no search through it uses the BVH.
+    /// The structure of both files that finds the answer. It changes speed only. A question that
+    /// has no search through it uses the BVH.
     Structure through = Structure::bvh;
 };
 

@@ -60,8 +60,7 @@ struct Inclusion {
 ///
 /// `through` chooses the structure that finds the answer, which is the same through each, bit for
 /// bit: the tetra-tree reads the triangles of one cone, the octrees those of the cells along a
-/// ray; Structure::hashed_octree_literal answers as hashed_octree, and Structure::pieces as bvh.
-/// An open model is always answered through the BVH.
+/// ray; Structure::pieces answers as bvh. An open model is always answered through the BVH.
 ///
 /// Exact for balanced models. Needs Ask::inside and ask_of() the structure. Takes O(log n + hits)
 /// time; through cells O(level + triangles in one cone) or O(cells along the ray + their

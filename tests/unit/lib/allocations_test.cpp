@@ -239,21 +239,18 @@ TEST(Allocations, NoQuestionThroughAHashedOctreeAllocates) {
     std::size_t hits = 0, misses = 0;
     const std::size_t before = allocations;
     for (const Placement& placement : placements) {
-        for (const Structure structure :
-             {Structure::hashed_octree, Structure::hashed_octree_literal}) {
-            for (const LeafTest test : {LeafTest::guigue_devillers, LeafTest::feito_torres}) {
-                const StructureOptions through = {.structure = structure, .leaf_test = test};
-                const bool hit =
-                    any_overlap_through({a.model, b.model, placement}, through, workspace);
-                (hit ? hits : misses) += 1;
-                static_cast<void>(
-                    overlaps_through({a.model, b.model, placement}, through, workspace, pairs));
-            }
+        for (const LeafTest test : {LeafTest::guigue_devillers, LeafTest::feito_torres}) {
+            const StructureOptions through = {.structure = Structure::hashed_octree,
+                                              .leaf_test = test};
+            const bool hit = any_overlap_through({a.model, b.model, placement}, through, workspace);
+            (hit ? hits : misses) += 1;
+            static_cast<void>(
+                overlaps_through({a.model, b.model, placement}, through, workspace, pairs));
         }
     }
     EXPECT_EQ(allocations, before);
-    EXPECT_GT(hits, 8U);
-    EXPECT_GT(misses, 8U);
+    EXPECT_GT(hits, 4U);
+    EXPECT_GT(misses, 4U);
 }
 
 /// Near, far, touching and nested.

@@ -24,10 +24,6 @@ constexpr std::array<CellSearch, 3> kSearches = {CellSearch::sorted, CellSearch:
 StructureOptions hashed(CellSearch search, LeafTest leaf_test = LeafTest::guigue_devillers) {
     return {.structure = Structure::hashed_octree, .leaf_test = leaf_test, .search = search};
 }
-StructureOptions literal(CellSearch search) {
-    return {.structure = Structure::hashed_octree_literal, .search = search};
-}
-
 OpenModel open_with_octree(const TestMesh& mesh, const build::OctreeOptions& octree,
                            const TinyOptions& options = {}) {
     return open_tiny(with_octree(bake_tiny(mesh.positions, mesh.triangles, options), octree));
@@ -186,39 +182,6 @@ TEST(HashedOverlapLaws, MoreCandidatesThanThereIsRoomForComeOnce) {
                                      Placement::b_moves(Pose()), workspace);
     EXPECT_EQ(pairs.size(), 3U * kCopies);
     EXPECT_EQ(std::adjacent_find(pairs.begin(), pairs.end()), pairs.end());
-}
-
-// A law: what the literal form finds is among the pairs, each once, the same by every
-// search, and it is not all of them.
-TEST(HashedOverlapLaws, TheLiteralFormFindsAPartOfThePairs) {
-    std::mt19937 random(31);
-    Workspace workspace(cells());
-    std::size_t all = 0, found = 0;
-    for (int round = 0; round < 30; ++round) {
-        const TestMesh a = round % 2 == 0 ? icosphere(3) : random_soup(random(), 300, 0.2);
-        const TestMesh b = round % 2 == 0 ? icosphere(2) : random_soup(random(), 200, 0.2);
-        const OpenModel model_a = open_with_octree(a, {.level = 4, .threshold = 4});
-        const OpenModel model_b = open_with_octree(b, {.level = 4, .threshold = 4});
-        const Pose p = random_pose(random, 0.8), q = random_pose(random, 0.3);
-        for (const Placement& placement : {Placement::b_moves(p), Placement::world(p, q)}) {
-            const auto expected = all_pairs(model_a.model, model_b.model, placement, workspace);
-            const auto some = pairs_through(literal(CellSearch::sorted), model_a.model,
-                                            model_b.model, placement, workspace);
-            ASSERT_TRUE(std::includes(expected.begin(), expected.end(), some.begin(), some.end()));
-            ASSERT_EQ(std::adjacent_find(some.begin(), some.end()), some.end());
-            for (const CellSearch search : {CellSearch::modulus, CellSearch::mixed}) {
-                ASSERT_TRUE(pairs_through(literal(search), model_a.model, model_b.model, placement,
-                                          workspace) == some);
-            }
-            ASSERT_EQ(any_overlap_through({model_a.model, model_b.model, placement},
-                                          literal(CellSearch::mixed), workspace),
-                      !some.empty());
-            all += expected.size();
-            found += some.size();
-        }
-    }
-    EXPECT_GT(found, all * 3 / 10);
-    EXPECT_LT(found, all * 98 / 100);
 }
 
 }  // namespace

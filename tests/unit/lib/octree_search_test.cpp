@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/octree_search.h"
+#include "cdprep/cells/octree_search.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,7 @@
 
 namespace cdprep {
 
-/// A structure of a file that finds answers. The answer is the same through each, bit for bit,
-/// except hashed_octree_literal.
+/// A structure of a file that finds answers. The answer is the same through each, bit for bit.
 enum class Structure : std::uint8_t {
     bvh,              ///< the hierarchy of boxes: the fastest for two models
     octree,           ///< both models' octrees, side by side
@@ -16,9 +15,6 @@ enum class Structure : std::uint8_t {
     /// Looks up cells of one model's octree by their keys, for each triangle of the other that
     /// may collide: cells that the triangle's box overlaps.
     hashed_octree,
-    /// The same for the cells that a triangle's corners lie in, as published: it misses pairs.
-    /// For studies.
-    hashed_octree_literal,
     tetra_tree,  ///< both models' tetra-trees, side by side; the fastest for points
     pieces,      ///< both models' hierarchies over convex pieces of their surfaces
 };

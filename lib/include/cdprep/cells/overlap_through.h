@@ -9,8 +9,8 @@
 
 namespace cdprep {
 
-// Variants of one search, for studies that compare them. Answers agree, except through
-// Structure::hashed_octree_literal. overlaps() and collide() use the defaults.
+// Variants of one search, for studies that compare them. Answers agree. overlaps() and collide()
+// use the defaults.
 
 /// The exact test of two triangles. Both always agree.
 enum class LeafTest : std::uint8_t {

@@ -9,8 +9,8 @@
 
 #include "cdprep/cells/build_octree.h"
 #include "cdprep/cells/overlap_through.h"
+#include "cdprep/format/octree.h"
 #include "cdprep/model.h"
-#include "cells/octree_cells.h"
 
 namespace cdprep {
 
@@ -36,6 +36,11 @@ struct OctreeIndex {
 /// The index of a model that has octree().grid, or of a builder's octree; empty without nodes.
 [[nodiscard]] OctreeIndex octree_index(const Model& model) noexcept;
 [[nodiscard]] OctreeIndex octree_index(const build::Octree& octree) noexcept;
+
+/// Returns the z-curve code of the finest cell that holds a point, or of the nearest cell of the
+/// cube. `p` has no NaN.
+[[nodiscard]] std::uint64_t code_of_point(const format::OctreeGrid& grid,
+                                          const Double3& p) noexcept;
 
 /// The key of the cell of `level` in which the finest cell `code` lies.
 inline std::uint64_t key_at(std::uint64_t code, std::uint32_t level) noexcept {
@@ -85,7 +90,7 @@ inline std::uint32_t find_sorted_leaf(const OctreeIndex& index, std::uint64_t co
     if (after == codes) return kNoNode;
     const std::uint32_t node = index.leaf_nodes[static_cast<std::size_t>(after - codes) - 1];
     const std::uint64_t key = index.nodes[node].key;
-    return key_at(code, level_of(key)) == key ? node : kNoNode;
+    return key_at(code, format::level_of(key)) == key ? node : kNoNode;
 }
 
 /// find_leaf() by a chained table. The deepest stored cell that holds `code` is a leaf, or

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/cells/overlap_through.h"
+#include "cdprep/exact/predicates.h"
+#include "cdprep/model.h"
+#include "cdprep/pairs.h"
+#include "cdprep/pose.h"
+
+namespace cdprep::study {
+
+/// The oriented box of one model among the triangles of another: what lies beyond one of its six
+/// planes touches no triangle in the box. The rest is the potentially colliding set of the talk.
+class PotentialSet {
+public:
+    /// The box is A's, the triangles are B's. A model without the section `bounds` has the root
+    /// box of its hierarchy.
+    PotentialSet(const Model& a, const Model& b, const Placement& placement);
+
+    /// Whether no plane clips a triangle of B, corners as stored.
+    [[nodiscard]] bool holds(const Corners& t) const;
+
+    /// Returns the number of triangles of B in leaves of its hierarchy that no plane clips.
+    [[nodiscard]] std::size_t triangles_in_leaves() const;
+
+private:
+    /// Points p of B with |normal * p + offset| <= limit.
+    struct Slab {
+        Double3 normal;
+        double offset;
+        double limit;
+    };
+    [[nodiscard]] std::uint32_t leaves_below(std::uint32_t height, std::uint32_t index) const;
+    [[nodiscard]] bool clips(const format::BvhNode& node, std::uint32_t lane) const;
+
+    const Model& b_;
+    std::array<Slab, 3> slab_{};
+};
+
+struct LiteralOptions {
+    CellSearch search = CellSearch::modulus;
+    Overlap overlap = Overlap::closed;
+    Degenerate degenerate = Degenerate::keep;
+    QueryCounts* counts = nullptr;  ///< work is added here, if anywhere
+};
+
+/// Calls `visit` with pairs of triangles that overlap, each once, until it returns false; returns
+/// false when it did. This is the search through hashed octrees as the talk describes it: for each
+/// triangle of B in the potentially colliding set, the triangles of A in the leaf cells that hold
+/// its corners. Knowingly wrong: it misses a triangle that crosses cells without a corner in them.
+/// Pairs that it finds overlap, exactly. Both models serve Ask::hashed_octree. Allocates.
+bool visit_literal_overlaps(const Model& a, const Model& b, const Placement& placement,
+                            const LiteralOptions& options, PairVisitor visit);
+
+}  // namespace cdprep::study
