@@ -107,14 +107,6 @@ Result<Done> write_pieces(mesh::Mesh mesh, bool is_closed, const EncloseOptions&
 
 }  // namespace
 
-Error hull_beyond_range(const fs::path& input, const char* option) {
-    return {ErrorCode::bad_argument,
-            input.string() +
-                ": an enclosing hull would have coordinates beyond the range of doubles. Leave "
-                "out " +
-                option + "."};
-}
-
 std::optional<convex::ApproximatePieces> search_pieces(const mesh::Mesh& mesh,
                                                        convex::ApproximateOptions how,
                                                        const Threads& threads) {

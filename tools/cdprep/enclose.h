@@ -28,9 +28,6 @@ struct EncloseOptions {
     LoadOptions load;
 };
 
-/// Why there is no enclosing hull; `option` asked for it.
-[[nodiscard]] Error hull_beyond_range(const std::filesystem::path& input, const char* option);
-
 /// Searches on these threads; nothing soon after a signal.
 [[nodiscard]] std::optional<convex::ApproximatePieces> search_pieces(const mesh::Mesh& mesh,
                                                                      convex::ApproximateOptions how,

@@ -8,7 +8,6 @@
 #include "command.h"
 #include "convex/enclosing_hull.h"
 #include "convex/mesh_hulls.h"
-#include "enclose.h"
 #include "import_arguments.h"
 #include "interrupt.h"
 #include "load_mesh.h"
@@ -100,7 +99,7 @@ Result<report::HullReport> find_hulls(const Arguments& arguments) {
                                                 .parallel_for = threads.parallel_for()});
     report::HullReport report;
     report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    if (!hulls) return hull_beyond_range(arguments.input, "--max-vertices");
+    if (!hulls) return report::hull_beyond_range(arguments.input.string(), "--max-vertices");
     if (is_interrupted()) return interrupted(arguments.input);
     report.input = arguments.input.string();
     report.output = arguments.output.string();

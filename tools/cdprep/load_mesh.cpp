@@ -10,8 +10,7 @@
 #include "cdprep/format/limits.h"
 #include "mesh/point_tree.h"
 #include "mesh/weld.h"
-#include "report/fixed.h"
-#include "report/place_text.h"
+#include "report/number_text.h"
 
 namespace cdprep::cli {
 namespace {

@@ -27,6 +27,7 @@
 #include "mesh/weld.h"
 #include "mesh_nodes.h"
 #include "report/bounds_name.h"
+#include "report/hull_report.h"
 #include "report/provenance.h"
 #include "report/verdict_words.h"
 #include "write/write_file.h"
@@ -219,7 +220,7 @@ Result<convex::HullSections> build_hulls(const std::filesystem::path& input,
                                          std::optional<report::BakedParts>& parts) {
     auto sections = convex::make_hull_sections(mesh, soup.instances, choice.max_vertices,
                                                threads.parallel_for());
-    if (!sections) return hull_beyond_range(input, "--hull-vertices");
+    if (!sections) return report::hull_beyond_range(input.string(), "--hull-vertices");
     if (!choice.has_parts()) return std::move(*sections);
     const MeshNodes nodes = find_nodes(soup, mesh);
     convex::ApproximateOptions how;

@@ -8,7 +8,7 @@
 #include <functional>
 #include <limits>
 
-#include "report/fixed.h"
+#include "report/number_text.h"
 #include "report/page_parts.h"
 #include "report/printable.h"
 

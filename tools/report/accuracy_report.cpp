@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "report/csv_text.h"
-#include "report/fixed.h"
+#include "report/number_text.h"
 #include "report/printable.h"
 
 namespace cdprep::report {

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "report/fixed.h"
-#include "report/place_text.h"
+#include "report/number_text.h"
 #include "report/printable.h"
 
 namespace cdprep::report {

@@ -7,15 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "report/stage_time.h"
 #include "report/structure_report.h"
 
 namespace cdprep::report {
-
-/// How long a stage took.
-struct StageTime {
-    std::string stage;
-    double seconds;
-};
 
 /// Convex parts that enclose the mesh.
 struct BakedParts {
@@ -52,7 +47,6 @@ struct BakeReport {
 };
 
 /// A line for a person; with the times of the stages when asked for.
-enum class Timings : std::uint8_t { hide, show };
 [[nodiscard]] std::string bake_text(const BakeReport& report, Timings timings);
 
 /// {"models": [...]}: one object a file.

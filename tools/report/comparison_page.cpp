@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "report/comparison_report.h"
-#include "report/fixed.h"
+#include "report/number_text.h"
 #include "report/json_layout.h"
 #include "report/page_parts.h"
 #include "report/page_text.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "report/csv_text.h"
-#include "report/fixed.h"
+#include "report/number_text.h"
 #include "report/json_layout.h"
 #include "report/printable.h"
 #include "study/cells.h"

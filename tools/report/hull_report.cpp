@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "report/place_text.h"
+#include "report/number_text.h"
 #include "report/printable.h"
 
 namespace cdprep::report {
@@ -41,6 +41,13 @@ Json json_of(const HullFigures& hull) {
 }
 
 }  // namespace
+
+Error hull_beyond_range(const std::string& input, const char* option) {
+    return {ErrorCode::bad_argument, input +
+                                         ": an enclosing hull would have coordinates beyond the "
+                                         "range of doubles. Leave out " +
+                                         option + "."};
+}
 
 std::string hull_text(const HullReport& report, std::size_t most_lines) {
     std::string text =

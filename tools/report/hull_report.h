@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "cdprep/result.h"
+
 namespace cdprep::report {
 
 /// One hull: around all, a component or a node.
@@ -31,6 +33,9 @@ struct HullReport {
     int exit = 0;
     std::optional<std::string> error;  ///< the sentence, when it failed
 };
+
+/// Returns why there is no enclosing hull; `option` asked for it.
+[[nodiscard]] Error hull_beyond_range(const std::string& input, const char* option);
 
 /// For a person: a line for each hull, at most `most_lines`, and what they are together.
 [[nodiscard]] std::string hull_text(const HullReport& report, std::size_t most_lines);

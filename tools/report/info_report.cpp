@@ -8,7 +8,7 @@
 #include "cdprep/format/sections.h"
 #include "report/baked_hulls.h"
 #include "report/bounds_name.h"
-#include "report/place_text.h"
+#include "report/number_text.h"
 #include "report/printable.h"
 #include "report/space_name.h"
 #include "report/structure_report.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/json_layout.h"
 
-#include <array>
-
 namespace cdprep::report {
 namespace {
 
@@ -10,38 +8,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kLineLength = 100;
 
-struct CountName {
-    const char* name;
-    std::uint64_t mesh::DefectCounts::*count;
-};
-
-constexpr std::array<CountName, 25> kCounts = {{
-    {"non_finite_vertices", &mesh::DefectCounts::non_finite_vertices},
-    {"out_of_range_triangles", &mesh::DefectCounts::out_of_range_triangles},
-    {"unreferenced_vertices", &mesh::DefectCounts::unreferenced_vertices},
-    {"duplicate_vertices", &mesh::DefectCounts::duplicate_vertices},
-    {"degenerate_triangles", &mesh::DefectCounts::degenerate_triangles},
-    {"zero_area_triangles", &mesh::DefectCounts::zero_area_triangles},
-    {"sliver_triangles", &mesh::DefectCounts::sliver_triangles},
-    {"duplicate_triangles", &mesh::DefectCounts::duplicate_triangles},
-    {"opposite_triangles", &mesh::DefectCounts::opposite_triangles},
-    {"boundary_edges", &mesh::DefectCounts::boundary_edges},
-    {"boundary_loops", &mesh::DefectCounts::boundary_loops},
-    {"non_manifold_edges", &mesh::DefectCounts::non_manifold_edges},
-    {"non_manifold_vertices", &mesh::DefectCounts::non_manifold_vertices},
-    {"inconsistent_edges", &mesh::DefectCounts::inconsistent_edges},
-    {"non_orientable_components", &mesh::DefectCounts::non_orientable_components},
-    {"t_junctions", &mesh::DefectCounts::t_junctions},
-    {"near_seams", &mesh::DefectCounts::near_seams},
-    {"components", &mesh::DefectCounts::components},
-    {"inverted_components", &mesh::DefectCounts::inverted_components},
-    {"nested_components", &mesh::DefectCounts::nested_components},
-    {"overlapping_components", &mesh::DefectCounts::overlapping_components},
-    {"crossing_pairs", &mesh::DefectCounts::crossing_pairs},
-    {"touching_pairs", &mesh::DefectCounts::touching_pairs},
-    {"coplanar_overlap_pairs", &mesh::DefectCounts::coplanar_overlap_pairs},
-    {"self_intersecting_pairs", &mesh::DefectCounts::self_intersecting_pairs},
-}};
 static_assert(sizeof(mesh::DefectCounts) == kCounts.size() * sizeof(std::uint64_t));
 
 /// The items in brackets: on one line when they fit, else one a line.
@@ -90,13 +56,7 @@ std::string laid_out(const Json& json, int depth) {
     return bracketed("{}", items, depth);
 }
 
-Json counts_json(const mesh::DefectCounts& counts) {
-    Json json = Json::object();
-    for (const CountName& entry : kCounts) json[entry.name] = counts.*entry.count;
-    return json;
-}
-
-Json position_json(const mesh::Double3& position) {
+Json position_json(const format::Double3& position) {
     return Json::array({position.x, position.y, position.z});
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "mesh/find_defects.h"
+#include "cdprep/format/geometry.h"
 
 namespace cdprep::report {
 
@@ -19,10 +19,7 @@ namespace cdprep::report {
 /// The text with bytes that are no UTF-8 replaced, as they are in JSON.
 [[nodiscard]] std::string valid_utf8(std::string_view text);
 
-/// The flat object `counts`: every member of DefectCounts by its name.
-[[nodiscard]] nlohmann::ordered_json counts_json(const mesh::DefectCounts& counts);
-
 /// Three numbers, null where one is not finite.
-[[nodiscard]] nlohmann::ordered_json position_json(const mesh::Double3& position);
+[[nodiscard]] nlohmann::ordered_json position_json(const format::Double3& position);
 
 }  // namespace cdprep::report

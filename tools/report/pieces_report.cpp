@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "report/place_text.h"
+#include "report/number_text.h"
 #include "report/printable.h"
 
 namespace cdprep::report {

@@ -2,8 +2,8 @@
 #include "report/place_text.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
+
+#include "report/number_text.h"
 
 namespace cdprep::report {
 namespace {
@@ -52,17 +52,6 @@ std::string place_text(const ValidationReport& report, mesh::Rule rule, const me
 
 std::string count_text(const mesh::Finding& finding, std::uint64_t count) {
     return (finding.is_lower_bound ? "at least " : "") + std::to_string(count);
-}
-
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-    return std::to_string(count) + " " + (count == 1 ? one : many);
-}
-
-std::string number_text(double number) {
-    constexpr std::size_t kLongest = 32;
-    std::array<char, kLongest> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-    return {digits.data(), end};
 }
 
 }  // namespace cdprep::report

@@ -17,13 +17,7 @@ namespace cdprep::report {
 [[nodiscard]] std::string place_text(const ValidationReport& report, mesh::Rule rule,
                                      const mesh::Place& place, std::size_t most_numbers);
 
-/// "1 triangle", "2 triangles".
-[[nodiscard]] std::string counted(std::uint64_t count, const char* one, const char* many);
-
 /// "12", or "at least 12" where a limit ended the search.
 [[nodiscard]] std::string count_text(const mesh::Finding& finding, std::uint64_t count);
-
-/// The shortest text that reads back as the same number.
-[[nodiscard]] std::string number_text(double number);
 
 }  // namespace cdprep::report

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/repair_report.h"
-#include "report/place_text.h"
+#include "report/number_text.h"
 #include "report/printable.h"
 
 #include <array>

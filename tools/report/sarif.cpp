@@ -7,8 +7,10 @@
 #include "report/file_uri.h"
 #include "report/fingerprint.h"
 #include "report/json_layout.h"
+#include "report/number_text.h"
 #include "report/place_text.h"
 #include "report/severity_name.h"
+#include "report/validation_json.h"
 
 namespace cdprep::report {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "report/space_name.h"
 
-#include "report/place_text.h"
+#include "report/number_text.h"
 
 namespace cdprep::report {
 

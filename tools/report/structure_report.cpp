@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "report/fixed.h"
+#include "report/number_text.h"
 #include "report/structure_name.h"
 
 namespace cdprep::report {

@@ -2,6 +2,7 @@
 #include "report/validation_json.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "report/file_uri.h"
@@ -15,6 +16,39 @@ namespace cdprep::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+struct CountName {
+    const char* name;
+    std::uint64_t mesh::DefectCounts::*count;
+};
+
+constexpr std::array<CountName, 25> kCounts = {{
+    {"non_finite_vertices", &mesh::DefectCounts::non_finite_vertices},
+    {"out_of_range_triangles", &mesh::DefectCounts::out_of_range_triangles},
+    {"unreferenced_vertices", &mesh::DefectCounts::unreferenced_vertices},
+    {"duplicate_vertices", &mesh::DefectCounts::duplicate_vertices},
+    {"degenerate_triangles", &mesh::DefectCounts::degenerate_triangles},
+    {"zero_area_triangles", &mesh::DefectCounts::zero_area_triangles},
+    {"sliver_triangles", &mesh::DefectCounts::sliver_triangles},
+    {"duplicate_triangles", &mesh::DefectCounts::duplicate_triangles},
+    {"opposite_triangles", &mesh::DefectCounts::opposite_triangles},
+    {"boundary_edges", &mesh::DefectCounts::boundary_edges},
+    {"boundary_loops", &mesh::DefectCounts::boundary_loops},
+    {"non_manifold_edges", &mesh::DefectCounts::non_manifold_edges},
+    {"non_manifold_vertices", &mesh::DefectCounts::non_manifold_vertices},
+    {"inconsistent_edges", &mesh::DefectCounts::inconsistent_edges},
+    {"non_orientable_components", &mesh::DefectCounts::non_orientable_components},
+    {"t_junctions", &mesh::DefectCounts::t_junctions},
+    {"near_seams", &mesh::DefectCounts::near_seams},
+    {"components", &mesh::DefectCounts::components},
+    {"inverted_components", &mesh::DefectCounts::inverted_components},
+    {"nested_components", &mesh::DefectCounts::nested_components},
+    {"overlapping_components", &mesh::DefectCounts::overlapping_components},
+    {"crossing_pairs", &mesh::DefectCounts::crossing_pairs},
+    {"touching_pairs", &mesh::DefectCounts::touching_pairs},
+    {"coplanar_overlap_pairs", &mesh::DefectCounts::coplanar_overlap_pairs},
+    {"self_intersecting_pairs", &mesh::DefectCounts::self_intersecting_pairs},
+}};
 
 /// A hole may have a million vertices; the report of it need not.
 constexpr std::size_t kMostNumbers = 100;
@@ -171,6 +205,12 @@ std::string baked_findings_json(const ValidationReport& report, const std::strin
 
 std::string validation_ndjson(const ValidationReport& report, const ValidationRun& run) {
     return compact(mesh_json(report, run)) + "\n";
+}
+
+Json counts_json(const mesh::DefectCounts& counts) {
+    Json json = Json::object();
+    for (const CountName& entry : kCounts) json[entry.name] = counts.*entry.count;
+    return json;
 }
 
 }  // namespace cdprep::report

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "report/validation_run.h"
@@ -26,5 +27,8 @@ inline constexpr int kValidationReportVersion = 1;
 /// The same mesh on a line of its own.
 [[nodiscard]] std::string validation_ndjson(const ValidationReport& report,
                                             const ValidationRun& run);
+
+/// The flat object `counts`: every member of DefectCounts by its name.
+[[nodiscard]] nlohmann::ordered_json counts_json(const mesh::DefectCounts& counts);
 
 }  // namespace cdprep::report

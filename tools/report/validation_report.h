@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "mesh/find_defects.h"
-#include "report/bake_report.h"
+#include "report/stage_time.h"
 
 namespace cdprep::report {
 

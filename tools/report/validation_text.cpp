@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "report/number_text.h"
 #include "report/place_text.h"
 #include "report/printable.h"
 #include "report/severity_name.h"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "report/place_text.h"
+#include "report/number_text.h"
 
 namespace cdprep::report {
 namespace {
