@@ -7,7 +7,7 @@
 #include "accuracy/epeck.h"
 #include "accuracy/exact_change.h"
 #include "accuracy/hard_cases.h"
-#include "convex/convex_hull.h"
+#include "hull/convex_hull.h"
 #include "support/hard_point_sets.h"
 #include "support/run_threads.h"
 #include "unit/tools/hull_flaw.h"

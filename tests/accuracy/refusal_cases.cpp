@@ -16,7 +16,7 @@
 #include "cdprep/format/sections.h"
 
 #ifdef CDPREP_HAVE_TOOLS
-#include "mesh/find_defects.h"
+#include "validate/defects/find_defects.h"
 #include "unit/tools/soup_of.h"
 #endif
 

@@ -13,8 +13,8 @@
 #include <memory>
 #include <vector>
 
-#include "cdprep/program_threads.h"
-#include "convex/approximate_pieces.h"
+#include "cli/program_threads.h"
+#include "decompose/enclose/approximate_pieces.h"
 #include "import/import_file.h"
 #include "mesh/point_tree.h"
 #include "mesh/weld.h"

@@ -16,11 +16,11 @@
 
 #include "bench_input.h"
 #include "import/import_file.h"
-#include "mesh/boundary.h"
-#include "mesh/edge_flaws.h"
-#include "mesh/find_defects.h"
-#include "mesh/sound_mesh.h"
-#include "mesh/surface_measures.h"
+#include "validate/defects/boundary.h"
+#include "validate/defects/edge_flaws.h"
+#include "validate/defects/find_defects.h"
+#include "validate/defects/sound_mesh.h"
+#include "validate/defects/surface_measures.h"
 
 namespace cdprep::mesh {
 namespace {

@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "convex/convex_hull.h"
-#include "convex/cull_inside.h"
+#include "hull/convex_hull.h"
+#include "hull/cull_inside.h"
 #include "import/import_file.h"
 
 #ifdef CDPREP_HAVE_QHULL

@@ -31,7 +31,7 @@
 #include <map>
 
 #include "octree_meshes.h"
-#include "study/cell_searches.h"
+#include "compare/cells/cell_searches.h"
 
 namespace cdprep {
 namespace {

@@ -33,9 +33,9 @@
 #include <vector>
 
 #include "import/import_file.h"
-#include "mesh/moved_distance.h"
-#include "mesh/repair.h"
-#include "mesh/stored_verdict.h"
+#include "repair/moved_distance.h"
+#include "repair/repair.h"
+#include "repair/stored_verdict.h"
 #include "write/mesh_file.h"
 
 namespace {

@@ -25,9 +25,9 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/program_threads.h"
+#include "cli/program_threads.h"
 #include "import/import_file.h"
-#include "mesh/self_intersections.h"
+#include "crossings/self_intersections.h"
 #include "mesh/weld.h"
 
 namespace cdprep {

@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "bench_input.h"
-#include "cdprep/program_threads.h"
-#include "convex/piece_arrays.h"
+#include "cli/program_threads.h"
+#include "decompose/surface/piece_arrays.h"
 #include "import/import_file.h"
 #include "mesh/normalize.h"
 #include "mesh/weld.h"

@@ -24,7 +24,7 @@ from shared_models import bake, must, run
 PROGRAM, FAULTY = sys.argv[1:3]
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 MESHES = ROOT / "samples" / "meshes"
-SCHEMA = json.loads((ROOT / "tools/report/accuracy.schema.json").read_text())
+SCHEMA = json.loads((ROOT / "tools/accuracy/accuracy.schema.json").read_text())
 BOLT, BRACKET = MESHES / "bolt.obj", MESHES / "bracket.obj"
 LADDERS = ["geometry", "distance", "predicates", "storage", "coherence"]
 STRATA = ["deep", "shallow", "touching", "near", "far"]

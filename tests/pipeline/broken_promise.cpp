@@ -2,7 +2,7 @@
 // The program with a fault: its octrees' cells never meet. They enclose the surface, so the
 // study of accuracy promises that they miss nothing. The linker takes these functions, which are
 // all of octree_level.cpp, and leaves the library's.
-#include "study/octree_level.h"
+#include "accuracy/octree_level.h"
 
 namespace cdprep::study {
 

@@ -25,7 +25,7 @@ from browser import Browser, find_chromium
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SCHEMA = jsonschema.Draft202012Validator(
-    json.loads((ROOT / "tools/report/comparison.schema.json").read_text()))
+    json.loads((ROOT / "tools/compare/comparison.schema.json").read_text()))
 
 
 def run(program, *arguments):

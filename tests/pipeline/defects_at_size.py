@@ -22,7 +22,7 @@ import jsonschema
 from shared_models import must
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-REPORT_SCHEMA = json.loads((ROOT / "tools/report/validation.schema.json").read_text())
+REPORT_SCHEMA = json.loads((ROOT / "tools/validate/validation.schema.json").read_text())
 MEGABYTES = 300
 SECONDS = 60  # of processor time; quadratic work takes many minutes
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "report/html_page.h"
+#include "validate/html_page.h"
 
 namespace {
 

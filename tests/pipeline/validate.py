@@ -23,7 +23,7 @@ import jsonschema
 from shared_models import must, run
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-REPORT_SCHEMA = json.loads((ROOT / "tools/report/validation.schema.json").read_text())
+REPORT_SCHEMA = json.loads((ROOT / "tools/validate/validation.schema.json").read_text())
 SARIF_SCHEMA = json.loads((ROOT / "tests/data/sarif-2.1.0-part.schema.json").read_text())
 JUNIT_SCHEMA = ROOT / "tests/data/junit.xsd"
 FORMATS = ["text", "json", "ndjson", "sarif", "junit"]

@@ -92,7 +92,7 @@ std::optional<std::filesystem::path> find_child_program() {
     constexpr int kBuildTreeDepth = 4;
     std::filesystem::path above = folder;
     for (int i = 0; i < kBuildTreeDepth; ++i, above = above.parent_path()) {
-        places.push_back(above / "tools/import" / kProgram);
+        places.push_back(above / "bin" / kProgram);
     }
     const auto found = std::find_if(places.begin(), places.end(), [](const auto& place) {
         return ::access(place.c_str(), X_OK) == 0;

@@ -7,13 +7,13 @@
 #include "cdprep/advanced/build_image.h"
 #include "cdprep/advanced/build_model.h"
 #include "cdprep/format/sections.h"
-#include "convex/contact_arrays.h"
-#include "convex/find_bounds.h"
-#include "convex/hull_sections.h"
-#include "convex/piece_arrays.h"
-#include "convex/piece_tree.h"
-#include "convex/section_list.h"
-#include "convex/surface_pieces.h"
+#include "decompose/surface/contact_arrays.h"
+#include "mesh/find_bounds.h"
+#include "decompose/enclose/hull_sections.h"
+#include "decompose/surface/piece_arrays.h"
+#include "decompose/surface/piece_tree.h"
+#include "bake/section_list.h"
+#include "decompose/surface/surface_pieces.h"
 
 namespace cdprep::study {
 namespace {

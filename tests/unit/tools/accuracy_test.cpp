@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "study/accuracy.h"
+#include "accuracy/accuracy.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "report/accuracy_chart.h"
-#include "report/accuracy_report.h"
+#include "accuracy/accuracy_chart.h"
+#include "accuracy/accuracy_report.h"
 #include "unit/tools/soup_of.h"
 
 namespace cdprep::study {

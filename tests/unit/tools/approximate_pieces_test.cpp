@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/approximate_pieces.h"
+#include "decompose/enclose/approximate_pieces.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "convex/distance_field.h"
+#include "decompose/enclose/distance_field.h"
 #include "mesh/weld.h"
 #include "support/concave_solids.h"
 #include "support/run_threads.h"

@@ -6,7 +6,7 @@
 #include "cdprep/advanced/build_model.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/model.h"
-#include "cdprep/pipeline.h"
+#include "bake/pipeline.h"
 #include "study/memory_model.h"
 #include "support/scratch_folder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/bounding_shapes.h"
+#include "accuracy/bounding_shapes.h"
 
 #include <gtest/gtest.h>
 

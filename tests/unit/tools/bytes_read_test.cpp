@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/bytes_read.h"
+#include "accuracy/bytes_read.h"
 
 #include <gtest/gtest.h>
 

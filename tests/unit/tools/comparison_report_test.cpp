@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "report/comparison_report.h"
+#include "compare/comparison_report.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "report/comparison_page.h"
+#include "compare/comparison_page.h"
 #include "study/cells.h"
 
 namespace cdprep::report {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Against a map that keeps every pair of components.
-#include "mesh/component_pairs.h"
+#include "validate/defects/component_pairs.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/contact_arrays.h"
+#include "decompose/surface/contact_arrays.h"
 
 #include <gtest/gtest.h>
 

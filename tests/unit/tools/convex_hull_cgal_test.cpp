@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "convex/convex_hull.h"
+#include "hull/convex_hull.h"
 #include "support/seed_mesh.h"
 
 namespace cdprep::convex {

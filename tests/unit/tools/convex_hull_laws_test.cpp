@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "convex/convex_hull.h"
+#include "hull/convex_hull.h"
 #include "support/hard_point_sets.h"
 #include "support/meshes.h"
 #include "unit/tools/hull_flaw.h"

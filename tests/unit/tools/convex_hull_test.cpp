@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/convex_hull.h"
+#include "hull/convex_hull.h"
 
 #include <gtest/gtest.h>
 

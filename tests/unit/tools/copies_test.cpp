@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meetings of copies, counted and listed by those of one of them, against all pairs found
 // one by one.
-#include "mesh/copies.h"
+#include "validate/defects/copies.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <random>
 #include <tuple>
 
-#include "mesh/find_defects.h"
-#include "mesh/sound_mesh.h"
+#include "validate/defects/find_defects.h"
+#include "validate/defects/sound_mesh.h"
 #include "unit/tools/soup_of.h"
 
 namespace cdprep::mesh {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/cull_inside.h"
+#include "hull/cull_inside.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <functional>
 #include <random>
 
-#include "convex/exact_hull.h"
+#include "hull/exact_hull.h"
 #include "support/run_threads.h"
 
 namespace cdprep::convex {

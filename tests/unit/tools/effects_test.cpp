@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a list of effects stands for is read off the table of needs.
-#include "cdprep/effects.h"
+#include "bake/effects.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/enclosing_hull.h"
+#include "hull/enclosing_hull.h"
 
 #include <gtest/gtest.h>
 

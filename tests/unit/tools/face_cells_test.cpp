@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/face_cells.h"
+#include "decompose/enclose/face_cells.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "convex/join_cells.h"
+#include "decompose/enclose/join_cells.h"
 #include "support/concave_solids.h"
 #include "unit/tools/soup_of.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/false_fact.h"
+#include "info/false_fact.h"
 
 #include <gtest/gtest.h>
 
@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "cdprep/command.h"
+#include "cli/command.h"
 #include "cdprep/format/find_damage.h"
-#include "cdprep/pipeline.h"
+#include "bake/pipeline.h"
 #include "support/changed_sections.h"
 #include "support/defect_zoo.h"
 #include "support/meshes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/fan.h"
+#include "crossings/fan.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "mesh/triangle_meeting.h"
+#include "crossings/triangle_meeting.h"
 
 namespace cdprep::mesh {
 namespace {

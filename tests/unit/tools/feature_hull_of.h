@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cdprep/advanced/closest_features.h"
-#include "convex/convex_hull.h"
+#include "hull/convex_hull.h"
 #include "support/small_hull.h"
 
 namespace cdprep::test {

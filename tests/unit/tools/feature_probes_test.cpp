@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/feature_probes.h"
+#include "compare/feature_probes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/file_uri.h"
+#include "text/file_uri.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/find_bounds.h"
+#include "mesh/find_bounds.h"
 
 #include <gtest/gtest.h>
 

@@ -13,7 +13,7 @@
 #include <tuple>
 
 #include "mesh/close_groups.h"
-#include "mesh/find_defects.h"
+#include "validate/defects/find_defects.h"
 #include "support/exact_rational.h"
 #include "support/exact_winding.h"
 #include "unit/tools/soup_of.h"

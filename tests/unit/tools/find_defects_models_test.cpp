@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "import/import_file.h"
-#include "mesh/find_defects.h"
+#include "validate/defects/find_defects.h"
 #include "support/shared_models.h"
 
 namespace cdprep::mesh {

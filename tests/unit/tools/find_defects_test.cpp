@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/find_defects.h"
+#include "validate/defects/find_defects.h"
 
 #include <gtest/gtest.h>
 

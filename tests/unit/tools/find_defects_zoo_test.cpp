@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "mesh/find_defects.h"
+#include "validate/defects/find_defects.h"
 #include "support/defect_zoo.h"
 #include "unit/tools/soup_of.h"
 

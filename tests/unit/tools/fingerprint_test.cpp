@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/fingerprint.h"
+#include "validate/fingerprint.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/flush_bound.h"
+#include "decompose/enclose/flush_bound.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/glob.h"
+#include "cli/glob.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/growing_hull.h"
+#include "hull/growing_hull.h"
 
 #include <gtest/gtest.h>
 

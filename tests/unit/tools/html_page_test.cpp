@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "report/html_page.h"
+#include "validate/html_page.h"
 
 #include <gtest/gtest.h>
 
@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
-#include "mesh/rule.h"
-#include "report/base64.h"
-#include "report/page_marks.h"
-#include "report/page_surface.h"
-#include "report/page_text.h"
+#include "validate/defects/rule.h"
+#include "page/base64.h"
+#include "validate/page_marks.h"
+#include "validate/page_surface.h"
+#include "page/page_text.h"
 #include "support/meshes.h"
 
 namespace cdprep::report {

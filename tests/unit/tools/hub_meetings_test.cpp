@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Vertices with more than 512 triangles, against the exact decision on every pair.
-#include "mesh/hub_meetings.h"
+#include "crossings/hub_meetings.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "mesh/triangle_meeting.h"
+#include "crossings/triangle_meeting.h"
 #include "support/large_stars.h"
 #include "unit/tools/soup_of.h"
 

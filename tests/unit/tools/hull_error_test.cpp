@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/hull_error.h"
+#include "decompose/enclose/hull_error.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "convex/is_convex.h"
+#include "decompose/enclose/is_convex.h"
 #include "support/concave_solids.h"
 #include "unit/tools/soup_of.h"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "convex/convex_hull.h"
+#include "hull/convex_hull.h"
 #include "support/exact_rational.h"
 
 namespace cdprep::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Hulls in files: what the baker writes is sound, says what the hull is, and nothing else
 // gets past the check.
-#include "convex/hull_sections.h"
+#include "decompose/enclose/hull_sections.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "report/judge.h"
+#include "validate/judge.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "report/fingerprint.h"
+#include "validate/fingerprint.h"
 #include "unit/tools/soup_of.h"
 
 namespace cdprep::report {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/ladder.h"
+#include "accuracy/ladder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/literal_octree.h"
+#include "compare/cells/literal_octree.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/mass_properties.h"
+#include "mesh/mass_properties.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Limits end a search at the same place for any number of threads, and say so.
-#include "mesh/meeting_search.h"
+#include "crossings/meeting_search.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <atomic>
 #include <tuple>
 
-#include "mesh/find_defects.h"
+#include "validate/defects/find_defects.h"
 #include "support/large_stars.h"
 #include "support/team.h"
 #include "unit/tools/soup_of.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/merge_corners.h"
+#include "decompose/enclose/merge_corners.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/naive_contact.h"
+#include "accuracy/naive_contact.h"
 
 #include <gtest/gtest.h>
 

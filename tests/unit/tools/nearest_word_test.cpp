@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/nearest_word.h"
+#include "text/nearest_word.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/octree_level.h"
+#include "accuracy/octree_level.h"
 
 #include <gtest/gtest.h>
 

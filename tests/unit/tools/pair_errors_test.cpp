@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/pair_errors.h"
+#include "accuracy/pair_errors.h"
 
 #include <gtest/gtest.h>
 

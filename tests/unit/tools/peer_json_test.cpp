@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/peer_json.h"
+#include "compare/peer_json.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/piece_arrays.h"
+#include "decompose/surface/piece_arrays.h"
 
 #include <gtest/gtest.h>
 

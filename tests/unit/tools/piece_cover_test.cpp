@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/piece_cover.h"
+#include "decompose/enclose/piece_cover.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cdprep/program_threads.h"
+#include "cli/program_threads.h"
 
 #include <gtest/gtest.h>
 

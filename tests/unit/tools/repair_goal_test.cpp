@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/repair_goal.h"
+#include "repair/repair_goal.h"
 
 #include <gtest/gtest.h>
 
-#include "mesh/repair.h"
-#include "mesh/self_intersections.h"
+#include "repair/repair.h"
+#include "crossings/self_intersections.h"
 #include "mesh/weld.h"
 #include "unit/tools/soup_of.h"
 

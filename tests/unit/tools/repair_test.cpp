@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/repair.h"
+#include "repair/repair.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "mesh/cut_crossings.h"
-#include "mesh/mesh_meetings.h"
+#include "repair/cut_crossings.h"
+#include "repair/mesh_meetings.h"
 #include "unit/tools/soup_of.h"
 
 namespace cdprep::mesh {

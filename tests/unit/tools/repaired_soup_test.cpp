@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/repaired_soup.h"
+#include "repair/repaired_soup.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "report/rule_settings.h"
+#include "validate/rule_settings.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "mesh/rule.h"
+#include "validate/defects/rule.h"
 
 #include <gtest/gtest.h>
 
@@ -48,7 +48,7 @@ std::string section_of(const RuleText& text) {
 }
 
 std::string rules_document() {
-    std::ifstream file(CDPREP_SOURCE_DIR "/tools/mesh/RULES.md");
+    std::ifstream file(CDPREP_SOURCE_DIR "/tools/validate/RULES.md");
     std::ostringstream text;
     text << file.rdbuf();
     return text.str();

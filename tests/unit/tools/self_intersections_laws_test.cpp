@@ -13,7 +13,7 @@
 #include <random>
 #include <set>
 
-#include "mesh/self_intersections.h"
+#include "crossings/self_intersections.h"
 #include "mesh/weld.h"
 #include "support/exact_contact.h"
 #include "support/team.h"

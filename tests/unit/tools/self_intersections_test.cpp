@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "mesh/self_intersections.h"
+#include "crossings/self_intersections.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/separated_points.h"
+#include "decompose/enclose/separated_points.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "convex/convex_hull.h"
+#include "hull/convex_hull.h"
 #include "support/meshes.h"
 
 #include "exact/predicates.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/solid_cells.h"
+#include "decompose/enclose/solid_cells.h"
 
 #include <gtest/gtest.h>
 

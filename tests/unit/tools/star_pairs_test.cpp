@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Large stars: what the search leaves out, the exact decision denies.
-#include "mesh/star_pairs.h"
+#include "crossings/star_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <random>
 #include <set>
 
-#include "mesh/self_intersections.h"
-#include "mesh/triangle_meeting.h"
+#include "crossings/self_intersections.h"
+#include "crossings/triangle_meeting.h"
 
 namespace cdprep::mesh {
 namespace {

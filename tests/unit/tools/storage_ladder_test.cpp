@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "study/storage_ladder.h"
+#include "accuracy/storage_ladder.h"
 
 #include <gtest/gtest.h>
 

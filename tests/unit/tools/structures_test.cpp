@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cdprep/structures.h"
+#include "bake/structures.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "convex/surface_pieces.h"
+#include "decompose/surface/surface_pieces.h"
 #include "mesh/weld.h"
 #include "support/meshes.h"
 #include "support/run_threads.h"

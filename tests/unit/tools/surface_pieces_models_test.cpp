@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "convex/surface_pieces.h"
+#include "decompose/surface/surface_pieces.h"
 #include "import/import_file.h"
 #include "mesh/normalize.h"
 #include "mesh/weld.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/surface_pieces.h"
+#include "decompose/surface/surface_pieces.h"
 
 #include <gtest/gtest.h>
 

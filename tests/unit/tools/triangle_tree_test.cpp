@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "convex/triangle_tree.h"
+#include "mesh/triangle_tree.h"
 
 #include <gtest/gtest.h>
 

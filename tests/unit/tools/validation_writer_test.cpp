@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "report/validation_writer.h"
+#include "validate/validation_writer.h"
 
 #include <gtest/gtest.h>
 
-#include "report/baseline.h"
+#include "validate/baseline.h"
 
 namespace cdprep::report {
 namespace {

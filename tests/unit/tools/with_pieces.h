@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "convex/contact_arrays.h"
-#include "convex/piece_tree.h"
-#include "convex/surface_pieces.h"
+#include "decompose/surface/contact_arrays.h"
+#include "decompose/surface/piece_tree.h"
+#include "decompose/surface/surface_pieces.h"
 #include "support/more_sections.h"
 #include "support/open_tiny.h"
 #include "unit/tools/soup_of.h"

@@ -17,7 +17,7 @@ namespace cdprep {
 /// where there are parts. Not looked at: vertices of a component or an instance beside its hull,
 /// those beside a segment or a polygon in its plane, and whether a triangle with corners in
 /// several parts leaves them all in between, for which exact numbers of any length are needed
-/// (tools/convex/find_cover_falsehood.h). Returns nothing when all is well, also without hulls.
+/// (tools/info/find_cover_falsehood.h). Returns nothing when all is well, also without hulls.
 /// O(vertices * facets), about a nanosecond each, and up to vertices * parts steps; allocates.
 /// `model` is this file, opened with all its sections.
 [[nodiscard]] std::optional<format::Damage> find_hull_falsehood(std::span<const std::byte> file,

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "accuracy/accuracy.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "cdprep/pairs.h"
+#include "accuracy/bounding_shapes.h"
+#include "accuracy/coherence_ladder.h"
+#include "accuracy/distance_ladder.h"
+#include "accuracy/geometry_ladder.h"
+#include "accuracy/predicate_ladder.h"
+#include "accuracy/storage_ladder.h"
+
+namespace cdprep::study {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kPosesAStratum = 50;
+constexpr std::size_t kQuickPosesAStratum = 12;
+
+/// Steps and about how long each takes against the others: by their first words.
+struct Weight {
+    std::string_view step;
+    double full;
+    double quick;
+};
+constexpr std::array<Weight, 18> kWeights = {{
+    {"models", 1, 1},
+    {"poses", 3, 0.8},
+    {"self-check", 1, 0.3},
+    {"shapes", 1, 0.3},
+    {"2 pieces", 0.5, 0.5},
+    {"4 pieces", 0.8, 0},
+    {"8 pieces", 1, 1},
+    {"16 pieces", 2, 0},
+    {"32 pieces", 4, 0},
+    {"64 pieces", 7, 0},
+    {"128 pieces", 0.1, 0},
+    {"256 pieces", 0.1, 0},
+    {"tetra-tree", 3, 1},
+    {"octree", 3, 0.5},
+    {"geometry: asking", 14, 1},
+    {"distance: asking", 5, 0.5},
+    {"predicates: asking", 3, 0.4},
+    {"coherence: asking", 8, 0.5},
+}};
+constexpr Weight kStorage = {"storage", 8, 1};
+
+double weight_of(const Weight& weight, bool is_quick) {
+    return is_quick ? weight.quick : weight.full;
+}
+
+/// Turns steps that begin into shares that are done.
+class Steps {
+public:
+    explicit Steps(const AccuracyOptions& options) : options_(options) {
+        for (const Weight& weight : kWeights) all_ += weight_of(weight, options.is_quick);
+        all_ += weight_of(kStorage, options.is_quick);
+    }
+
+    void begin(const std::string& step) {
+        const auto starts = [&](const Weight& weight) { return step.starts_with(weight.step); };
+        const auto* const known = std::ranges::find_if(kWeights, starts);
+        double weight = weight_of(known == kWeights.end() ? kStorage : *known, options_.is_quick);
+        // These begin several times, for a level or a way each.
+        if (step.starts_with("tetra") || step.starts_with("octree") || step.starts_with("storage"))
+            weight /= 7;
+        done_ = std::min(all_, done_ + weight_);
+        weight_ = weight;
+        step_ = step;
+        step_begun_ = told_ = Clock::now();
+        if (options_.progress) options_.progress(done_ / all_, step_);
+    }
+
+    /// Tells again, once a second, how far a long step should be by what came before it.
+    void tick() {
+        const Clock::time_point now = Clock::now();
+        if (!options_.progress || done_ <= 0 || now - told_ < std::chrono::seconds(1)) return;
+        told_ = now;
+        const std::chrono::duration<double> before = step_begun_ - begun_;
+        const std::chrono::duration<double> within = now - step_begun_;
+        const double expected = before.count() / done_ * weight_;
+        const double share = expected > 0 ? std::min(kMostOfAStep, within.count() / expected) : 0;
+        options_.progress((done_ + share * weight_) / all_, step_);
+    }
+
+private:
+    static constexpr double kMostOfAStep = 0.95;
+
+    const AccuracyOptions& options_;
+    double all_ = 0;
+    double done_ = 0;
+    double weight_ = 0;
+    std::string step_;
+    Clock::time_point begun_ = Clock::now();
+    Clock::time_point step_begun_ = begun_;
+    Clock::time_point told_ = begun_;
+};
+
+StudiedModel describe(const mesh::Mesh& mesh, const MemoryModel& model) {
+    const BoundingBox box = aligned_box(mesh);
+    return {mesh.triangles.size(), mesh.positions.size(),
+            2 * std::hypot(box.half.x, box.half.y, box.half.z), model.model.is_balanced(),
+            mesh.single_precision};
+}
+
+TimingOptions timing_options(const AccuracyOptions& options, Steps& steps) {
+    TimingOptions timing;
+    timing.rounds = options.is_quick ? 3 : 5;
+    timing.least_sample_s = options.is_quick ? 10e-6 : 50e-6;
+    timing.budget_s = options.is_quick ? 1 : 25;
+    timing.stop = [&options, &steps] {
+        steps.tick();
+        return options.stop && options.stop();
+    };
+    return timing;
+}
+
+/// What the clock can tell apart: the exact question against itself.
+TimeRatio check_clock(const Climb& climb) {
+    Workspace workspace;
+    const Question exact = question_of([&](std::size_t i) {
+        return collide(
+                   {climb.a.model, climb.b.model, Placement::b_moves(climb.set.poses[i].a_from_b)},
+                   workspace)
+                           .hit == Answer::yes
+                   ? 1
+                   : 0;
+    });
+    TimingOptions timing = climb.timing;
+    timing.rounds = 9;
+    return ratio_to_itself(climb.set.poses.size(), exact, timing);
+}
+
+void climb_all(const Climb& climb, const AccuracyOptions& options, AccuracyStudy& study) {
+    const auto is_wanted = [&](const char* name) {
+        return !climb.must_stop() &&
+               (options.ladders.empty() || std::ranges::count(options.ladders, name) > 0);
+    };
+    if (is_wanted("geometry")) study.ladders.push_back(climb_geometry(climb, study.broken));
+    if (is_wanted("distance")) study.ladders.push_back(climb_distance(climb, study.broken));
+    if (is_wanted("predicates")) study.ladders.push_back(climb_predicates(climb, study.broken));
+    if (is_wanted("storage")) study.ladders.push_back(climb_storage(climb, study.broken));
+    if (is_wanted("coherence")) {
+        study.ladders.push_back(climb_coherence(climb, study.machine.last_cache, study.broken));
+    }
+}
+
+Error stopped() {
+    return {ErrorCode::interrupted, "The study was stopped; nothing was written."};
+}
+
+}  // namespace
+
+Result<AccuracyStudy> study_accuracy(const mesh::Mesh& a, const mesh::Mesh& b,
+                                     const AccuracyOptions& options) {
+    const Clock::time_point begun = Clock::now();
+    if (a.triangles.empty() || b.triangles.empty()) {
+        return Error{ErrorCode::bad_argument,
+                     std::string(a.triangles.empty() ? "The first" : "The second") +
+                         " model has no triangles; there is nothing to ask."};
+    }
+    const auto must_stop = [&] { return options.stop && options.stop(); };
+    Steps steps(options);
+    steps.begin("models");
+    const MemoryParts parts = {.hulls = true};
+    const Result<MemoryModel> model_a = make_memory_model(a, parts, options.parallel_for);
+    if (!model_a) return model_a.error();
+    const Result<MemoryModel> model_b = make_memory_model(b, parts, options.parallel_for);
+    if (!model_b) return model_b.error();
+    if (must_stop()) return stopped();
+
+    AccuracyStudy study;
+    study.machine = describe_machine();
+    study.is_quick = options.is_quick;
+    study.a = describe(a, model_a.value());
+    study.b = describe(b, model_b.value());
+    study.timing = timing_options(options, steps);
+    steps.begin("poses");
+    study.set =
+        make_pose_set(model_a.value().model, model_b.value().model,
+                      {.seed = options.seed,
+                       .per_stratum = options.is_quick ? kQuickPosesAStratum : kPosesAStratum,
+                       .parallel_for = options.parallel_for,
+                       .stop = options.stop});
+    if (must_stop()) return stopped();
+    if (study.set.poses.empty()) {
+        return Error{ErrorCode::bad_argument,
+                     "No poses were found in which the models come near each other; do they have "
+                     "any extent?"};
+    }
+    study.rigid = static_cast<std::size_t>(
+        std::ranges::count_if(study.set.poses, [](const StudyPose& p) { return p.is_rigid; }));
+
+    const Climb climb{a,
+                      b,
+                      model_a.value(),
+                      model_b.value(),
+                      study.set,
+                      study.timing,
+                      options.is_quick,
+                      options.parallel_for,
+                      options.stop,
+                      [&](const std::string& step) { steps.begin(step); }};
+    steps.begin("self-check");
+    study.self = check_clock(climb);
+    climb_all(climb, options, study);
+    if (must_stop()) return stopped();
+    study.timing.stop = {};  // it refers to what ends here
+    study.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+    return study;
+}
+
+}  // namespace cdprep::study

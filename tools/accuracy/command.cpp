@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cli/command.h"
+#include "cli/import_arguments.h"
+#include "cli/interrupt.h"
+#include "cli/load_mesh.h"
+#include "cli/output_path.h"
+#include "cli/program_threads.h"
+#include "cli/progress.h"
+#include "accuracy/accuracy_chart.h"
+#include "accuracy/accuracy_report.h"
+#include "cli/report_output.h"
+#include "accuracy/accuracy.h"
+#include "accuracy/study_input.h"
+#include "cli/usage.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+struct Arguments {
+    fs::path a;
+    fs::path b;
+    fs::path output;
+    std::vector<fs::path> saves;  ///< more files, of formats by their names
+    bool is_quick = false;
+    std::uint64_t seed = 1;
+    std::vector<std::string> ladders;
+    std::string format = "text";
+    std::string progress = "auto";
+    std::size_t threads = 0;
+    LoadOptions load;
+    ImportArguments import;
+};
+
+/// Tells how far the study is and about how long it goes on.
+class Teller {
+public:
+    explicit Teller(Progress& progress) : progress_(progress) {}
+
+    void tell(double share, const std::string& step) {
+        const double passed = std::chrono::duration<double>(Clock::now() - begun_).count();
+        std::string what = step;
+        if (share >= kFirstEstimate) {
+            const double left = std::ceil(passed * (1 - share) / share);
+            what += ", about " + std::to_string(static_cast<long>(left)) + " s left";
+        }
+        progress_.show(static_cast<std::size_t>(100 * share), what);
+    }
+
+private:
+    static constexpr double kFirstEstimate = 0.02;
+
+    Progress& progress_;
+    Clock::time_point begun_ = Clock::now();
+};
+
+constexpr std::array<const char*, 5> kFormats = {"text", "json", "csv", "svg", "html"};
+
+/// One place to which the study is written.
+struct Output {
+    std::string format;
+    ReportOutput to;
+};
+
+/// The format that a file's name asks for.
+Result<std::string> format_of(const fs::path& path) {
+    std::string end = path.extension().string();
+    if (!end.empty()) end.erase(0, 1);
+    if (end == "txt") return std::string("text");
+    if (end != "text" && std::ranges::count(kFormats, end) > 0) return end;
+    return Error{ErrorCode::bad_argument, path.string() +
+                                              ": what to save must end in .txt, .json, .csv, .svg "
+                                              "or .html, which says how."};
+}
+
+/// Begins the file, so that a place where none can be is said before the work.
+Result<Output> open_output(const Arguments& arguments, const fs::path& path,
+                           const std::string& format) {
+    for (const fs::path* input : {&arguments.a, &arguments.b}) {
+        if (path.empty()) break;
+        if (auto error = find_replaced_input(*input, path)) return *error;
+    }
+    Result<ReportOutput> opened = ReportOutput::open(path);
+    if (!opened) return opened.error();
+    return Output{format, std::move(opened).value()};
+}
+
+Result<std::vector<Output>> open_outputs(const Arguments& arguments) {
+    std::vector<Output> outputs;
+    Result<Output> first = open_output(arguments, arguments.output, arguments.format);
+    if (!first) return first.error();
+    outputs.push_back(std::move(first).value());
+    for (const fs::path& path : arguments.saves) {
+        const Result<std::string> format = format_of(path);
+        if (!format) return format.error();
+        Result<Output> opened = open_output(arguments, path, format.value());
+        if (!opened) return opened.error();
+        outputs.push_back(std::move(opened).value());
+    }
+    return outputs;
+}
+
+Result<study::AccuracyStudy> study_pair(const Arguments& arguments, Progress& progress) {
+    const Threads threads(arguments.threads);
+    LoadOptions load = arguments.load;
+    load.import = arguments.import.options();
+    load.import.parallel_for = threads.parallel_for();
+    progress.show(0, arguments.a.filename().string() + ": read");
+    const Result<mesh::Mesh> a = load_for_study(arguments.a, load);
+    if (!a) return a.error();
+    if (is_interrupted()) return interrupted(arguments.a);
+    progress.show(0, arguments.b.filename().string() + ": read");
+    const Result<mesh::Mesh> b = load_for_study(arguments.b, load);
+    if (!b) return b.error();
+    if (is_interrupted()) return interrupted(arguments.b);
+
+    Teller teller(progress);
+    Result<study::AccuracyStudy> studied = study::study_accuracy(
+        a.value(), b.value(),
+        {.is_quick = arguments.is_quick,
+         .seed = arguments.seed,
+         .ladders = arguments.ladders,
+         .parallel_for = threads.parallel_for(),
+         .stop = is_interrupted,
+         .progress = [&](double share, const std::string& step) { teller.tell(share, step); }});
+    if (studied || studied.error().code != ErrorCode::bad_argument) return studied;
+    return Error{ErrorCode::bad_argument, arguments.a.string() + ", " + arguments.b.string() +
+                                              ": " + studied.error().message};
+}
+
+std::string written_as(const std::string& format, const report::AccuracyReport& report) {
+    if (format == "json") return report::accuracy_json(report);
+    if (format == "csv") return report::accuracy_csv(report);
+    if (format == "svg") return report::accuracy_svg(report);
+    if (format == "html") return report::accuracy_page(report);
+    return report::accuracy_text(report);
+}
+
+/// Writes what was found; an output that fails says so.
+Exit write(const report::AccuracyReport& report, std::vector<Output>& outputs) {
+    for (Output& output : outputs) {
+        Result<Done> written = output.to.append(written_as(output.format, report));
+        if (written) written = output.to.finish();
+        if (!written) return fail("accuracy", written.error());
+    }
+    for (const std::string& sentence : report.study.broken) {
+        std::cerr << "cdprep accuracy: a promise is broken: " << sentence << '\n';
+    }
+    return static_cast<Exit>(report.exit);
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<ProgressStyle> style = parse_progress(arguments.progress);
+    if (!style) return fail("accuracy", style.error());
+    Result<std::vector<Output>> outputs = open_outputs(arguments);
+    if (!outputs) return fail("accuracy", outputs.error());
+    Progress progress(style.value(), 100);
+    Result<study::AccuracyStudy> studied = study_pair(arguments, progress);
+    progress.clear();
+    report::AccuracyReport report;
+    report.input = arguments.a.string();
+    report.input_b = arguments.b.string();
+    report.version = CDPREP_VERSION;
+    if (!studied) {
+        if (arguments.format == "json" && arguments.output.empty()) {
+            report.exit = static_cast<int>(exit_for(studied.error().code));
+            report.error = studied.error().message;
+            std::cout << report::accuracy_json(report);
+        }
+        return fail("accuracy", studied.error());
+    }
+    report.study = std::move(studied).value();
+    if (!report.study.broken.empty()) report.exit = static_cast<int>(Exit::internal);
+    return write(report, outputs.value());
+}
+
+}  // namespace
+
+void add_accuracy(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("accuracy", "Show what accuracy costs in time");
+    command->footer(
+        "Asks the same questions about A and B in coarser and finer ways, at seeded poses from\n"
+        "deep in each other to far apart whose exact answers are known, and tells of each way how\n"
+        "long it takes, what it is built of, and how often it is wrong. Promises (an enclosing\n"
+        "shape never misses, an interval holds the truth) are asserted: exit 6 when one breaks.\n"
+        "Times are of one thread of this machine; -j is for what is built before.");
+    command->add_option("A", arguments->a, "The model that stays, a mesh file or a baked file")
+        ->required();
+    command->add_option("B", arguments->b, "The model that moves, likewise")->required();
+    command->add_option("-o,--output", arguments->output, "A file instead of standard output");
+    command
+        ->add_option("--save", arguments->saves,
+                     "Another file: .txt, .json, .csv, .svg or .html; may be given again")
+        ->allow_extra_args(false);
+    command->add_flag("--quick", arguments->is_quick,
+                      "Seconds instead of a minute or two: fewer poses, rounds and rungs");
+    command->add_option("--seed", arguments->seed, "Of the poses")->capture_default_str();
+    command
+        ->add_option("--ladder", arguments->ladders,
+                     "These alone: geometry, distance, predicates, storage, coherence")
+        ->delimiter(',')
+        ->check(one_of(
+            std::vector<std::string>(study::kLadderNames.begin(), study::kLadderNames.end())));
+    command->add_option("--format", arguments->format, "text, json, csv, svg or html")
+        ->check(one_of(std::vector<std::string>(kFormats.begin(), kFormats.end())))
+        ->capture_default_str();
+    add_normalize(*command, arguments->load.normalize);
+    add_weld(*command, arguments->load.weld_distance);
+    add_jobs(*command, arguments->threads);
+    add_progress(*command, arguments->progress);
+    add_import_arguments(*command, arguments->import);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bake/baked_findings.h"
+
+#include <algorithm>
+
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "validate/defects/find_defects.h"
+#include "validate/judge.h"
+#include "validate/place_text.h"
+#include "repair/repair_report.h"
+#include "validate/rule_settings.h"
+#include "validate/validation_json.h"
+
+namespace cdprep::cli {
+namespace {
+
+/// Kept of each finding in a baked file: who wants all asks validate.
+constexpr std::size_t kPlaces = 100;
+constexpr std::size_t kNumbersInSentence = 4;
+
+/// The soup with its vertices where welding has put them.
+mesh::TriangleSoup as_welded(const mesh::TriangleSoup& soup, const mesh::Mesh& welded) {
+    mesh::TriangleSoup joined = soup;
+    for (std::size_t i = 0; i < soup.triangles.size(); ++i) {
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            joined.positions[soup.triangles[i].vertex[corner]] =
+                welded.positions[welded.triangles[i].vertex[corner]];
+        }
+    }
+    return joined;
+}
+
+bool is_refused(const report::Judgement& judgement) {
+    return judgement.severity >= mesh::Severity::warning;
+}
+
+}  // namespace
+
+report::ValidationReport find_for_bake(const std::string& input, const mesh::TriangleSoup& soup,
+                                       const mesh::Mesh& welded, std::uint64_t max_pairs,
+                                       ParallelFor parallel_for) {
+    const mesh::TriangleSoup joined = as_welded(soup, welded);
+    report::ValidationReport found = report::report_on(input, joined);
+    mesh::DefectOptions options;
+    options.max_places = kPlaces;
+    options.max_pairs = max_pairs;
+    options.stop = is_interrupted;
+    options.parallel_for = parallel_for;
+    found.defects = mesh::find_defects(joined, options);
+    report::remark_on_limits(found, options);
+    const report::RuleSettings rules;
+    static_cast<void>(report::judge(found, joined, {rules, nullptr, kPlaces}));
+    found.exit = static_cast<int>(count_warnings(found) > 0 ? Exit::findings : Exit::success);
+    return found;
+}
+
+std::uint64_t count_warnings(const report::ValidationReport& found) {
+    return static_cast<std::uint64_t>(
+        std::count_if(found.judgements.begin(), found.judgements.end(), is_refused));
+}
+
+std::string strict_refusal(const report::ValidationReport& found) {
+    if (count_warnings(found) == 0) {
+        return found.input + ": " + found.remarks.front() +
+               " --strict allows no mesh that was not examined.";
+    }
+    const auto first = static_cast<std::size_t>(
+        std::find_if(found.judgements.begin(), found.judgements.end(), is_refused) -
+        found.judgements.begin());
+    const std::uint64_t rules = count_warnings(found);
+    const mesh::Finding& finding = found.defects.findings[first];
+    std::string sentence = found.input + ": " + mesh::id_of(finding.rule) + ", " +
+                           mesh::text_of(finding.rule).title + ": " +
+                           report::count_text(finding, finding.count);
+    if (!finding.places.empty()) {
+        sentence += ", first " +
+                    report::place_text(found, finding.rule, finding.places[0], kNumbersInSentence);
+    }
+    if (rules > 1) {
+        sentence += "; " + std::to_string(rules - 1) + " more " +
+                    (rules == 2 ? "rule finds" : "rules find") + " something";
+    }
+    return sentence + ". --strict allows none: repair the mesh, or bake without it.";
+}
+
+std::string kept_findings(const report::ValidationReport& found,
+                          const std::optional<mesh::RepairReport>& repair) {
+    return report::baked_findings_json(
+        found, repair ? report::repair_summary_json(*repair) : std::string(), kPlaces);
+}
+
+}  // namespace cdprep::cli

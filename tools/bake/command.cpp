@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <new>
+#include <set>
+
+#include "cli/command.h"
+#include "cli/import_arguments.h"
+#include "cli/interrupt.h"
+#include "bake/pipeline.h"
+#include "cli/progress.h"
+#include "text/bounds_name.h"
+#include "text/printable.h"
+#include "cli/usage.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::vector<fs::path> inputs;
+    fs::path output;
+    fs::path output_folder;
+    std::string effects;
+    std::string format = "text";
+    std::string progress = "auto";
+    std::string bounds = "auto";
+    std::size_t threads = 0;
+    bool timings = false;
+    bool dry_run = false;
+    ImportArguments import;
+    StructureArguments structures;
+    BakeOptions options;
+};
+
+/// NAME.cdp.h5 beside the input, or where the arguments say.
+fs::path output_for(const Arguments& arguments, const fs::path& input) {
+    if (!arguments.output.empty()) return arguments.output;
+    fs::path name = input.filename();
+    name.replace_extension(".cdp.h5");
+    if (!arguments.output_folder.empty()) return arguments.output_folder / name;
+    return input.parent_path() / name;
+}
+
+/// One spelling for every way to name a file.
+fs::path spelled_out(const fs::path& path) {
+    return fs::absolute(path).lexically_normal();
+}
+
+/// Fails when two inputs would become one file, or an output would replace an
+/// input.
+Result<std::vector<fs::path>> outputs_for(const Arguments& arguments) {
+    std::map<fs::path, fs::path> input_of;
+    std::set<fs::path> inputs;
+    for (const fs::path& input : arguments.inputs) inputs.insert(spelled_out(input));
+    std::vector<fs::path> outputs;
+    if (arguments.output == "-") {
+        return Error{
+            ErrorCode::bad_argument,
+            "-o -: a baked model is binary and does not go to standard output. Give a file "
+            "name."};
+    }
+    for (const fs::path& input : arguments.inputs) {
+        const fs::path output = output_for(arguments, input);
+        const auto [at, is_new] = input_of.try_emplace(spelled_out(output), input);
+        if (!is_new) {
+            return Error{ErrorCode::bad_argument,
+                         at->second.string() + " and " + input.string() + " would both become " +
+                             output.string() + ". Bake them in two calls, into different folders."};
+        }
+        if (inputs.contains(spelled_out(output))) {
+            return Error{ErrorCode::bad_argument,
+                         output.string() +
+                             " is an input and would be replaced. Choose another "
+                             "output."};
+        }
+        outputs.push_back(output);
+    }
+    return outputs;
+}
+
+/// Bakes one file, whatever happens.
+Result<report::BakeReport> bake_one(const fs::path& input, const fs::path& output,
+                                    const Arguments& arguments, const Threads& threads,
+                                    const std::function<void(const char*)>& begins) {
+    try {
+        return bake(input, output, arguments.options, threads, begins);
+    } catch (const std::bad_alloc&) {
+        return Error{ErrorCode::over_budget,
+                     input.string() + ": needs more memory than the machine gives."};
+    } catch (const std::exception& error) {
+        return Error{ErrorCode::internal,
+                     input.string() + ": internal error: " + error.what() + ". Please report it."};
+    }
+}
+
+report::BakeReport failed_bake(const fs::path& input, const fs::path& output, const Error& error) {
+    auto report = failed<report::BakeReport>(input, error);
+    report.output = output.string();
+    return report;
+}
+
+void print(const report::BakeReport& report, const Arguments& arguments) {
+    if (report.error) {
+        std::cerr << "cdprep bake: " << report::printable(*report.error) << '\n';
+    } else if (arguments.format == "text") {
+        std::cout << report::bake_text(
+            report, arguments.timings ? report::Timings::show : report::Timings::hide);
+    }
+}
+
+Exit bake_all(const Arguments& arguments, const std::vector<fs::path>& outputs,
+              ProgressStyle style) {
+    const Threads threads(arguments.threads);
+    Progress progress(style, arguments.inputs.size());
+    std::vector<report::BakeReport> reports;
+    Exit worst = Exit::success;
+    for (std::size_t i = 0; i < outputs.size() && !is_interrupted(); ++i) {
+        const fs::path& input = arguments.inputs[i];
+        const Result<report::BakeReport> baked = bake_one(
+            input, outputs[i], arguments, threads,
+            [&](const char* stage) { progress.show(i, input.filename().string() + ": " + stage); });
+        progress.clear();
+        reports.push_back(baked ? baked.value() : failed_bake(input, outputs[i], baked.error()));
+        if (baked) {
+            print(reports.back(), arguments);
+        } else {
+            fail("bake", baked.error());
+        }
+        worst = std::max(worst, static_cast<Exit>(reports.back().exit));
+    }
+    if (arguments.format == "json") std::cout << report::bake_json(reports);
+    std::cout.flush();
+    return is_interrupted() ? Exit::interrupted : worst;
+}
+
+/// What wins for the questions that a bake is to serve: swept rectangles come nearer to
+/// a distance, as contacts too ask for, and nothing else uses them.
+build::BvhBounds bounds_for(const Effects& effects) {
+    const bool measures =
+        std::any_of(effects.names.begin(), effects.names.end(), [](const std::string& name) {
+            return name == "distance" || name == "within" || name == "contacts";
+        });
+    return measures ? build::BvhBounds::oriented_and_swept : build::BvhBounds::oriented;
+}
+
+/// Of kBoundsNames, or "auto"; the command line lets no other name through.
+build::BvhBounds bounds_named(const std::string& name, const Effects& effects) {
+    const auto* at =
+        std::find_if(report::kBoundsNames.begin(), report::kBoundsNames.end(),
+                     [&](const report::BoundsName& known) { return name == known.name; });
+    return at == report::kBoundsNames.end() ? bounds_for(effects) : at->bounds;
+}
+
+Exit run(Arguments& arguments) {
+    const Result<Effects> effects = parse_effects(arguments.effects);
+    if (!effects) return fail("bake", effects.error());
+    const Result<StructureChoice> structures =
+        choose_structures(arguments.structures, effects.value());
+    if (!structures) return fail("bake", structures.error());
+    const Result<ProgressStyle> style = parse_progress(arguments.progress);
+    if (!style) return fail("bake", style.error());
+    const Result<std::vector<fs::path>> outputs = outputs_for(arguments);
+    if (!outputs) return fail("bake", outputs.error());
+    if (arguments.dry_run) {
+        for (std::size_t i = 0; i < outputs->size(); ++i) {
+            std::cout << report::printable(arguments.inputs[i].string()) << " would become "
+                      << report::printable((*outputs)[i].string()) << '\n';
+        }
+        return Exit::success;
+    }
+    if (!arguments.output_folder.empty()) {
+        std::error_code error;
+        fs::create_directories(arguments.output_folder, error);
+        if (error) {
+            return fail("bake",
+                        {ErrorCode::unwritable, arguments.output_folder.string() +
+                                                    ": cannot be made: " + error.message() + "."});
+        }
+    }
+    arguments.options.effects = effects.value();
+    arguments.options.structures = structures.value();
+    arguments.options.bounds = bounds_named(arguments.bounds, effects.value());
+    arguments.options.import = arguments.import.options();
+    return bake_all(arguments, outputs.value(), style.value());
+}
+
+}  // namespace
+
+void add_bake(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("bake", "Turn mesh files into queryable models");
+    command
+        ->add_option("input", arguments->inputs,
+                     "Mesh files (OBJ, STL, PLY, OFF, glTF, 3MF and others)")
+        ->required();
+    CLI::Option* output =
+        command->add_option("-o,--output", arguments->output, "Default: INPUT with .cdp.h5");
+    command->add_option("--output-dir", arguments->output_folder, "Where many outputs go")
+        ->excludes(output);
+    command->add_option("--effects", arguments->effects,
+                        "Comma-separated queries to bake for, or all, with every structure. "
+                        "Default: collide,overlap,distance,within,ray,closest");
+    add_normalize(*command, arguments->options.normalize);
+    add_weld(*command, arguments->options.weld_distance);
+    command
+        ->add_option("--repair", arguments->options.repair,
+                     "Mend first, as 'cdprep repair --preset' does: safe, closed or solid. "
+                     "Numbers are then those of the mended mesh; the file has the old ones too")
+        ->check(one_of({"safe", "closed", "solid"}));
+    command
+        ->add_option("--piece-tolerance", arguments->options.piece_tolerance,
+                     "With the effect pieces: let vertices be this much above the triangles of "
+                     "their convex piece, in model units as baked; 0: exact")
+        ->check(zero_or_more())
+        ->capture_default_str();
+    add_max_pairs(*command, arguments->options.max_pairs);
+    command->add_flag("--strict", arguments->options.strict,
+                      "Bake nothing of which 'cdprep validate' finds a warning or more: exit 1");
+    command
+        ->add_option("--bounds", arguments->bounds,
+                     "Besides aligned boxes, what bounds triangles in pair questions: aabb "
+                     "(nothing), obb (oriented boxes), pss, lss or rss (spheres swept over a "
+                     "point, a line, a rectangle), obb+rss, or auto: obb+rss for distance and "
+                     "within, else obb. No answer depends on it")
+        ->check(one_of({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
+        ->capture_default_str();
+    add_structure_options(*command, arguments->structures);
+    add_jobs(*command, arguments->threads);
+    command->add_flag("--timings", arguments->timings, "Show how long each stage took");
+    command->add_flag("--dry-run", arguments->dry_run, "Say what would become what, and stop");
+    add_report_format(*command, arguments->format);
+    add_progress(*command, arguments->progress);
+    add_import_arguments(*command, arguments->import);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <filesystem>
+#include <memory>
+
+#include "cli/command.h"
+#include "write/write_file.h"
+
+namespace cdprep::cli {
+
+void add_reindex(CLI::App& app, Exit& exit) {
+    auto file = std::make_shared<std::filesystem::path>();
+    CLI::App* command = app.add_subcommand(
+        "reindex", "Make a new section table for a file that another HDF5 tool rewrote");
+    command->add_option("file", *file, "A .cdp.h5 file")->required();
+    command->callback([file, &exit] {
+        const Result<Done> done = write::reindex_file(*file);
+        exit = done ? Exit::success : fail("reindex", done.error());
+    });
+}
+
+}  // namespace cdprep::cli

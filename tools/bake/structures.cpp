@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bake/structures.h"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "cdprep/cells/structure_presets.h"
+#include "cdprep/format/limits.h"
+#include "hull/enclosing_hull.h"
+#include "text/nearest_word.h"
+#include "text/structure_name.h"
+#include "cli/usage.h"
+
+namespace cdprep::cli {
+namespace {
+
+/// Convex hulls: no tree, but chosen as the trees are.
+constexpr const char* kHull = "hull";
+
+const report::StructureName* find_baked(const std::string& name) {
+    const auto* at = std::find_if(
+        report::kStructureNames.begin(), report::kStructureNames.end(),
+        [&](const report::StructureName& known) { return known.is_baked && name == known.name; });
+    return at == report::kStructureNames.end() ? nullptr : at;
+}
+
+/// What the file holds for a structure that is baked.
+format::SectionSet needed_by(Structure structure) {
+    return find_needs(ask_of(structure))->needed;
+}
+
+std::vector<std::string> baked_names() {
+    std::vector<std::string> names;
+    for (const report::StructureName& known : report::kStructureNames) {
+        if (known.is_baked) names.emplace_back(known.name);
+    }
+    names.emplace_back(kHull);
+    return names;
+}
+
+Error unknown_structure(const std::string& name) {
+    std::string message = "--structures: '" + name + "' cannot be baked; these can: ";
+    for (const std::string& known : baked_names()) message += known + ", ";
+    return {ErrorCode::bad_argument,
+            message + "all or none." + report::suggestion(name, baked_names())};
+}
+
+/// The structures that a list names.
+Result<std::vector<std::string>> parse_list(const std::string& list) {
+    if (list == "none") return std::vector<std::string>{};
+    std::vector<std::string> names;
+    std::istringstream stream(list);
+    for (std::string name; std::getline(stream, name, ',');) names.push_back(name);
+    if (std::find(names.begin(), names.end(), "all") != names.end()) {
+        std::erase(names, "all");
+        for (const std::string& name : baked_names()) names.push_back(name);
+    }
+    for (const std::string& name : names) {
+        if (name != kHull && find_baked(name) == nullptr) return unknown_structure(name);
+    }
+    return names;
+}
+
+/// An option that would change nothing was meant for something.
+std::optional<Error> find_idle_option(const StructureArguments& arguments,
+                                      const StructureChoice& choice) {
+    const bool has_some_octree = choice.has_octree() || choice.has_adaptive_octree();
+    struct Use {
+        const char* option;
+        bool is_given;
+        bool is_used;
+        const char* user;
+    };
+    const std::array<Use, 10> uses = {{
+        {"--octree-level", arguments.octree_level.has_value(), has_some_octree, "octree"},
+        {"--octree-threshold", arguments.octree_threshold.has_value(), has_some_octree, "octree"},
+        {"--tetra-level", arguments.tetra_level.has_value(), choice.has_tetra_tree(), "tetra-tree"},
+        {"--tetra-threshold", arguments.tetra_threshold.has_value(), choice.has_tetra_tree(),
+         "tetra-tree"},
+        {"--split", !arguments.split.empty(), choice.has_adaptive_octree(), "octree-adaptive"},
+        {"--octree-bounding", !arguments.octree_bounding.empty(), has_some_octree, "octree"},
+        {"--bounding", !arguments.bounding.empty(), choice.has_tetra_tree(), "tetra-tree"},
+        {"--hull-vertices", arguments.hulls.max_vertices > 0, choice.has_hulls(), "hull"},
+        {"--parts", arguments.hulls.parts.has_value(), choice.has_hulls(), "hull"},
+        {"--max-error", arguments.hulls.max_error.has_value(), choice.has_hulls(), "hull"},
+    }};
+    for (const Use& use : uses) {
+        if (!use.is_given || use.is_used) continue;
+        return Error{ErrorCode::bad_argument, std::string(use.option) +
+                                                  " says how to build what is not built: add " +
+                                                  use.user + " to --structures, or leave it out."};
+    }
+    return std::nullopt;
+}
+
+/// Of a name that the command line let through.
+const build::StructurePreset& preset_named(const std::string& name) {
+    return *std::find_if(build::kStructurePresets.begin(), build::kStructurePresets.end(),
+                         [&](const build::StructurePreset& preset) { return name == preset.name; });
+}
+
+template <class Options>
+void limit(Options& options, const build::TreeLimits& preset,
+           const std::optional<std::uint32_t>& level,
+           const std::optional<std::uint32_t>& threshold) {
+    options.level = level.value_or(preset.level);
+    options.threshold = threshold.value_or(preset.threshold);
+}
+
+}  // namespace
+
+Result<StructureChoice> choose_structures(const StructureArguments& arguments,
+                                          const Effects& effects) {
+    const std::string unless_said = effects.all ? "all" : "none";
+    Result<std::vector<std::string>> names =
+        parse_list(arguments.list.empty() ? unless_said : arguments.list);
+    if (!names) return names.error();
+    StructureChoice choice;
+    // The one effect that needs a structure, when it was asked for by its own name.
+    if (!effects.all && contains(effects.asks, Ask::inaccessible)) {
+        choice.sections.insert(needed_by(Structure::tetra_tree));
+    }
+    for (const std::string& name : names.value()) {
+        choice.sections.insert(find_needs(std::string_view(name))->needed);
+    }
+    for (const report::StructureName& known : report::kStructureNames) {
+        // The hashed octree brings the octree's own sections.
+        if (known.is_baked && choice.sections.contains(needed_by(known.structure))) {
+            choice.names.emplace_back(known.name);
+        }
+    }
+    if (choice.has_hulls()) choice.names.emplace_back(kHull);
+    choice.hulls = arguments.hulls;
+    if (const auto error = find_idle_option(arguments, choice)) return *error;
+
+    choice.octree.hashed = choice.sections.contains(format::SectionId::octree_leaf_codes);
+    const build::StructurePreset& preset = preset_named(arguments.preset);
+    limit(choice.octree, choice.octree.hashed ? preset.hashed_octree : preset.octree,
+          arguments.octree_level, arguments.octree_threshold);
+    limit(choice.adaptive_octree, preset.adaptive_octree, arguments.octree_level,
+          arguments.octree_threshold);
+    limit(choice.tetra_tree, preset.tetra_tree, arguments.tetra_level, arguments.tetra_threshold);
+    choice.adaptive_octree.rule = arguments.split.empty()     ? preset.split
+                                  : arguments.split == "area" ? format::SplitRule::surface_area
+                                                              : format::SplitRule::median;
+    const bool has_boxes =
+        arguments.octree_bounding.empty() ? preset.boxes : arguments.octree_bounding == "boxes";
+    if (has_boxes && choice.has_octree()) choice.sections.insert(format::SectionId::octree_boxes);
+    if (has_boxes && choice.has_adaptive_octree()) {
+        choice.sections.insert(format::SectionId::adaptive_octree_boxes);
+    }
+    choice.tetra_tree.bounding = preset.bounding;
+    for (const auto bounding : {format::TetraBounding::tetra, format::TetraBounding::caps,
+                                format::TetraBounding::boxes}) {
+        if (arguments.bounding == report::bounding_name(bounding)) {
+            choice.tetra_tree.bounding = bounding;
+        }
+    }
+    if (choice.has_tetra_tree() && choice.tetra_tree.bounding == format::TetraBounding::boxes) {
+        choice.sections.insert(find_needs(Ask::tetra_tree)->used);
+    }
+    return choice;
+}
+
+std::vector<report::StructureSettings> settings_of(const StructureChoice& choice) {
+    std::vector<report::StructureSettings> settings;
+    for (const std::string& name : choice.names) {
+        if (name == kHull) continue;  // nothing about it is chosen
+        const Structure structure = find_baked(name)->structure;
+        if (structure == Structure::adaptive_octree) {
+            settings.push_back(
+                {structure,
+                 choice.adaptive_octree.level,
+                 choice.adaptive_octree.threshold,
+                 {{"split", report::split_name(choice.adaptive_octree.rule)},
+                  {"bounding", report::bounding_name(choice.adaptive_octree_boxes())}}});
+        } else if (structure == Structure::tetra_tree) {
+            settings.push_back({structure,
+                                choice.tetra_tree.level,
+                                choice.tetra_tree.threshold,
+                                {{"bounding", report::bounding_name(choice.tetra_tree.bounding)}}});
+        } else {
+            settings.push_back({structure,
+                                choice.octree.level,
+                                choice.octree.threshold,
+                                {{"bounding", report::bounding_name(choice.octree_boxes())}}});
+        }
+    }
+    return settings;
+}
+
+void add_structure_options(CLI::App& command, StructureArguments& arguments) {
+    command.add_option(
+        "--structures", arguments.list,
+        "Which other structures to bake for 'query --structure', with commas: "
+        "octree, octree-adaptive, hashed-octree, tetra-tree, hull; all or none. Default: "
+        "all with --effects all, else none. No answer depends on them");
+    command
+        .add_option("--structure-preset", arguments.preset,
+                    "How finely they divide space: tuned (for speed) or paper (512 cells)")
+        ->check(one_of({"tuned", "paper"}))
+        ->capture_default_str();
+    const auto number = [&](const char* name, std::optional<std::uint32_t>& value,
+                            std::uint32_t least, std::uint32_t most, const char* description) {
+        command.add_option(name, value, description)->check(whole_from(least, most));
+    };
+    number("--octree-level", arguments.octree_level, 0, format::kOctreeBits,
+           "All octrees: how often a cell may be divided; else the preset's");
+    number("--octree-threshold", arguments.octree_threshold, 1, format::kMaxTriangles,
+           "All octrees: a cell with fewer triangles is not divided");
+    number("--tetra-level", arguments.tetra_level, 0, format::kMaxTetraLevel,
+           "Tetra-tree: how often a cone may be split; else the preset's");
+    number("--tetra-threshold", arguments.tetra_threshold, 1, format::kMaxTriangles,
+           "Tetra-tree: a cone with fewer triangles is not split");
+    command
+        .add_option(
+            "--split", arguments.split,
+            "Where octree-adaptive splits a cell: at the median of the triangles' middles, or "
+            "at the planes of least area times triangles; else as the preset")
+        ->check(one_of({"median", "area"}));
+    command
+        .add_option("--octree-bounding", arguments.octree_bounding,
+                    "All octrees: what bounds a cell's triangles: boxes, a box around what it "
+                    "holds, or cells, the cell itself; else as the preset")
+        ->check(one_of({"boxes", "cells"}));
+    command
+        .add_option("--bounding", arguments.bounding,
+                    "What bounds a cone's triangles: boxes around them, which are fastest; caps, "
+                    "from the nearest to the farthest; or tetra, from the centre, as in the paper; "
+                    "else the preset's: boxes of tuned, caps of paper")
+        ->check(one_of({"boxes", "caps", "tetra"}));
+    command
+        .add_option("--hull-vertices", arguments.hulls.max_vertices,
+                    "Hulls contain the exact ones and have at most so many vertices, 4 or more")
+        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles));
+    command
+        .add_option("--parts", arguments.hulls.parts,
+                    "With the hulls: at most so many convex parts that enclose the mesh, as "
+                    "decompose --parts finds them")
+        ->check(whole_from(1));
+    command
+        .add_option("--max-error", arguments.hulls.max_error,
+                    "With the hulls: convex parts that enclose the mesh and stick out by no more "
+                    "than this, in model units as baked")
+        ->check(zero_or_more());
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/colour.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+
+#include "cli/usage.h"
+
+namespace cdprep::cli {
+
+bool colours_allowed() {
+    const char* no_color = std::getenv("NO_COLOR");  // NOLINT(concurrency-mt-unsafe)
+    return no_color == nullptr || *no_color == '\0';
+}
+
+void add_colour(CLI::App& command, std::string& choice) {
+    command
+        .add_option("--color,--colour", choice,
+                    "Colour the text: auto (a terminal, unless NO_COLOR is set), always or never")
+        ->check(one_of({"auto", "always", "never"}))
+        ->capture_default_str();
+}
+
+bool is_coloured(const std::string& choice) {
+    if (choice != "auto") return choice == "always";
+    return ::isatty(STDOUT_FILENO) != 0 && colours_allowed();
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/command.h"
+
+#include <cmath>
+#include <iostream>
+
+#include "cli/interrupt.h"
+#include "text/printable.h"
+#include "cli/usage.h"
+
+namespace cdprep::cli {
+namespace {
+
+constexpr int kMostThreads = 4096;
+constexpr std::uint64_t kMostPairs = 1'000'000'000'000;  ///< a week of work
+
+}  // namespace
+
+Exit exit_for(ErrorCode code) {
+    switch (code) {
+        case ErrorCode::bad_argument:
+            return Exit::usage;
+        case ErrorCode::unreadable:
+            return Exit::unreadable;
+        case ErrorCode::unwritable:
+            return Exit::unwritable;
+        case ErrorCode::over_budget:
+            return Exit::over_budget;
+        case ErrorCode::interrupted:
+            return Exit::interrupted;
+        default:
+            return Exit::internal;
+    }
+}
+
+Exit fail(const char* command, const Error& error) {
+    if (error.code == ErrorCode::interrupted) end_by_itself();
+    if (is_output_closed()) return Exit::interrupted;
+    std::cerr << "cdprep " << command << ": " << report::printable(error.message) << '\n';
+    return exit_for(error.code);
+}
+
+void add_input(CLI::App& command, std::filesystem::path& input) {
+    command.add_option("input", input, "A mesh file (OBJ, STL, PLY, OFF, glTF, 3MF and others)")
+        ->required();
+}
+
+void add_normalize(CLI::App& command, bool& normalize) {
+    command.add_flag("--normalize", normalize, "Fit to a box of diagonal 1, centred");
+}
+
+void add_weld(CLI::App& command, double& distance) {
+    command.add_option("--weld", distance, "Merge vertices this close, in model units")
+        ->check(zero_or_more())
+        ->capture_default_str();
+}
+
+void add_max_pairs(CLI::App& command, std::uint64_t& pairs) {
+    command
+        .add_option("--max-pairs", pairs,
+                    "End the search for crossing triangles soon after so many pairs; counts are "
+                    "then lower bounds, and the report says so. A million pairs take about 0.6 s")
+        ->check(whole_from(1, kMostPairs))
+        ->capture_default_str();
+}
+
+void add_jobs(CLI::App& command, std::size_t& threads) {
+    command.add_option("-j,--jobs", threads, "Threads; 0: one per processor")
+        ->check(whole_from(0, kMostThreads));
+}
+
+void add_report_format(CLI::App& command, std::string& format) {
+    command.add_option("--format", format, "text or json")
+        ->check(one_of({"text", "json"}))
+        ->capture_default_str();
+}
+
+void add_progress(CLI::App& command, std::string& progress) {
+    command.add_option("--progress", progress, "auto, bar, plain or none")->capture_default_str();
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/interrupt.h"
+
+#include <semaphore.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <mutex>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "cli/command.h"
+
+namespace cdprep::cli {
+namespace {
+
+// Set by a signal, read by every thread: without a lock a signal may touch it.
+std::atomic<bool> has_signal = false;
+std::atomic<bool> has_closed_pipe = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+// Posted by the signal; a handler may do that.
+sem_t signalled;
+
+// Held while last words change or are said, and by who ends the process.
+std::mutex ending;
+std::function<void()> last_words;
+bool is_over = false;
+
+/// Nobody reads what we write: as if the person had stopped us, but however often.
+void on_closed_pipe(int) {
+    has_closed_pipe = true;
+    has_signal = true;
+}
+
+void on_signal(int signal) {
+    if (has_signal.exchange(true)) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);
+    }
+    ::sem_post(&signalled);
+}
+
+/// Runs on a thread of its own.
+void give_up_after_signal() {
+    while (::sem_wait(&signalled) != 0) {
+    }
+    std::this_thread::sleep_for(kPatience);
+    const std::lock_guard lock(ending);
+    if (is_over) return;
+    if (last_words) last_words();
+    constexpr std::string_view kSentence = "cdprep: stopped before the work was done.\n";
+    // The streams may be in use by other threads.
+    [[maybe_unused]] const ssize_t told =
+        ::write(STDERR_FILENO, kSentence.data(), kSentence.size());
+    ::_exit(static_cast<int>(Exit::interrupted));
+}
+
+}  // namespace
+
+void watch_for_interrupts() {
+    ::sem_init(&signalled, 0, 0);
+    std::thread(give_up_after_signal).detach();
+    std::signal(SIGINT, on_signal);
+    std::signal(SIGTERM, on_signal);
+    std::signal(SIGPIPE, on_closed_pipe);
+    // A file longer than permitted is then an error of the write that we report.
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+LastWords::LastWords(std::function<void()> words) {
+    const std::lock_guard lock(ending);
+    last_words = std::move(words);
+}
+
+LastWords::~LastWords() {
+    const std::lock_guard lock(ending);
+    last_words = nullptr;
+}
+
+void end_by_itself() {
+    const std::lock_guard lock(ending);
+    is_over = true;
+}
+
+bool is_interrupted() {
+    return has_signal;
+}
+
+bool is_output_closed() {
+    return has_closed_pipe;
+}
+
+Error interrupted(const std::filesystem::path& input) {
+    return {ErrorCode::interrupted, input.string() + ": stopped; nothing was written."};
+}
+
+}  // namespace cdprep::cli

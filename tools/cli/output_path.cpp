@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/output_path.h"
+
+#include <cstdio>
+#include <iostream>
+#include <system_error>
+
+namespace cdprep::cli {
+
+std::optional<Error> find_replaced_input(const std::filesystem::path& input,
+                                         const std::filesystem::path& output) {
+    std::error_code unknown;  // not there: not the same
+    if (!std::filesystem::equivalent(input, output, unknown)) return std::nullopt;
+    return Error{ErrorCode::bad_argument,
+                 output.string() + ": is the input and would be replaced. Choose another output."};
+}
+
+Result<write::MeshFormat> mesh_output(const std::filesystem::path& input,
+                                      const std::filesystem::path& output) {
+    if (const auto error = find_replaced_input(input, output)) return *error;
+    if (output == "-") return write::MeshFormat::obj;
+    if (const auto format = write::mesh_format_of(output)) return *format;
+    return Error{ErrorCode::bad_argument,
+                 output.string() +
+                     ": the extension names no format that can be written; it must be .obj, "
+                     ".ply, .stl or .off."};
+}
+
+Result<Done> write_mesh(const std::filesystem::path& output, write::MeshFormat format,
+                        const write::MeshArrays& mesh) {
+    if (output != "-") return write::write_mesh_file(output, format, mesh);
+    // Not by std::cout, which --quiet turns away.
+    const std::string bytes = write::bytes_of(format, mesh);
+    const bool is_whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
+    if (is_whole && std::fflush(stdout) == 0) return Done{};
+    return Error{ErrorCode::unwritable, "standard output takes no more; the mesh is not complete."};
+}
+
+std::ostream& report_stream(const std::filesystem::path& mesh_output) {
+    return mesh_output == "-" ? std::cerr : std::cout;
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/progress.h"
+
+#include <unistd.h>
+
+#include <iostream>
+
+#include "cli/colour.h"
+#include "cli/program_threads.h"
+#include "cli/quiet.h"
+
+namespace cdprep::cli {
+namespace {
+
+constexpr std::size_t kBarWidth = 24;   ///< columns
+constexpr std::size_t kTextWidth = 48;  ///< columns for what is being done
+
+std::string shortened(const std::string& text) {
+    if (text.size() <= kTextWidth) return text;
+    return "..." + text.substr(text.size() - kTextWidth + 3);
+}
+
+}  // namespace
+
+Result<ProgressStyle> parse_progress(const std::string& word) {
+    if (is_quiet() || word == "none") return ProgressStyle::none;
+    if (word == "plain") return ProgressStyle::plain;
+    if (word == "bar") return ProgressStyle::bar;
+    if (word == "auto") {
+        return ::isatty(STDERR_FILENO) != 0 ? ProgressStyle::bar : ProgressStyle::none;
+    }
+    return Error{ErrorCode::bad_argument,
+                 "--progress is '" + word + "'; it must be auto, bar, plain or none."};
+}
+
+Progress::Progress(ProgressStyle style, std::size_t total)
+    : style_(style), total_(total), begun_(Clock::now()) {
+    if (style_ == ProgressStyle::none) return;
+    watch_loops(true);
+    teller_ = std::thread([this] { tell_while_it_lasts(); });
+}
+
+Progress::~Progress() {
+    if (style_ == ProgressStyle::none) return;
+    {
+        const std::lock_guard lock(mutex_);
+        over_ = true;
+    }
+    ended_.notify_one();
+    teller_.join();
+    watch_loops(false);
+    erase();
+}
+
+void Progress::show(std::size_t done, const std::string& what) {
+    if (style_ == ProgressStyle::none) return;
+    const std::lock_guard lock(mutex_);
+    done_ = done;
+    what_ = what;
+    begun_ = Clock::now();
+    draw();
+}
+
+void Progress::clear() {
+    if (style_ == ProgressStyle::none) return;
+    const std::lock_guard lock(mutex_);
+    erase();
+    what_.clear();
+}
+
+void Progress::tell_while_it_lasts() {
+    constexpr std::chrono::milliseconds kBarPause(250);
+    constexpr std::chrono::seconds kPlainPause(10);
+    std::unique_lock lock(mutex_);
+    while (!over_) {
+        const bool is_bar = style_ == ProgressStyle::bar;
+        if (is_bar) {
+            ended_.wait_for(lock, kBarPause);
+        } else {
+            ended_.wait_for(lock, kPlainPause);
+        }
+        const bool is_long = is_bar || Clock::now() - begun_ >= kPlainPause;
+        if (!over_ && !what_.empty() && is_long) draw();
+    }
+}
+
+/// ", 12 s, 43 %": nothing for the first second; shares where one input is at work.
+std::string Progress::since() const {
+    const auto passed = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - begun_);
+    if (passed.count() < 1) return "";
+    std::string text = ", " + std::to_string(passed.count()) + " s";
+    const LoopShare share = watched_loop();
+    if (total_ == 1 && share.count > 1) {
+        text += ", " + std::to_string(100 * share.done / share.count) + " %";
+    }
+    return text;
+}
+
+void Progress::draw() {
+    const std::string line = shortened(what_ + since());
+    if (style_ == ProgressStyle::plain) {
+        std::cerr << done_ << '/' << total_ << ' ' << what_ + since() << '\n';
+        return;
+    }
+    const std::size_t filled = total_ == 0 ? 0 : kBarWidth * done_ / total_;
+    const bool coloured = colours_allowed();
+    std::cerr << "\r\x1b[K[" << (coloured ? "\x1b[32m" : "") << std::string(filled, '#')
+              << (coloured ? "\x1b[0m" : "") << std::string(kBarWidth - filled, '.') << "] "
+              << done_ << '/' << total_ << ' ' << line << std::flush;
+    drawn_ = true;
+}
+
+void Progress::erase() {
+    if (drawn_) std::cerr << "\r\x1b[K" << std::flush;
+    drawn_ = false;
+}
+
+}  // namespace cdprep::cli

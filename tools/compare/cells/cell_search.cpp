@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "compare/cells/cell_search.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "compare/cells/cell_searches.h"
+#include "study/cells.h"
+
+namespace cdprep::study {
+namespace {
+
+constexpr std::uint32_t kThreshold = 8;
+constexpr double kClaim = 0.8;
+constexpr double kNanosecond = 1e-9;
+constexpr std::array<const char*, 9> kKeys = {"H0", "H1", "H2", "H3", "K0", "K1", "K2", "L1", "L2"};
+
+/// What the set takes each contender, in seconds a search.
+Row timed_row(const std::string& label, const std::vector<search::Contender>& contenders,
+              const search::QuerySet& set, search::State state, std::size_t rounds) {
+    Row row{label, {}};
+    const search::Found found = search::compare_leaves(contenders, set.points);
+    const auto ns = search::time_all(contenders, set.points, state, rounds);
+    for (const std::vector<double>& taken : ns) {
+        Cell cell = found.other.empty() ? number(quantile(taken, 0.5) * kNanosecond)
+                                        : without(found.other + " finds other leaves");
+        if (cell.is_filled()) {
+            const double spread = quantile(taken, 0.75) - quantile(taken, 0.25);
+            cell.details = {{"spread", spread * kNanosecond},
+                            {"tenth", quantile(taken, 0.1) * kNanosecond},
+                            {"rounds", static_cast<double>(rounds)},
+                            {"cases", static_cast<double>(taken.size())}};
+        }
+        row.cells.push_back(std::move(cell));
+    }
+    return row;
+}
+
+/// The most that a hashed search saves of a baseline's time, and where.
+struct Saving {
+    double most = -1;
+    std::string where;
+    std::size_t reached = 0;
+    std::size_t cases = 0;
+    std::size_t slower = 0;
+};
+
+Saving saving_against(const Table& table, std::size_t baseline) {
+    Saving saving;
+    for (const Row& row : table.rows) {
+        for (const std::size_t hashed : {4U, 5U, 6U}) {  // K0, K1, K2
+            const auto& theirs = row.cells[baseline].value;
+            const auto& ours = row.cells[hashed].value;
+            if (!theirs || !ours) continue;
+            const double saved = 1 - *ours / *theirs;
+            ++saving.cases;
+            if (saved >= kClaim) ++saving.reached;
+            if (saved < 0) ++saving.slower;
+            if (saved <= saving.most) continue;
+            saving.most = saved;
+            saving.where = std::string(kKeys[hashed]) + ", " + row.label;
+        }
+    }
+    return saving;
+}
+
+}  // namespace
+
+Table cell_search_table(std::span<const StudyMesh> meshes, const CellSearchOptions& options) {
+    Table table = {"talk.search",
+                   "The search for the leaf cell of a point, from its coordinates on: time of one",
+                   "model, depth, points, caches",
+                   {},
+                   {},
+                   {"H0 descends recursively, testing the children's boxes; H1 compares with "
+                    "centres; H2 follows the bits of the point's key, by pointers; H3 the same "
+                    "without pointers. K0 looks its key up in the talk's chained table, by the "
+                    "key's last bits, from the deepest level up; K1 with mixed keys; K2 bisects "
+                    "the levels. L1 bisects the sorted leaves, L2 from a top table on.",
+                    "The same leaves for all: cells of fewer than 8 triangles are not divided. "
+                    "Points: uniform in the root, on the surface, along a walk on it."}};
+    for (const char* key : kKeys) table.columns.push_back({key, key, Unit::seconds});
+    for (const StudyMesh& mesh : meshes) {
+        for (const std::uint32_t depth : options.depths) {
+            if (options.stop && options.stop()) return table;
+            const search::Forms forms(
+                build::build_octree(mesh.mesh.positions, mesh.mesh.triangles,
+                                    {.level = depth, .threshold = kThreshold}));
+            const std::vector<search::Contender> contenders = search::search_contenders(forms);
+            search::Random random(7);
+            for (const search::QuerySet& set :
+                 {search::uniform_set(forms.octree.grid, options.points, random),
+                  search::surface_set(mesh.mesh, options.points, random),
+                  search::walk_set(mesh.mesh, options.points, random)}) {
+                for (const search::State state : {search::warm, search::cold}) {
+                    table.rows.push_back(timed_row(mesh.name + ", " + std::to_string(depth) + ", " +
+                                                       set.name + ", " + search::kStates[state],
+                                                   contenders, set, state, options.rounds));
+                }
+            }
+        }
+    }
+    return table;
+}
+
+std::vector<Check> cell_search_checks(const Table& table) {
+    constexpr std::array<const char*, 4> kMeanings = {
+        "recursion that tests boxes (H0)", "descent by comparing with centres (H1)",
+        "descent by the bits of one key (H2)", "the same without pointers (H3)"};
+    std::vector<Check> checks;
+    for (std::size_t baseline = 0; baseline < kMeanings.size(); ++baseline) {
+        const Saving saving = saving_against(table, baseline);
+        Check check;
+        check.claim = std::string(
+                          "The talk's hashed octree reduces a query by up to 80 %: "
+                          "against ") +
+                      kMeanings[baseline];
+        if (saving.cases > 0) {
+            check.verdict = verdict_of(saving.reached > 0);
+            check.evidence = "reached in " + std::to_string(saving.reached) + " of " +
+                             std::to_string(saving.cases) + " cases; the most that hashing saves " +
+                             (saving.most > 0 ? formatted("is %.0f %%", 100 * saving.most)
+                                              : std::string("is nothing")) +
+                             " (" + saving.where + "), and in " + std::to_string(saving.slower) +
+                             " it is slower";
+        }
+        checks.push_back(std::move(check));
+    }
+    return checks;
+}
+
+}  // namespace cdprep::study

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "cdprep/cells/build_octree.h"
+#include "compare/cells/pointer_octrees.h"
+#include "compare/cells/search_contenders.h"
+
+namespace cdprep::study::search {
+
+/// All forms of one octree; the contenders refer to it.
+struct Forms {
+    explicit Forms(build::Octree made) : octree(std::move(made)) {}
+
+    build::Octree octree;
+    PointerOctree<BoxNode> boxes = box_octree(octree.grid, octree.nodes);
+    PointerOctree<CentreNode> centres = centre_octree(octree.grid, octree.nodes);
+    PointerOctree<PlainNode> plain = plain_octree(octree.nodes);
+};
+
+/// Every way to find the leaf of a point, from its coordinates on:
+///
+///   H0  descends recursively, testing the children's boxes      pointers
+///   H1  descends, comparing the point with each node's centre   pointers
+///   H2  descends by the bits of the point's code                pointers
+///   H3  the same in the product's nodes                         numbers and masks
+///   K0  looks its key up, from the deepest level up: the talk's chained table by modulus
+///   K1  the same with mixed keys
+///   K2  bisects the levels, by K1's table: all ancestors of a leaf are in it
+///   L1  bisects the sorted leaves, without branches
+///   L2  the same from a top table on: the product's default
+///
+/// The forms outlive them.
+[[nodiscard]] std::vector<Contender> search_contenders(const Forms& forms);
+
+}  // namespace cdprep::study::search

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/command.h"
+#include "compare/run_comparison.h"
+#include "cli/import_arguments.h"
+#include "cli/interrupt.h"
+#include "cli/output_path.h"
+#include "compare/pair_poses.h"
+#include "compare/comparison_page.h"
+#include "compare/comparison_report.h"
+#include "cli/report_output.h"
+#include "cli/usage.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostPoses = 10'000;
+constexpr std::size_t kMostRounds = 1'000;
+
+const std::map<std::string, PairChoice> kPairs = {
+    {"fitting", PairChoice::fitting}, {"paper", PairChoice::paper}, {"all", PairChoice::all}};
+const std::map<std::string, bool TableChoice::*> kTables = {{"1", &TableChoice::features},
+                                                            {"2", &TableChoice::spatial},
+                                                            {"3", &TableChoice::preparation},
+                                                            {"4", &TableChoice::pairs},
+                                                            {"talk", &TableChoice::talk}};
+
+struct Arguments {
+    std::vector<fs::path> inputs;
+    fs::path output;
+    fs::path poses;  ///< a folder to write them to, or empty
+    std::vector<std::string> tables;
+    std::string pairs = "fitting";
+    std::string format = "text";
+    std::string progress = "auto";
+    ImportArguments import;
+    ComparisonOptions options;
+};
+
+TableChoice chosen_tables(const std::vector<std::string>& names) {
+    if (names.empty()) return {};
+    TableChoice tables = {false, false, false, false, false};
+    for (const std::string& name : names) tables.*kTables.at(name) = true;
+    return tables;
+}
+
+std::string report_in(const std::string& format, const report::ComparisonReport& report) {
+    if (format == "json") return report::comparison_json(report);
+    if (format == "html") return report::comparison_page(report.comparison);
+    if (format == "csv") return report::comparison_csv(report.comparison);
+    return report::comparison_text(report.comparison);
+}
+
+/// An exact strategy that differs from the others is a fault of ours.
+Exit exit_of(const study::Comparison& comparison) {
+    const bool is_wrong = std::ranges::any_of(comparison.checks, [](const study::Check& check) {
+        return check.is_promise && check.verdict == study::Verdict::fails;
+    });
+    return is_wrong ? Exit::internal : Exit::success;
+}
+
+/// Says why nothing came of it, in JSON too where that was asked for.
+Exit failed_with(const Arguments& arguments, const Error& error) {
+    if (arguments.format == "json" && arguments.output.empty()) {
+        std::cout << report::comparison_json(
+            failed<report::ComparisonReport>(arguments.inputs.front(), error));
+    }
+    return fail("compare", error);
+}
+
+Exit run(Arguments& arguments) {
+    const Result<ProgressStyle> style = parse_progress(arguments.progress);
+    if (!style) return fail("compare", style.error());
+    for (const fs::path& input : arguments.inputs) {
+        if (arguments.output.empty()) break;
+        if (auto error = find_replaced_input(input, arguments.output)) {
+            return fail("compare", *error);
+        }
+    }
+    Result<ReportOutput> output = ReportOutput::open(arguments.output);
+    if (!output) return fail("compare", output.error());
+
+    ComparisonOptions& options = arguments.options;
+    options.tables = chosen_tables(arguments.tables);
+    options.pairs = kPairs.at(arguments.pairs);
+    options.import = arguments.import.options();
+    const Threads threads(options.threads);
+    Result<study::Comparison> compared =
+        compare_models(arguments.inputs, settled(options), threads, style.value());
+    if (!compared) return failed_with(arguments, compared.error());
+
+    report::ComparisonReport report;
+    report.comparison = std::move(compared).value();
+    const Exit exit = exit_of(report.comparison);
+    report.exit = static_cast<int>(exit);
+    Result<Done> written = output.value().append(report_in(arguments.format, report));
+    if (written) written = output.value().finish();
+    if (written && !arguments.poses.empty()) {
+        written = write_pair_poses(arguments.poses, report.comparison);
+    }
+    if (!written) return fail("compare", written.error());
+    if (exit != Exit::success) {
+        std::cerr << "cdprep compare: a promise was broken; the report says which. Please report "
+                     "it.\n";
+    }
+    return exit;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand(
+        "compare", "Make a comparison paper's tables, and a talk's figures, of these models");
+    command->footer(
+        "Tables 1 to 4: what each strategy can answer, which is tried; what spatial\n"
+        "decompositions cost to build; the same of hulls, hierarchies and convex pieces; what\n"
+        "collisions and overlapping triangles take, pair by pair. The paper's figures stand "
+        "beside\n"
+        "ours where a model has its counts. All models are fitted to a diagonal of 1.\n"
+        "Exits with 6 when an exact strategy gives another answer than the others.");
+    command
+        ->add_option("model", arguments->inputs,
+                     "Mesh files (OBJ, STL, PLY, OFF, glTF, 3MF and others)")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "Default: standard output");
+    command->add_option("--format", arguments->format, "text, json, csv or html")
+        ->check(one_of({"text", "json", "csv", "html"}))
+        ->capture_default_str();
+    command
+        ->add_option("--tables", arguments->tables,
+                     "Which, with commas: 1, 2, 3, 4, talk. Default: all")
+        ->delimiter(',')
+        ->check(one_of({"1", "2", "3", "4", "talk"}));
+    ComparisonOptions& options = arguments->options;
+    command
+        ->add_option("--pairs", arguments->pairs,
+                     "Of Table 4: paper, the pairs that it has; all, every two models; fitting, "
+                     "the first when every model is one of the paper's")
+        ->check(one_of({"fitting", "paper", "all"}))
+        ->capture_default_str();
+    command->add_flag("--quick", options.quick,
+                      "A look: few poses, one round, pairs that have each model once (--pairs "
+                      "paper or all: those), the talk's algorithm to the letter in its own table "
+                      "alone");
+    CLI::Option* const drawn =
+        command
+            ->add_option("--per-stratum", options.per_stratum,
+                         "How many poses a pair in each of five strata, from deep to far. Default: "
+                         "20; quick: 3")
+            ->check(whole_from(1, kMostPoses));
+    command->add_option("--rounds", options.rounds, "Measured how often. Default: 5; quick: 1")
+        ->check(whole_from(1, kMostRounds));
+    CLI::Option* const seed =
+        command->add_option("--seed", options.seed, "Of the poses")->capture_default_str();
+    command
+        ->add_option("--poses", options.poses,
+                     "Take them from A-B.pose in this folder instead, for every pair")
+        ->check(CLI::ExistingDirectory)
+        ->excludes(drawn)
+        ->excludes(seed);
+    command->add_option("--save-poses", arguments->poses,
+                        "Write them into this folder: others can then ask at the same ones");
+    command->add_option("--peers", options.peers,
+                        "A program that asks other libraries the same (tests/bench/peers)");
+    add_jobs(*command, options.threads);
+    add_progress(*command, arguments->progress);
+    add_import_arguments(*command, arguments->import);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "cli/command.h"
+#include "hull/enclosing_hull.h"
+#include "decompose/surface/surface_pieces.h"
+#include "decompose/enclose/enclose.h"
+#include "cli/import_arguments.h"
+#include "cli/interrupt.h"
+#include "cli/load_mesh.h"
+#include "cli/output_path.h"
+#include "cli/program_threads.h"
+#include "cli/progress.h"
+#include "decompose/surface/pieces_report.h"
+#include "text/printable.h"
+#include "cli/usage.h"
+#include "write/pieces_file.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+const std::map<std::string, convex::PieceOrder> kOrders = {
+    {"greedy", convex::PieceOrder::greedy},
+    {"depth-first", convex::PieceOrder::depth_first},
+    {"breadth-first", convex::PieceOrder::breadth_first},
+    {"cresting", convex::PieceOrder::cresting},
+};
+
+struct Arguments {
+    fs::path input;
+    fs::path output;
+    bool exact = false;
+    std::string order = "greedy";
+    double tolerance = 0;
+    bool table = false;
+    std::string format = "text";
+    std::string progress = "auto";
+    std::size_t threads = 0;
+    ImportArguments import;
+    LoadOptions load;
+    EncloseOptions enclose;
+};
+
+/// Fails before anything is read when the output could not be written.
+std::optional<Error> find_bad_output(const Arguments& arguments) {
+    if (arguments.output.empty()) return std::nullopt;
+    if (auto error = find_replaced_input(arguments.input, arguments.output)) return error;
+    const auto format = write::mesh_format_of(arguments.output);
+    if (format == write::MeshFormat::obj || format == write::MeshFormat::ply) return std::nullopt;
+    return Error{ErrorCode::bad_argument,
+                 arguments.output.string() + ": pieces can be written as .obj or .ply only."};
+}
+
+LoadOptions load_options(const Arguments& arguments, const Threads& threads) {
+    LoadOptions load = arguments.load;
+    load.import = arguments.import.options();
+    load.import.parallel_for = threads.parallel_for();
+    return load;
+}
+
+Result<report::SurfacePiecesReport> decompose(const Arguments& arguments, Progress& progress) {
+    if (const auto error = find_bad_output(arguments)) return *error;
+    const Threads threads(arguments.threads);
+    progress.show(0, arguments.input.filename().string() + ": import");
+    const Result<mesh::Mesh> mesh = load_mesh(arguments.input, load_options(arguments, threads));
+    if (!mesh) return mesh.error();
+    if (is_interrupted()) return interrupted(arguments.input);
+
+    progress.show(0, arguments.input.filename().string() + ": decompose");
+    const Clock::time_point begin = Clock::now();
+    report::SurfacePiecesReport report;
+    report.order = kOrders.at(arguments.order);
+    report.tolerance = arguments.tolerance;
+    report.pieces =
+        convex::find_surface_pieces(mesh.value(), {.order = report.order,
+                                                   .tolerance = arguments.tolerance,
+                                                   .parallel_for = threads.parallel_for(),
+                                                   .stop = is_interrupted});
+    report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (is_interrupted()) return interrupted(arguments.input);
+    report.input = arguments.input.string();
+    report.output = arguments.output.string();
+    report.has_table = arguments.table;
+    if (arguments.output.empty()) return report;
+
+    progress.show(0, arguments.input.filename().string() + ": write");
+    const Result<Done> written = write::write_pieces(
+        arguments.output,
+        {mesh.value().positions, mesh.value().triangles, mesh.value().single_precision},
+        {report.pieces.triangles, report.pieces.first});
+    if (!written) return written.error();
+    return report;
+}
+
+/// Pieces that enclose the mesh, within an error or as many as asked.
+Exit run_enclose(const Arguments& arguments, Progress& progress) {
+    const Threads threads(arguments.threads);
+    EncloseOptions options = arguments.enclose;
+    options.output = arguments.output;
+    options.load = load_options(arguments, threads);
+    options.has_table = arguments.table;
+    Result<report::ApproximateReport> found = enclose(arguments.input, options, threads, progress);
+    progress.clear();
+    const bool is_json = arguments.format == "json";
+    if (!found) {
+        if (is_json) {
+            std::cout << report::approximate_json(
+                failed<report::ApproximateReport>(arguments.input, found.error()));
+        }
+        return fail("decompose", found.error());
+    }
+    if (found->error) {
+        if (is_json) std::cout << report::approximate_json(*found);
+        std::cerr << "cdprep decompose: " << report::printable(*found->error) << '\n';
+        return static_cast<Exit>(found->exit);
+    }
+    const bool is_as_asked = found.value().result.is_as_asked;
+    if (!is_as_asked) found.value().exit = static_cast<int>(Exit::findings);
+    std::cout << (is_json ? report::approximate_json(found.value())
+                          : report::approximate_text(found.value()));
+    const std::string warning = report::unit_warning(*found);
+    if (!warning.empty()) std::cerr << "cdprep decompose: " << report::printable(warning) << '\n';
+    return is_as_asked ? Exit::success : Exit::findings;
+}
+
+bool is_enclosing(const Arguments& arguments) {
+    const EncloseOptions& enclosed = arguments.enclose;
+    return enclosed.max_error || enclosed.parts || enclosed.max_parts;
+}
+
+/// An option that would change nothing was meant for something.
+std::optional<Error> find_idle_option(const CLI::App& command, const Arguments& arguments) {
+    constexpr std::array<const char*, 2> kOfSurface = {"--tolerance", "--order"};
+    constexpr std::array<const char*, 7> kOfEnclosing = {
+        "--max-vertices", "--work",      "--to-surface", "--merge-components",
+        "--density",      "--no-visual", "--strict"};
+    const auto find_given = [&](std::span<const char* const> names) -> const char* {
+        const auto at = std::find_if(names.begin(), names.end(),
+                                     [&](const char* name) { return command.count(name) > 0; });
+        return at == names.end() ? nullptr : *at;
+    };
+    const bool encloses = is_enclosing(arguments);
+    const char* idle = encloses ? find_given(kOfSurface) : find_given(kOfEnclosing);
+    if (idle == nullptr) return std::nullopt;
+    return Error{
+        ErrorCode::bad_argument,
+        idle + std::string(encloses ? " is of pieces of the surface: leave it out, or leave "
+                                      "out --max-error, --parts and --max-parts."
+                                    : " is of pieces that enclose the mesh: add "
+                                      "--max-error, --parts or --max-parts.")};
+}
+
+Exit run(const CLI::App& command, const Arguments& arguments) {
+    if (const auto error = find_idle_option(command, arguments)) return fail("decompose", *error);
+    const Result<ProgressStyle> style = parse_progress(arguments.progress);
+    if (!style) return fail("decompose", style.error());
+    Progress progress(style.value(), 1);
+    if (is_enclosing(arguments)) return run_enclose(arguments, progress);
+    const Result<report::SurfacePiecesReport> found = decompose(arguments, progress);
+    progress.clear();
+    const bool is_json = arguments.format == "json";
+    if (!found) {
+        if (is_json) {
+            std::cout << report::pieces_json(
+                failed<report::SurfacePiecesReport>(arguments.input, found.error()));
+        }
+        return fail("decompose", found.error());
+    }
+    std::cout << (is_json ? report::pieces_json(found.value())
+                          : report::pieces_text(found.value()));
+    return Exit::success;
+}
+
+}  // namespace
+
+void add_decompose(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("decompose", "Cut a mesh into convex pieces");
+    command->footer(
+        "Cuts the surface into patches that lie on the boundary of their convex hulls, exactly\n"
+        "or, with --tolerance, nearly. Takes any mesh: borders, edges that are not manifold and\n"
+        "edges whose triangles are wound against each other are never crossed. No name of a node\n"
+        "counts there: a convex body is one piece whatever its name, cut only where it has edges\n"
+        "in common with others, and the hull of one that is not would not lie on it.\n"
+        "With --max-error or --parts, encloses the mesh in few convex pieces instead, which stick\n"
+        "out of the solid by no more than is stated, and proved; components and nodes stay apart,\n"
+        "and nodes named UCX_..., ...-convex or ..._convex become their hulls.\n"
+        "Exits with 1 when it could not be done as asked; what was found is written all the\n"
+        "same. Which node of the file a piece is of is in --table.");
+    add_input(*command, arguments->input);
+    command->add_option("-o,--output", arguments->output,
+                        "An .obj file with a group for each piece, or a .ply file with colours; "
+                        "of enclosing pieces .obj, .glb, or .urdf, .sdf (with a mesh for each "
+                        "piece beside it), .mjcf, .xml");
+    CLI::Option* exact = command->add_flag("--exact", arguments->exact,
+                                           "Every triangle lies on its hull exactly (the default)");
+    command
+        ->add_option("--tolerance", arguments->tolerance,
+                     "Let vertices be this much above the triangles of their piece, in model "
+                     "units; what was needed is proved and stated")
+        ->check(zero_or_more())
+        ->excludes(exact);
+    command
+        ->add_option("--order", arguments->order,
+                     "How pieces come about: greedy (patches merge; fewest pieces), depth-first, "
+                     "breadth-first or cresting (patches grow)")
+        ->check(one_of({"greedy", "depth-first", "breadth-first", "cresting"}))
+        ->capture_default_str();
+    EncloseOptions& enclosed = arguments->enclose;
+    command
+        ->add_option("--max-error", enclosed.max_error,
+                     "Enclose, with as few pieces as stick out by no more than this, in model "
+                     "units")
+        ->check(zero_or_more())
+        ->excludes(exact);
+    command
+        ->add_option("--parts", enclosed.parts,
+                     "Enclose in at most so many pieces that stick out as little as is found")
+        ->check(whole_from(1))
+        ->excludes(exact);
+    command->add_option("--max-parts", enclosed.max_parts, "An engine's limit, before --max-error")
+        ->check(whole_from(1))
+        ->excludes(exact);
+    command
+        ->add_option("--max-vertices", enclosed.max_vertices,
+                     "An engine's limit of vertices a piece, at least 4")
+        ->check(whole_from(convex::kFewestEnclosingVertices, 1U << 30U));
+    command
+        ->add_option("--work", enclosed.work,
+                     "How much may be looked at in all, some ten nanoseconds of a core each; when "
+                     "that is too little, what is found is looser")
+        ->capture_default_str();
+    command->add_flag("--to-surface", enclosed.to_surface,
+                      "Measure from the surface alone: sheets, hollow bodies");
+    command->add_flag("--merge-components", enclosed.merge_components,
+                      "Pieces may take in several components and nodes");
+    command
+        ->add_option("--density", enclosed.density,
+                     "Kilograms per cubic metre, for the mass in .urdf, .sdf, .mjcf")
+        ->check(above_zero())
+        ->capture_default_str();
+    command->add_flag("!--no-visual", enclosed.has_visual,
+                      ".urdf and .sdf show nothing, instead of a copy of the mesh");
+    command->add_flag("--strict", enclosed.strict,
+                      "Write no .urdf, .sdf or .mjcf of a mesh whose unit nobody says: exit 1");
+    command->add_flag("--table", arguments->table, "Report every piece");
+    add_normalize(*command, arguments->load.normalize);
+    add_weld(*command, arguments->load.weld_distance);
+    add_jobs(*command, arguments->threads);
+    add_report_format(*command, arguments->format);
+    add_progress(*command, arguments->progress);
+    add_import_arguments(*command, arguments->import);
+    command->callback([command, arguments, &exit] { exit = run(*command, *arguments); });
+}
+
+}  // namespace cdprep::cli

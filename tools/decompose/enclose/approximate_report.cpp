@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decompose/enclose/approximate_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "text/number_text.h"
+#include "text/printable.h"
+#include "text/space_name.h"
+
+namespace cdprep::report {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::size_t most_vertices(const convex::ApproximatePieces& result) {
+    std::size_t most = 0;
+    for (const auto& piece : result.pieces) most = std::max(most, piece.hull.points.size());
+    return most;
+}
+
+Json table_json(const ApproximateReport& report) {
+    Json rows = Json::array();
+    for (std::size_t i = 0; i < report.result.pieces.size(); ++i) {
+        const convex::ApproximatePiece& piece = report.result.pieces[i];
+        Json row = {{"piece", i},
+                    {"vertices", piece.hull.points.size()},
+                    {"facets", piece.hull.facets.size()},
+                    {"triangles", piece.triangles.size()},
+                    {"outer_error", piece.error.upper}};
+        if (piece.node < report.node_names.size() && !report.node_names[piece.node].empty()) {
+            row["node"] = report.node_names[piece.node];
+        }
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+/// "0.034 x 0.016 x 0.016 m".
+std::string size_text(const ApproximateReport& report) {
+    const double scale = report.metres_per_unit > 0 ? report.metres_per_unit : 1;
+    std::string text;
+    for (const double length : report.size) {
+        text += (text.empty() ? "" : " x ") + in_six_digits(length * scale);
+    }
+    return text + " m";
+}
+
+bool is_turned(const ApproximateReport& report) {
+    return report.is_for_simulators &&
+           (report.up_axis == format::UpAxis::x || report.up_axis == format::UpAxis::y);
+}
+
+}  // namespace
+
+std::string unit_warning(const ApproximateReport& report) {
+    if (!report.is_for_simulators || report.metres_per_unit > 0) return {};
+    return report.input + ": states no unit; " + report.output + " takes it as metres, " +
+           size_text(report) +
+           (report.mass ? " and " + in_six_digits(*report.mass) + " kg" : std::string()) +
+           ". Give --unit.";
+}
+
+std::string approximate_text(const ApproximateReport& report) {
+    const convex::ApproximatePieces& result = report.result;
+    const double share = report.diagonal > 0 ? 100 * result.outer_error / report.diagonal : 0;
+    std::string text = printable(report.input) + ": " +
+                       counted(result.pieces.size(), "convex piece", "convex pieces") +
+                       " enclose " + counted(report.triangles, "triangle", "triangles") + " (" +
+                       in_six_digits(report.seconds) + " s)\n";
+    text += "  they stick out of the ";
+    text += report.to_surface ? "surface" : "solid";
+    text += " by at most " + in_six_digits(result.outer_error) + " (" + in_six_digits(share) +
+            " % of the diagonal; at least " + in_six_digits(result.outer_lower) + ")\n";
+    text += "  enclosed: " + std::to_string(result.proof.fragments) + " fragments, " +
+            std::to_string(result.proof.outside) + " corners outside of their hull\n";
+    text += "  at most " + counted(most_vertices(result), "vertex", "vertices") + " a piece\n";
+    if (!report.to_surface && report.open_components > 0) {
+        text += "  " + counted(report.open_components, "component", "components") +
+                " are not closed and were taken as surfaces; close them first with "
+                "repair --preset closed where they are meant to be solid\n";
+    }
+    if (result.ran_out_of_work) text += "  the work allowed did not suffice: looser than asked\n";
+    if (!result.is_as_asked) text += "  not as tight, or not as few, as asked\n";
+    if (report.left_out > 0) {
+        text += "  " + std::to_string(report.left_out) + " flat pieces were not written\n";
+    }
+    if (report.is_for_simulators) text += "  size " + size_text(report) + "\n";
+    if (is_turned(report)) {
+        text += std::string("  turned: ") + axis_name(report.up_axis) + " is up, written as +z\n";
+    }
+    if (report.mass) {
+        text += "  mass " + in_six_digits(*report.mass) + " kg, of ";
+        text += report.is_mass_of_pieces ? "the pieces, twice where they overlap\n" : "the solid\n";
+    }
+    if (!report.output.empty()) text += "  written to " + printable(report.output) + "\n";
+    if (!report.has_table) return text;
+    text += "  piece vertices facets triangles outer_error\n";
+    for (std::size_t i = 0; i < result.pieces.size(); ++i) {
+        const convex::ApproximatePiece& piece = result.pieces[i];
+        text += "  " + std::to_string(i) + " " + std::to_string(piece.hull.points.size()) + " " +
+                std::to_string(piece.hull.facets.size()) + " " +
+                std::to_string(piece.triangles.size()) + " " + in_six_digits(piece.error.upper) +
+                "\n";
+    }
+    return text;
+}
+
+std::string approximate_json(const ApproximateReport& report) {
+    Json json = {{"input", report.input}, {"output", report.output}, {"exit", report.exit}};
+    if (report.error) {
+        json["error"] = *report.error;
+    } else {
+        const convex::ApproximatePieces& result = report.result;
+        json["method"] = "approximate";
+        if (report.max_error) json["max_error"] = *report.max_error;
+        if (report.parts) json["parts"] = *report.parts;
+        json["triangles"] = report.triangles;
+        json["pieces"] = result.pieces.size();
+        json["outer_error"] = result.outer_error;
+        json["outer_error_at_least"] = result.outer_lower;
+        json["inner_error"] = result.inner_error;
+        json["measured_to"] = report.to_surface ? "surface" : "solid";
+        json["open_components"] = report.open_components;
+        json["diagonal"] = report.diagonal;
+        json["size"] = report.size;
+        json["metres_per_unit"] = report.metres_per_unit;
+        json["up_axis"] = axis_name(report.up_axis);
+        json["proof"] = {{"triangles", result.proof.triangles},
+                         {"fragments", result.proof.fragments},
+                         {"tests", result.proof.tests},
+                         {"outside", result.proof.outside}};
+        json["most_vertices"] = most_vertices(result);
+        json["as_asked"] = result.is_as_asked;
+        json["ran_out_of_work"] = result.ran_out_of_work;
+        json["left_out"] = report.left_out;
+        if (report.mass) {
+            json["mass"] = *report.mass;
+            json["mass_of"] = report.is_mass_of_pieces ? "pieces" : "solid";
+        }
+        json["seconds"] = report.seconds;
+        if (report.has_table) json["table"] = table_json(report);
+    }
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace cdprep::report

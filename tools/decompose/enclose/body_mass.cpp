@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decompose/enclose/body_mass.h"
+
+#include <cmath>
+
+#include "mesh/mass_properties.h"
+
+namespace cdprep::cli {
+namespace {
+
+/// Of a solid: simulators refuse an inertia that is not positive definite.
+bool is_of_solid(const write::BodyMass& body) {
+    const auto& [xx, yy, zz, xy, yz, zx] = body.inertia;
+    const double minor = xx * yy - xy * xy;
+    const double determinant = minor * zz - xx * yz * yz - yy * zx * zx + 2 * xy * yz * zx;
+    return body.mass > 0 && xx > 0 && minor > 0 && determinant > 0 && std::isfinite(determinant);
+}
+
+std::optional<write::BodyMass> mass_of(const mesh::Mesh& mesh, double density, double scale) {
+    const auto found = convex::find_mass_properties(mesh);
+    if (!found) return std::nullopt;
+    // Inside out: all signs are turned.
+    const double per_volume = std::copysign(density, found->volume) * scale * scale * scale;
+    write::BodyMass body;
+    body.mass = per_volume * found->volume;
+    const format::Double3& centre = found->centre;
+    body.centre = {centre.x * scale, centre.y * scale, centre.z * scale};
+    for (std::size_t i = 0; i < body.inertia.size(); ++i) {
+        body.inertia[i] = per_volume * scale * scale * found->inertia[i];
+    }
+    if (!is_of_solid(body)) return std::nullopt;
+    return body;
+}
+
+mesh::Mesh mesh_of(std::span<const convex::ApproximatePiece> pieces) {
+    mesh::Mesh all;
+    for (const convex::ApproximatePiece& piece : pieces) {
+        const auto first = static_cast<std::uint32_t>(all.positions.size());
+        all.positions.insert(all.positions.end(), piece.hull.points.begin(),
+                             piece.hull.points.end());
+        for (const auto& [a, b, c] : piece.hull.facets) {
+            all.triangles.push_back({{first + a, first + b, first + c}});
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+std::optional<WeighedBody> weigh(const mesh::Mesh& mesh, bool is_closed,
+                                 std::span<const convex::ApproximatePiece> pieces, double density,
+                                 double metres_per_unit) {
+    const double scale = metres_per_unit > 0 ? metres_per_unit : 1;
+    if (is_closed) {
+        if (const auto body = mass_of(mesh, density, scale)) return WeighedBody{*body, false};
+    }
+    if (const auto body = mass_of(mesh_of(pieces), density, scale)) return WeighedBody{*body, true};
+    return std::nullopt;
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decompose/enclose/enclose.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "decompose/enclose/body_mass.h"
+#include "cli/command.h"
+#include "cli/interrupt.h"
+#include "mesh/topology.h"
+#include "mesh/weld.h"
+#include "decompose/enclose/mesh_nodes.h"
+#include "cli/output_path.h"
+#include "write/hulls_file.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::optional<Error> find_bad_output(const fs::path& input, const fs::path& output) {
+    if (output.empty()) return std::nullopt;
+    if (auto error = find_replaced_input(input, output)) return error;
+    const auto format = write::hulls_format_of(output);
+    if (!format) {
+        return Error{ErrorCode::bad_argument,
+                     output.string() +
+                         ": the extension names no format that pieces can be written "
+                         "in; it must be .obj, .glb, .urdf, .sdf, .mjcf or .xml."};
+    }
+    if (write::may_replace(output, *format, input)) {
+        return Error{ErrorCode::bad_argument,
+                     input.string() + ": is named as a mesh beside " + output.string() +
+                         " would be, and could be replaced. Choose another output."};
+    }
+    return std::nullopt;
+}
+
+/// Thrown by a task after a signal: the search has no other way out.
+struct Stopped {};
+
+convex::ApproximateOptions search_options(const EncloseOptions& options) {
+    convex::ApproximateOptions how;
+    how.max_error = options.max_error;
+    how.parts = options.parts;
+    if (options.max_parts) {
+        how.parts = std::min(options.parts.value_or(*options.max_parts), *options.max_parts);
+    }
+    how.max_vertices = options.max_vertices;
+    how.work = options.work;
+    how.reference = options.to_surface ? convex::Reference::surface : convex::Reference::solid;
+    how.merge_components = options.merge_components;
+    return how;
+}
+
+bool is_for_simulators(const fs::path& output) {
+    return !output.empty() && write::has_mass(*write::hulls_format_of(output));
+}
+
+/// Turns what is up to +z, as simulators have it: coordinates change places and signs.
+void turn_z_up(std::vector<format::Double3>& points, format::UpAxis up) {
+    for (format::Double3& p : points) {
+        if (up == format::UpAxis::y) p = {p.x, -p.z, p.y};
+        if (up == format::UpAxis::x) p = {-p.z, p.y, p.x};
+    }
+}
+
+/// Writes the pieces, and for simulators what the mesh weighs and looks like, in metres, +z up.
+Result<Done> write_pieces(mesh::Mesh mesh, bool is_closed, const EncloseOptions& options,
+                          report::ApproximateReport& report) {
+    std::vector<convex::ApproximatePiece> pieces = report.result.pieces;
+    const write::HullsFormat format = *write::hulls_format_of(options.output);
+    const double metres_per_unit = report.metres_per_unit;
+    if (write::has_mass(format)) {
+        turn_z_up(mesh.positions, report.up_axis);
+        for (convex::ApproximatePiece& piece : pieces) {
+            turn_z_up(piece.hull.points, report.up_axis);
+        }
+    }
+    std::vector<write::HullArrays> hulls;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const convex::ConvexHull& hull = pieces[i].hull;
+        hulls.push_back({"piece_" + std::to_string(i), hull.points, hull.facets, hull.dimension});
+    }
+    write::HullsFileOptions how;
+    how.metres_per_unit = metres_per_unit;
+    if (write::has_mass(format)) {
+        const auto weighed =
+            weigh(mesh, is_closed && !options.to_surface, pieces, options.density, metres_per_unit);
+        if (weighed) {
+            how.mass = weighed->body;
+            report.mass = weighed->body.mass;
+            report.is_mass_of_pieces = weighed->is_of_pieces;
+        }
+    }
+    if (options.has_visual) {
+        how.visual = {mesh.positions, mesh.triangles, mesh.single_precision};
+    }
+    const Result<std::size_t> left_out = write::write_hulls(options.output, format, hulls, how);
+    if (!left_out) return left_out.error();
+    report.left_out = left_out.value();
+    return Done{};
+}
+
+}  // namespace
+
+std::optional<convex::ApproximatePieces> search_pieces(const mesh::Mesh& mesh,
+                                                       convex::ApproximateOptions how,
+                                                       const Threads& threads) {
+    const auto run = [&](std::size_t count, Task task) {
+        const auto unless_stopped = [&](std::size_t i) {
+            if (is_interrupted()) throw Stopped{};
+            task(i);
+        };
+        threads.parallel_for()(count, unless_stopped);
+    };
+    how.parallel_for = run;
+    try {
+        return convex::find_approximate_pieces(mesh, how);
+    } catch (const Stopped&) {
+        return std::nullopt;
+    }
+}
+
+Result<report::ApproximateReport> enclose(const fs::path& input, const EncloseOptions& options,
+                                          const Threads& threads, Progress& progress) {
+    if (const auto error = find_bad_output(input, options.output)) return *error;
+    const std::string name = input.filename().string();
+    progress.show(0, name + ": import");
+    const Result<mesh::TriangleSoup> loaded = load_soup(input, options.load);
+    if (!loaded) return loaded.error();
+    const mesh::TriangleSoup& soup = loaded.value();
+    const mesh::Mesh mesh = mesh::weld(soup, {options.load.weld_distance}).mesh;
+    if (is_interrupted()) return interrupted(input);
+    if (options.strict && is_for_simulators(options.output) && soup.metres_per_unit == 0) {
+        report::ApproximateReport refused;
+        refused.input = input.string();
+        refused.error = input.string() + ": states no unit, which " + options.output.string() +
+                        " needs. Give --unit mm, cm, m, in or ft.";
+        refused.exit = static_cast<int>(Exit::findings);
+        return refused;
+    }
+
+    progress.show(0, name + ": enclose");
+    const Clock::time_point begin = Clock::now();
+    const MeshNodes nodes = find_nodes(soup, mesh);
+    report::ApproximateReport report;
+    report.node_names = nodes.names;
+    convex::ApproximateOptions how = search_options(options);
+    how.node_of = nodes.node_of;
+    how.convex_node = nodes.is_convex;
+    std::optional<convex::ApproximatePieces> found = search_pieces(mesh, how, threads);
+    if (!found || is_interrupted()) return interrupted(input);
+    report.result = std::move(*found);
+    report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    report.input = input.string();
+    report.output = options.output.string();
+    report.max_error = options.max_error;
+    report.parts = how.parts;
+    report.triangles = mesh.triangles.size();
+    report.to_surface = options.to_surface;
+    report.has_table = options.has_table;
+    report.metres_per_unit = soup.metres_per_unit;
+    report.up_axis = soup.up_axis;
+    report.is_for_simulators = is_for_simulators(options.output);
+    mesh::Box box;
+    for (const mesh::Double3& p : mesh.positions) box.add(p);
+    if (!mesh.positions.empty()) {
+        report.diagonal = box.diagonal();
+        report.size = {box.upper.x - box.lower.x, box.upper.y - box.lower.y,
+                       box.upper.z - box.lower.z};
+    }
+    const mesh::Topology topology = mesh::find_topology(mesh);
+    for (const format::Component& component : topology.components) {
+        if ((component.flags & format::component_balanced) == 0) ++report.open_components;
+    }
+    if (options.output.empty()) return report;
+    progress.show(0, name + ": write");
+    const Result<Done> written = write_pieces(mesh, topology.closed, options, report);
+    if (!written) return written.error();
+    return report;
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decompose/enclose/flush_bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "cdprep/exact/triangles.h"
+#include "mesh/vectors.h"
+
+namespace cdprep::convex {
+namespace {
+
+// Of points against planes: once for those of the hull, once for those of the surface.
+constexpr std::size_t kMostTests = 4'000'000;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct Plane {
+    Double3 normal;  ///< of length 1, or 0
+    double offset;
+};
+
+Plane plane_of(const Double3& a, const Double3& b, const Double3& c) {
+    const Double3 n = mesh::cross(mesh::minus(b, a), mesh::minus(c, a));
+    const double length = std::sqrt(mesh::dot(n, n));
+    if (!(length > 0)) return {{0, 0, 0}, 0};
+    const Double3 unit = {n.x / length, n.y / length, n.z / length};
+    return {unit, mesh::dot(unit, a)};
+}
+
+double height(const Plane& plane, const Double3& p) {
+    return mesh::dot(plane.normal, p) - plane.offset;
+}
+
+class FlushHull {
+public:
+    FlushHull(const ConvexHull& hull, const Solid& solid) : hull_(hull), solid_(solid) {
+        for (const auto& f : hull.facets) {
+            Plane plane = plane_of(hull.points[f[0]], hull.points[f[1]], hull.points[f[2]]);
+            // A thin facet has any direction: the hull is behind its plane all the same.
+            plane.offset = -kInfinity;
+            for (const Double3& p : hull.points) {
+                plane.offset = std::max(plane.offset, mesh::dot(plane.normal, p));
+            }
+            if (mesh::dot(plane.normal, plane.normal) > 0) planes_.push_back(plane);
+        }
+    }
+
+    // Let no point of the surface be deeper in the hull H than d, and a point c of the solid
+    // be r deep, d < r. H shrunk by the share d / r towards c is more
+    // than d deep but for its border, so that it meets no surface and is in the solid with
+    // c; and no point of H moved by more than d / r times its distance from c.
+    [[nodiscard]] std::optional<double> bound(double deepest) {
+        const Double3 middle = mean();
+        double radius = kInfinity;
+        for (const auto& f : hull_.facets) {
+            const Corners facet = {hull_.points[f[0]], hull_.points[f[1]], hull_.points[f[2]]};
+            radius = std::min(radius, exact::point_triangle_distance(middle, facet).lower);
+        }
+        radius -= solid_.slack();
+        if (!(radius > deepest)) return std::nullopt;
+        double farthest = 0;
+        mesh::Box box;
+        for (const Double3& p : hull_.points) {
+            const Double3 away = mesh::minus(p, middle);
+            farthest = std::max(farthest, std::sqrt(mesh::dot(away, away)));
+            box.add(p);
+        }
+        double depth = 0;
+        std::size_t tests = 0;
+        solid_.tree().in_box(box, [&](std::uint32_t triangle) {
+            if (depth > deepest || tests > kMostTests) return;
+            tests += planes_.size();
+            depth = std::max(depth, depth_of(solid_.tree().corners(triangle), depth));
+        });
+        depth += 2 * solid_.slack();
+        if (depth > deepest || tests > kMostTests || !(depth < radius)) return std::nullopt;
+        if (!solid_.includes(middle)) return std::nullopt;
+        return depth / radius * farthest + 2 * solid_.slack();
+    }
+
+private:
+    [[nodiscard]] Double3 mean() const {
+        const double share = 1.0 / static_cast<double>(hull_.points.size());
+        Double3 sum = {0, 0, 0};
+        for (const Double3& p : hull_.points) {
+            sum = {sum.x + p.x * share, sum.y + p.y * share, sum.z + p.z * share};
+        }
+        return sum;
+    }
+
+    /// At least how deep a point of the triangle lies in the hull, or anything not above
+    /// `enough`. A ball in the hull around one reaches as far on either side of its plane.
+    [[nodiscard]] double depth_of(const Corners& corners, double enough) const {
+        double depth = kInfinity;
+        for (const Plane& plane : planes_) {
+            double most = -kInfinity;
+            for (const Double3& p : corners) most = std::max(most, -height(plane, p));
+            depth = std::min(depth, most);
+            if (depth <= enough) return depth;
+        }
+        const Plane own = plane_of(corners[0], corners[1], corners[2]);
+        if (!(mesh::dot(own.normal, own.normal) > 0)) return depth;
+        double above = 0;
+        double below = 0;
+        for (const Double3& p : hull_.points) {
+            above = std::max(above, height(own, p));
+            below = std::max(below, -height(own, p));
+        }
+        return std::min({depth, above, below});
+    }
+
+    const ConvexHull& hull_;
+    const Solid& solid_;
+    std::vector<Plane> planes_;
+};
+
+}  // namespace
+
+std::optional<double> bound_flush(const ConvexHull& hull, const Solid& solid, double deepest) {
+    if (hull.dimension != 3 || !solid.encloses()) return std::nullopt;
+    if (hull.facets.size() > kMostTests / hull.points.size()) return std::nullopt;
+    return FlushHull(hull, solid).bound(deepest);
+}
+
+}  // namespace cdprep::convex

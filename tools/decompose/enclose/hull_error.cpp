@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decompose/enclose/hull_error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "decompose/enclose/flush_bound.h"
+#include "cdprep/exact/triangles.h"
+#include "mesh/vectors.h"
+
+namespace cdprep::convex {
+namespace {
+
+
+using mesh::middle_of;
+
+constexpr std::size_t kMostDepthTests = 20'000'000;  ///< of triangles against planes
+constexpr std::size_t kTestsOfCell = 500;            ///< that take as long as a cell
+constexpr double kSkin = 0.02;   ///< of the error: what bounds of the inside may add
+constexpr double kFlush = 1e-6;  ///< of the diagonal: as near as this is on the surface
+
+/// A simplex of 1 to 3 corners; `upper` bounds the distance of its points.
+struct Cell {
+    std::array<Double3, 3> corner;
+    std::size_t count;
+    double upper;
+    std::uint32_t near;  ///< a triangle
+    bool outside;        ///< known to lie outside, all of it
+    bool operator<(const Cell& other) const {
+        return upper < other.upper;
+    }
+};
+
+double apart(const Double3& a, const Double3& b) {
+    const Double3 ab = mesh::minus(a, b);
+    return std::sqrt(mesh::dot(ab, ab));
+}
+
+Double3 mean(std::span<const Double3> points) {
+    const double share = 1.0 / static_cast<double>(points.size());
+    Double3 sum = {0, 0, 0};
+    for (const Double3& p : points) {
+        sum = {sum.x + p.x * share, sum.y + p.y * share, sum.z + p.z * share};
+    }
+    return sum;
+}
+
+class ErrorSearch {
+public:
+    ErrorSearch(const Solid& solid, const HullErrorOptions& options)
+        : solid_(solid), options_(options) {}
+
+    HullError run(const ConvexHull& hull) {
+        if (!options_.surface_alone) {
+            const auto flush = bound_flush(hull, solid_, kFlush * solid_.diagonal());
+            if (flush && *flush <= std::max(options_.enough, kFlush * solid_.diagonal())) {
+                error_.upper = *flush;
+                return error_;
+            }
+        }
+        for (const Cell& cell : cells_under(hull)) push(cell);
+        while (!heap_.empty() && !is_good_enough()) {
+            std::pop_heap(heap_.begin(), heap_.end());
+            const Cell cell = heap_.back();
+            heap_.pop_back();
+            halve(cell);
+        }
+        if (!heap_.empty()) error_.upper = std::max(error_.upper, heap_.front().upper);
+        if (hull.dimension == 3 && !options_.surface_alone) look_inside(hull);
+        // Cells meet where a middle was rounded; distances were, too.
+        if (error_.upper > 0) error_.upper += solid_.slack();
+        return error_;
+    }
+
+private:
+    [[nodiscard]] bool is_good_enough() const {
+        const double upper = heap_.front().upper;
+        // Half is left for the inside: facets on the surface have a bound above 0 for ever.
+        return error_.lower > options_.too_much || error_.cells >= options_.most_cells / 2 ||
+               upper <= prune_below();
+    }
+    /// What is at most this need not be known better.
+    [[nodiscard]] double prune_below() const {
+        return std::max(options_.enough, error_.lower * (1 + options_.relative));
+    }
+
+    [[nodiscard]] std::vector<Cell> cells_under(const ConvexHull& hull) const {
+        constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+        const auto& p = hull.points;
+        std::vector<Cell> cells;
+        if (hull.dimension < 0) return cells;
+        if (hull.dimension < 2) {
+            cells.push_back({{p.front(), p.back()}, p.size(), 0, kNone, false});
+            return cells;
+        }
+        for (const auto& f : hull.facets) {
+            cells.push_back({{p[f[0]], p[f[1]], p[f[2]]}, 3, 0, kNone, false});
+        }
+        return cells;
+    }
+
+    /// Counts as more cells what takes much longer than mostly.
+    TriangleTree::Nearest nearest(const Double3& p, std::uint32_t hint) {
+        const TriangleTree::Nearest near = solid_.tree().nearest(p, hint);
+        error_.cells += near.weight() - 1;
+        return near;
+    }
+
+    /// Bounds a cell and keeps it unless it is well within what is known.
+    void push(Cell cell) {
+        ++error_.cells;
+        const std::span c = std::span(cell.corner).first(cell.count);
+        const Double3 at = mean(c);
+        double radius = 0;
+        for (const Double3& corner : c) radius = std::max(radius, apart(at, corner));
+        radius += solid_.slack();
+        const TriangleTree::Nearest near = nearest(at, cell.near);
+        cell.near = near.triangle;
+        const bool one_sided = near.distance > radius + solid_.slack();
+        if (one_sided && !cell.outside) {
+            if (solid_.includes(at)) return;
+            cell.outside = true;
+        }
+        const Corners& t = solid_.tree().corners(near.triangle);
+        cell.upper = exact::point_triangle_distance(at, t).upper + radius;
+        if (cell.upper > prune_below()) {
+            cell.upper = std::min(cell.upper, bound_by_corners(c, near.triangle));
+        }
+        if (near.distance > error_.lower && (cell.outside || !solid_.includes(at))) {
+            error_.lower = near.distance;
+            error_.worst = at;
+        }
+        if (cell.upper <= prune_below()) {
+            error_.upper = std::max(error_.upper, cell.upper);
+            return;
+        }
+        heap_.push_back(cell);
+        std::push_heap(heap_.begin(), heap_.end());
+    }
+
+    /// At least the distance from the surface of any point of these corners' hull. The
+    /// distance to one triangle is convex, and so is the mean of those to two, which the
+    /// nearer one does not exceed: in the middle between two walls it bounds well.
+    [[nodiscard]] double bound_by_corners(std::span<const Double3> corners,
+                                          std::uint32_t triangle) {
+        const Corners& t = solid_.tree().corners(triangle);
+        std::array<double, 8> to_first{};
+        std::size_t worst = 0;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            to_first[i] = exact::point_triangle_distance(corners[i], t).upper;
+            if (to_first[i] > to_first[worst]) worst = i;
+        }
+        const std::uint32_t other = nearest(corners[worst], triangle).triangle;
+        if (other == triangle) return to_first[worst];
+        const Corners& u = solid_.tree().corners(other);
+        double of_both = 0;
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const double to_second = exact::point_triangle_distance(corners[i], u).upper;
+            of_both = std::max(of_both, to_first[i] / 2 + to_second / 2);
+        }
+        return std::min(to_first[worst], of_both) + solid_.slack();
+    }
+
+    void halve(const Cell& cell) {
+        std::size_t from = 0;
+        std::size_t to = 1;
+        double longest = -1;
+        for (std::size_t i = 0; i < cell.count; ++i) {
+            for (std::size_t k = i + 1; k < cell.count; ++k) {
+                const double length = apart(cell.corner[i], cell.corner[k]);
+                if (length <= longest) continue;
+                longest = length;
+                from = i;
+                to = k;
+            }
+        }
+        const Double3 cut = middle_of(cell.corner[from], cell.corner[to]);
+        for (const std::size_t end : {from, to}) {
+            Cell half = cell;
+            half.corner[end] = cut;
+            push(half);
+        }
+    }
+
+    /// A cube that may hold points of the hull that are deep in it.
+    struct Cube {
+        Double3 centre;
+        double half;
+        std::vector<std::uint32_t> planes;  ///< that it does not lie well behind
+        std::uint32_t near;
+        bool outside;
+        double bound;
+        bool operator<(const Cube& other) const {
+            return bound < other.bound;
+        }
+    };
+    struct Plane {
+        Double3 normal;
+        double offset;
+    };
+
+    /// Points within the hull at most `skin` from its surface are not farther from the solid
+    /// than that surface by more; the others lie in cubes, which are cut until their bound
+    /// is no higher. It is only there that a cavity or a pocket is told.
+    void look_inside(const ConvexHull& hull) {
+        const double skin = kSkin * std::max(error_.upper, options_.enough);
+        const double most = error_.upper + skin;
+        mesh::Box box;
+        for (const Double3& p : hull.points) box.add(p);
+        std::vector<Plane> planes;
+        Cube root{middle_of(box.lower, box.upper), box.diagonal() / 2, {}, 0, false, 0};
+        for (const auto& f : hull.facets) {
+            const Double3& a = hull.points[f[0]];
+            const Double3 n =
+                mesh::cross(mesh::minus(hull.points[f[1]], a), mesh::minus(hull.points[f[2]], a));
+            const double length = std::sqrt(mesh::dot(n, n));
+            // A facet too thin to have a direction keeps nothing out.
+            if (!(length > 0)) continue;
+            const Double3 unit = {n.x / length, n.y / length, n.z / length};
+            root.planes.push_back(static_cast<std::uint32_t>(planes.size()));
+            planes.push_back({unit, mesh::dot(unit, a)});
+        }
+        const double shallow = bound_above_surface(hull, planes, box);
+        if (shallow <= std::max(most, prune_below())) {
+            error_.upper = std::max(most, shallow);
+            return;
+        }
+        // The cube with the greatest bound first: what is found there spares most others.
+        std::vector<Cube> heap;
+        double highest = most;
+        const auto push = [&](Cube cube) {
+            cube.bound = bound_of(cube, planes, skin);
+            if (cube.bound <= std::max(most, prune_below())) {
+                highest = std::max(highest, cube.bound);
+                return;
+            }
+            heap.push_back(std::move(cube));
+            std::push_heap(heap.begin(), heap.end());
+        };
+        push(std::move(root));
+        while (!heap.empty() && error_.cells < options_.most_cells &&
+               error_.lower <= options_.too_much &&
+               heap.front().bound > std::max(most, prune_below())) {
+            std::pop_heap(heap.begin(), heap.end());
+            const Cube cube = std::move(heap.back());
+            heap.pop_back();
+            const double quarter = cube.half / 2;
+            for (unsigned k = 0; k < 8; ++k) {
+                const Double3& c = cube.centre;
+                push({{c.x + ((k & 1U) == 0 ? -quarter : quarter),
+                       c.y + ((k & 2U) == 0 ? -quarter : quarter),
+                       c.z + ((k & 4U) == 0 ? -quarter : quarter)},
+                      quarter,
+                      cube.planes,
+                      cube.near,
+                      cube.outside,
+                      0});
+            }
+        }
+        if (!heap.empty()) highest = std::max(highest, heap.front().bound);
+        error_.upper = std::min(highest, shallow);
+    }
+
+    /// At least the distance of any point of the hull from the solid, where the surface goes
+    /// into the hull nowhere deeply: what lies deeper than that is all inside then if one
+    /// point is, and what does not is near the hull's own surface. That much holds of a solid
+    /// that is all but convex, however many cubes it would take to fill. Infinite otherwise.
+    [[nodiscard]] double bound_above_surface(const ConvexHull& hull, std::span<const Plane> planes,
+                                             const mesh::Box& box) {
+        constexpr double kNothing = std::numeric_limits<double>::infinity();
+        if (!solid_.encloses()) return kNothing;
+        constexpr double kNone = -std::numeric_limits<double>::infinity();
+        const Double3 at = mean(hull.points);
+        std::size_t shallowest = 0;
+        const double deepest = depth_of({&at, 1}, planes, kNone, shallowest);
+        double depth = 0;
+        std::size_t tests = 0;
+        const std::size_t most = std::min(kMostDepthTests, kTestsOfCell * options_.most_cells);
+        solid_.tree().in_box(box, [&](std::uint32_t triangle) {
+            if (depth >= deepest || tests > most) return;
+            tests += planes.size();
+            depth = std::max(depth,
+                             depth_of(solid_.tree().corners(triangle), planes, depth, shallowest));
+        });
+        error_.tests += tests;
+        depth += 2 * solid_.slack();
+        if (depth >= deepest || tests > most || !solid_.includes(at)) return kNothing;
+        return error_.upper + depth;
+    }
+
+    /// At least how deep any point of these corners' hull lies behind all planes; anything
+    /// not above `enough` where it is no deeper than that. The plane under which it is least
+    /// deep is looked at first for the next ones, which are near, and mostly the last one.
+    static double depth_of(std::span<const Double3> corners, std::span<const Plane> planes,
+                           double enough, std::size_t& shallowest) {
+        const auto below = [&](const Plane& plane) {
+            double most = -std::numeric_limits<double>::infinity();
+            for (const Double3& p : corners) {
+                most = std::max(most, plane.offset - mesh::dot(plane.normal, p));
+            }
+            return most;
+        };
+        double depth = std::numeric_limits<double>::infinity();
+        if (shallowest < planes.size()) depth = below(planes[shallowest]);
+        for (std::size_t i = 0; i < planes.size() && depth > enough; ++i) {
+            const double most = below(planes[i]);
+            if (most >= depth) continue;
+            depth = most;
+            shallowest = i;
+        }
+        return depth;
+    }
+
+    /// At least the distance of any point of the cube that is deep in the hull; 0 when there
+    /// is none. Drops planes that the cube lies well behind.
+    double bound_of(Cube& cube, std::span<const Plane> planes, double skin) {
+        ++error_.cells;
+        const Double3& c = cube.centre;
+        bool is_within = true;
+        std::vector<std::uint32_t> kept;
+        for (const std::uint32_t i : cube.planes) {
+            const Double3& n = planes[i].normal;
+            const double height = mesh::dot(n, c) - planes[i].offset;
+            const double reach = cube.half * (std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z));
+            if (height - reach > -skin + solid_.slack()) return 0;
+            if (height > 0) is_within = false;
+            if (height + reach > -skin - solid_.slack()) kept.push_back(i);
+        }
+        cube.planes = std::move(kept);
+        const double radius = std::sqrt(3.0) * cube.half + solid_.slack();
+        const TriangleTree::Nearest near = nearest(c, cube.near);
+        cube.near = near.triangle;
+        if (near.distance > radius + solid_.slack() && !cube.outside) {
+            if (solid_.includes(c)) return 0;
+            cube.outside = true;
+        }
+        if (is_within && near.distance > error_.lower && (cube.outside || !solid_.includes(c))) {
+            error_.lower = near.distance;
+            error_.worst = c;
+        }
+        const double by_radius = near.distance + radius + solid_.slack();
+        if (by_radius <= prune_below()) return by_radius;
+        std::array<Double3, 8> corners;
+        for (unsigned k = 0; k < 8; ++k) {
+            corners[k] = {c.x + ((k & 1U) == 0 ? -cube.half : cube.half),
+                          c.y + ((k & 2U) == 0 ? -cube.half : cube.half),
+                          c.z + ((k & 4U) == 0 ? -cube.half : cube.half)};
+        }
+        return std::min(by_radius, bound_by_corners(corners, near.triangle));
+    }
+
+    const Solid& solid_;
+    const HullErrorOptions& options_;
+    HullError error_;
+    std::vector<Cell> heap_;
+};
+
+}  // namespace
+
+HullError find_hull_error(const ConvexHull& hull, const Solid& solid,
+                          const HullErrorOptions& options) {
+    return ErrorSearch(solid, options).run(hull);
+}
+
+}  // namespace cdprep::convex

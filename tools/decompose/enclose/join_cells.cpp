@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decompose/enclose/join_cells.h"
+
+#include <algorithm>
+#include <functional>
+#include <queue>
+#include <utility>
+
+#include "decompose/enclose/flush_bound.h"
+#include "decompose/enclose/hull_error.h"
+#include "mesh/vectors.h"
+
+namespace cdprep::convex {
+namespace {
+
+
+using mesh::middle_of;
+
+using Cells = std::vector<std::uint32_t>;
+
+constexpr double kRounding = 1e-5;         ///< of the diagonal: what counts as exact
+constexpr std::size_t kMostLooks = 2'000;  ///< of one trial within an error: then it is refused
+
+double squared(const Double3& a, const Double3& b) {
+    const Double3 ab = mesh::minus(a, b);
+    return mesh::dot(ab, ab);
+}
+
+class Joiner {
+public:
+    Joiner(const SolidCells& cells, std::span<const std::uint32_t> wanted, const Solid& solid,
+           double error)
+        : cells_(cells), wanted_(wanted), solid_(solid), error_(error) {
+        for (const std::uint32_t number : wanted) {
+            const SolidCell& cell = cells.cells[number];
+            std::vector<Double3> points = cell.corners;
+            for (const std::uint32_t fragment : cell.fragments) {
+                for (const std::uint32_t place : cells.fragments[fragment].place) {
+                    points.push_back(cells.places[place].lower);
+                    points.push_back(cells.places[place].upper);
+                }
+            }
+            points_.push_back(convex_hull(points).points);
+            mesh::Box box = cell.box;
+            const double near = kRounding * solid.diagonal();
+            box.lower = {box.lower.x - near, box.lower.y - near, box.lower.z - near};
+            box.upper = {box.upper.x + near, box.upper.y + near, box.upper.z + near};
+            box_.push_back(box);
+            centre_.push_back(middle_of(box.lower, box.upper));
+        }
+    }
+
+    std::vector<Cells> run(ParallelFor parallel_for) {
+        std::vector<Cells> grown(wanted_.size());
+        const auto grow_one = [&](std::size_t i) { grown[i] = grow(i); };
+        parallel_for(grown.size(), grow_one);
+        std::vector<Cells> chosen = choose(grown);
+        for (Cells& piece : chosen) {
+            for (std::uint32_t& cell : piece) cell = wanted_[cell];
+        }
+        return chosen;
+    }
+
+private:
+    // What does not go in does not go in later: hulls only grow.
+    [[nodiscard]] Cells grow(std::size_t seed) const {
+        Cells piece = {static_cast<std::uint32_t>(seed)};
+        std::vector<Double3> hull = points_[seed];
+        std::vector<bool> seen(wanted_.size(), false);
+        seen[seed] = true;
+        using Next = std::pair<double, std::uint32_t>;
+        std::priority_queue<Next, std::vector<Next>, std::greater<>> near;
+        const auto see_around = [&](std::uint32_t cell) {
+            for (std::uint32_t other = 0; other < wanted_.size(); ++other) {
+                if (seen[other] || !are_neighbours(cell, other)) continue;
+                seen[other] = true;
+                near.push({squared(centre_[other], centre_[seed]), other});
+            }
+        };
+        see_around(piece[0]);
+        while (!near.empty()) {
+            const std::uint32_t cell = near.top().second;
+            near.pop();
+            std::vector<Double3> points = hull;
+            points.insert(points.end(), points_[cell].begin(), points_[cell].end());
+            ConvexHull both = convex_hull(points);
+            if (!is_within_error(both)) continue;
+            hull = std::move(both.points);
+            piece.push_back(cell);
+            see_around(cell);
+        }
+        std::sort(piece.begin(), piece.end());
+        return piece;
+    }
+
+    [[nodiscard]] bool are_neighbours(std::uint32_t a, std::uint32_t b) const {
+        return cells_.cells[wanted_[a]].body == cells_.cells[wanted_[b]].body &&
+               box_[a].meets(box_[b]);
+    }
+
+    [[nodiscard]] bool is_within_error(const ConvexHull& hull) const {
+        const double exact = kRounding * solid_.diagonal();
+        const auto flush = bound_flush(hull, solid_, exact);
+        if (flush && *flush <= std::max(error_, exact)) return true;
+        if (error_ <= exact || bridges_gap(hull)) return false;
+        HullErrorOptions how;
+        how.enough = how.too_much = error_;
+        how.most_cells = kMostLooks;
+        return find_hull_error(hull, solid_, how).upper <= error_;
+    }
+
+    /// Between two corners lies a point too far out. A quick look.
+    [[nodiscard]] bool bridges_gap(const ConvexHull& hull) const {
+        for (std::size_t i = 0; i < hull.points.size(); ++i) {
+            for (std::size_t k = i + 1; k < hull.points.size(); ++k) {
+                const Double3 p = middle_of(hull.points[i], hull.points[k]);
+                if (solid_.tree().nearest(p).distance > error_ && !solid_.includes(p)) return true;
+            }
+        }
+        return false;
+    }
+
+    /// The one that takes in most of what is left, again and again.
+    [[nodiscard]] std::vector<Cells> choose(const std::vector<Cells>& grown) const {
+        std::vector<Cells> chosen;
+        std::vector<bool> is_left(wanted_.size(), true);
+        const auto gain = [&](const Cells& piece) {
+            return std::count_if(piece.begin(), piece.end(),
+                                 [&](std::uint32_t cell) { return is_left[cell]; });
+        };
+        for (std::size_t left = wanted_.size(); left > 0;) {
+            const auto best =
+                std::max_element(grown.begin(), grown.end(),
+                                 [&](const Cells& a, const Cells& b) { return gain(a) < gain(b); });
+            left -= static_cast<std::size_t>(gain(*best));
+            for (const std::uint32_t cell : *best) is_left[cell] = false;
+            chosen.push_back(*best);
+        }
+        return chosen;
+    }
+
+    const SolidCells& cells_;
+    std::span<const std::uint32_t> wanted_;
+    const Solid& solid_;
+    double error_;
+    std::vector<std::vector<Double3>> points_;  ///< of each wanted cell's hull
+    std::vector<mesh::Box> box_;                ///< a little larger
+    std::vector<Double3> centre_;
+};
+
+}  // namespace
+
+std::vector<std::vector<std::uint32_t>> join_cells(const SolidCells& cells,
+                                                   std::span<const std::uint32_t> wanted,
+                                                   const Solid& solid, double error,
+                                                   ParallelFor parallel_for) {
+    if (wanted.empty()) return {};
+    return Joiner(cells, wanted, solid, error).run(parallel_for);
+}
+
+}  // namespace cdprep::convex

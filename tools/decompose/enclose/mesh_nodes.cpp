@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decompose/enclose/mesh_nodes.h"
+
+#include <algorithm>
+#include <array>
+
+#include "decompose/enclose/part_nodes.h"
+#include "mesh/component_numbers.h"
+#include "mesh/topology.h"
+
+namespace cdprep::cli {
+namespace {
+
+/// As exporters for engines name what is convex.
+bool is_tagged_convex(const std::string& path) {
+    const std::string name = path.substr(path.find_last_of('/') + 1);
+    constexpr std::array<const char*, 4> kEndings = {"-convcol", "-convcolonly", "-convex",
+                                                     "_convex"};
+    return name.starts_with("UCX_") ||
+           std::any_of(kEndings.begin(), kEndings.end(),
+                       [&](const char* ending) { return name.ends_with(ending); });
+}
+
+template <class Run>
+void fill_run(std::vector<std::uint32_t>& node_of, const Run& run, std::uint32_t node) {
+    std::fill_n(node_of.begin() + run.first_triangle, run.triangle_count, node);
+}
+
+/// Per group, whether it is a body without the others.
+std::vector<bool> find_closed(const mesh::Mesh& mesh, const std::vector<std::uint32_t>& group_of,
+                              std::size_t count) {
+    const mesh::Mesh parted = convex::part_nodes(mesh, group_of);
+    const mesh::ComponentNumbers numbers = mesh::number_components(parted);
+    const std::vector<format::Component> components = mesh::find_topology(parted).components;
+    std::vector<bool> is_closed(count, true);
+    for (std::size_t i = 0; i < parted.triangles.size(); ++i) {
+        const std::uint32_t component = numbers.of_vertex[parted.triangles[i].vertex[0]];
+        if ((components[component].flags & format::component_balanced) == 0) {
+            is_closed[group_of[i]] = false;
+        }
+    }
+    return is_closed;
+}
+
+}  // namespace
+
+MeshNodes find_nodes(const mesh::TriangleSoup& soup, const mesh::Mesh& mesh) {
+    MeshNodes nodes;
+    const bool has_groups = soup.instances.empty() && soup.groups.names.size() > 1;
+    if (soup.instances.empty() && !has_groups) return nodes;
+    nodes.node_of.assign(soup.triangles.size(), 0);
+    if (has_groups) {
+        nodes.names = soup.groups.names;
+        for (const format::NamedRun& run : soup.groups.runs) {
+            fill_run(nodes.node_of, run, run.name);
+        }
+    }
+    for (std::uint32_t i = 0; i < soup.instances.size(); ++i) {
+        nodes.names.push_back(soup.instance_names[soup.instances[i].name]);
+        fill_run(nodes.node_of, soup.instances[i], i);
+    }
+    for (const std::string& name : nodes.names) {
+        nodes.is_convex.push_back(is_tagged_convex(name) ? 1 : 0);
+    }
+    if (!has_groups) return nodes;
+    const auto others = static_cast<std::uint32_t>(nodes.names.size());
+    const std::vector<bool> is_closed = find_closed(mesh, nodes.node_of, others);
+    for (std::uint32_t& node : nodes.node_of) {
+        if (!is_closed[node] && nodes.is_convex[node] == 0) node = others;
+    }
+    nodes.names.emplace_back();
+    nodes.is_convex.push_back(0);
+    return nodes;
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decompose/surface/solid_parts.h"
+
+#include "mesh/component_numbers.h"
+#include "mesh/topology.h"
+
+namespace cdprep::convex {
+
+// Both number components in the order of their lowest triangle.
+SolidParts::SolidParts(const mesh::Mesh& mesh)
+    : mesh_(mesh), boxes_(mesh), component_of_vertex_(mesh::number_components(mesh).of_vertex) {
+    for (const format::Component& component : mesh::find_topology(mesh).components) {
+        const bool closed = (component.flags & format::component_balanced) != 0;
+        closed_.push_back(closed ? 1 : 0);
+        cavity_.push_back(closed && component.signed_volume <= 0 ? 1 : 0);
+    }
+}
+
+}  // namespace cdprep::convex

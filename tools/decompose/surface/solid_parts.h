@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "decompose/surface/box_pyramid.h"
+#include "hull/growing_hull.h"
+#include "mesh/mesh.h"
+
+namespace cdprep::convex {
+
+/// What a hull over some triangles of a mesh must keep clear of to stay in the solid that
+/// they bound: triangles of their own component, and of closed components wound inwards,
+/// which are cavities. The mesh, whose triangles stand in tree order, must outlive it.
+class SolidParts {
+public:
+    explicit SolidParts(const mesh::Mesh& mesh);
+
+    /// The triangle's component is closed: containment means something.
+    [[nodiscard]] bool is_solid(std::uint32_t triangle) const {
+        return closed_[component_of(triangle)] != 0;
+    }
+
+    /// True when no triangle but those for which is_own(triangle) has a point strictly
+    /// inside the hull of a patch to which `triangle` belongs. Exact. Own triangles lie on
+    /// the hull. False, too, when that takes more than `most_tests` tests of a point against a
+    /// plane, from which what was taken is subtracted.
+    template <class IsOwn>
+    bool contains(const GrowingHull& hull, std::uint32_t triangle, IsOwn is_own,
+                  std::uint64_t& most_tests) const {
+        const std::uint32_t component = component_of(triangle);
+        constexpr std::uint64_t kTestsOfAFacet = 8;  // three corners, exactly
+        const std::uint64_t tests = kTestsOfAFacet * hull.facets().size();
+        return boxes_.visit(box_of(hull.points()), [&](std::uint32_t other) {
+            if (most_tests < tests) return false;
+            if (is_own(other) || !is_obstacle(other, component)) {
+                --most_tests;
+                return true;
+            }
+            most_tests -= tests;
+            return !hull.has_inside(corners_of(other));
+        });
+    }
+
+    [[nodiscard]] Corners corners_of(std::uint32_t triangle) const {
+        const auto& v = mesh_.triangles[triangle].vertex;
+        return {mesh_.positions[v[0]], mesh_.positions[v[1]], mesh_.positions[v[2]]};
+    }
+
+private:
+    [[nodiscard]] std::uint32_t component_of(std::uint32_t triangle) const {
+        return component_of_vertex_[mesh_.triangles[triangle].vertex[0]];
+    }
+    [[nodiscard]] bool is_obstacle(std::uint32_t triangle, std::uint32_t component) const {
+        const std::uint32_t other = component_of(triangle);
+        return other == component || cavity_[other] != 0;
+    }
+
+    const mesh::Mesh& mesh_;
+    BoxPyramid boxes_;
+    std::vector<std::uint32_t> component_of_vertex_;
+    std::vector<std::uint8_t> closed_;
+    std::vector<std::uint8_t> cavity_;
+};
+
+}  // namespace cdprep::convex

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "cli/command.h"
+#include "hull/enclosing_hull.h"
+#include "hull/mesh_hulls.h"
+#include "cli/import_arguments.h"
+#include "cli/interrupt.h"
+#include "cli/load_mesh.h"
+#include "mesh/weld.h"
+#include "cli/output_path.h"
+#include "cli/program_threads.h"
+#include "hull/hull_report.h"
+#include "cli/usage.h"
+#include "write/mesh_file.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kLinesShown = 20;  ///< of hulls, in text
+
+const std::map<std::string, convex::HullScope> kScopes = {
+    {"whole", convex::HullScope::whole},
+    {"component", convex::HullScope::component},
+    {"node", convex::HullScope::node},
+};
+
+struct Arguments {
+    fs::path input;
+    fs::path output;
+    std::string scope = "whole";
+    std::uint32_t max_vertices = 0;
+    std::string format = "text";
+    std::size_t threads = 0;
+    ImportArguments import;
+};
+
+/// What a hull is called: in an OBJ file a name is one word.
+std::string name_of(const mesh::TriangleSoup& soup, convex::HullScope scope, std::size_t number) {
+    if (scope == convex::HullScope::component) return "component_" + std::to_string(number);
+    if (scope == convex::HullScope::whole || soup.instances.empty()) return "hull";
+    std::string name = soup.instance_names[soup.instances[number].name];
+    for (char& letter : name) {
+        if (static_cast<unsigned char>(letter) <= ' ') letter = '_';
+    }
+    return name.empty() ? "node_" + std::to_string(number) : name;
+}
+
+/// All hulls as one mesh.
+struct HullMesh {
+    std::vector<format::Double3> positions;
+    std::vector<format::Triangle> triangles;
+    std::vector<write::NamedPart> parts;
+    bool single_precision = true;
+
+    void add(const convex::ConvexHull& hull, const std::string& name, bool single) {
+        const auto first = static_cast<std::uint32_t>(positions.size());
+        parts.push_back({name, triangles.size()});
+        positions.insert(positions.end(), hull.points.begin(), hull.points.end());
+        for (const auto& [a, b, c] : hull.facets) {
+            triangles.push_back({{first + a, first + b, first + c}});
+        }
+        single_precision = single_precision && single;
+    }
+};
+
+report::HullFigures figures_of(const convex::MeshHull& found, const std::string& name) {
+    const convex::ConvexHull& hull = found.hull;
+    const bool is_exact = hull.dimension < 0 || !hull.numbers.empty();
+    return {
+        name,     hull.dimension, hull.points.size(), hull.facets.size(), hull.groups.size() - 1,
+        is_exact, found.distance};
+}
+
+Result<report::HullReport> find_hulls(const Arguments& arguments) {
+    const Result<write::MeshFormat> format = mesh_output(arguments.input, arguments.output);
+    if (!format) return format.error();
+    const Threads threads(arguments.threads);
+    LoadOptions load;
+    load.import = arguments.import.options();
+    load.import.parallel_for = threads.parallel_for();
+    const Result<mesh::TriangleSoup> loaded = load_soup(arguments.input, load);
+    if (!loaded) return loaded.error();
+    const mesh::TriangleSoup& soup = loaded.value();
+    const mesh::Mesh mesh = mesh::weld(soup).mesh;
+
+    const convex::HullScope scope = kScopes.at(arguments.scope);
+    const Clock::time_point begin = Clock::now();
+    const auto hulls = convex::find_mesh_hulls(mesh, soup.instances,
+                                               {.scope = scope,
+                                                .max_vertices = arguments.max_vertices,
+                                                .parallel_for = threads.parallel_for()});
+    report::HullReport report;
+    report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    if (!hulls) return report::hull_beyond_range(arguments.input.string(), "--max-vertices");
+    if (is_interrupted()) return interrupted(arguments.input);
+    report.input = arguments.input.string();
+    report.output = arguments.output.string();
+    report.scope = arguments.scope;
+    report.triangles = mesh.triangles.size();
+    report.vertices = mesh.positions.size();
+    HullMesh output;
+    for (std::size_t i = 0; i < hulls->size(); ++i) {
+        report.hulls.push_back(figures_of((*hulls)[i], name_of(soup, scope, i)));
+        const report::HullFigures& figures = report.hulls.back();
+        output.add((*hulls)[i].hull, figures.name, soup.single_precision && figures.exact);
+    }
+    const Result<Done> written =
+        write_mesh(arguments.output, format.value(),
+                   {output.positions, output.triangles, output.single_precision, output.parts});
+    if (!written) return written.error();
+    return report;
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<report::HullReport> found = find_hulls(arguments);
+    const bool is_json = arguments.format == "json";
+    if (!found) {
+        if (is_json) {
+            report_stream(arguments.output)
+                << report::hull_json(failed<report::HullReport>(arguments.input, found.error()));
+        }
+        return fail("hull", found.error());
+    }
+    report_stream(arguments.output) << (is_json ? report::hull_json(found.value())
+                                                : report::hull_text(found.value(), kLinesShown));
+    return Exit::success;
+}
+
+}  // namespace
+
+void add_hull(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("hull", "Write the convex hull of a mesh");
+    command->footer(
+        "Exact: its points are vertices of the mesh, and no vertex is outside, not by a bit.\n"
+        "With --max-vertices a hull of so many points contains the exact one; how far it is\n"
+        "from that at most is proved and stated. Points, segments and polygons are hulls too.");
+    add_input(*command, arguments->input);
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "An .obj file with a group for each hull, or a .ply, .stl or .off file")
+        ->required();
+    command
+        ->add_option("--max-vertices", arguments->max_vertices,
+                     "Enclose the exact hull in one with at most so many vertices; 4 or more")
+        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles));
+    command
+        ->add_option("--per", arguments->scope,
+                     "One hull for the whole mesh, for each component of triangles that share "
+                     "vertices, or for each node of the file")
+        ->check(one_of({"whole", "component", "node"}))
+        ->capture_default_str();
+    add_jobs(*command, arguments->threads);
+    add_report_format(*command, arguments->format);
+    add_import_arguments(*command, arguments->import);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "info/info_report.h"
+
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cdprep/format/sections.h"
+#include "hull/baked_hulls.h"
+#include "text/bounds_name.h"
+#include "text/number_text.h"
+#include "text/printable.h"
+#include "text/space_name.h"
+#include "text/structure_report.h"
+#include "text/verdict_words.h"
+
+namespace cdprep::report {
+namespace {
+
+std::uint64_t byte_count(const format::SectionEntry& entry) {
+    return entry.count * entry.element_size;
+}
+
+const char* precision(const Model& model) {
+    return model.mesh().positions_f64.empty() ? "f32" : "f64";
+}
+
+bool is_normalized(const Model& model) {
+    return (model.header().flags & format::model_normalized) != 0;
+}
+
+/// The provenance as JSON, or as text where it is not.
+nlohmann::ordered_json provenance(const Model& model) {
+    auto parsed = nlohmann::ordered_json::parse(model.record().provenance, nullptr, false);
+    if (parsed.is_discarded()) return std::string(model.record().provenance);
+    return parsed;
+}
+
+/// What was found, with the numbers of each rule; nothing where the file has none, or
+/// no JSON.
+nlohmann::ordered_json findings(const Model& model) {
+    auto parsed = nlohmann::ordered_json::parse(model.record().findings, nullptr, false);
+    return parsed.is_object() ? parsed : nlohmann::ordered_json();
+}
+
+/// One line a rule: "  CDP0501 crossing-triangles: 12".
+std::string findings_text(const Model& model) {
+    const nlohmann::ordered_json found = findings(model);
+    if (!found.contains("findings") || !found["findings"].is_array()) return {};
+    std::string text;
+    for (const auto& finding : found["findings"]) {
+        text += "  " + finding.value("rule", "") + " " + finding.value("name", "") + ": " +
+                std::to_string(finding.value("count", std::uint64_t{0})) + "\n";
+    }
+    return text.empty() ? "findings: none\n" : "findings:\n" + text;
+}
+
+/// The names of what the model can be asked for.
+std::vector<std::string> served_names(const Model& model) {
+    std::vector<std::string> names;
+    for (const Needs& row : needs()) {
+        if (model.serves(row.ask)) names.emplace_back(row.name);
+    }
+    return names;
+}
+
+std::string served_text(const Model& model) {
+    std::string text = "serves:";
+    for (const std::string& name : served_names(model)) text += " " + name;
+    return text + "\n";
+}
+
+std::string mesh_text(const Model& model) {
+    if (model.record().verdicts.empty()) return {};
+    const format::Verdict& verdict = model.record().verdicts[0];
+    std::string text = "mesh: " + verdict_text(verdict) + "\n";
+    text += "promises: " + promises_text(verdict) + "\n";
+    if (!model.source().repaired_from.empty()) {
+        text += "repaired: source numbers are those of the repaired mesh\n";
+    }
+    return text + findings_text(model);
+}
+
+}  // namespace
+
+std::string info_text(const std::string& file, const Model& model,
+                      std::span<const format::SectionEntry> sections) {
+    std::string text = printable(file) + ": format " + std::to_string(model.header().version) +
+                       ", " + counted(model.triangle_count(), "triangle", "triangles") + ", " +
+                       counted(model.vertex_count(), "vertex", "vertices") + ", " +
+                       counted(model.record().components.size(), "component", "components") + "\n";
+    text += "unit: " + unit_name(model.header().metres_per_unit) +
+            ", up axis: " + axis_name(model.header().up_axis) + "\n";
+    text += std::string("surface questions: exact; positions ") + precision(model) + "\n";
+    if (model.triangle_count() == 0) {
+        text += "solid questions: nothing is inside, there are no triangles\n";
+    } else {
+        text += model.is_balanced() ? "solid questions: exact, the mesh is closed\n"
+                                    : "solid questions: unknown, the mesh is open\n";
+    }
+    text +=
+        std::string("questions about pairs: bounded by ") + bounds_name(bounds_of(model)) + "\n";
+    text += served_text(model);
+    text += mesh_text(model);
+    if (const std::string others = structures_text(structure_reports(model)); !others.empty()) {
+        text += "structures:\n" + others;
+    }
+    if (!model.hulls().hulls.empty()) {
+        constexpr std::size_t kMostLines = 10;
+        text += "hulls:\n" + baked_hulls_text(model, kMostLines);
+    }
+    text += "section                          offset        bytes\n";
+    for (const format::SectionEntry& entry : sections) {
+        std::array<char, 128> line{};
+        std::snprintf(line.data(), line.size(), "%-26s %12llu %12llu\n",
+                      format::section_name(entry.id), static_cast<unsigned long long>(entry.offset),
+                      static_cast<unsigned long long>(byte_count(entry)));
+        text += line.data();
+    }
+    return text;
+}
+
+std::string info_json(const std::string& file, const Model& model,
+                      std::span<const format::SectionEntry> sections) {
+    nlohmann::ordered_json json = {
+        {"file", file},
+        {"format", model.header().version},
+        {"bytes", model.header().file_size},
+        {"triangles", model.triangle_count()},
+        {"vertices", model.vertex_count()},
+        {"components", model.record().components.size()},
+        {"precision", precision(model)},
+        {"closed", model.is_balanced()},
+        {"normalized", is_normalized(model)},
+        {"metres_per_unit", model.header().metres_per_unit},
+        {"up_axis", axis_name(model.header().up_axis)},
+        {"bounds", bounds_name(bounds_of(model))},
+        {"serves", served_names(model)},
+        {"guarantees",
+         {{"surface", "exact"}, {"solid", model.is_balanced() ? "exact" : "unknown"}}},
+    };
+    if (!model.record().verdicts.empty()) {
+        json["facts"] = fact_words(model.record().verdicts[0]);
+        json["promises"] = promise_words(model.record().verdicts[0]);
+    }
+    if (const auto found = findings(model); !found.is_null()) json["found"] = found;
+    if (const auto others = structure_reports(model); !others.empty()) {
+        json["structures"] = structures_json(others);
+    }
+    if (!model.hulls().hulls.empty()) json["hulls"] = baked_hulls_json(model);
+    json["sections"] = nlohmann::ordered_json::array();
+    for (const format::SectionEntry& entry : sections) {
+        json["sections"].push_back({{"name", format::section_name(entry.id)},
+                                    {"id", static_cast<std::uint32_t>(entry.id)},
+                                    {"offset", entry.offset},
+                                    {"bytes", byte_count(entry)},
+                                    {"count", entry.count}});
+    }
+    json["provenance"] = provenance(model);
+    // File names need not be UTF-8; JSON must.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace cdprep::report

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string_view>
+
+/// The texts that the page is put together from. They are files when the program is
+/// built and part of it then, so that it needs none when it runs.
+namespace cdprep::report::page {
+
+extern const std::string_view kFrame;     ///< page.html, with places for the rest: @name@
+extern const std::string_view kStyle;     ///< page.css
+extern const std::string_view kView;      ///< view.js
+extern const std::string_view kList;      ///< list.js
+extern const std::string_view kPage;      ///< page.js
+extern const std::string_view kLicense;   ///< of three.js
+extern const std::string_view kThree;     ///< three.js
+extern const std::string_view kControls;  ///< OrbitControls of three.js
+extern const std::string_view kTables;    ///< tables.css, of the page of a comparison
+
+}  // namespace cdprep::report::page

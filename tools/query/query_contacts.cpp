@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "cdprep/cells/overlap_through.h"
+#include "cdprep/contacts.h"
+#include "cli/interrupt.h"
+#include "cli/open_for.h"
+#include "query/command.h"
+#include "query/query_placements.h"
+#include "query/query_structure.h"
+#include "cli/usage.h"
+
+namespace cdprep::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path a;
+    std::filesystem::path b;
+    PlacementWords placement;
+    StructureWords structure;
+    double tolerance = 0;
+    bool manifold = false;
+    bool skip_degenerate = false;
+    std::string format = "text";
+};
+
+constexpr std::array kServing = {Structure::bvh, Structure::pieces};
+
+std::vector<Contact> find_contacts(const Model& a, const Model& b, const Placement& placement,
+                                   const Arguments& arguments, Structure through,
+                                   Workspace& workspace) {
+    std::vector<Contact> found;
+    const auto keep = [&](const Contact& contact) {
+        found.push_back(contact);
+        return true;
+    };
+    const Degenerate degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
+    visit_contacts({a, b, placement, {.degenerate = degenerate, .through = through}}, workspace,
+                   keep,
+                   {arguments.tolerance, arguments.manifold ? Manifold::four : Manifold::none});
+    return found;
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<StructureOptions> options =
+        parse_structure(arguments.structure, "contacts", kServing);
+    if (!options) return fail("query", options.error());
+    const Structure through = options.value().structure;
+    const Result<Model> a = open_for(arguments.a, Ask::contacts, through);
+    if (!a) return fail("query", a.error());
+    const Result<Model> b = open_for(arguments.b, Ask::contacts, through);
+    if (!b) return fail("query", b.error());
+    const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
+    if (!placements) return fail("query", placements.error());
+
+    Workspace workspace;
+    report::Answers answers(std::cout, parse_answer_format(arguments.format));
+    for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
+        const std::vector<Contact> found = find_contacts(
+            a.value(), b.value(), placements.value()[i], arguments, through, workspace);
+        answers.add(report::ContactsAnswer{i, found});
+    }
+    answers.finish();
+    return Exit::success;
+}
+
+}  // namespace
+
+void add_contacts(CLI::App& query, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = query.add_subcommand(
+        "contacts", "Where and along what normals do A and B touch, or nearly?");
+    command->add_option("a", arguments->a, "A file baked with the effect contacts")->required();
+    command->add_option("b", arguments->b, "A file baked with the effect contacts")->required();
+    add_placements(*command, arguments->placement);
+    command
+        ->add_option("--tolerance", arguments->tolerance,
+                     "The distance of two pieces that still counts, model units")
+        ->check(zero_or_more())
+        ->required();
+    command->add_flag("--manifold", arguments->manifold,
+                      "Up to four points for each pair of pieces");
+    command->add_flag("--skip-degenerate", arguments->skip_degenerate,
+                      "Leave triangles with collinear corners out of answers");
+    add_structure(*command, arguments->structure,
+                  "Through what pieces that are near are found: bvh, the faster, or pieces. The "
+                  "answers are the same");
+    add_answer_format(*command, arguments->format);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <vector>
+
+#include "query/inaccessible.h"
+#include "cli/open_for.h"
+#include "cli/program_threads.h"
+#include "query/command.h"
+#include "query/inaccessible_report.h"
+#include "write/coloured_file.h"
+
+namespace cdprep::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path model;
+    std::filesystem::path coloured;  ///< empty: none
+    std::string format = "text";
+    std::size_t threads = 0;
+    bool count = false;
+};
+
+std::vector<Double3> positions_of(const Model& model) {
+    std::vector<Double3> positions(model.mesh().positions_f64.begin(),
+                                   model.mesh().positions_f64.end());
+    for (const Float3& p : model.mesh().positions_f32) positions.push_back({p.x, p.y, p.z});
+    return positions;
+}
+
+/// The model in tree order, the inaccessible triangles in a colour of their own.
+Result<Done> write_coloured(const std::filesystem::path& path, const Model& model,
+                            const std::vector<Double3>& positions,
+                            const std::vector<std::uint32_t>& inaccessible) {
+    const std::vector<write::Shade> shades = {{"accessible", {200, 200, 200}},
+                                              {"inaccessible", {220, 50, 47}}};
+    std::vector<std::uint8_t> shade_of(model.triangle_count());
+    for (const std::uint32_t triangle : inaccessible) shade_of[triangle] = 1;
+    return write::write_coloured_mesh(
+        path, {positions, model.mesh().triangles, model.mesh().positions_f64.empty()}, shades,
+        shade_of);
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<Model> opened = open_for(arguments.model, Ask::inaccessible);
+    if (!opened) return fail("query", opened.error());
+    const Model& model = opened.value();
+    const std::vector<Double3> positions = positions_of(model);
+    mesh::Inaccessible found;
+    // A model without triangles has no cones.
+    if (model.tetra_tree().tree != nullptr) {
+        const Threads threads(arguments.threads);
+        found = mesh::find_inaccessible(model.tetra_tree().tree->centre, positions,
+                                        model.mesh().triangles, threads.parallel_for());
+    }
+    if (!arguments.coloured.empty()) {
+        const Result<Done> written =
+            write_coloured(arguments.coloured, model, positions, found.triangles);
+        if (!written) return fail("query", written.error());
+    }
+    for (std::uint32_t& triangle : found.triangles) triangle = model.source().triangle[triangle];
+    std::sort(found.triangles.begin(), found.triangles.end());
+    report::InaccessibleAnswer answer{
+        found.triangles.size(), found.edge_on, model.triangle_count(), {}};
+    if (!arguments.count) answer.numbers = found.triangles;
+    std::cout << report::inaccessible_text(answer, parse_answer_format(arguments.format));
+    std::cout.flush();
+    return Exit::success;
+}
+
+}  // namespace
+
+void add_inaccessible(CLI::App& query, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = query.add_subcommand(
+        "inaccessible",
+        "Which triangles does nothing reach that comes straight towards the tetra-tree's centre?");
+    command->add_option("model", arguments->model, "A file baked with --structures tetra-tree")
+        ->required();
+    command->add_option("--export", arguments->coloured,
+                        "Also write the model with those triangles coloured: .ply or .obj");
+    command->add_flag("--count", arguments->count, "Count them, do not list them");
+    add_jobs(*command, arguments->threads);
+    add_answer_format(*command, arguments->format);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,598 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "cdprep/advanced/convex_distance.h"
+#include "cdprep/advanced/pair_front.h"
+#include "cdprep/advanced/query_counts.h"
+#include "cdprep/cells.h"
+#include "cdprep/cells/level_of_detail.h"
+#include "cdprep/cells/overlap_through.h"
+#include "cdprep/hulls.h"
+#include "cdprep/pairs.h"
+#include "cli/interrupt.h"
+#include "cli/open_for.h"
+#include "query/command.h"
+#include "query/query_placements.h"
+#include "query/query_structure.h"
+#include "text/structure_name.h"
+#include "compare/cells/literal_octree.h"
+#include "bake/structures.h"
+#include "cli/usage.h"
+
+namespace cdprep::cli {
+namespace {
+
+enum class Question : std::uint8_t { collide, overlap, distance, within };
+
+struct Arguments {
+    Question question = Question::collide;
+    std::filesystem::path a;
+    std::filesystem::path b;
+    PlacementWords placement;
+    StructureWords structure;
+    std::string format = "text";
+    std::string as = "surface";
+    std::string contact = "closed";
+    double tolerance = 0;
+    DistanceOptions errors;
+    std::optional<std::uint32_t> level_of_detail;
+    std::size_t repeat = 1;
+    bool timings = false;
+    bool count = false;
+    bool pairs = false;
+    bool segments = false;
+    bool counts = false;
+    bool skip_degenerate = false;
+};
+
+/// Asks `repeat` times and keeps what each time took.
+class Stopwatch {
+public:
+    template <class Ask>
+    std::invoke_result_t<Ask> timed(std::size_t repeat, bool wanted, Ask ask) {
+        for (std::size_t i = 1;; ++i) {
+            const Clock::time_point begin = Clock::now();
+            auto answer = ask();
+            const std::chrono::duration<double, std::micro> taken = Clock::now() - begin;
+            if (wanted) microseconds_.push_back(taken.count());
+            if (i >= repeat) return answer;
+        }
+    }
+
+    /// What the questions took, for people: one line.
+    [[nodiscard]] std::string line() {
+        if (microseconds_.empty()) return "";
+        std::sort(microseconds_.begin(), microseconds_.end());
+        const auto at = [&](double share) {
+            return microseconds_[static_cast<std::size_t>(
+                share * static_cast<double>(microseconds_.size() - 1))];
+        };
+        std::ostringstream line;
+        line << microseconds_.size() << " questions: median " << std::fixed << std::setprecision(2)
+             << at(0.5) << " us, 95 % below " << at(0.95) << " us, most " << at(1) << " us\n";
+        return line.str();
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    std::vector<double> microseconds_;
+};
+
+/// The hierarchies have none.
+bool has_cells(Structure structure) {
+    return structure != Structure::bvh && structure != Structure::pieces;
+}
+
+constexpr const char* kLiteral = "hashed-octree-literal";
+
+/// Whether the talk's search answers, which misses pairs.
+bool asks_literally(const Arguments& arguments) {
+    return arguments.question == Question::overlap && arguments.structure.structure == kLiteral;
+}
+
+/// Answers one placement after the other with buffers that are kept.
+class Asker {
+public:
+    Asker(const Arguments& arguments, const StructureOptions& through, const Model& a,
+          const Model& b)
+        : arguments_(arguments),
+          through_(through),
+          is_literal_(asks_literally(arguments)),
+          a_(a),
+          b_(b),
+          errors_(arguments.errors) {
+        options_.body = arguments.as == "solid" ? Body::solid : Body::surface;
+        options_.overlap = arguments.contact == "proper" ? Overlap::proper : Overlap::closed;
+        options_.degenerate = arguments.skip_degenerate ? Degenerate::skip : Degenerate::keep;
+        options_.through = through.structure;
+        if (arguments.counts) workspace_.count_into(&counts_);
+    }
+
+    /// Asks one placement, `--repeat` times, and writes the answer once. Every time
+    /// starts where the placement before ended.
+    void answer(std::size_t number, const Placement& placement, report::Answers& answers) {
+        const PieceCache before = cache_;
+        switch (arguments_.question) {
+            case Question::distance:
+                return answers.add(timed([&] {
+                    cache_ = before;
+                    return report::DistanceAnswer{number,
+                                                  distance(pair(placement), workspace_, errors_)};
+                }));
+            case Question::within:
+                return answers.add(timed([&] {
+                    cache_ = before;
+                    return ask_within(number, placement);
+                }));
+            default:
+                break;
+        }
+        if (arguments_.level_of_detail) {
+            return answers.add(timed([&] {
+                return report::CoarseAnswer{
+                    number,
+                    collide_at_level(pair(placement), *arguments_.level_of_detail, workspace_)};
+            }));
+        }
+        answers.add(timed([&] {
+            cache_ = before;
+            return ask(number, placement);
+        }));
+    }
+
+    /// What the questions took, for people: one line.
+    [[nodiscard]] std::string timings() {
+        return stopwatch_.line();
+    }
+
+    /// What the questions did, for people: one line.
+    [[nodiscard]] std::string counts() const {
+        std::ostringstream line;
+        line << counts_.box_pairs << " box pairs, ";
+        if (has_cells(through_.structure)) line << counts_.cell_pairs << " cell pairs, ";
+        line << counts_.leaf_pairs << " leaf pairs, " << counts_.triangle_pairs
+             << " triangle pairs; decided " << counts_.by_kernel << " in float, "
+             << counts_.by_corner << " by a common corner, " << counts_.by_filter << " in double, "
+             << counts_.by_exact << " exactly; " << counts_.measured << " distances measured, "
+             << counts_.measured_again << " again\n";
+        return line.str();
+    }
+
+private:
+    [[nodiscard]] Pair pair(const Placement& placement) {
+        return {a_, b_, placement, options_, &cache_.pair, &cache_.front};
+    }
+
+    template <class Ask>
+    std::invoke_result_t<Ask> timed(Ask ask) {
+        return stopwatch_.timed(arguments_.repeat, arguments_.timings, ask);
+    }
+
+    /// The answer's pairs stay valid until the next call.
+    report::PairAnswer ask(std::size_t number, const Placement& placement) {
+        report::PairAnswer answer;
+        answer.pose = number;
+        answer.is_approximate = is_literal_;
+        if (arguments_.question == Question::overlap) {
+            const std::size_t count =
+                arguments_.segments ? find_crossings(placement) : find_pairs(placement);
+            answer.hit = count > 0;
+            answer.count = count;
+            if (arguments_.segments) {
+                answer.crossings = crossings_;
+            } else if (!arguments_.count) {
+                answer.pairs = std::span(pairs_).first(count);
+            }
+            if (options_.body == Body::surface) return answer;
+        }
+        const Collision collision = find_collision(placement);
+        answer.hit = collision.hit == Answer::yes;
+        if (options_.body == Body::solid) answer.containment = collision.containment;
+        return answer;
+    }
+
+    /// As collide() answers. Whether a solid is inside the other is always found through
+    /// the hierarchy of boxes.
+    Collision find_collision(const Placement& placement) {
+        const Pair asked = pair(placement);
+        if (through_.structure == Structure::bvh) return collide(asked, workspace_);
+        if (any_overlap_through(asked, through_, workspace_)) return {Answer::yes, {}};
+        if (options_.body == Body::surface) return {};
+        const Containment inside = containment(asked, workspace_);
+        return {inside.answer, inside};
+    }
+
+    /// The answer's pairs stay valid until the next call.
+    report::WithinAnswer ask_within(std::size_t number, const Placement& placement) {
+        const double tolerance = arguments_.tolerance;
+        report::WithinAnswer answer;
+        answer.pose = number;
+        if (!arguments_.pairs && !arguments_.count) {
+            answer.within = within(pair(placement), tolerance, workspace_);
+            return answer;
+        }
+        answer.count = keep_pairs([&](std::span<TrianglePair> room) {
+            return pairs_within(pair(placement), tolerance, workspace_, room);
+        });
+        answer.within = *answer.count > 0;
+        if (arguments_.pairs) answer.pairs = std::span(pairs_).first(*answer.count);
+        return answer;
+    }
+
+    std::size_t find_pairs(const Placement& placement) {
+        if (is_literal_) return find_pairs_literally(placement);
+        return keep_pairs([&](std::span<TrianglePair> room) {
+            return overlaps_through({a_, b_, placement, options_}, through_, workspace_, room);
+        });
+    }
+
+    std::size_t find_pairs_literally(const Placement& placement) {
+        std::size_t count = 0;
+        if (!arguments_.count) pairs_.clear();
+        const auto keep = [&](const TrianglePair& pair) {
+            if (!arguments_.count) pairs_.push_back(pair);
+            ++count;
+            return true;
+        };
+        study::visit_literal_overlaps(a_, b_, placement,
+                                      {.search = through_.search,
+                                       .overlap = options_.overlap,
+                                       .degenerate = options_.degenerate,
+                                       .counts = arguments_.counts ? &counts_ : nullptr},
+                                      keep);
+        if (!arguments_.count) std::sort(pairs_.begin(), pairs_.end());
+        return count;
+    }
+
+    /// Calls `find(room)`, again with more room when the pairs did not fit; with none
+    /// when they are counted alone.
+    template <class Find>
+    std::size_t keep_pairs(Find find) {
+        if (arguments_.count) return find({});
+        while (true) {
+            const std::size_t count = find(std::span(pairs_));
+            if (count <= pairs_.size()) return count;
+            pairs_.resize(count);
+        }
+    }
+
+    /// In the order of the pairs.
+    std::size_t find_crossings(const Placement& placement) {
+        crossings_.clear();
+        const auto keep = [this](const Crossing& crossing) {
+            crossings_.push_back(crossing);
+            return true;
+        };
+        visit_crossings(pair(placement), workspace_, keep);
+        std::sort(crossings_.begin(), crossings_.end(),
+                  [](const Crossing& x, const Crossing& y) { return x.pair < y.pair; });
+        return crossings_.size();
+    }
+
+    const Arguments& arguments_;
+    const StructureOptions through_;
+    const bool is_literal_;
+    const Model& a_;
+    const Model& b_;
+    PairOptions options_;
+    DistanceOptions errors_;
+    Workspace workspace_{cells()};
+    std::vector<TrianglePair> pairs_ = std::vector<TrianglePair>(4096);
+    std::vector<Crossing> crossings_;
+    QueryCounts counts_;
+    PieceCache cache_;
+    Stopwatch stopwatch_;
+};
+
+bool asks_hulls(const Arguments& arguments) {
+    return arguments.structure.structure == "hull" &&
+           (arguments.question == Question::collide || arguments.question == Question::distance);
+}
+
+/// Options that say what convex hulls do not know.
+std::optional<Error> find_idle_for_hulls(const Arguments& arguments) {
+    const std::array<std::pair<const char*, bool>, 6> options = {
+        {{"--leaf-test", !arguments.structure.leaf_test.empty()},
+         {"--descent", !arguments.structure.descent.empty()},
+         {"--search", !arguments.structure.search.empty()},
+         {"--level-of-detail", arguments.level_of_detail.has_value()},
+         {"--contact proper", arguments.contact == "proper"},
+         {"--skip-degenerate", arguments.skip_degenerate}}};
+    for (const auto& [option, is_given] : options) {
+        if (!is_given) continue;
+        return Error{ErrorCode::bad_argument,
+                     std::string(option) +
+                         " says nothing of convex hulls: leave it out, or ask "
+                         "through another --structure."};
+    }
+    return std::nullopt;
+}
+
+Result<Model> open_hulls(const std::filesystem::path& path) {
+    Result<Model> opened = open_for(path, Ask::hulls);
+    if (!opened || find_hull(opened.value(), format::HullScope::whole)) return opened;
+    return Error{ErrorCode::bad_argument,
+                 path.string() +
+                     ": has no convex hull of the whole model. Bake the mesh again with "
+                     "--structures hull."};
+}
+
+std::string hull_counts(const QueryCounts& counts) {
+    std::ostringstream line;
+    line << counts.hull_pairs << " hull pairs, " << counts.hull_steps
+         << " steps, each a farthest point of both; decided " << counts.hulls_by_exact
+         << " exactly, in " << counts.exact_steps << " steps\n";
+    return line.str();
+}
+
+/// About the hulls of the wholes: solid, whatever the models are.
+Exit run_hulls(const Arguments& arguments) {
+    if (const auto error = find_idle_for_hulls(arguments)) return fail("query", *error);
+    const Result<Model> a = open_hulls(arguments.a);
+    if (!a) return fail("query", a.error());
+    const Result<Model> b = open_hulls(arguments.b);
+    if (!b) return fail("query", b.error());
+    const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
+    if (!placements) return fail("query", placements.error());
+
+    const ConvexPoints of_a = convex_points(a.value(), 0), of_b = convex_points(b.value(), 0);
+    const DistanceOptions options = {arguments.errors.relative_error,
+                                     arguments.errors.absolute_error,
+                                     arguments.errors.max_distance};
+    ConvexCache cache;
+    QueryCounts counts;
+    QueryCounts* const counted = arguments.counts ? &counts : nullptr;
+    Stopwatch stopwatch;
+    report::Answers answers(std::cout, parse_answer_format(arguments.format));
+    for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
+        const Placement& placement = placements.value()[i];
+        const ConvexCache before = cache;
+        const auto timed = [&](auto ask) {
+            return stopwatch.timed(arguments.repeat, arguments.timings, [&] {
+                cache = before;
+                return ask();
+            });
+        };
+        if (arguments.question == Question::collide) {
+            answers.add(report::HullCollideAnswer{
+                i, timed([&] { return convex_collide(of_a, of_b, placement, &cache, counted); })});
+        } else {
+            answers.add(report::HullDistanceAnswer{
+                i, timed([&] {
+                    return convex_distance(of_a, of_b, placement, options, &cache, counted);
+                })});
+        }
+    }
+    answers.finish();
+    if (arguments.timings) std::cerr << stopwatch.line();
+    if (arguments.counts) std::cerr << hull_counts(counts);
+    return Exit::success;
+}
+
+/// What both models must serve.
+Ask asks_of(const Arguments& arguments) {
+    const bool is_solid = arguments.as == "solid";
+    const Ask solid = is_solid ? Ask::solid : Ask::nothing;
+    switch (arguments.question) {
+        case Question::collide:
+            return Ask::collide | solid;
+        case Question::overlap:  // whether solids overlap is what collide() answers
+            return is_solid ? Ask::overlap | Ask::collide | Ask::solid : Ask::overlap;
+        case Question::distance:
+            return Ask::distance | solid;
+        default:
+            return Ask::within;
+    }
+}
+
+const char* name_of(Question question) {
+    switch (question) {
+        case Question::collide:
+            return "collide";
+        case Question::overlap:
+            return "overlap";
+        case Question::distance:
+            return "distance";
+        default:
+            return "within";
+    }
+}
+
+/// Through what a question can be asked.
+std::span<const Structure> structures_serving(Question question) {
+    static constexpr std::array<Structure, 6> kAll = {
+        Structure::bvh,           Structure::pieces,        Structure::octree,
+        Structure::adaptive_octree, Structure::hashed_octree, Structure::tetra_tree};
+    const std::span<const Structure> all = kAll;
+    const bool finds_pairs = question == Question::overlap || question == Question::collide;
+    return finds_pairs ? all : all.first(2);
+}
+
+/// Options that the talk's search does not serve.
+std::optional<Error> find_idle_for_literal(const Arguments& arguments) {
+    if (arguments.as == "solid") {
+        return Error{ErrorCode::bad_argument,
+                     "--as solid has to know that no triangles touch, and hashed-octree-literal "
+                     "misses some: ask through hashed-octree."};
+    }
+    if (arguments.structure.leaf_test.empty()) return std::nullopt;
+    return Error{ErrorCode::bad_argument,
+                 "--leaf-test is for every structure but bvh, pieces and hashed-octree-literal, "
+                 "but --structure is hashed-octree-literal."};
+}
+
+/// Fails where a question's other options need what only the hierarchy of boxes does.
+Result<StructureOptions> structure_of(const Arguments& arguments) {
+    StructureWords words = arguments.structure;
+    if (asks_literally(arguments)) {
+        if (const auto error = find_idle_for_literal(arguments)) return *error;
+        words.structure = report::structure_name(Structure::hashed_octree);  // reads that file
+    }
+    Result<StructureOptions> through =
+        parse_structure(words, name_of(arguments.question), structures_serving(arguments.question));
+    if (!through) return through;
+    if (arguments.segments && through.value().structure != Structure::bvh) {
+        return Error{ErrorCode::bad_argument,
+                     "--segments are found through the bvh alone: leave --structure out, or ask "
+                     "for pairs."};
+    }
+    if (arguments.level_of_detail && through.value().structure != Structure::tetra_tree) {
+        return Error{ErrorCode::bad_argument,
+                     "--level-of-detail is for --structure tetra-tree, but that is " +
+                         arguments.structure.structure + "."};
+    }
+    return through;
+}
+
+Exit run(const Arguments& arguments) {
+    if (asks_hulls(arguments)) return run_hulls(arguments);
+    const Result<StructureOptions> through = structure_of(arguments);
+    if (!through) return fail("query", through.error());
+    const Ask asks = asks_of(arguments);
+    const Result<Model> a = open_for(arguments.a, asks, through.value().structure);
+    if (!a) return fail("query", a.error());
+    const Result<Model> b = open_for(arguments.b, asks, through.value().structure);
+    if (!b) return fail("query", b.error());
+    const Result<std::vector<Placement>> placements = placements_of(arguments.placement);
+    if (!placements) return fail("query", placements.error());
+
+    Asker asker(arguments, through.value(), a.value(), b.value());
+    report::Answers answers(std::cout, parse_answer_format(arguments.format));
+    for (std::size_t i = 0; i < placements.value().size() && !is_interrupted(); ++i) {
+        asker.answer(i, placements.value()[i], answers);
+    }
+    answers.finish();
+    if (arguments.timings) std::cerr << asker.timings();
+    if (arguments.counts) std::cerr << asker.counts();
+    return Exit::success;
+}
+
+void add_as(CLI::App& command, Arguments& arguments) {
+    command.add_option("--as", arguments.as, "surface or solid")
+        ->check(one_of({"surface", "solid"}))
+        ->capture_default_str();
+}
+
+void add_contact_options(CLI::App& command, Arguments& arguments) {
+    add_as(command, arguments);
+    command.add_option("--contact", arguments.contact, "closed: touching counts; or proper")
+        ->check(one_of({"closed", "proper"}))
+        ->capture_default_str();
+    command.add_flag("--skip-degenerate", arguments.skip_degenerate,
+                     "Leave triangles with collinear corners out of answers");
+}
+
+void add_distance_options(CLI::App& command, Arguments& arguments) {
+    if (arguments.question == Question::within) {
+        command
+            .add_option("--tolerance", arguments.tolerance,
+                        "The distance that still counts, model units")
+            ->check(zero_or_more())
+            ->required();
+        CLI::Option* pairs =
+            command.add_flag("--pairs", arguments.pairs,
+                             "Which triangles are within the tolerance, not only whether any is");
+        command.add_flag("--count", arguments.count, "Count those pairs, do not list them")
+            ->excludes(pairs);
+        return;
+    }
+    command
+        .add_option("--relative-error", arguments.errors.relative_error,
+                    "Upper may exceed lower by this share of lower")
+        ->check(zero_or_more())
+        ->capture_default_str();
+    command
+        .add_option("--absolute-error", arguments.errors.absolute_error,
+                    "Upper may exceed lower by this, model units")
+        ->check(zero_or_more())
+        ->capture_default_str();
+    add_as(command, arguments);
+    command
+        .add_option("--max-distance", arguments.errors.max_distance,
+                    "Nothing beyond is of interest, model units")
+        ->check(zero_or_more());
+}
+
+void add_question(CLI::App& query, Question question, const char* name, const char* description,
+                  Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    arguments->question = question;
+    CLI::App* command = query.add_subcommand(name, description);
+    command->add_option("a", arguments->a, "The first baked model")->required();
+    command->add_option("b", arguments->b, "The second baked model")->required();
+    add_placements(*command, arguments->placement);
+    if (question == Question::collide || question == Question::overlap) {
+        add_structure(*command, arguments->structure,
+                      question == Question::collide
+                          ? "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or "
+                            "tetra-tree, for which bake both with --structures, or pieces, with "
+                            "--effects pieces. The answers are the same, but for hull: do the "
+                            "convex hulls touch?"
+                          : "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or "
+                            "tetra-tree, for which bake both with --structures, or pieces, with "
+                            "--effects pieces; all with the same answers; or "
+                            "hashed-octree-literal, which misses pairs and is for studies");
+        add_structure_steps(*command, arguments->structure);
+    } else {
+        add_structure(
+            *command, arguments->structure,
+            question == Question::distance
+                ? "Through what to ask: bvh, or pieces, with the same answers: bake both with "
+                  "--effects pieces; or hull: how far the convex hulls are apart: --structures hull"
+                : "Through what to ask: bvh, or pieces, with the same answers: bake both with "
+                  "--effects pieces");
+    }
+    add_answer_format(*command, arguments->format);
+    command->add_option("--repeat", arguments->repeat, "Ask each pose this often, for --timings")
+        ->check(whole_from(1, 1'000'000'000))
+        ->capture_default_str();
+    command->add_flag("--timings", arguments->timings, "What the questions took, to stderr");
+    command->add_flag("--counts", arguments->counts,
+                      "What was tested, of boxes and triangles or of hulls, and which stage "
+                      "decided, to stderr");
+    if (question == Question::collide || question == Question::overlap) {
+        add_contact_options(*command, *arguments);
+    } else {
+        add_distance_options(*command, *arguments);
+    }
+    if (question == Question::collide) {
+        command
+            ->add_option("--level-of-detail", arguments->level_of_detail,
+                         "Ask the facets of this level of both tetra-trees alone: yes, no or "
+                         "unknown of the solids, and how far facets are from the surfaces")
+            ->check(whole_from(0U, format::kMaxTetraLevel));
+    }
+    if (question == Question::overlap) {
+        CLI::Option* count =
+            command->add_flag("--count", arguments->count, "Count the pairs, do not list them");
+        command
+            ->add_flag("--segments", arguments->segments,
+                       "Each pair with the segment in which the two triangles meet")
+            ->excludes(count);
+    }
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace
+
+void add_pair_questions(CLI::App& query, Exit& exit) {
+    add_question(query, Question::collide, "collide", "Do A and B touch?", exit);
+    add_question(query, Question::overlap, "overlap", "Which triangles of A and B overlap?", exit);
+    add_question(query, Question::distance, "distance", "How far are A and B apart?", exit);
+    add_question(query, Question::within, "within", "Are A and B within a tolerance?", exit);
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "query/query_placements.h"
+
+#include "cli/poses_file.h"
+#include "cli/usage.h"
+
+namespace cdprep::cli {
+namespace {
+
+/// A pose of the command line: whatever is wrong with it was asked wrongly.
+Result<Pose> argument_pose(const std::string& text, const char* option) {
+    if (text.empty()) return Pose();
+    Result<Pose> pose = parse_pose(text, option);
+    if (!pose) return Error{ErrorCode::bad_argument, pose.error().message};
+    return pose;
+}
+
+}  // namespace
+
+Result<std::vector<Placement>> placements_of(const PlacementWords& words) {
+    if (!words.pose_a.empty() || !words.pose_b.empty()) {
+        const Result<Pose> a = argument_pose(words.pose_a, "--pose-a");
+        if (!a) return a.error();
+        const Result<Pose> b = argument_pose(words.pose_b, "--pose-b");
+        if (!b) return b.error();
+        return std::vector{words.placement == "world" ? Placement::world(a.value(), b.value())
+                                                      : Placement::relative(a.value(), b.value())};
+    }
+    if (words.poses.empty()) {
+        const Result<Pose> pose = argument_pose(words.pose, "--pose");
+        if (!pose) return pose.error();
+        return std::vector{Placement::b_moves(pose.value())};
+    }
+    const Result<std::vector<Pose>> poses = read_poses(words.poses);
+    if (!poses) return poses.error();
+    std::vector<Placement> placements;
+    for (const Pose& pose : poses.value()) placements.push_back(Placement::b_moves(pose));
+    return placements;
+}
+
+void add_placements(CLI::App& command, PlacementWords& words) {
+    CLI::Option* poses = command.add_option("--poses", words.poses,
+                                            "File of poses of B in A's frame, 12 numbers a line");
+    CLI::Option* pose = command.add_option("--pose", words.pose, "One pose: R row by row, then T");
+    poses->excludes(pose);
+    for (CLI::Option* world : {command.add_option("--pose-a", words.pose_a, "World pose of A"),
+                               command.add_option("--pose-b", words.pose_b, "World pose of B")}) {
+        world->excludes(poses);
+        world->excludes(pose);
+    }
+    command
+        .add_option("--placement", words.placement,
+                    "With two world poses: relative moves B, world moves both")
+        ->check(one_of({"relative", "world"}))
+        ->capture_default_str();
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "cdprep/cells.h"
+#include "cdprep/cells/overlap_through.h"
+#include "cdprep/points.h"
+#include "cli/interrupt.h"
+#include "cli/open_for.h"
+#include "query/points_file.h"
+#include "query/command.h"
+#include "query/query_structure.h"
+#include "write/coloured_file.h"
+
+namespace cdprep::cli {
+namespace {
+
+struct Arguments {
+    std::filesystem::path model;
+    std::filesystem::path places;  ///< file of points or rays
+    std::string format = "text";
+    StructureWords structure;
+    std::filesystem::path coloured;  ///< the points with what was answered; empty: none
+};
+
+/// What a point is, by number; `unknown` of an open model.
+const std::vector<write::Shade> kShades = {{"outside", {150, 150, 150}},
+                                           {"inside", {220, 50, 47}},
+                                           {"on_surface", {240, 190, 40}},
+                                           {"unknown", {90, 90, 220}}};
+
+std::uint8_t shade_of(const Inclusion& inclusion) {
+    if (inclusion.on_surface) return 2;
+    if (inclusion.answer == Answer::unknown) return 3;
+    return inclusion.answer == Answer::yes ? 1 : 0;
+}
+
+/// One question about one model, asked at many places.
+template <class Place>
+struct Question {
+    const char* name;
+    Ask ask_of_model;
+    const char* description;
+    const char* option;  ///< --points or --rays
+    const char* option_description;
+    Result<std::vector<Place>> (*read)(const std::filesystem::path&);
+    std::span<const Structure> serving;  ///< through what it can be asked
+    const char* structure_description;
+    bool can_export;  ///< the places, in colours
+    /// Returns the number of the shade in which the place is exported.
+    std::uint8_t (*ask)(const Model&, const Place&, Structure, Workspace&, std::size_t number,
+                        report::Answers&);
+};
+
+std::uint8_t ask_inside(const Model& model, const Double3& point, Structure through,
+                        Workspace& workspace, std::size_t number, report::Answers& answers) {
+    const Inclusion inclusion = points_inside(model, point, workspace, through);
+    answers.add(report::InsideAnswer{number, inclusion});
+    return shade_of(inclusion);
+}
+
+std::uint8_t ask_closest(const Model& model, const Double3& point, Structure /*through*/,
+                         Workspace& workspace, std::size_t number, report::Answers& answers) {
+    answers.add(report::ClosestAnswer{number, closest_point(model, point, workspace)});
+    return 0;
+}
+
+std::uint8_t ask_ray(const Model& model, const Ray& ray, Structure /*through*/,
+                     Workspace& workspace, std::size_t number, report::Answers& answers) {
+    answers.add(report::RayAnswer{number, cast_ray(model, ray, workspace)});
+    return 0;
+}
+
+constexpr std::array<Structure, 5> kServingInside = {
+    Structure::bvh, Structure::octree, Structure::adaptive_octree, Structure::hashed_octree,
+    Structure::tetra_tree};
+constexpr std::span<const Structure> kBvhAlone = std::span(kServingInside).first(1);
+
+constexpr const char* kThroughInside =
+    "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or tetra-tree; bake it with "
+    "--structures. The answers are the same";
+constexpr const char* kThroughBvh = "bvh: no other serves this question";
+
+constexpr Question<Double3> kInside = {"inside",
+                                       Ask::inside,
+                                       "Which points are inside?",
+                                       "--points",
+                                       "File of points, 3 numbers a line",
+                                       read_points,
+                                       kServingInside,
+                                       kThroughInside,
+                                       true,
+                                       ask_inside};
+constexpr Question<Double3> kClosest = {"closest",
+                                        Ask::closest,
+                                        "What is nearest to each point?",
+                                        "--points",
+                                        "File of points, 3 numbers a line",
+                                        read_points,
+                                        kBvhAlone,
+                                        kThroughBvh,
+                                        false,
+                                        ask_closest};
+constexpr Question<Ray> kRay = {"ray",
+                                Ask::ray,
+                                "What does each ray meet first?",
+                                "--rays",
+                                "File of rays, 6 numbers a line: origin, direction",
+                                read_rays,
+                                kBvhAlone,
+                                kThroughBvh,
+                                false,
+                                ask_ray};
+
+/// Rays are not exported.
+Exit export_places(const std::filesystem::path& /*path*/, const std::vector<Ray>& /*rays*/,
+                   const std::vector<std::uint8_t>& /*shades*/) {
+    return Exit::success;
+}
+
+/// Of a question that was interrupted, those that were asked.
+Exit export_places(const std::filesystem::path& path, const std::vector<Double3>& points,
+                   const std::vector<std::uint8_t>& shades) {
+    if (path.empty()) return Exit::success;
+    const Result<Done> written =
+        write::write_coloured_points(path, std::span(points).first(shades.size()), kShades, shades);
+    return written ? Exit::success : fail("query", written.error());
+}
+
+template <class Place>
+Exit run(const Arguments& arguments, const Question<Place>& question) {
+    const Result<StructureOptions> through =
+        parse_structure(arguments.structure, question.name, question.serving);
+    if (!through) return fail("query", through.error());
+    const Structure structure = through.value().structure;
+    const Result<Model> model = open_for(arguments.model, question.ask_of_model, structure);
+    if (!model) return fail("query", model.error());
+    const Result<std::vector<Place>> places = question.read(arguments.places);
+    if (!places) return fail("query", places.error());
+    Workspace workspace(cells());
+    report::Answers answers(std::cout, parse_answer_format(arguments.format));
+    std::vector<std::uint8_t> shades;
+    for (std::size_t i = 0; i < places.value().size() && !is_interrupted(); ++i) {
+        shades.push_back(
+            question.ask(model.value(), places.value()[i], structure, workspace, i, answers));
+    }
+    answers.finish();
+    return export_places(arguments.coloured, places.value(), shades);
+}
+
+template <class Place>
+void add_question(CLI::App& query, const Question<Place>& question, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = query.add_subcommand(question.name, question.description);
+    command->add_option("model", arguments->model, "A baked model")->required();
+    command->add_option(question.option, arguments->places, question.option_description)
+        ->required();
+    if (question.can_export) {
+        command->add_option("--export", arguments->coloured,
+                            "Also write the points in colours, .ply or .obj: inside red, outside "
+                            "grey, on the surface yellow, unknown blue");
+    }
+    add_structure(*command, arguments->structure, question.structure_description);
+    add_answer_format(*command, arguments->format);
+    command->callback([arguments, &question, &exit] { exit = run(*arguments, question); });
+}
+
+}  // namespace
+
+void add_point_questions(CLI::App& query, Exit& exit) {
+    add_question(query, kInside, exit);
+    add_question(query, kClosest, exit);
+    add_question(query, kRay, exit);
+}
+
+}  // namespace cdprep::cli

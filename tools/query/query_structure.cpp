@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "query/query_structure.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "cdprep/cells/overlap_through.h"
+#include "text/structure_name.h"
+#include "cli/usage.h"
+
+namespace cdprep::cli {
+namespace {
+
+/// Of the structures that serve the question.
+Result<Structure> find_structure(const std::string& name, const char* question,
+                                 std::span<const Structure> serving) {
+    std::string names;
+    for (const Structure structure : serving) {
+        if (name == report::structure_name(structure)) return structure;
+        names += (names.empty() ? "" : ", ") + std::string(report::structure_name(structure));
+    }
+    return Error{ErrorCode::bad_argument, "--structure is '" + name + "', which does not serve " +
+                                              question + " in this version; what does: " + names +
+                                              "."};
+}
+
+/// An option that would change nothing was meant for something.
+std::optional<Error> find_idle_option(const StructureWords& words, Structure structure) {
+    const auto idle = [&](const char* option, const char* user) {
+        return Error{ErrorCode::bad_argument, std::string(option) + " is for " + user +
+                                                  ", but --structure is " +
+                                                  report::structure_name(structure) + "."};
+    };
+    const bool is_hierarchy = structure == Structure::bvh || structure == Structure::pieces;
+    if (!words.leaf_test.empty() && is_hierarchy) {
+        return idle("--leaf-test", "every structure but bvh and pieces");
+    }
+    if (!words.descent.empty() && (is_hierarchy || structure == Structure::hashed_octree)) {
+        return idle("--descent", "octree, octree-adaptive and tetra-tree");
+    }
+    if (!words.search.empty() && structure != Structure::hashed_octree) {
+        return idle("--search", "hashed-octree and hashed-octree-literal");
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Result<StructureOptions> parse_structure(const StructureWords& words, const char* question,
+                                         std::span<const Structure> serving) {
+    const Result<Structure> structure = find_structure(words.structure, question, serving);
+    if (!structure) return structure.error();
+    if (const auto error = find_idle_option(words, structure.value())) return *error;
+    StructureOptions options;
+    options.structure = structure.value();
+    if (words.leaf_test == "feito") options.leaf_test = LeafTest::feito_torres;
+    if (words.descent == "a-first") options.descent = Descent::a_first;
+    if (words.descent == "b-first") options.descent = Descent::b_first;
+    if (words.descent == "larger") options.descent = Descent::larger;
+    if (words.search == "modulus") options.search = CellSearch::modulus;
+    if (words.search == "sorted") options.search = CellSearch::sorted;
+    return options;
+}
+
+void add_structure(CLI::App& command, StructureWords& words, const char* description) {
+    command.add_option("--structure", words.structure, description)->capture_default_str();
+}
+
+void add_structure_steps(CLI::App& command, StructureWords& words) {
+    command
+        .add_option("--leaf-test", words.leaf_test,
+                    "How two triangles are tested, not for bvh: guigue-devillers, by the signs of "
+                    "planes (default), or feito, six edges against triangles, as in the paper. "
+                    "They agree always")
+        ->check(one_of({"guigue-devillers", "feito"}));
+    command
+        .add_option("--descent", words.descent,
+                    "What a pair of cells becomes, for octree, octree-adaptive and tetra-tree: "
+                    "the children of the larger (larger), of A's first (a-first), of B's first "
+                    "(b-first), or of both (default). No answer depends on it")
+        ->check(one_of({"larger", "a-first", "b-first", "both"}));
+    command
+        .add_option(
+            "--search", words.search,
+            "How a cell is found, for hashed-octree: in a hash table by a mixed key (default) "
+            "or by the key's modulus, or among sorted leaves with a top table. No answer "
+            "depends on it")
+        ->check(one_of({"sorted", "modulus", "mixed"}));
+}
+
+}  // namespace cdprep::cli

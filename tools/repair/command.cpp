@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "repair/repair.h"
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <sstream>
+
+#include "cli/command.h"
+#include "import/import_file.h"
+#include "cli/import_arguments.h"
+#include "cli/interrupt.h"
+#include "cli/load_mesh.h"
+#include "repair/repair_goal.h"
+#include "cli/output_path.h"
+#include "cli/program_threads.h"
+#include "text/nearest_word.h"
+#include "repair/repair_report.h"
+#include "cli/usage.h"
+#include "write/mesh_file.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kMostSeconds = 300;       ///< unless --time says otherwise
+constexpr std::size_t kRefusalsShown = 5;  ///< of each step, in text
+
+struct Arguments {
+    fs::path input;
+    fs::path output;
+    std::string preset = "safe";
+    std::string steps;
+    std::string format = "text";
+    std::size_t threads = 0;
+    ImportArguments import;
+    mesh::RepairOptions options;
+};
+
+Error unknown_step(const std::string& name) {
+    std::vector<std::string> known;
+    std::string all;
+    for (std::size_t i = 0; i < mesh::kRepairStepCount; ++i) {
+        known.emplace_back(mesh::name_of(static_cast<mesh::RepairStep>(i)));
+        all += (i == 0 ? "" : ", ") + known.back();
+    }
+    return {ErrorCode::bad_argument, "--steps: there is no step '" + name + "'; there are " + all +
+                                         "." + report::suggestion(name, known)};
+}
+
+/// "weld,orient": those steps and no others.
+Result<mesh::RepairSteps> parse_steps(const std::string& list) {
+    mesh::RepairSteps steps;
+    std::istringstream names(list);
+    for (std::string name; std::getline(names, name, ',');) {
+        const auto step = mesh::find_repair_step(name);
+        if (!step) return unknown_step(name);
+        steps.set(static_cast<std::size_t>(*step));
+    }
+    return steps;
+}
+
+/// What the arguments ask for, or why they make no sense.
+Result<mesh::RepairOptions> options_of(const Arguments& arguments) {
+    mesh::RepairOptions options = arguments.options;
+    if (arguments.steps.empty()) {
+        options.steps = *mesh::find_repair_preset(arguments.preset);
+    } else {
+        const Result<mesh::RepairSteps> steps = parse_steps(arguments.steps);
+        if (!steps) return steps.error();
+        options.steps = steps.value();
+    }
+    if (options.least_triangles > 0) {
+        options.steps.set(static_cast<std::size_t>(mesh::RepairStep::drop_components));
+    }
+    return options;
+}
+
+/// Takes over the report of the repair, and says whether the preset reached its goal, and
+/// nothing crosses that did not cross before.
+void judge(const Arguments& arguments, const mesh::TriangleSoup& input,
+           const mesh::Repaired& repaired, const mesh::SearchOptions& search,
+           report::RepairFileReport& report) {
+    report.repair = repaired.report;
+    const bool has_preset = arguments.steps.empty();
+    report.crossing_before = mesh::find_self_crossing(input, search);
+    report.crossing_after = mesh::find_output_crossing(input, repaired.mesh, search);
+    if (has_preset) {
+        report.missed = mesh::missed_goal(arguments.preset, repaired.report.after,
+                                          *report.crossing_before, *report.crossing_after);
+        report.goal = report.missed.empty();
+    } else {
+        report.missed = mesh::worse_crossing(*report.crossing_before, *report.crossing_after);
+    }
+    if (repaired.mesh.triangles.empty() && !input.triangles.empty()) {
+        report.missed = "no triangle is left of the " + std::to_string(input.triangles.size()) +
+                        " of the input";
+        constexpr double kInfinity = std::numeric_limits<double>::infinity();
+        report.repair.input_to_output = {kInfinity, kInfinity};
+    }
+    if (!report.missed.empty()) report.exit = static_cast<int>(Exit::findings);
+}
+
+Result<report::RepairFileReport> repair_file(const Arguments& arguments,
+                                             mesh::RepairOptions options) {
+    const Result<write::MeshFormat> format = mesh_output(arguments.input, arguments.output);
+    if (!format) return format.error();
+    const Clock::time_point begin = Clock::now();
+    const Threads threads(arguments.threads);
+    options.parallel_for = threads.parallel_for();
+    options.interrupted = is_interrupted;
+    import::ImportOptions limits = arguments.import.options();
+    limits.parallel_for = threads.parallel_for();
+    const Result<mesh::TriangleSoup> soup = import::import_file(arguments.input, limits);
+    if (!soup) return soup.error();
+    if (const auto error = find_wide_weld(arguments.input, *soup, options.weld_distance)) {
+        return *error;
+    }
+    const mesh::Repaired repaired = mesh::repair(soup.value(), options);
+    report::RepairFileReport report;
+    const mesh::SearchOptions search = {
+        {options.max_pairs, mesh::default_steps(repaired.mesh.triangles.size())},
+        is_interrupted,
+        options.parallel_for};
+    if (!is_interrupted()) judge(arguments, soup.value(), repaired, search, report);
+    if (is_interrupted()) return interrupted(arguments.input);
+    const Result<Done> written = write_mesh(
+        arguments.output, format.value(),
+        {repaired.mesh.positions, repaired.mesh.triangles, repaired.mesh.single_precision});
+    if (!written) return written.error();
+
+    report.input = arguments.input.string();
+    report.output = arguments.output.string();
+    report.triangles = repaired.mesh.triangles.size();
+    report.vertices = repaired.mesh.positions.size();
+    report.triangle_origin = repaired.mesh.triangle_origin;
+    report.vertex_origin = repaired.mesh.vertex_origin;
+    report.seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+    return report;
+}
+
+Exit run(const Arguments& arguments) {
+    const Result<mesh::RepairOptions> options = options_of(arguments);
+    if (!options) return fail("repair", options.error());
+    const Result<report::RepairFileReport> repaired = repair_file(arguments, options.value());
+    if (!repaired) {
+        if (arguments.format == "json") {
+            auto report = failed<report::RepairFileReport>(arguments.input, repaired.error());
+            report.output = arguments.output.string();
+            report_stream(arguments.output) << report::repair_json(report);
+        }
+        return fail("repair", repaired.error());
+    }
+    report_stream(arguments.output)
+        << (arguments.format == "json" ? report::repair_json(repaired.value())
+                                       : report::repair_text(repaired.value(), kRefusalsShown));
+    if (repaired.value().missed.empty()) return Exit::success;
+    std::cerr << "cdprep repair: " << repaired.value().output << ": " << repaired.value().missed
+              << ".\n";
+    return Exit::findings;
+}
+
+}  // namespace
+
+void add_repair(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    arguments->options.seconds = kMostSeconds;
+    CLI::App* command =
+        app.add_subcommand("repair", "Mend what is asked, and account for every change");
+    command->footer(
+        "Exits with 1 when the output is not what the preset promises, has no triangle left,\n"
+        "or has more crossings than the input; it is written all the same. 2-manifold is meant by "
+        "vertex numbers, as the output\n"
+        "is stored; validate joins vertices with equal positions first, and may find what was\n"
+        "parted here.");
+    add_input(*command, arguments->input);
+    command->add_option("-o,--output", arguments->output, "An .obj, .ply, .stl or .off file")
+        ->required();
+    CLI::Option* preset =
+        command
+            ->add_option("--preset", arguments->preset,
+                         "safe: 2-manifold and oriented, nothing moves. closed: and without "
+                         "holes. solid: and without crossings")
+            ->check(one_of({"safe", "closed", "solid"}))
+            ->capture_default_str();
+    command->add_option("--steps", arguments->steps, "Steps by name, with commas, not a preset")
+        ->excludes(preset);
+    add_weld(*command, arguments->options.weld_distance);
+    command
+        ->add_option("--seam-width,--seam", arguments->options.seam_width,
+                     "Join boundaries this close, in model units")
+        ->check(zero_or_more());
+    command
+        ->add_option("--hole-size", arguments->options.hole_size,
+                     "Close holes whose box has at most this diagonal, in model units")
+        ->check(zero_or_more());
+    command->add_option("--drop-components", arguments->options.least_triangles,
+                        "Leave out components of fewer triangles");
+    command
+        ->add_option("--time", arguments->options.seconds,
+                     "Seconds after which crossings are left as they are, and that is said")
+        ->check(zero_or_more("seconds"))
+        ->capture_default_str();
+    add_max_pairs(*command, arguments->options.max_pairs);
+    add_jobs(*command, arguments->threads);
+    add_report_format(*command, arguments->format);
+    add_import_arguments(*command, arguments->import);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "repair/cut_crossings.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <map>
+
+#include "cdprep/exact/predicates.h"
+#include "cdprep/exact/triangles.h"
+#include "repair/repair_steps.h"
+
+namespace cdprep::mesh {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Flat = Kernel::Point_2;
+
+/// The number of the exact point that a vertex of a flat triangulation stands for.
+struct Number {
+    std::uint32_t value = kNone;
+};
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<Number, Kernel>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel>;
+using Flattened = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+    CGAL::Exact_intersections_tag>;
+
+constexpr int kMostRounds = 12;
+
+Point exact(const Double3& p) {
+    return {p.x, p.y, p.z};
+}
+
+double component(const Double3& p, int axis) {
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+Flat flat(const Point& p, int dropped) {
+    return {p[(dropped + 1) % 3], p[(dropped + 2) % 3]};
+}
+
+/// The axis along which a triangle is seen best; seen so it has area.
+int best_axis(const Corners& c) {
+    const Double3 u{c[1].x - c[0].x, c[1].y - c[0].y, c[1].z - c[0].z};
+    const Double3 v{c[2].x - c[0].x, c[2].y - c[0].y, c[2].z - c[0].z};
+    const std::array<double, 3> size = {std::fabs(u.y * v.z - u.z * v.y),
+                                        std::fabs(u.z * v.x - u.x * v.z),
+                                        std::fabs(u.x * v.y - u.y * v.x)};
+    std::array<int, 3> axes = {0, 1, 2};
+    std::sort(axes.begin(), axes.end(), [&](int a, int b) {
+        return size[static_cast<std::size_t>(a)] > size[static_cast<std::size_t>(b)];
+    });
+    for (const int axis : axes) {
+        const auto seen = [axis](const Double3& p) {
+            return Double2{component(p, (axis + 1) % 3), component(p, (axis + 2) % 3)};
+        };
+        if (exact::orient2d(seen(c[0]), seen(c[1]), seen(c[2])) != 0) return axis;
+    }
+    return axes[0];
+}
+
+/// Exact points by number: first the mesh's vertices, then what cuts make.
+class ExactPoints {
+public:
+    explicit ExactPoints(const std::vector<Double3>& positions) : positions_(positions) {}
+
+    /// Of a vertex of the mesh.
+    void know(std::uint32_t vertex) {
+        numbers_.try_emplace(exact(positions_[vertex]), vertex);
+    }
+    std::uint32_t number_of(const Point& p) {
+        const auto next = static_cast<std::uint32_t>(positions_.size() + added_.size());
+        const auto [at, is_new] = numbers_.try_emplace(p, next);
+        if (is_new) added_.push_back(p);
+        return at->second;
+    }
+    [[nodiscard]] const std::vector<Point>& added() const {
+        return added_;
+    }
+
+private:
+    const std::vector<Double3>& positions_;
+    std::map<Point, std::uint32_t> numbers_;
+    std::vector<Point> added_;
+};
+
+/// One triangle, cut along what other triangles have in common with it.
+class CutTriangle {
+public:
+    CutTriangle(const RepairMesh& mesh, std::uint32_t t, ExactPoints& points)
+        : points_(points), triangle_(mesh.triangles[t]) {
+        const Corners corners = corners_of(mesh, t);
+        axis_ = best_axis(corners);
+        for (std::size_t k = 0; k < 3; ++k) {
+            corner_[k] = exact(corners[k]);
+            insert(corner_[k]);
+        }
+    }
+
+    static Corners corners_of(const RepairMesh& mesh, std::uint32_t t) {
+        const auto& v = mesh.triangles[t].vertex;
+        return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+    }
+
+    void cut_along(const Corners& other) {
+        const auto common = CGAL::intersection(
+            Kernel::Triangle_3(corner_[0], corner_[1], corner_[2]),
+            Kernel::Triangle_3(exact(other[0]), exact(other[1]), exact(other[2])));
+        if (!common) return;
+        if (const auto* point = boost::get<Point>(&*common)) {
+            insert(*point);
+        } else if (const auto* segment = boost::get<Kernel::Segment_3>(&*common)) {
+            cut(segment->source(), segment->target());
+        } else if (const auto* whole = boost::get<Kernel::Triangle_3>(&*common)) {
+            for (int k = 0; k < 3; ++k) cut(whole->vertex(k), whole->vertex(k + 1));
+        } else if (const auto* polygon = boost::get<std::vector<Point>>(&*common)) {
+            for (std::size_t k = 0; k < polygon->size(); ++k) {
+                cut((*polygon)[k], (*polygon)[(k + 1) % polygon->size()]);
+            }
+        }
+    }
+
+    /// The pieces, wound as the triangle.
+    std::vector<Triangle> pieces() {
+        for (auto v = flat_.finite_vertices_begin(); v != flat_.finite_vertices_end(); ++v) {
+            if (v->info().value == kNone) v->info().value = points_.number_of(lifted(v->point()));
+        }
+        const bool turned = CGAL::orientation(flat(corner_[0], axis_), flat(corner_[1], axis_),
+                                              flat(corner_[2], axis_)) == CGAL::RIGHT_TURN;
+        std::vector<Triangle> pieces;
+        for (auto f = flat_.finite_faces_begin(); f != flat_.finite_faces_end(); ++f) {
+            Triangle piece{{f->vertex(0)->info().value, f->vertex(1)->info().value,
+                            f->vertex(2)->info().value}};
+            if (turned) std::swap(piece.vertex[1], piece.vertex[2]);
+            pieces.push_back(piece);
+        }
+        return pieces;
+    }
+
+private:
+    Flattened::Vertex_handle insert(const Point& p) {
+        const auto vertex = flat_.insert(flat(p, axis_));
+        if (vertex->info().value == kNone) vertex->info().value = points_.number_of(p);
+        return vertex;
+    }
+    void cut(const Point& a, const Point& b) {
+        flat_.insert_constraint(insert(a), insert(b));
+    }
+
+    /// The point of the triangle's plane that is seen at p.
+    [[nodiscard]] Point lifted(const Flat& p) const {
+        const Flat a = flat(corner_[0], axis_), b = flat(corner_[1], axis_),
+                   c = flat(corner_[2], axis_);
+        const Kernel::FT whole = CGAL::determinant(b - a, c - a);
+        const Kernel::FT along_b = CGAL::determinant(p - a, c - a) / whole;
+        const Kernel::FT along_c = CGAL::determinant(b - a, p - a) / whole;
+        return corner_[0] + along_b * (corner_[1] - corner_[0]) +
+               along_c * (corner_[2] - corner_[0]);
+    }
+
+    ExactPoints& points_;
+    Triangle triangle_;
+    int axis_ = 0;
+    std::array<Point, 3> corner_;
+    Flattened flat_;
+};
+
+bool is_allowed(const TriangleMeeting& meeting) {
+    return meeting.meeting == Meeting::duplicate;
+}
+
+/// Equal positions joined; triangles without area left out.
+RepairMesh joined(RepairMesh mesh) {
+    mesh = weld_vertices(std::move(mesh), 0).mesh;
+    std::vector<bool> kept(mesh.triangles.size());
+    for (std::uint32_t t = 0; t < kept.size(); ++t) {
+        kept[t] =
+            !repeats_corner(mesh.triangles[t]) && !exact::is_degenerate(CutTriangle::corners_of(mesh, t));
+    }
+    keep_triangles(mesh, kept);
+    return mesh;
+}
+
+/// Replaces every triangle of a meeting by its pieces, in its place. Nothing when stopped.
+std::optional<RepairMesh> cut_once(RepairMesh mesh, const std::vector<TriangleMeeting>& meetings,
+                                   const StopCheck& stop) {
+    std::vector<std::vector<std::uint32_t>> others(mesh.triangles.size());
+    for (const TriangleMeeting& meeting : meetings) {
+        if (is_allowed(meeting)) continue;
+        others[meeting.a].push_back(meeting.b);
+        others[meeting.b].push_back(meeting.a);
+    }
+    ExactPoints points(mesh.positions);
+    for (std::size_t t = 0; t < others.size(); ++t) {
+        if (others[t].empty()) continue;
+        for (const std::uint32_t vertex : mesh.triangles[t].vertex) points.know(vertex);
+    }
+    std::vector<Triangle> triangles;
+    std::vector<Origin> origins;
+    for (std::uint32_t t = 0; t < others.size(); ++t) {
+        if (others[t].empty()) {
+            triangles.push_back(mesh.triangles[t]);
+            origins.push_back(mesh.triangle_origin[t]);
+            continue;
+        }
+        CutTriangle cut(mesh, t, points);
+        for (const std::uint32_t other : others[t]) {
+            if (is_stopped(stop)) return std::nullopt;
+            cut.cut_along(CutTriangle::corners_of(mesh, other));
+        }
+        const std::vector<Triangle> pieces = cut.pieces();
+        Origin origin = mesh.triangle_origin[t];
+        if (pieces.size() > 1) origin.step = RepairStep::resolve_self_intersections;
+        triangles.insert(triangles.end(), pieces.begin(), pieces.end());
+        origins.insert(origins.end(), pieces.size(), origin);
+    }
+    for (const Point& p : points.added()) {
+        const auto& q = p.exact();  // so that the double does not depend on how p came about
+        mesh.positions.push_back(
+            {CGAL::to_double(q.x()), CGAL::to_double(q.y()), CGAL::to_double(q.z())});
+        mesh.vertex_origin.push_back({kNone, RepairStep::resolve_self_intersections});
+        mesh.single_precision = false;
+    }
+    mesh.triangles = std::move(triangles);
+    mesh.triangle_origin = std::move(origins);
+    return mesh;
+}
+
+}  // namespace
+
+CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search, const StopCheck& stop) {
+    mesh = joined(std::move(mesh));
+    CutMesh cut;
+    std::size_t before = std::numeric_limits<std::size_t>::max();
+    try {
+        for (int round = 0; round <= kMostRounds; ++round) {
+            const auto [meetings, is_complete] = find_meetings(mesh, search);
+            if (!is_complete) {
+                cut.failed = "finding what their cuts cross was ended by a limit";
+                return cut;
+            }
+            const auto worst = std::find_if_not(meetings.begin(), meetings.end(), is_allowed);
+            cut.left.reset();
+            if (worst == meetings.end()) break;
+            cut.left = *worst;
+            // Rounded cuts that make as many meetings as they end go on for ever.
+            if (round == kMostRounds || meetings.size() >= before) break;
+            before = meetings.size();
+            std::optional<RepairMesh> pieces = cut_once(std::move(mesh), meetings, stop);
+            if (!pieces) {
+                cut.failed = "cutting them took longer than was allowed";
+                return cut;
+            }
+            mesh = joined(std::move(*pieces));
+        }
+    } catch (const std::exception& error) {
+        cut.failed = "the exact cut failed: ";
+        cut.failed += error.what();
+    }
+    cut.mesh = std::move(mesh);
+    return cut;
+}
+
+}  // namespace cdprep::mesh

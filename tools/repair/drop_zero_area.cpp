@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+
+#include "cdprep/exact/triangles.h"
+#include "repair/repair_steps.h"
+
+namespace cdprep::mesh {
+namespace {
+
+Corners corners_of(const RepairMesh& mesh, std::uint32_t t) {
+    const auto& v = mesh.triangles[t].vertex;
+    return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
+}
+
+/// Of collinear corners the one between the others: along the first axis on which they
+/// differ, which orders points of a line exactly. 3 when two are the same point.
+std::size_t middle_corner(const Corners& c) {
+    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) return 3;
+    const auto less = [](const Double3& a, const Double3& b) {
+        return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Double3 &p = c[k], &q = c[(k + 1) % 3], &r = c[(k + 2) % 3];
+        if (less(q, p) != less(r, p)) return k;
+    }
+    return 3;
+}
+
+using EdgeCounts = std::unordered_map<std::uint64_t, std::vector<HalfEdge>>;
+
+std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
+    return (std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b);
+}
+
+/// Uses of the edges around triangles without area; filled where it is looked at.
+class LocalEdges {
+public:
+    explicit LocalEdges(const RepairMesh& mesh) {
+        for (HalfEdge h = 0; h < 3 * mesh.triangles.size(); h += 3) add(mesh, h / 3);
+    }
+    void add(const RepairMesh& mesh, std::uint32_t t) {
+        for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) uses_[key(mesh, h)].push_back(h);
+    }
+    void remove(const RepairMesh& mesh, std::uint32_t t) {
+        for (HalfEdge h = 3 * t; h < 3 * t + 3; ++h) std::erase(uses_[key(mesh, h)], h);
+    }
+    [[nodiscard]] const std::vector<HalfEdge>& of(std::uint32_t a, std::uint32_t b) {
+        return uses_[key_of(a, b)];
+    }
+
+private:
+    static std::uint64_t key(const RepairMesh& mesh, HalfEdge h) {
+        return key_of(start_of(mesh.triangles, h), end_of(mesh.triangles, h));
+    }
+    EdgeCounts uses_;
+};
+
+class ZeroAreaDrop {
+public:
+    ZeroAreaDrop(RepairMesh& mesh, StepReport& report)
+        : mesh_(mesh), report_(report), edges_(mesh), kept_(mesh.triangles.size(), true) {}
+
+    /// Passes over those left, as long as one is mended: a neighbour may have got area.
+    void run(std::vector<std::uint32_t> flat) {
+        while (!flat.empty()) {
+            report_.refused.clear();
+            std::vector<std::uint32_t> left;
+            for (const std::uint32_t t : flat) {
+                if (!mend(t)) left.push_back(t);
+            }
+            if (left.size() == flat.size()) break;
+            flat = std::move(left);
+        }
+        keep_triangles(mesh_, kept_);
+    }
+
+private:
+    /// False when it was refused.
+    bool mend(std::uint32_t t) {
+        const std::size_t middle = middle_corner(corners_of(mesh_, t));
+        if (middle == 3) return refuse(t, "has two corners at one place; weld joins them");
+        const HalfEdge longest = next_in_triangle(3 * t + static_cast<HalfEdge>(middle));
+        const std::uint32_t a = start_of(mesh_.triangles, longest);
+        const std::uint32_t b = end_of(mesh_.triangles, longest);
+        const std::uint32_t v = mesh_.triangles[t].vertex[middle];
+        const std::vector<HalfEdge> uses = edges_.of(a, b);
+        if (uses.size() == 1) return drop(t);
+        if (uses.size() > 2) {
+            return refuse(t, "has its longest edge in common with several triangles");
+        }
+        const HalfEdge other = uses[0] / 3 == t ? uses[1] : uses[0];
+        if (exact::is_degenerate(corners_of(mesh_, other / 3))) {
+            return refuse(t, "its neighbour across the longest edge has none either");
+        }
+        return flip(t, v, a, b, other);
+    }
+
+    bool drop(std::uint32_t t) {
+        kept_[t] = false;
+        edges_.remove(mesh_, t);
+        report_.dropped.push_back({mesh_.triangle_origin[t].source, DropReason::zero_area});
+        return true;
+    }
+
+    /// The neighbour (b, a, d) becomes (b, v, d), and t becomes (v, a, d).
+    bool flip(std::uint32_t t, std::uint32_t v, std::uint32_t a, std::uint32_t b, HalfEdge other) {
+        const std::uint32_t d = apex_of(mesh_.triangles, other);
+        if (d == v || !edges_.of(v, d).empty()) {
+            return refuse(t, "its middle corner and its neighbour's apex share an edge already");
+        }
+        const std::uint32_t u = other / 3;
+        const bool from_b = start_of(mesh_.triangles, other) == b;
+        const Origin origin{mesh_.triangle_origin[u].source, report_.step};
+        edges_.remove(mesh_, t);
+        edges_.remove(mesh_, u);
+        mesh_.triangles[u] = from_b ? Triangle{{b, v, d}} : Triangle{{v, b, d}};
+        mesh_.triangles[t] = from_b ? Triangle{{v, a, d}} : Triangle{{a, v, d}};
+        edges_.add(mesh_, t);
+        edges_.add(mesh_, u);
+        report_.dropped.push_back(
+            {mesh_.triangle_origin[t].source, DropReason::zero_area, origin.source});
+        report_.cut.push_back(origin.source);
+        mesh_.triangle_origin[t] = mesh_.triangle_origin[u] = origin;
+        return true;
+    }
+
+    bool refuse(std::uint32_t t, const char* why) {
+        const std::uint32_t source = mesh_.triangle_origin[t].source;
+        Refusal refusal;
+        refusal.sentence =
+            "triangle " +
+            (source == kNone ? std::string("made by a step") : std::to_string(source)) +
+            " has no area, and " + why + ".";
+        refusal.triangles = {source};
+        refusal.position = mesh_.positions[mesh_.triangles[t].vertex[0]];
+        report_.refused.push_back(std::move(refusal));
+        return false;
+    }
+
+    RepairMesh& mesh_;
+    StepReport& report_;
+    LocalEdges edges_;
+    std::vector<bool> kept_;
+};
+
+}  // namespace
+
+Stepped drop_zero_area(RepairMesh mesh) {
+    StepReport report(RepairStep::drop_zero_area);
+    std::vector<std::uint32_t> flat;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        if (exact::is_degenerate(corners_of(mesh, t))) flat.push_back(t);
+    }
+    if (!flat.empty()) ZeroAreaDrop(mesh, report).run(std::move(flat));
+    if (!report.dropped.empty()) drop_unused_vertices(mesh, report.unused);
+    return {std::move(mesh), std::move(report)};
+}
+
+}  // namespace cdprep::mesh

@@ -1,0 +1,499 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "repair/moved_distance.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <CGAL/AABB_triangle_primitive.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "cdprep/exact/triangles.h"
+#include "mesh/vectors.h"
+
+namespace cdprep::mesh {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Primitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
+
+constexpr double kRelative = 1e-4;
+constexpr double kOfModel = 1e-9;
+constexpr std::size_t kMostPieces = 200'000;  ///< over all triangles of one direction
+
+Kernel::Point_3 point(const Double3& p) {
+    return {p.x, p.y, p.z};
+}
+
+/// Names a triangle near a point. The tree rounds: what it names need not be the nearest,
+/// but the surface is no farther than that. A lower bound may then be too large, by the
+/// rounding.
+class Surface {
+public:
+    explicit Surface(std::vector<Corners> triangles) : triangles_(std::move(triangles)) {
+        for (const Corners& t : triangles_) {
+            shapes_.emplace_back(point(t[0]), point(t[1]), point(t[2]));
+        }
+        tree_.insert(shapes_.begin(), shapes_.end());
+        const std::vector<Hint> hints = hints_for_queries();
+        tree_.accelerate_distance_queries(hints.begin(), hints.end());
+    }
+
+    [[nodiscard]] const Corners& nearest(const Double3& p) const {
+        const auto found = tree_.closest_point_and_primitive(point(p));
+        return triangles_[static_cast<std::size_t>(found.second - shapes_.begin())];
+    }
+    [[nodiscard]] bool empty() const {
+        return triangles_.empty();
+    }
+
+private:
+    using Hint = std::pair<Kernel::Point_3, Primitive::Id>;
+
+    /// First corners, each place once: CGAL's own hints, one a triangle, are cut in two
+    /// until the stack ends where many are one point.
+    std::vector<Hint> hints_for_queries() {
+        std::vector<Hint> hints;
+        for (auto shape = shapes_.begin(); shape != shapes_.end(); ++shape) {
+            hints.emplace_back(shape->vertex(0), shape);
+        }
+        std::sort(hints.begin(), hints.end());
+        const auto same_place = [](const Hint& a, const Hint& b) { return a.first == b.first; };
+        hints.erase(std::unique(hints.begin(), hints.end(), same_place), hints.end());
+        return hints;
+    }
+
+    std::vector<Corners> triangles_;
+    mutable std::vector<Kernel::Triangle_3> shapes_;
+    Tree tree_;
+};
+
+double apart(const Double3& a, const Double3& b) {
+    return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
+}
+
+struct Piece {
+    Corners corners;
+    double upper;
+    bool operator<(const Piece& other) const {
+        return upper < other.upper;
+    }
+};
+
+/// At least the distance of a point and a triangle; 0 exactly where the point is on it.
+double distance_at_most(const Double3& p, const Corners& t) {
+    const PointTriangleDistance found = exact::point_triangle_distance(p, t);
+    return found.lower == 0 && exact::is_within({&p, 1}, t, 0) ? 0 : found.upper;
+}
+
+bool lexicographically_less(const Double3& a, const Double3& b) {
+    return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;
+}
+
+Corners ordered(Corners c) {
+    std::sort(c.begin(), c.end(), lexicographically_less);
+    return c;
+}
+
+bool less_corners(const Corners& a, const Corners& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                        lexicographically_less);
+}
+
+/// The triangle; without area the segment that it is, as a triangle whose last two corners
+/// are one: of collinear points the first and the last are its ends.
+Corners shape_of(const Corners& c) {
+    const Corners sorted = ordered(c);
+    return exact::is_degenerate(c) ? Corners{sorted[0], sorted[2], sorted[2]} : sorted;
+}
+
+std::vector<Corners> cut_in_middles(const Corners& c) {
+    const Double3 ab = middle_of(c[0], c[1]);
+    if (c[1] == c[2]) return {{c[0], ab, ab}, {ab, c[1], c[1]}};
+    const Double3 bc = middle_of(c[1], c[2]), ca = middle_of(c[2], c[0]);
+    return {{c[0], ab, ca}, {ab, c[1], bc}, {ca, bc, c[2]}, {ab, bc, ca}};
+}
+
+/// Bounds a piece. The distance to one triangle is convex: it is largest at a corner of the
+/// piece, for each of the triangles that are nearest to a corner. Where they are far apart,
+/// no point of the piece is farther from some corner than its longest side.
+Piece bounded(const Corners& corners, const Surface& surface, double& lower) {
+    double most = 0;
+    std::array<Corners, 3> near;
+    for (std::size_t k = 0; k < 3; ++k) {
+        near[k] = surface.nearest(corners[k]);
+        const PointTriangleDistance found = exact::point_triangle_distance(corners[k], near[k]);
+        most = std::max(most, distance_at_most(corners[k], near[k]));
+        lower = std::max(lower, found.lower);
+    }
+    const double side = std::max({apart(corners[0], corners[1]), apart(corners[1], corners[2]),
+                                  apart(corners[2], corners[0])});
+    double upper = most + side;
+    for (const Corners& t : near) {
+        double to_t = 0;
+        for (const Double3& corner : corners) {
+            to_t = std::max(to_t, distance_at_most(corner, t));
+        }
+        upper = std::min(upper, to_t);
+    }
+    return {corners, upper};
+}
+
+/// Cuts the piece with the largest bound until it is close to what some point attains.
+MovedDistance farthest(const std::vector<Corners>& triangles, const Surface& surface,
+                       double diagonal) {
+    MovedDistance distance;
+    if (triangles.empty()) return distance;
+    if (surface.empty()) {
+        distance.upper = std::numeric_limits<double>::infinity();
+        return distance;
+    }
+    std::priority_queue<Piece> pieces;
+    for (const Corners& t : triangles) {
+        pieces.push(bounded(t, surface, distance.lower));
+    }
+    std::size_t left = kMostPieces;
+    while (left > 0 &&
+           pieces.top().upper > distance.lower * (1 + kRelative) + kOfModel * diagonal) {
+        const Corners corners = pieces.top().corners;
+        pieces.pop();
+        for (const Corners& part : cut_in_middles(corners)) {
+            pieces.push(bounded(part, surface, distance.lower));
+        }
+        left -= std::min<std::size_t>(left, 4);
+    }
+    // Middles are rounded: their pieces leave out less than this.
+    distance.upper = pieces.top().upper;
+    if (left < kMostPieces) distance.upper += 1e-15 * diagonal;
+    distance.lower = std::min(distance.lower, distance.upper);
+    return distance;
+}
+
+/// Which source triangles have a place. Those with a corner out of range are marked by an
+/// import, and stand at vertex 0 as if it were theirs.
+std::vector<bool> find_placed(const TriangleSoup& soup) {
+    std::vector<bool> placed(soup.triangles.size());
+    for (std::size_t t = 0; t < placed.size(); ++t) {
+        const auto& corners = soup.triangles[t].vertex;
+        placed[t] = std::all_of(corners.begin(), corners.end(), [&](std::uint32_t vertex) {
+            const Double3& p = soup.positions[vertex];
+            return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+        });
+    }
+    for (const BadNumber& bad : soup.bad_numbers) {
+        if (bad.kind == BadNumber::Kind::index_out_of_range) placed[bad.triangle] = false;
+    }
+    return placed;
+}
+
+template <class Mesh>
+Corners corners_of(const Mesh& mesh, const Triangle& t) {
+    return {mesh.positions[t.vertex[0]], mesh.positions[t.vertex[1]], mesh.positions[t.vertex[2]]};
+}
+
+bool same_corners(const Corners& a, const Corners& b) {
+    return std::is_permutation(a.begin(), a.end(), b.begin());
+}
+
+/// Shapes of source triangles that are not in the output as they were, and how far each is
+/// from it where that is known of a triangle that has it as itself, a side or a corner.
+class MissingShapes {
+public:
+    void add(const Corners& triangle) {
+        shapes_.push_back({shape_of(triangle), kUnknown});
+    }
+    [[nodiscard]] bool empty() const {
+        return shapes_.empty();
+    }
+    /// After the last add().
+    void sort() {
+        const auto less = [](const Shape& a, const Shape& b) {
+            return less_corners(a.corners, b.corners);
+        };
+        std::sort(shapes_.begin(), shapes_.end(), less);
+        const auto equal = [](const Shape& a, const Shape& b) { return a.corners == b.corners; };
+        shapes_.erase(std::unique(shapes_.begin(), shapes_.end(), equal), shapes_.end());
+        for (const Shape& shape : shapes_) {
+            corners_.insert(corners_.end(), shape.corners.begin(), shape.corners.end());
+        }
+        std::sort(corners_.begin(), corners_.end(), lexicographically_less);
+        corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+    }
+    [[nodiscard]] bool has_corner(const Double3& p) const {
+        return std::binary_search(corners_.begin(), corners_.end(), p, lexicographically_less);
+    }
+    /// Nothing of the triangle is farther than `upper` from the output.
+    void know(const Corners& triangle, double upper) {
+        const Corners c = ordered(triangle);
+        know_shape(c, upper);
+        for (std::size_t k = 0; k < 3; ++k) {
+            know_shape({c[k], c[k], c[k]}, upper);
+            const auto [low, high] = std::minmax({k, (k + 1) % 3});
+            know_shape({c[low], c[high], c[high]}, upper);
+        }
+    }
+    /// The bound of those that are known; the others go to `rest`.
+    [[nodiscard]] double find_known(std::vector<Corners>& rest) const {
+        double most = 0;
+        for (const Shape& shape : shapes_) {
+            if (shape.upper == kUnknown) {
+                rest.push_back(shape.corners);
+            } else {
+                most = std::max(most, shape.upper);
+            }
+        }
+        return most;
+    }
+
+private:
+    static constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    struct Shape {
+        Corners corners;
+        double upper;
+    };
+
+    void know_shape(const Corners& shape, double upper) {
+        const auto less = [](const Shape& a, const Corners& b) {
+            return less_corners(a.corners, b);
+        };
+        const auto at = std::lower_bound(shapes_.begin(), shapes_.end(), shape, less);
+        if (at != shapes_.end() && at->corners == shape) at->upper = std::min(at->upper, upper);
+    }
+
+    std::vector<Shape> shapes_;
+    std::vector<Double3> corners_;
+};
+
+/// The edges that an odd number of pieces has, by position, followed around from the first
+/// corner of the triangle that they are pieces of. Empty when they are not one loop.
+std::vector<Double3> find_outline(const std::vector<Corners>& pieces, const Double3& first) {
+    using Edge = std::array<Double3, 2>;
+    const auto less = [](const Edge& a, const Edge& b) {
+        return a[0] == b[0] ? lexicographically_less(a[1], b[1])
+                            : lexicographically_less(a[0], b[0]);
+    };
+    std::vector<Edge> edges;
+    for (const Corners& piece : pieces) {
+        const Corners c = ordered(piece);
+        edges.insert(edges.end(), {{c[0], c[1]}, {c[1], c[2]}, {c[0], c[2]}});
+    }
+    std::sort(edges.begin(), edges.end(), less);
+    std::vector<Edge> outline;  // either way
+    for (const Edge& edge : edges) {
+        if (!outline.empty() && outline.back() == Edge{edge[1], edge[0]}) {
+            outline.resize(outline.size() - 2);
+        } else {
+            outline.push_back(edge);
+            outline.push_back({edge[1], edge[0]});
+        }
+    }
+    std::sort(outline.begin(), outline.end(), less);
+    std::vector<Double3> loop;
+    Double3 before{}, at = first;
+    do {
+        const auto next = std::partition_point(
+            outline.begin(), outline.end(),
+            [&](const Edge& edge) { return lexicographically_less(edge[0], at); });
+        if (outline.end() - next < 2 || !(next[0][0] == at) || !(next[1][0] == at)) return {};
+        if (outline.end() - next > 2 && next[2][0] == at) return {};
+        const bool back = !loop.empty() && next[0][1] == before;
+        loop.push_back(at);
+        before = at;
+        at = next[back ? 1 : 0][1];
+    } while (!(at == first) && loop.size() <= outline.size());
+    return 2 * loop.size() == outline.size() ? loop : std::vector<Double3>{};
+}
+
+/// How far a triangle is from its pieces at most; nothing where some may be missing.
+///
+/// They are all there when the edges of an odd number of them make one loop through the
+/// three corners. For seen along the normal that loop, and so the pieces, go around every
+/// point of the triangle that is farther from its sides than the loop is; and what covers
+/// it there is not higher than a corner of a piece. A point nearer to a side than that has
+/// the loop, which passes beside all of the side, within twice as much.
+std::optional<double> distance_to_pieces(const Corners& whole, const std::vector<Corners>& pieces) {
+    const std::vector<Double3> loop = find_outline(pieces, whole[0]);
+    const auto second = std::find(loop.begin(), loop.end(), whole[1]);
+    const auto third = std::find(loop.begin(), loop.end(), whole[2]);
+    if (second == loop.end() || third == loop.end()) return std::nullopt;
+    // In the order of the loop: from corner to corner.
+    const std::array<Double3, 4> corner = second < third
+                                              ? std::array{whole[0], whole[1], whole[2], whole[0]}
+                                              : std::array{whole[0], whole[2], whole[1], whole[0]};
+    double farthest = 0;
+    std::size_t side = 0;
+    for (const Double3& p : loop) {
+        if (p == corner[side + 1]) ++side;
+        const Corners segment = {corner[side], corner[side + 1], corner[side + 1]};
+        if (p == segment[0]) continue;
+        farthest = std::max(farthest, 2 * distance_at_most(p, segment));
+    }
+    for (const Corners& piece : pieces) {
+        for (const Double3& p : piece) {
+            if (std::find(whole.begin(), whole.end(), p) != whole.end()) continue;
+            farthest = std::max(farthest, distance_at_most(p, whole));
+        }
+    }
+    return farthest;
+}
+
+/// For each source triangle of which all pieces are there, its distance to them.
+std::vector<std::optional<double>> find_pieces(const TriangleSoup& soup,
+                                               const std::vector<bool>& placed,
+                                               const RepairMesh& mesh) {
+    std::vector<std::optional<double>> bounds(soup.triangles.size());
+    struct PieceOf {
+        std::uint32_t source, triangle;
+    };
+    std::vector<PieceOf> all;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Origin& origin = mesh.triangle_origin[t];
+        if (origin.source == kNone || !origin.step) continue;
+        if (placed[origin.source]) all.push_back({origin.source, t});
+    }
+    std::sort(all.begin(), all.end(), [](const PieceOf& a, const PieceOf& b) {
+        return a.source != b.source ? a.source < b.source : a.triangle < b.triangle;
+    });
+    std::vector<Corners> pieces;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        pieces.push_back(corners_of(mesh, mesh.triangles[all[i].triangle]));
+        const std::uint32_t source = all[i].source;
+        if (i + 1 < all.size() && all[i + 1].source == source) continue;
+        const Corners whole = corners_of(soup, soup.triangles[source]);
+        if (!exact::is_degenerate(whole)) bounds[source] = distance_to_pieces(whole, pieces);
+        pieces.clear();
+    }
+    return bounds;
+}
+
+/// Tells of what is in the output, whole or in all its pieces.
+void know_output(const TriangleSoup& soup, const RepairMesh& mesh,
+                 const std::vector<std::optional<double>>& pieces, MissingShapes& missing) {
+    std::vector<bool> is_corner(mesh.positions.size());
+    for (std::size_t v = 0; v < is_corner.size(); ++v) {
+        is_corner[v] = missing.has_corner(mesh.positions[v]);
+    }
+    for (const Triangle& t : mesh.triangles) {
+        const auto& v = t.vertex;
+        if (is_corner[v[0]] || is_corner[v[1]] || is_corner[v[2]]) {
+            missing.know(corners_of(mesh, t), 0);
+        }
+    }
+    for (std::size_t t = 0; t < pieces.size(); ++t) {
+        if (pieces[t]) missing.know(corners_of(soup, soup.triangles[t]), *pieces[t]);
+    }
+}
+
+std::vector<Corners> placed_triangles(const TriangleSoup& soup, const std::vector<bool>& placed) {
+    std::vector<Corners> all;
+    all.reserve(soup.triangles.size());
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        if (placed[t]) all.push_back(corners_of(soup, soup.triangles[t]));
+    }
+    return all;
+}
+
+std::vector<Corners> all_triangles(const RepairMesh& mesh) {
+    std::vector<Corners> all;
+    all.reserve(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) all.push_back(corners_of(mesh, t));
+    return all;
+}
+
+double diagonal_of(const std::vector<Corners>& triangles) {
+    Double3 lower = triangles.empty() ? Double3{} : triangles[0][0], upper = lower;
+    for (const Corners& c : triangles) {
+        for (const Double3& p : c) {
+            lower = {std::min(lower.x, p.x), std::min(lower.y, p.y), std::min(lower.z, p.z)};
+            upper = {std::max(upper.x, p.x), std::max(upper.y, p.y), std::max(upper.z, p.z)};
+        }
+    }
+    return apart(lower, upper);
+}
+
+/// How far output triangles that are not their source are from it: no inner point is
+/// farther than a corner, since the distance to one triangle is convex. Those without a
+/// source go to `made`. Sources that are there whole are marked in `found`.
+double bound_by_sources(const TriangleSoup& soup, const std::vector<bool>& placed,
+                        const RepairMesh& mesh, std::vector<bool>& found,
+                        std::vector<Corners>& made) {
+    double upper = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const std::uint32_t source = mesh.triangle_origin[t].source;
+        const Corners triangle = corners_of(mesh, mesh.triangles[t]);
+        if (source == kNone || !placed[source]) {
+            made.push_back(shape_of(triangle));
+            continue;
+        }
+        const Corners whole = corners_of(soup, soup.triangles[source]);
+        if (same_corners(triangle, whole)) {
+            found[source] = true;
+            continue;
+        }
+        for (const Double3& corner : triangle) {
+            if (std::find(whole.begin(), whole.end(), corner) != whole.end()) continue;
+            upper = std::max(upper, distance_at_most(corner, whole));
+        }
+    }
+    return upper;
+}
+
+/// How far source triangles of which all pieces are there are from them. The others that
+/// are not `found` go to `missing`.
+double bound_by_pieces(const TriangleSoup& soup, const std::vector<bool>& placed,
+                       const std::vector<bool>& found,
+                       const std::vector<std::optional<double>>& pieces, MissingShapes& missing) {
+    double upper = 0;
+    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+        if (found[t] || !placed[t]) continue;
+        if (pieces[t]) {
+            upper = std::max(upper, *pieces[t]);
+        } else {
+            missing.add(corners_of(soup, soup.triangles[t]));
+        }
+    }
+    missing.sort();
+    return upper;
+}
+
+void widen(MovedDistance& distance, const MovedDistance& other) {
+    distance.lower = std::max(distance.lower, other.lower);
+    distance.upper = std::max(distance.upper, other.upper);
+}
+
+}  // namespace
+
+MovedDistances find_moved_distances(const TriangleSoup& soup, const RepairMesh& mesh) {
+    MovedDistances moved;
+    const std::vector<bool> placed = find_placed(soup);
+    std::vector<bool> found(soup.triangles.size(), false);
+    std::vector<Corners> made, lost;
+    moved.output_to_input.upper = bound_by_sources(soup, placed, mesh, found, made);
+    const std::vector<std::optional<double>> pieces = find_pieces(soup, placed, mesh);
+    MissingShapes missing;
+    moved.input_to_output.upper = bound_by_pieces(soup, placed, found, pieces, missing);
+    if (!missing.empty()) {
+        know_output(soup, mesh, pieces, missing);
+        widen(moved.input_to_output, {0, missing.find_known(lost)});
+    }
+    if (lost.empty() && made.empty()) return moved;
+    std::vector<Corners> input = placed_triangles(soup, placed);
+    const double diagonal = diagonal_of(input);
+    if (!lost.empty()) {
+        widen(moved.input_to_output, farthest(lost, Surface(all_triangles(mesh)), diagonal));
+    }
+    if (!made.empty()) {
+        widen(moved.output_to_input, farthest(made, Surface(std::move(input)), diagonal));
+    }
+    return moved;
+}
+
+}  // namespace cdprep::mesh

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "repair/ray_along_x.h"
+#include "repair/repair_steps.h"
+#include "repair/stored_verdict.h"
+
+namespace cdprep::mesh {
+namespace {
+
+struct Box {
+    Double3 lower{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                  std::numeric_limits<double>::infinity()};
+    Double3 upper{-lower.x, -lower.y, -lower.z};
+};
+
+Box box_of(const RepairMesh& mesh, const StoredComponent& component) {
+    Box box;
+    for (const std::uint32_t t : component.triangles) {
+        for (const std::uint32_t vertex : mesh.triangles[t].vertex) {
+            const Double3& p = mesh.positions[vertex];
+            box.lower = {std::min(box.lower.x, p.x), std::min(box.lower.y, p.y),
+                         std::min(box.lower.z, p.z)};
+            box.upper = {std::max(box.upper.x, p.x), std::max(box.upper.y, p.y),
+                         std::max(box.upper.z, p.z)};
+        }
+    }
+    return box;
+}
+
+bool contains(const Box& outer, const Box& inner) {
+    return outer.lower.x < inner.lower.x && outer.lower.y < inner.lower.y &&
+           outer.lower.z < inner.lower.z && outer.upper.x > inner.upper.x &&
+           outer.upper.y > inner.upper.y && outer.upper.z > inner.upper.z;
+}
+
+/// Whether p lies within the component: an odd winding number. False on its surface.
+bool is_within(const RepairMesh& mesh, const StoredComponent& component, const Double3& p) {
+    int winding = 0;
+    for (const std::uint32_t t : component.triangles) {
+        const auto& v = mesh.triangles[t].vertex;
+        const WindingTerm term = winding_term_along_x(
+            p, {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]});
+        if (term.on_surface) return false;
+        winding += term.crossings;
+    }
+    return winding % 2 != 0;
+}
+
+}  // namespace
+
+Stepped orient_outward(RepairMesh mesh) {
+    StepReport report(RepairStep::orient_outward);
+    const std::vector<StoredComponent> components =
+        find_stored_components(mesh.positions, mesh.triangles);
+    std::vector<Box> boxes;
+    boxes.reserve(components.size());
+    for (const StoredComponent& component : components) boxes.push_back(box_of(mesh, component));
+    std::vector<std::size_t> turned;
+    for (std::size_t i = 0; i < components.size(); ++i) {
+        const StoredComponent& component = components[i];
+        if (!component.balanced || !(component.volume < -component.volume_error)) continue;
+        std::size_t around = 0;
+        const Double3& p = mesh.positions[mesh.triangles[component.triangles[0]].vertex[0]];
+        for (std::size_t j = 0; j < components.size(); ++j) {
+            if (j == i || !components[j].balanced || !contains(boxes[j], boxes[i])) continue;
+            if (is_within(mesh, components[j], p)) ++around;
+        }
+        if (around % 2 == 0) turned.push_back(i);  // an odd number: a cavity, wound as one
+    }
+    for (const std::size_t i : turned) {
+        for (const std::uint32_t t : components[i].triangles) {
+            std::swap(mesh.triangles[t].vertex[1], mesh.triangles[t].vertex[2]);
+            report.reversed.push_back(mesh.triangle_origin[t].source);
+        }
+    }
+    return {std::move(mesh), std::move(report)};
+}
+
+}  // namespace cdprep::mesh

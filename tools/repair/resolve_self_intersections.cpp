@@ -1,0 +1,373 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <optional>
+
+#include "cdprep/exact/predicates.h"
+#include "mesh/around_edge.h"
+#include "repair/cut_crossings.h"
+#include "repair/ray_along_x.h"
+#include "repair/repair_steps.h"
+#include "repair/stored_verdict.h"
+
+namespace cdprep::mesh {
+namespace {
+
+constexpr std::size_t kMostTestPoints = 256;  ///< of a component, to find one off the others
+
+/// One triangle for all with the same corners: how many more are wound like it than not.
+struct Facet {
+    Triangle triangle;
+    std::uint32_t first;  ///< the lowest of the mesh
+    std::uint32_t last;   ///< the highest
+    int count = 0;
+};
+
+std::vector<Facet> join_facets(const std::vector<Triangle>& triangles) {
+    struct Key {
+        std::array<std::uint32_t, 3> corners;
+        std::uint32_t triangle;
+        bool turned;
+        bool operator<(const Key& other) const {
+            return corners != other.corners ? corners < other.corners : triangle < other.triangle;
+        }
+    };
+    std::vector<Key> keys;
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+        std::array<std::uint32_t, 3> c = {triangles[t].vertex[0], triangles[t].vertex[1],
+                                          triangles[t].vertex[2]};
+        std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
+        const bool turned = c[1] > c[2];
+        if (turned) std::swap(c[1], c[2]);
+        keys.push_back({c, t, turned});
+    }
+    std::sort(keys.begin(), keys.end());
+    std::vector<Facet> facets;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (i == 0 || keys[i].corners != keys[i - 1].corners) {
+            const auto& c = keys[i].corners;
+            facets.push_back({{{c[0], c[1], c[2]}}, keys[i].triangle, keys[i].triangle});
+        }
+        facets.back().last = keys[i].triangle;
+        facets.back().count += keys[i].turned ? -1 : 1;
+    }
+    return facets;
+}
+
+/// The winding number on either side of every facet of a mesh without crossings.
+///
+/// Around each edge the side of one facet is the side of the next: so sides join to cells,
+/// of one number each. Across a facet the number changes by its count. What is left open,
+/// a number for each part of the mesh that hangs together by edges, is found outside of
+/// the part: where the edge of its outline lies, the number is that of the other parts.
+class Windings {
+public:
+    Windings(const std::vector<Double3>& positions, const std::vector<Facet>& facets)
+        : positions_(positions),
+          facets_(facets),
+          cells_(2 * facets.size()),
+          parts_(facets.size()),
+          number_(2 * facets.size(), 0) {
+        for (const Facet& facet : facets) triangles_.push_back(facet.triangle);
+        edges_ = find_edge_uses(triangles_, positions.size());
+        join_sides();
+    }
+
+    /// False when the counts of the facets around some edge do not cancel, or when stopped.
+    bool find(const StopCheck& stop) {
+        std::vector<std::vector<std::uint32_t>> members(facets_.size());
+        for (std::uint32_t f = 0; f < facets_.size(); ++f) members[parts_.lowest(f)].push_back(f);
+        collect_links();
+        for (const auto& part : members) {
+            if (!part.empty() && !number_part(part, stop)) return false;
+        }
+        return true;
+    }
+
+    /// In front of a facet, where its normal points, and behind it.
+    [[nodiscard]] int front(std::uint32_t facet) const {
+        return number_[std::size_t{2} * facet];
+    }
+    [[nodiscard]] int behind(std::uint32_t facet) const {
+        return number_[std::size_t{2} * facet + 1];
+    }
+
+private:
+    /// The side of a half-edge's facet that comes after it, with rising angle: the front of
+    /// one that closes, the back of one that opens.
+    static std::uint32_t side_after(const AroundEdge& around, HalfEdge h) {
+        return 2 * (h / 3) + (around.opens(h) ? 1 : 0);
+    }
+    static std::uint32_t side_before(const AroundEdge& around, HalfEdge h) {
+        return 2 * (h / 3) + (around.opens(h) ? 0 : 1);
+    }
+
+    void join_sides() {
+        for (std::size_t edge = 0; edge < edges_.edge_count(); ++edge) {
+            const auto uses = edges_.of(edge);
+            const AroundEdge around(positions_, triangles_, uses);
+            const std::vector<HalfEdge> order = around.sorted(uses);
+            for (std::size_t i = 0; i < order.size(); ++i) {
+                const HalfEdge next = order[(i + 1) % order.size()];
+                cells_.join(side_after(around, order[i]), side_before(around, next));
+                parts_.join(order[i] / 3, next / 3);
+            }
+        }
+    }
+
+    /// For each cell the facets that have a side in it.
+    void collect_links() {
+        links_.resize(2 * facets_.size());
+        for (std::uint32_t side = 0; side < 2 * facets_.size(); ++side) {
+            links_[cells_.lowest(side)].push_back(side);
+        }
+    }
+
+    bool number_part(const std::vector<std::uint32_t>& part, const StopCheck& stop) {
+        const std::uint32_t outer = cells_.lowest(outer_side(part));
+        std::vector<std::optional<int>>& known = known_;
+        known.resize(2 * facets_.size());
+        known[outer] = number_of_others(part, stop);
+        if (is_stopped(stop)) return false;
+        std::deque<std::uint32_t> queue = {outer};
+        while (!queue.empty()) {
+            const std::uint32_t cell = queue.front();
+            queue.pop_front();
+            for (const std::uint32_t side : links_[cell]) {
+                number_[side] = *known[cell];
+                // Behind a facet the number is higher by its count than in front of it.
+                const int change = facets_[side / 2].count * (side % 2 == 0 ? 1 : -1);
+                const std::uint32_t across = cells_.lowest(side ^ 1U);
+                if (!known[across]) {
+                    known[across] = *known[cell] + change;
+                    queue.push_back(across);
+                } else if (*known[across] != *known[cell] + change) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    /// A side from which the outside of the part is seen. Of the part's lowest vertex the
+    /// edge is taken that bounds its outline as seen along z; beyond it there is nothing.
+    std::uint32_t outer_side(const std::vector<std::uint32_t>& part) const {
+        const auto less = [&](std::uint32_t a, std::uint32_t b) {
+            const Double3 &p = positions_[a], &q = positions_[b];
+            return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z;
+        };
+        std::uint32_t lowest = triangles_[part[0]].vertex[0];
+        for (const std::uint32_t f : part) {
+            for (const std::uint32_t vertex : triangles_[f].vertex) {
+                if (less(vertex, lowest)) lowest = vertex;
+            }
+        }
+        const auto seen = [&](std::uint32_t vertex) {
+            return Double2{positions_[vertex].x, positions_[vertex].y};
+        };
+        HalfEdge outline = kNone;
+        std::uint32_t to = kNone;
+        for (const std::uint32_t f : part) {
+            for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+                const std::uint32_t a = start_of(triangles_, h), b = end_of(triangles_, h);
+                if (a != lowest && b != lowest) continue;
+                const std::uint32_t other = a == lowest ? b : a;
+                const Double2 at = seen(lowest), there = seen(other);
+                if (at.x == there.x && at.y == there.y) continue;
+                if (to == kNone || exact::orient2d(at, seen(to), there) < 0) {
+                    outline = h;
+                    to = other;
+                }
+            }
+        }
+        const Double2 at = seen(lowest), there = seen(to);
+        const Double3& p = positions_[lowest];
+        // To the right of the outline's edge, along which everything lies to the left.
+        const Double3 beyond{p.x + (there.y - at.y), p.y - (there.x - at.x), p.z};
+        return first_side_from(outline, beyond, part);
+    }
+
+    std::uint32_t first_side_from(HalfEdge outline, const Double3& beyond,
+                                  const std::vector<std::uint32_t>& part) const {
+        const std::uint32_t a = start_of(triangles_, outline), b = end_of(triangles_, outline);
+        std::vector<HalfEdge> uses;
+        for (const std::uint32_t f : part) {
+            for (HalfEdge h = 3 * f; h < 3 * f + 3; ++h) {
+                const std::uint32_t s = start_of(triangles_, h), e = end_of(triangles_, h);
+                if ((s == a && e == b) || (s == b && e == a)) uses.push_back(h);
+            }
+        }
+        const AroundEdge around(positions_, triangles_, outline, beyond);
+        return side_before(around, around.sorted(uses).front());
+    }
+
+    /// The winding number of all other parts at this one.
+    int number_of_others(const std::vector<std::uint32_t>& part, const StopCheck& stop) {
+        const std::uint32_t own = parts_.lowest(part[0]);
+        std::size_t left = kMostTestPoints;
+        for (const std::uint32_t f : part) {
+            for (const std::uint32_t vertex : triangles_[f].vertex) {
+                if (left-- == 0 || is_stopped(stop)) return 0;
+                if (const auto number = number_at(positions_[vertex], own)) return *number;
+            }
+        }
+        return 0;
+    }
+
+    std::optional<int> number_at(const Double3& p, std::uint32_t own) {
+        int number = 0;
+        for (std::uint32_t f = 0; f < facets_.size(); ++f) {
+            if (parts_.lowest(f) == own) continue;
+            const auto& v = triangles_[f].vertex;
+            const WindingTerm term =
+                winding_term_along_x(p, {positions_[v[0]], positions_[v[1]], positions_[v[2]]});
+            if (term.on_surface) return std::nullopt;
+            number += term.crossings * facets_[f].count;
+        }
+        return number;
+    }
+
+    const std::vector<Double3>& positions_;
+    const std::vector<Facet>& facets_;
+    std::vector<Triangle> triangles_;
+    EdgeUses edges_;
+    Groups cells_;             ///< of sides: 2 f is the front of facet f, 2 f + 1 its back
+    Groups parts_;             ///< of facets that hang together by edges
+    std::vector<int> number_;  ///< of each side
+    std::vector<std::vector<std::uint32_t>> links_;
+    std::vector<std::optional<int>> known_;  ///< by the lowest side of a cell
+};
+
+Stepped refused(RepairMesh mesh, const std::string& sentence,
+                const std::vector<std::uint32_t>& triangles, const Double3& position) {
+    StepReport report(RepairStep::resolve_self_intersections);
+    report.refused.push_back({sentence, triangles, {}, position, 0});
+    return {std::move(mesh), std::move(report)};
+}
+
+/// The sentence for a pair, and its numbers.
+Stepped refused_pair(RepairMesh mesh, const RepairMesh& pieces, std::uint32_t a, std::uint32_t b,
+                     const std::string& why) {
+    return refused(std::move(mesh),
+                   triangle_in_words(pieces, a) + " and " + triangle_in_words(pieces, b) + why,
+                   {pieces.triangle_origin[a].source, pieces.triangle_origin[b].source},
+                   pieces.positions[pieces.triangles[a].vertex[0]]);
+}
+
+/// A limit or an interrupt ended the search for pairs.
+Stepped refused_search(RepairMesh mesh, const Meetings& some) {
+    return refused(std::move(mesh),
+                   "at least " + std::to_string(some.pairs.size()) +
+                       " pairs of triangles meet, and the limit ended the search for more.",
+                   {}, {});
+}
+
+/// The facets between winding number 0 and another, wound outwards.
+RepairMesh keep_boundary(const RepairMesh& mesh, const std::vector<Facet>& facets,
+                         const Windings& windings) {
+    std::vector<std::optional<Triangle>> kept(mesh.triangles.size());
+    for (std::uint32_t f = 0; f < facets.size(); ++f) {
+        const bool front = windings.front(f) != 0, behind = windings.behind(f) != 0;
+        if (front == behind) continue;
+        Triangle triangle = facets[f].triangle;
+        if (front) std::swap(triangle.vertex[1], triangle.vertex[2]);
+        kept[facets[f].first] = triangle;
+    }
+    RepairMesh boundary = mesh;
+    boundary.triangles.clear();
+    boundary.triangle_origin.clear();
+    for (std::size_t t = 0; t < kept.size(); ++t) {
+        if (!kept[t]) continue;
+        // Corners as they were, where the winding is: the first is no other.
+        Triangle triangle = mesh.triangles[t];
+        const auto& v = kept[t]->vertex;
+        const auto at = std::find(v.begin(), v.end(), triangle.vertex[0]) - v.begin();
+        const std::uint32_t next = v[(static_cast<std::size_t>(at) + 1) % 3];
+        if (next != triangle.vertex[1]) std::swap(triangle.vertex[1], triangle.vertex[2]);
+        boundary.triangles.push_back(triangle);
+        boundary.triangle_origin.push_back(mesh.triangle_origin[t]);
+    }
+    return boundary;
+}
+
+/// What of `before` is not in `after`, and what is in pieces there.
+void account(const RepairMesh& before, const RepairMesh& after, StepReport& report) {
+    std::uint32_t most = 0;
+    for (const Origin& origin : before.triangle_origin) {
+        if (origin.source != kNone) most = std::max(most, origin.source + 1);
+    }
+    std::vector<bool> there(most, false), cut(most, false);
+    for (const Origin& origin : after.triangle_origin) {
+        if (origin.source == kNone) continue;
+        there[origin.source] = true;
+        if (origin.step == report.step) cut[origin.source] = true;
+    }
+    std::vector<bool> told(most, false);
+    for (const Origin& origin : before.triangle_origin) {
+        if (origin.source == kNone || told[origin.source]) continue;
+        told[origin.source] = true;
+        if (!there[origin.source]) report.dropped.push_back({origin.source, DropReason::inside});
+        if (cut[origin.source]) report.cut.push_back(origin.source);
+    }
+    for (const Origin& origin : after.vertex_origin) {
+        if (origin.step == report.step) ++report.added_vertices;
+    }
+}
+
+}  // namespace
+
+Stepped resolve_self_intersections(RepairMesh mesh, const SearchOptions& search,
+                                   const StopCheck& stop) {
+    const Meetings meetings = find_meetings(mesh, search);
+    if (!meetings.is_complete) return refused_search(mesh, meetings);
+    if (meetings.pairs.empty()) {
+        return {std::move(mesh), StepReport(RepairStep::resolve_self_intersections)};
+    }
+    const TriangleMeeting& first = meetings.pairs.front();
+    if (count_unpaired_uses(mesh.positions, mesh.triangles) > 0) {
+        return refused_pair(mesh, mesh, first.a, first.b,
+                            " meet, and the mesh is open: it has no inside to keep.");
+    }
+    CutMesh cut = cut_crossings(mesh, search, stop);
+    if (!cut.failed.empty()) {
+        return refused_pair(mesh, mesh, first.a, first.b, " meet, and " + cut.failed + ".");
+    }
+    if (cut.left) {
+        return refused_pair(mesh, cut.mesh, cut.left->a, cut.left->b,
+                            " still meet after their cuts were rounded.");
+    }
+    const std::vector<Facet> facets = join_facets(cut.mesh.triangles);
+    Windings windings(cut.mesh.positions, facets);
+    const bool add_up = windings.find(stop);
+    if (is_stopped(stop)) {
+        return refused_pair(mesh, mesh, first.a, first.b,
+                            " meet, and finding the inside took longer than was allowed.");
+    }
+    if (!add_up) {
+        return refused_pair(mesh, mesh, first.a, first.b,
+                            " meet, and around a cut edge winding numbers do not add up.");
+    }
+    for (std::uint32_t f = 0; f < facets.size(); ++f) {
+        if (windings.front(f) == 0 && windings.behind(f) == 0) {
+            return refused_pair(mesh, cut.mesh, facets[f].first, facets[f].last,
+                                " are two sides of a sheet that bounds nothing: it would be lost.");
+        }
+    }
+    Stepped parted = split_non_manifold(keep_boundary(cut.mesh, facets, windings));
+    StepReport report(RepairStep::resolve_self_intersections);
+    std::vector<std::uint32_t> unused;
+    drop_unused_vertices(parted.mesh, unused);
+    account(mesh, parted.mesh, report);
+    report.unused = std::move(unused);
+    report.parted = std::move(parted.report.parted);
+    const Meetings after = find_meetings(parted.mesh, search);
+    if (!after.pairs.empty()) {
+        return refused_pair(mesh, parted.mesh, after.pairs[0].a, after.pairs[0].b,
+                            " meet in what would bound the solid.");
+    }
+    if (!after.is_complete) return refused_search(mesh, after);
+    return {std::move(parted.mesh), std::move(report)};
+}
+
+}  // namespace cdprep::mesh

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "text/number_text.h"
+
+#include <array>
+#include <charconv>
+#include <cstdio>
+
+namespace cdprep::report {
+
+std::string number_text(double number) {
+    constexpr std::size_t kLongest = 32;
+    std::array<char, kLongest> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+    return {digits.data(), end};
+}
+
+std::string fixed(double value, int digits) {
+    // The largest double has 309 digits before the point.
+    std::array<char, 384> text{};
+    const int size = std::snprintf(text.data(), text.size(), "%.*f", digits, value);
+    return {text.data(), static_cast<std::size_t>(size)};
+}
+
+std::string in_six_digits(double value) {
+    std::array<char, 32> text{};
+    const int size = std::snprintf(text.data(), text.size(), "%.6g", value);
+    return {text.data(), static_cast<std::size_t>(size)};
+}
+
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+}  // namespace cdprep::report

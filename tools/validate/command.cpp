@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "cli/colour.h"
+#include "cli/command.h"
+#include "cli/import_arguments.h"
+#include "cli/input_list.h"
+#include "cli/interrupt.h"
+#include "cli/progress.h"
+#include "text/printable.h"
+#include "validate/validation_writer.h"
+#include "cli/report_output.h"
+#include "cli/usage.h"
+#include "validate/validation.h"
+#include "validate/validation_page.h"
+
+namespace cdprep::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using report::ValidationFormat;
+
+constexpr std::size_t kTextPlaces = 3;       ///< a person reads the first
+constexpr std::size_t kServicePlaces = 100;  ///< services that show SARIF or JUnit cut long lists
+constexpr std::uint64_t kMostPlaces = 100'000'000;
+
+const std::map<std::string, ValidationFormat> kFormats = {{"text", ValidationFormat::text},
+                                                          {"json", ValidationFormat::json},
+                                                          {"ndjson", ValidationFormat::ndjson},
+                                                          {"sarif", ValidationFormat::sarif},
+                                                          {"junit", ValidationFormat::junit}};
+
+struct Arguments {
+    std::vector<std::string> inputs;
+    std::string files_from;
+    fs::path output;
+    fs::path html;
+    fs::path baseline;
+    std::string format = "text";
+    std::string progress = "auto";
+    std::string colour = "auto";
+    std::vector<std::string> rules;
+    std::vector<std::string> fail_on;
+    std::optional<std::size_t> max_issues;
+    std::size_t threads = 0;
+    bool null = false;
+    bool no_crossings = false;
+    ImportArguments import;
+    ValidationOptions options;
+};
+
+fs::path spelled_out(const fs::path& path) {
+    return fs::absolute(path).lexically_normal();
+}
+
+Result<std::vector<Input>> inputs_for(const Arguments& arguments) {
+    if (arguments.inputs.empty() && arguments.files_from.empty()) {
+        return Error{ErrorCode::bad_argument,
+                     "no input. Name files, folders or patterns, or a list with --files-from."};
+    }
+    std::vector<Input> inputs = list_inputs(arguments.inputs);
+    if (arguments.files_from.empty()) return inputs;
+    const Result<std::vector<std::string>> listed =
+        read_file_list(arguments.files_from, arguments.null ? ListEnd::nul : ListEnd::line);
+    if (!listed) return listed.error();
+    add_inputs(inputs, listed.value());
+    return inputs;
+}
+
+/// Fails when a report would replace what it is made from, or the other one.
+Result<Done> check_output(const Arguments& arguments, const std::vector<Input>& inputs) {
+    std::set<fs::path> taken;
+    for (const Input& input : inputs) taken.insert(spelled_out(input.path));
+    if (!arguments.baseline.empty()) taken.insert(spelled_out(arguments.baseline));
+    for (const fs::path& output : {arguments.output, arguments.html}) {
+        if (output.empty() || taken.insert(spelled_out(output)).second) continue;
+        return Error{ErrorCode::bad_argument,
+                     output.string() +
+                         " is an input, the baseline or another output and would be replaced. "
+                         "Choose another name."};
+    }
+    return Done{};
+}
+
+Result<report::Baseline> read_baseline(const fs::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::string text;
+    std::getline(file, text, '\0');  // no JSON has one; unlike an iterator, it never throws
+    if (!file.is_open() || file.bad()) {
+        return Error{ErrorCode::unreadable, path.string() + ": the baseline cannot be read."};
+    }
+    return report::Baseline::parse(text, path.string());
+}
+
+/// One run: files side by side, their reports in the order of the files.
+class Run {
+public:
+    Run(const ValidationOptions& options, ValidationFormat format, ReportOutput output,
+        std::optional<ValidationPage> page, Progress& progress)
+        : options_(options),
+          writer_(format, options.run),
+          shows_errors_(format == ValidationFormat::text && !output.is_file() &&
+                        ::isatty(STDOUT_FILENO) != 0),
+          output_(std::move(output)),
+          page_(std::move(page)),
+          progress_(progress) {}
+
+    Exit all(const std::vector<Input>& inputs, const Threads& threads) {
+        deliver(writer_.head());
+        // A report on standard output is a whole document also when work is given up.
+        const LastWords words([this] { give_up(); });
+        threads.run_in_order(inputs.size(), [&](std::size_t i) -> std::function<void()> {
+            if (is_over()) return [] {};
+            auto validation = std::make_shared<Validation>(
+                validate(inputs[i], options_, threads, [&](const char* stage) {
+                    show(report::printable(inputs[i].path.filename().string()) + ": " + stage);
+                }));
+            if (!page_) validation->soup = {};  // before it waits for its turn
+            return [this, validation] { take(*validation); };
+        });
+        return finish();
+    }
+
+private:
+    [[nodiscard]] bool is_over() const {
+        return is_interrupted() || is_stuck_;
+    }
+
+    void show(const std::string& what) {
+        const std::lock_guard lock(progress_mutex_);
+        progress_.show(done_, what);
+    }
+
+    void take(Validation& validation) {
+        const report::ValidationReport& report = validation.report;
+        const std::lock_guard lock(progress_mutex_);
+        if (is_over()) return;
+        progress_.clear();
+        ++done_;
+        if (report.error && !report.known_error && !shows_errors_) {
+            std::cerr << "cdprep validate: " << report::printable(*report.error) << '\n';
+        }
+        deliver(writer_.add(report));
+        if (page_) page_->add(std::move(validation));
+    }
+
+    void deliver(const std::string& text) {
+        if (is_stuck_) return;
+        if (const Result<Done> done = output_.append(text); !done) stop(done.error());
+    }
+
+    void stop(const Error& error) {
+        stuck_ = fail("validate", error);
+        is_stuck_ = true;
+    }
+
+    /// Ends the report that is written as work goes on.
+    void give_up() {
+        const std::unique_lock lock(progress_mutex_, std::try_to_lock);
+        if (!lock || is_ended_ || output_.is_file()) return;
+        is_ended_ = true;  // the command may get as far as its own end before the program ends
+        writer_.set_interrupted(static_cast<int>(Exit::interrupted));
+        deliver(writer_.tail());
+        static_cast<void>(output_.finish());
+    }
+
+    Exit finish() {
+        const std::lock_guard lock(progress_mutex_);
+        if (is_ended_) return Exit::interrupted;
+        is_ended_ = true;
+        const bool interrupted = is_interrupted();
+        if (interrupted) writer_.set_interrupted(static_cast<int>(Exit::interrupted));
+        deliver(writer_.tail());
+        const auto exit = static_cast<Exit>(writer_.totals().exit);
+        if (!is_stuck_ && !(interrupted && output_.is_file())) {
+            if (const Result<Done> done = output_.finish(); !done) stop(done.error());
+        }
+        if (!is_stuck_ && !interrupted && page_) {
+            if (const Result<Done> done = page_->finish(); !done) stop(done.error());
+        }
+        return std::max(exit, stuck_);
+    }
+
+    const ValidationOptions& options_;
+    report::ValidationWriter writer_;
+    bool shows_errors_;  ///< the report does, to who would read them on stderr too
+    ReportOutput output_;
+    std::optional<ValidationPage> page_;
+    Progress& progress_;
+    std::mutex progress_mutex_;
+    std::size_t done_ = 0;
+    bool is_ended_ = false;
+    std::atomic<bool> is_stuck_ = false;  ///< the output takes no more
+    Exit stuck_ = Exit::success;
+};
+
+std::size_t default_places(ValidationFormat format) {
+    switch (format) {
+        case ValidationFormat::text:
+            return kTextPlaces;
+        case ValidationFormat::sarif:
+        case ValidationFormat::junit:
+            return kServicePlaces;
+        default:
+            return mesh::DefectOptions{}.max_places;
+    }
+}
+
+/// What the arguments say, checked, without what has to be read.
+Result<Done> settle(Arguments& arguments) {
+    const auto rules = report::RuleSettings::parse(arguments.rules, arguments.fail_on);
+    if (!rules) return rules.error();
+    mesh::DefectOptions& defects = arguments.options.defects;
+    defects.crossings = !arguments.no_crossings;
+    report::ValidationRun& run = arguments.options.run;
+    run.tool_version = CDPREP_VERSION;
+    run.rules = rules.value();
+    run.baseline = arguments.baseline.string();
+    run.folder = fs::current_path();
+    run.max_places = arguments.max_issues.value_or(default_places(kFormats.at(arguments.format)));
+    // A page marks places in the mesh, however few the report lists.
+    arguments.options.kept_places =
+        arguments.html.empty() || arguments.max_issues
+            ? run.max_places
+            : std::max(run.max_places, mesh::DefectOptions{}.max_places);
+    run.weld_distance = defects.weld_distance;
+    run.seam_width = defects.seam_width;
+    run.crossings = defects.crossings;
+    run.coloured = arguments.output.empty() && is_coloured(arguments.colour);
+    run.max_pairs = defects.max_pairs;
+    arguments.options.import = arguments.import.options();
+    return Done{};
+}
+
+Exit run(Arguments& arguments) {
+    const Result<Done> settled = settle(arguments);
+    if (!settled) return fail("validate", settled.error());
+    const Result<ProgressStyle> style = parse_progress(arguments.progress);
+    if (!style) return fail("validate", style.error());
+    const Result<std::vector<Input>> inputs = inputs_for(arguments);
+    if (!inputs) return fail("validate", inputs.error());
+    const Result<Done> checked = check_output(arguments, inputs.value());
+    if (!checked) return fail("validate", checked.error());
+    std::optional<report::Baseline> baseline;
+    if (!arguments.baseline.empty()) {
+        Result<report::Baseline> known = read_baseline(arguments.baseline);
+        if (!known) return fail("validate", known.error());
+        baseline = std::move(known).value();
+        arguments.options.baseline = &*baseline;
+    }
+    Result<ReportOutput> output = ReportOutput::open(arguments.output);
+    if (!output) return fail("validate", output.error());
+    std::optional<ValidationPage> page;
+    if (!arguments.html.empty()) {
+        Result<ValidationPage> opened = ValidationPage::open(arguments.html);
+        if (!opened) return fail("validate", opened.error());
+        page.emplace(std::move(opened).value());
+    }
+    const Threads threads(arguments.threads);
+    Progress progress(style.value(), inputs.value().size());
+    return Run(arguments.options, kFormats.at(arguments.format), std::move(output).value(),
+               std::move(page), progress)
+        .all(inputs.value(), threads);
+}
+
+void add_judging_options(CLI::App& command, Arguments& arguments) {
+    command
+        .add_option("--fail-on", arguments.fail_on,
+                    "error, warning, note or a rule: what makes the exit code 1. May be given "
+                    "again. Default: error")
+        ->allow_extra_args(false);
+    command
+        .add_option(
+            "--rule", arguments.rules,
+            "RULE=off, note, warn (or warning) or error, for its id or name. May be given again; "
+            "'cdprep explain' lists all")
+        ->allow_extra_args(false);
+    command.add_option("--baseline", arguments.baseline,
+                       "An older report of --format json: only what it lacks is listed and "
+                       "makes the run fail");
+    command
+        .add_option("--max-issues", arguments.max_issues,
+                    "Most places to list of each rule in a file; counts stay true. Default: 3 in "
+                    "text, 100 in sarif and junit, else 1000")
+        ->check(whole_from(0, kMostPlaces));
+    command
+        .add_option("--weld", arguments.options.defects.weld_distance,
+                    "Look for vertices this close, in model units; 0: not")
+        ->check(zero_or_more())
+        ->capture_default_str();
+    command
+        .add_option("--seam-width,--seam", arguments.options.defects.seam_width,
+                    "Look for boundaries this close, in model units; 0: not")
+        ->check(zero_or_more())
+        ->capture_default_str();
+    add_max_pairs(command, arguments.options.defects.max_pairs);
+    command.add_flag("--no-crossings", arguments.no_crossings,
+                     "Leave out CDP0403 and CDP0501 to CDP0503; the verdict then says so");
+}
+
+}  // namespace
+
+void add_validate(CLI::App& app, Exit& exit) {
+    auto arguments = std::make_shared<Arguments>();
+    CLI::App* command = app.add_subcommand("validate", "Say what is wrong with meshes, and where");
+    command->footer("Triangles and vertices are numbered as in the file, from 0.");
+    command->add_option("input", arguments->inputs,
+                        "Mesh files, folders of them, or patterns such as 'assets/**/*.obj'");
+    CLI::Option* list =
+        command->add_option("--files-from", arguments->files_from,
+                            "A file that lists inputs, a file or folder in each line and no "
+                            "patterns; empty lines are skipped. -: standard input");
+    command
+        ->add_flag("-0,--null", arguments->null,
+                   "Names in the list end with NUL, as git -z and find -print0 write them")
+        ->needs(list);
+    command->add_option("--format", arguments->format, "text, json, ndjson, sarif or junit")
+        ->check(one_of({"text", "json", "ndjson", "sarif", "junit"}))
+        ->capture_default_str();
+    command->add_option("-o,--output", arguments->output, "Default: standard output");
+    command->add_option("--html", arguments->html,
+                        "Also write one HTML page that draws the meshes and marks what was "
+                        "found; holds all meshes in memory");
+    add_judging_options(*command, *arguments);
+    add_jobs(*command, arguments->threads);
+    command->add_flag("--timings", arguments->options.run.timings, "Report how long stages took");
+    add_progress(*command, arguments->progress);
+    add_colour(*command, arguments->colour);
+    add_import_arguments(*command, arguments->import);
+    command->callback([arguments, &exit] { exit = run(*arguments); });
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesh/component_numbers.h"
+#include "validate/defects/component_pairs.h"
+#include "validate/defects/copies.h"
+#include "validate/defects/finding_list.h"
+#include "mesh/nesting.h"
+#include "crossings/self_intersections.h"
+#include "validate/defects/sound_mesh.h"
+
+namespace cdprep::mesh {
+
+/// What meetings of triangles say of components.
+struct ComponentMeetings {
+    std::vector<bool> self_crossing;  ///< per component: two of its triangles meet
+    std::vector<bool> overlapping;    ///< per nested pair: the two components overlap
+    bool any = false;                 ///< any two triangles meet
+    bool is_complete = true;          ///< all pairs of triangles were examined
+};
+
+/// What the meetings are of, and what is asked about them. References must outlive the use.
+struct MeetingGrounds {
+    const Copies& copies;
+    const SoundMesh& sound;
+    const ComponentNumbers& components;
+    const std::vector<Nested>& nested;  ///< sorted by inner, then outer
+};
+
+/// CDP0403 and CDP0501 to 0503, and the counts of pairs. Counts and lists what
+/// find_self_intersections() would find, pair by pair, at the cost of the distinct meetings
+/// and of the places that are kept; if the limits end the search, what it found until then.
+/// Memory is linear in the mesh and in the places, whatever the number of pairs.
+[[nodiscard]] ComponentMeetings list_meetings(const MeetingGrounds& grounds,
+                                              const SearchOptions& options, FindingList& findings,
+                                              DefectCounts& counts);
+
+}  // namespace cdprep::mesh
