@@ -1,39 +1,153 @@
-# Fails when a file includes something its folder may not know about.
+# Fails when a file includes something that its room may not know about.
 # Run by ctest as: cmake -D ROOT=<source dir> -P check_includes.cmake
+
+cmake_minimum_required(VERSION 3.25)
+
+# A room, then the rooms beside itself whose headers it may include. Public headers of the library,
+# "cdprep/...", may be included everywhere but in format, which may include its own alone. Rooms
+# further down know more; no two know each other.
+set(lib_rooms
+    "exact:"
+    "kernels:"
+    "core: exact"
+    "build: core exact"
+    "walk: core exact kernels"
+    "hull: core exact kernels"
+    "pieces: core exact hull walk"
+    "query: core exact pieces walk"
+    "cells: build core exact kernels walk"
+    "c: core kernels pieces walk")
+set(tools_rooms
+    "mesh:"
+    "page:"
+    "text:"
+    "write:"
+    "import: mesh"
+    "import/child: import"
+    "crossings: mesh"
+    "cli: import mesh text write"
+    "validate/defects: crossings mesh"
+    "validate: cli import mesh page text validate/defects"
+    "hull: cli mesh text write"
+    "repair: cli crossings import mesh text validate/defects write"
+    "decompose/surface: hull mesh text"
+    "decompose/enclose: cli decompose/surface hull mesh text write"
+    "decompose: cli decompose/enclose decompose/surface hull text write"
+    "bake: cli crossings decompose/enclose decompose/surface hull import mesh repair text validate\
+ validate/defects write"
+    "info: bake cli decompose/surface hull mesh study text validate/defects"
+    "study: bake decompose/enclose decompose/surface mesh"
+    "accuracy: cli decompose/enclose hull mesh page study text"
+    "compare/cells: mesh study"
+    "compare: cli compare/cells decompose/surface hull import mesh page query study text"
+    "query: bake cli compare/cells mesh text write")
+
+# A library of others: the pattern of its headers, then the folders that may know it.
+set(libraries
+    "xxh:format/src/checksum.cpp"
+    "assimp/|zip\\.h|pugixml:tools/import/child"
+    "H5|hdf5:tools/write"
+    "CGAL/:tools/decompose/enclose tools/info tools/query tools/repair"
+    "Eigen/:tools/mesh"
+    "CLI/:tools/cli"
+    "tbb/|oneapi/:tools/cli/program_threads.cpp"
+    "nlohmann/:tools/accuracy tools/bake tools/compare tools/decompose tools/hull tools/info\
+ tools/page tools/repair tools/text tools/validate")
+
 set(offences "")
-function(forbid folder pattern)
-    file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.cpp)
-    foreach(file IN LISTS files)
-        file(STRINGS ${file} hits REGEX "^ *# *include *[<\"](${pattern})")
-        foreach(hit IN LISTS hits)
-            string(APPEND offences "\n  ${file}: ${hit}")
+function(add_offence file hit)
+    file(RELATIVE_PATH name ${ROOT} ${file})
+    set(offences "${offences}\n  ${name}: ${hit}" PARENT_SCOPE)
+endfunction()
+
+# The room of an include is its folder; a header without one is of the same room.
+function(check_rooms base rooms)
+    foreach(row IN LISTS rooms)
+        string(REGEX MATCH "^([^:]*):(.*)$" row "${row}")
+        set(room ${CMAKE_MATCH_1})
+        string(REGEX MATCHALL "[a-z/]+" known "${CMAKE_MATCH_2}")
+        file(GLOB files ${ROOT}/${base}/${room}/*.h ${ROOT}/${base}/${room}/*.cpp)
+        foreach(file IN LISTS files)
+            file(STRINGS ${file} hits REGEX "^ *# *include *\"[^\"]*/")
+            foreach(hit IN LISTS hits)
+                string(REGEX REPLACE "^[^\"]*\"(.*)/[^/]*$" "\\1" from "${hit}")
+                if(NOT from MATCHES "^cdprep(/|$)" AND NOT from STREQUAL room
+                   AND NOT from IN_LIST known)
+                    add_offence(${file} "${hit}")
+                endif()
+            endforeach()
         endforeach()
     endforeach()
     set(offences "${offences}" PARENT_SCOPE)
 endfunction()
 
-set(json "nlohmann")
-set(heavy "hdf5|H5|assimp|CGAL|Eigen|CLI|tbb|oneapi|${json}")
+# Every folder with sources must stand in the table.
+function(check_listed base rooms)
+    file(GLOB_RECURSE files RELATIVE ${ROOT}/${base} ${ROOT}/${base}/*.cpp)
+    foreach(file IN LISTS files)
+        cmake_path(GET file PARENT_PATH room)
+        if(NOT ";${rooms};" MATCHES ";${room}:")
+            add_offence(${ROOT}/${base}/${file} "is in a folder that check_includes.cmake lacks")
+        endif()
+    endforeach()
+    set(offences "${offences}" PARENT_SCOPE)
+endfunction()
 
-forbid(format        "cdprep/((advanced|c|study)/)?[a-z_]+\\.h|${heavy}")
-forbid(lib           "mesh/|import/|write/|report/|convex/|study/|${heavy}|xxhash")
-forbid(samples       "mesh/|import/|write/|report/|convex/|study/|kernels|traverse|${heavy}")
-forbid(tools/import  "hdf5|H5|CGAL|CLI|tbb|write/|report/|study/|${json}")
-forbid(tools/mesh    "hdf5|H5|assimp|CLI|tbb|import/|write/|report/|convex/|study/|${json}")
-forbid(tools/convex  "hdf5|H5|assimp|CLI|tbb|import/|write/|report/|study/|${json}")
-forbid(tools/study   "hdf5|H5|assimp|CGAL|Eigen|CLI|tbb|import/|write/|report/|${json}")
-forbid(tools/write   "assimp|CGAL|Eigen|CLI|tbb|mesh/|import/|report/|convex/|study/|${json}")
-forbid(tools/report  "hdf5|H5|assimp|CGAL|Eigen|CLI|tbb|import/|write/")
-forbid(tools/cdprep  "hdf5|H5|assimp|CGAL|Eigen")
+check_rooms(lib "${lib_rooms}")
+check_rooms(tools "${tools_rooms}")
+check_listed(lib "${lib_rooms}")
+check_listed(tools "${tools_rooms}")
 
-# Only one file of format may know xxHash, and no kernel may know us.
-file(GLOB_RECURSE files ${ROOT}/format/*.h ${ROOT}/format/*.cpp)
-list(FILTER files EXCLUDE REGEX "format/src/checksum\\.cpp$")
+# Public headers include public headers; those of format and samples even fewer.
+function(allow_only folder pattern)
+    file(GLOB_RECURSE files ${ROOT}/${folder}/*.h ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp)
+    foreach(file IN LISTS files)
+        file(STRINGS ${file} hits REGEX "^ *# *include *\"")
+        foreach(hit IN LISTS hits)
+            if(NOT hit MATCHES "include *\"(${pattern})")
+                add_offence(${file} "${hit}")
+            endif()
+        endforeach()
+    endforeach()
+    set(offences "${offences}" PARENT_SCOPE)
+endfunction()
+allow_only(lib/include "cdprep/")
+allow_only(format/include "cdprep/format/")
+allow_only(format/src "cdprep/format/|[a-z_]+\\.h\"")
+allow_only(samples "cdprep/")
+
+# A kernel knows nothing of ours but what kernels share; who chooses among them knows more.
+file(GLOB files ${ROOT}/lib/kernels/*.h ${ROOT}/lib/kernels/*.cpp)
+list(FILTER files EXCLUDE REGEX "/select\\.cpp$")
 foreach(file IN LISTS files)
-    file(STRINGS ${file} hits REGEX "^ *# *include *[<\"]xxh")
+    file(STRINGS ${file} hits REGEX "^ *# *include *\"[^\"]*/")
     if(hits)
-        string(APPEND offences "\n  ${file}: ${hits}")
+        add_offence(${file} "${hits}")
     endif()
+endforeach()
+
+foreach(row IN LISTS libraries)
+    string(REGEX MATCH "^(.*):(.*)$" row "${row}")
+    set(headers ${CMAKE_MATCH_1})
+    string(REGEX MATCHALL "[^ ]+" places "${CMAKE_MATCH_2}")
+    file(GLOB_RECURSE files ${ROOT}/format/*.h ${ROOT}/format/*.cpp ${ROOT}/lib/*.h
+        ${ROOT}/lib/*.cpp ${ROOT}/tools/*.h ${ROOT}/tools/*.cpp ${ROOT}/samples/*.cpp)
+    foreach(file IN LISTS files)
+        file(STRINGS ${file} hits REGEX "^ *# *include *[<\"](${headers})")
+        if(NOT hits)
+            continue()
+        endif()
+        set(is_allowed NO)
+        foreach(place IN LISTS places)
+            string(FIND "${file}" "${ROOT}/${place}" at)
+            if(at EQUAL 0)
+                set(is_allowed YES)
+            endif()
+        endforeach()
+        if(NOT is_allowed)
+            add_offence(${file} "${hits}")
+        endif()
+    endforeach()
 endforeach()
 
 if(offences)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cdprep/format/sections.h"
 #include "cells/cell_bounds.h"
 #include "cells/cone_faces.h"
 #include "cells/cone_reach.h"

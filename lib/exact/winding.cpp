@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "exact/predicates.h"
+#include "exact/triangle_contact.h"
 
 namespace cdprep {
 namespace {

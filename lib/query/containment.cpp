@@ -10,6 +10,7 @@
 #include "core/moved_model.h"
 #include "core/moved_point.h"
 #include "core/require.h"
+#include "exact/triangle_contact.h"
 #include "exact/winding.h"
 #include "walk/walk_model.h"
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cdprep/pairs.h"
+#include "exact/triangle_contact.h"
 #include "walk/find_contact.h"
 #include "walk/leaf_batch.h"
 #include "walk/walked_trees.h"
