@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The public functions of this room: the private ones, each in the default floating-point
 // environment. Queries call the private ones, which are inline where that pays.
+#include <algorithm>
+#include <cmath>
+
 #include "cdprep/exact/predicates.h"
 #include "cdprep/exact/triangles.h"
 #include "cdprep/exact/winding.h"
@@ -9,6 +12,7 @@
 #include "exact/point_triangle_distance.h"
 #include "exact/predicates.h"
 #include "exact/triangle_contact.h"
+#include "exact/vectors.h"
 #include "exact/winding.h"
 
 namespace cdprep::exact {
@@ -29,6 +33,29 @@ std::array<int, 3> plane_signs(const Corners& plane,
                                const std::array<Double3, 3>& points) noexcept {
     const FloatEnvironment environment;
     return cdprep::plane_signs(plane, points);
+}
+
+Plane::Plane(const Double3& a, const Double3& b, const Double3& c) noexcept : a_(a), b_(b), c_(c) {
+    const FloatEnvironment environment;
+    const Double3 u = b - a, v = c - a;
+    normal_ = cross(u, v);
+    most_ = {std::max(std::fabs(u.x), std::fabs(v.x)), std::max(std::fabs(u.y), std::fabs(v.y)),
+             std::max(std::fabs(u.z), std::fabs(v.z))};
+}
+
+double Plane::height(const Double3& p) const noexcept {
+    const FloatEnvironment environment;
+    return dot(normal_, p - a_);
+}
+
+int Plane::side(const Double3& p) const noexcept {
+    const FloatEnvironment environment;
+    const Double3 w = p - a_;
+    // plane_signs(), one point at a time; its normal is turned round.
+    const int sign = filtered_sign(dot(normal_, w), std::max(most_.x, std::fabs(w.x)),
+                                   std::max(most_.y, std::fabs(w.y)),
+                                   std::max(most_.z, std::fabs(w.z)));
+    return sign == 2 ? orient3d_beyond_filter(a_, b_, c_, p) : -sign;
 }
 
 bool triangles_touch(const Corners& a, const Corners& b) noexcept {

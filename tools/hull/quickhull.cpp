@@ -19,38 +19,9 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// A face's plane, worked out once: plane_signs() of predicates.h, one point at a time.
-class FacePlane {
-public:
-    FacePlane(const Double3& a, const Double3& b, const Double3& c) : a_(a), b_(b), c_(c) {
-        const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
-        const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
-        normal_ = {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
-        most_ = {std::max(std::fabs(ux), std::fabs(vx)), std::max(std::fabs(uy), std::fabs(vy)),
-                 std::max(std::fabs(uz), std::fabs(vz))};
-    }
-
-    /// About how far in front of the plane, in a unit of its own.
-    [[nodiscard]] double height(const Double3& p) const {
-        return normal_.x * (p.x - a_.x) + normal_.y * (p.y - a_.y) + normal_.z * (p.z - a_.z);
-    }
-
-    /// Exact.
-    [[nodiscard]] bool is_in_front(const Double3& p) const {
-        const int sign = filtered_sign(height(p), std::max(most_.x, std::fabs(p.x - a_.x)),
-                                       std::max(most_.y, std::fabs(p.y - a_.y)),
-                                       std::max(most_.z, std::fabs(p.z - a_.z)));
-        return sign == 2 ? orient3d_beyond_filter(a_, b_, c_, p) < 0 : sign > 0;
-    }
-
-private:
-    Double3 a_, b_, c_;
-    Double3 normal_, most_;
-};
-
 struct Face {
     HullFace links;
-    FacePlane plane;
+    exact::Plane plane;
     std::uint32_t outside = kNone;   ///< first of the points that are in front of this face
     std::uint32_t farthest = kNone;  ///< of those
     double height = 0;               ///< of that
@@ -105,7 +76,7 @@ private:
     void hand_out(std::uint32_t p, std::size_t first) {
         for (std::size_t f = first; f < faces_.size(); ++f) {
             Face& face = faces_[f];
-            if (!face.plane.is_in_front(points_[p])) continue;
+            if (face.plane.side(points_[p]) >= 0) continue;
             const double height = face.plane.height(points_[p]);
             if (face.outside == kNone || height > face.height) {
                 face.farthest = p;
@@ -136,7 +107,7 @@ private:
             for (std::size_t edge = 0; edge < 3; ++edge) {
                 Face& other = faces_[links.across[edge]];
                 if (other.removed) continue;  // just now: older ones are nobody's neighbours
-                if (other.plane.is_in_front(points_[p])) {
+                if (other.plane.side(points_[p]) < 0) {
                     other.removed = true;
                     visible_.push_back(links.across[edge]);
                 } else {

@@ -43,4 +43,21 @@ namespace cdprep::exact {
 [[nodiscard]] std::array<int, 3> plane_signs(const Corners& plane,
                                              const std::array<Double3, 3>& points) noexcept;
 
+/// The plane through three points, prepared for many others.
+class Plane {
+public:
+    Plane(const Double3& a, const Double3& b, const Double3& c) noexcept;
+
+    /// Returns orient3d(a, b, c, p), exactly: negative when p lies in front.
+    [[nodiscard]] int side(const Double3& p) const noexcept;
+
+    /// Returns the height of p in front of the plane times the length of the plane's normal, rounded.
+    [[nodiscard]] double height(const Double3& p) const noexcept;
+
+private:
+    Double3 a_, b_, c_;
+    Double3 normal_;
+    Double3 most_;  ///< the largest |difference| of the three points along each axis
+};
+
 }  // namespace cdprep::exact
