@@ -13,12 +13,7 @@
 #include "cdprep/format/make_user_block.h"
 #include "cdprep/format/sections.h"
 #include "cdprep/format/verdict.h"
-#include "find_adaptive_octree_damage.h"
-#include "find_hull_damage.h"
-#include "find_octree_damage.h"
-#include "find_piece_damage.h"
-#include "find_piece_tree_damage.h"
-#include "find_tetra_damage.h"
+#include "section_checks.h"
 
 // Every read is a copy of a few bytes at an offset that was proved to lie inside
 // the file, so the bytes may have any alignment. No sum or product of untrusted

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "find_octree_damage.h"
+#include "section_checks.h"
 
 #include <algorithm>
 #include <array>

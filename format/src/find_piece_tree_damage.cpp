@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "find_piece_tree_damage.h"
+#include "section_checks.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "find_tetra_damage.h"
+#include "section_checks.h"
 
 #include <array>
 #include <bit>

@@ -6,8 +6,7 @@
 #include "cdprep/format/float_environment.h"
 #include "cells/cell_boxes.h"
 #include "cells/octree_grid.h"
-#include "cells/octree_levels.h"
-#include "cells/octree_tables.h"
+#include "cells/octree_steps.h"
 #include "core/guarded_for.h"
 
 namespace cdprep::build {

@@ -13,10 +13,7 @@
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/octree.h"
 #include "cells/cone_children.h"
-#include "cells/radial_range.h"
-#include "cells/split_at_once.h"
-#include "cells/tetra_boxes.h"
-#include "cells/tetra_centre.h"
+#include "cells/tetra_steps.h"
 #include "core/guarded_for.h"
 #include "exact/winding.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/octree_levels.h"
+#include "cells/octree_steps.h"
 
 #include <bit>
 #include <cassert>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/octree_tables.h"
+#include "cells/octree_steps.h"
 
 #include <algorithm>
 #include <bit>

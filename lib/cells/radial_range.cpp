@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/radial_range.h"
+#include "cells/tetra_steps.h"
 
 #include "cells/cone_maximum.h"
 

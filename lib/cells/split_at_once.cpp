@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "cells/split_at_once.h"
+#include "cells/tetra_steps.h"
 
 #include <bit>
 #include <cassert>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pieces/contact_manifold.h"
+#include "pieces/contact_steps.h"
 
 #include <algorithm>
 #include <cmath>

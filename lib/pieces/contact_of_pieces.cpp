@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pieces/contact_of_pieces.h"
+#include "pieces/contact_steps.h"
 
 #include <algorithm>
 #include <cassert>
@@ -7,8 +7,6 @@
 #include <limits>
 
 #include "hull/hull_nearest.h"
-#include "pieces/contact_manifold.h"
-#include "pieces/nearest_triangles.h"
 
 namespace cdprep {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "cdprep/format/float_environment.h"
 #include "core/require.h"
-#include "pieces/contact_of_pieces.h"
+#include "pieces/contact_steps.h"
 #include "walk/contact_pairs.h"
 #include "walk/near_triangles.h"
 

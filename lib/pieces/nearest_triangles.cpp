@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pieces/nearest_triangles.h"
+#include "pieces/contact_steps.h"
 
 #include <algorithm>
 

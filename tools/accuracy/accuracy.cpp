@@ -10,11 +10,7 @@
 
 #include "cdprep/pairs.h"
 #include "accuracy/bounding_shapes.h"
-#include "accuracy/coherence_ladder.h"
-#include "accuracy/distance_ladder.h"
-#include "accuracy/geometry_ladder.h"
-#include "accuracy/predicate_ladder.h"
-#include "accuracy/storage_ladder.h"
+#include "accuracy/ladders.h"
 
 namespace cdprep::study {
 namespace {

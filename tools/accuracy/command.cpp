@@ -12,7 +12,7 @@
 
 #include "cli/command.h"
 #include "cli/import_arguments.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "cli/load_mesh.h"
 #include "cli/output_path.h"
 #include "cli/program_threads.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "accuracy/predicate_ladder.h"
+#include "accuracy/ladders.h"
 
 #include <algorithm>
 
@@ -8,7 +8,6 @@
 #include "accuracy/naive_contact.h"
 #include "study/seeded_random.h"
 #include "study/source_triangles.h"
-#include "accuracy/storage_ladder.h"
 
 namespace cdprep::study {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "accuracy/storage_ladder.h"
+#include "accuracy/ladders.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "cli/command.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "validate/defects/find_defects.h"
 #include "validate/judge.h"
 #include "validate/place_text.h"

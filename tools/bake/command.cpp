@@ -9,7 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/import_arguments.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "bake/pipeline.h"
 #include "cli/progress.h"
 #include "text/bounds_name.h"

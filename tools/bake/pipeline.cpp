@@ -15,7 +15,7 @@
 #include "mesh/mass_properties.h"
 #include "decompose/surface/piece_arrays.h"
 #include "decompose/enclose/enclose.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "cli/load_mesh.h"
 #include "mesh/degenerate.h"
 #include "mesh/normalize.h"

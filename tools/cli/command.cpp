@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "text/printable.h"
 #include "cli/usage.h"
 

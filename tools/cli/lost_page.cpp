@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/lost_page.h"
+#include "cli/signals.h"
 
 #include <fcntl.h>
 #include <unistd.h>

@@ -5,8 +5,7 @@
 
 #include "cdprep/format/float_environment.h"
 #include "cli/command.h"
-#include "cli/interrupt.h"
-#include "cli/lost_page.h"
+#include "cli/signals.h"
 #include "cli/quiet.h"
 #include "cli/usage.h"
 

@@ -11,7 +11,7 @@
 #include "cli/command.h"
 #include "compare/run_comparison.h"
 #include "cli/import_arguments.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "cli/output_path.h"
 #include "compare/pair_poses.h"
 #include "compare/comparison_page.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "compare/peer_json.h"
+#include "compare/peers.h"
 
 #include <nlohmann/json.hpp>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "compare/peer_program.h"
+#include "compare/peers.h"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 
 extern "C" char** environ;  // NOLINT(readability-redundant-declaration)
 

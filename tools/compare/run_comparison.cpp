@@ -7,11 +7,10 @@
 #include <optional>
 #include <utility>
 
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "cli/load_mesh.h"
 #include "compare/pair_poses.h"
-#include "compare/peer_program.h"
-#include "compare/peer_json.h"
+#include "compare/peers.h"
 #include "compare/cells/cell_search.h"
 #include "study/cells.h"
 #include "compare/feature_probes.h"

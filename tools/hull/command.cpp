@@ -9,7 +9,7 @@
 #include "hull/enclosing_hull.h"
 #include "hull/mesh_hulls.h"
 #include "cli/import_arguments.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "cli/load_mesh.h"
 #include "mesh/weld.h"
 #include "cli/output_path.h"

@@ -9,12 +9,8 @@
 
 #include "cdprep/format/checksum.h"
 #include "import/assimp_child.h"
-#include "import/other_kind.h"
-#include "import/read_obj.h"
-#include "import/read_off.h"
-#include "import/read_ply.h"
-#include "import/read_stl.h"
-#include "import/sniff_format.h"
+#include "import/file_kind.h"
+#include "import/readers.h"
 #include "import/source_file.h"
 
 namespace cdprep::import {

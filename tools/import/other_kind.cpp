@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "import/other_kind.h"
+#include "import/file_kind.h"
 
 #include <algorithm>
 #include <array>

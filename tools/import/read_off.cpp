@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "import/read_off.h"
+#include "import/readers.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "import/read_stl.h"
+#include "import/readers.h"
 
 #include <algorithm>
 #include <array>

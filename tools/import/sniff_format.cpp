@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "import/sniff_format.h"
+#include "import/file_kind.h"
 
 #include "import/mesh_endings.h"
-#include "import/read_obj.h"
-#include "import/read_off.h"
-#include "import/read_stl.h"
+#include "import/readers.h"
 
 namespace cdprep::import {
 namespace {

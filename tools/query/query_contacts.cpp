@@ -7,7 +7,7 @@
 
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/contacts.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "cli/open_for.h"
 #include "query/command.h"
 #include "query/query_placements.h"

@@ -10,7 +10,7 @@
 #include "cdprep/cells.h"
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/points.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "cli/open_for.h"
 #include "query/points_file.h"
 #include "query/command.h"

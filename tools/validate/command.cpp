@@ -17,7 +17,7 @@
 #include "cli/command.h"
 #include "cli/import_arguments.h"
 #include "cli/input_list.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "cli/progress.h"
 #include "text/printable.h"
 #include "validate/validation_writer.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "validate/junit.h"
+#include "validate/ci_reports.h"
 
 #include <algorithm>
 #include <array>

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "cli/command.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "text/file_uri.h"
 #include "validate/judge.h"
 

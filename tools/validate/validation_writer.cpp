@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "validate/validation_writer.h"
 
-#include "validate/junit.h"
+#include "validate/ci_reports.h"
 #include "validate/validation_json.h"
 #include "validate/validation_text.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "validate/sarif.h"
+#include "validate/ci_reports.h"
 #include "validate/validation_run.h"
 
 namespace cdprep::report {

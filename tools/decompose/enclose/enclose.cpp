@@ -8,7 +8,7 @@
 
 #include "decompose/enclose/body_mass.h"
 #include "cli/command.h"
-#include "cli/interrupt.h"
+#include "cli/signals.h"
 #include "mesh/topology.h"
 #include "mesh/weld.h"
 #include "decompose/enclose/mesh_nodes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cdprep/advanced/parallel_for.h"
-#include "decompose/surface/close_regions.h"
+#include "decompose/surface/patch_steps.h"
 
 #include <algorithm>
 #include <array>

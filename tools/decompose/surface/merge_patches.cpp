@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "decompose/surface/merge_patches.h"
+#include "decompose/surface/patch_steps.h"
 
 #include <algorithm>
 #include <cmath>

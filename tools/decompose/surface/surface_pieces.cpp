@@ -7,9 +7,7 @@
 #include <numeric>
 
 #include "cdprep/advanced/build_bvh.h"
-#include "decompose/surface/close_regions.h"
-#include "decompose/surface/grow_patches.h"
-#include "decompose/surface/merge_patches.h"
+#include "decompose/surface/patch_steps.h"
 #include "decompose/surface/patch_set.h"
 #include "mesh/tree_order.h"
 

@@ -16,9 +16,7 @@
 #include "cdprep/format/float_environment.h"
 #include "input_files.h"
 #include "memory_limit.h"
-#include "read_3mf.h"
-#include "read_assimp.h"
-#include "read_gltf.h"
+#include "readers.h"
 #include "scene.h"
 
 namespace cdprep::import {

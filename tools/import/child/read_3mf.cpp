@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "read_3mf.h"
+#include "readers.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "read_assimp.h"
+#include "readers.h"
 
 #include <assimp/config.h>
 #include <assimp/scene.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "read_gltf.h"
+#include "readers.h"
 
 #include <algorithm>
 #include <array>

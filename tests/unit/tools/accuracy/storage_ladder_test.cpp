@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "accuracy/storage_ladder.h"
+#include "accuracy/ladders.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "compare/peer_json.h"
+#include "compare/peers.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "import/read_obj.h"
+#include "import/readers.h"
 
 #include <gtest/gtest.h>
 

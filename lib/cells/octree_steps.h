@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "cdprep/cells/build_octree.h"
 
 namespace cdprep::build {
@@ -8,5 +11,10 @@ namespace cdprep::build {
 /// Fills what finds cells by their keys, from octree.nodes: leaf_codes, leaf_nodes, top and
 /// the two tables; and grid.top_level and grid.slot_bits.
 void make_octree_tables(Octree& octree);
+
+/// Fills octree.nodes and octree.references; octree.grid is set, but for the tables. There is
+/// at least one triangle.
+void divide_octree(Octree& octree, std::span<const format::Double3> positions,
+                   std::span<const format::Triangle> triangles, ParallelFor parallel_for);
 
 }  // namespace cdprep::build

@@ -9,6 +9,15 @@
 
 namespace cdprep::report {
 
+/// A JUnit report is the head, the files, and the tail.
+///
+/// A file is a test suite and each rule a test case in it: a failure when it found
+/// something that makes the run fail, passed with its findings as output when it found
+/// less, skipped when it is off. A file that could not be read is an error.
+[[nodiscard]] std::string junit_head();
+[[nodiscard]] std::string junit_suite(const ValidationReport& report, const ValidationRun& run);
+[[nodiscard]] std::string junit_tail();
+
 /// A SARIF 2.1.0 log, in pieces: the head, then one file after the other, then the tail.
 ///
 /// A place is a result with the file as artifact and its node, triangles and vertices as
