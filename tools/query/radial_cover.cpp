@@ -172,25 +172,11 @@ struct RadialCover::Data {
         return {positions[v[0]], positions[v[1]], positions[v[2]]};
     }
 
-    /// Of each of three vertices, its side of a plane through the vertices `held`.
-    [[nodiscard]] std::array<int, 3> sides(const Corners& plane,
-                                           const std::array<std::uint32_t, 3>& held,
-                                           const std::array<std::uint32_t, 3>& vertices) const {
-        const Corners points = places(vertices);
-        std::array<int, 3> signs = filtered_plane_signs(plane, points);
-        for (std::size_t i = 0; i < 3; ++i) {
-            if (signs[i] != 2) continue;
-            const bool is_on = std::find(held.begin(), held.end(), vertices[i]) != held.end();
-            signs[i] = is_on ? 0 : exact::orient3d(plane[0], plane[1], plane[2], points[i]);
-        }
-        return signs;
-    }
-
     /// Of each of three vertices, its side of an edge's plane; 1: inside of what has the edge
     /// and turns outwards.
     [[nodiscard]] std::array<int, 3> sides_of_edge(
         std::uint32_t from, std::uint32_t to, const std::array<std::uint32_t, 3>& vertices) const {
-        return sides({centre, positions[to], positions[from]}, {from, to, to}, vertices);
+        return exact::plane_signs({centre, positions[to], positions[from]}, places(vertices));
     }
 
     /// Where `s` is farther out than `t` in directions of both, neither edge-on. By signs at
@@ -201,7 +187,7 @@ struct RadialCover::Data {
         const auto v = outwards(s);
         const auto w = outwards(t);
         // On the centre's side of the plane of `s`: nearer than it.
-        const std::array<int, 3> below = sides(places(v), v, w);
+        const std::array<int, 3> below = exact::plane_signs(places(v), places(w));
         if (!has_inside(below)) return Over::nowhere;
         bool is_everywhere = !has_outside(below);
         for (std::size_t i = 0; i < 3; ++i) {

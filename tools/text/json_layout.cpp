@@ -8,8 +8,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kLineLength = 100;
 
-static_assert(sizeof(mesh::DefectCounts) == kCounts.size() * sizeof(std::uint64_t));
-
 /// The items in brackets: on one line when they fit, else one a line.
 std::string bracketed(const char* brackets, const std::vector<std::string>& items, int depth) {
     std::size_t size = 1 + items.size();

@@ -49,6 +49,7 @@ constexpr std::array<CountName, 25> kCounts = {{
     {"coplanar_overlap_pairs", &mesh::DefectCounts::coplanar_overlap_pairs},
     {"self_intersecting_pairs", &mesh::DefectCounts::self_intersecting_pairs},
 }};
+static_assert(sizeof(mesh::DefectCounts) == kCounts.size() * sizeof(std::uint64_t));
 
 /// A hole may have a million vertices; the report of it need not.
 constexpr std::size_t kMostNumbers = 100;

@@ -73,10 +73,10 @@ Shape shape_far_out(const Corners& t) {
     if (length == 0) return {};
     const int second = std::ilogb(length);
     // Two steps: 2^-second alone may be no double.
-    const auto scaled = [second](const Double3& p) {
+    const auto near_one = [second](const Double3& p) {
         return scaled(scaled(p, std::ldexp(1.0, -second / 2)), std::ldexp(1.0, second / 2 - second));
     };
-    Shape shape = shape_of_edges(scaled(u), scaled(v));
+    Shape shape = shape_of_edges(near_one(u), near_one(v));
     shape.exponent = first + second;
     return shape;
 }
