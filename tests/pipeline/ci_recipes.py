@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""What README.md tells people to put into CI does what it says: its workflow and its
-pre-commit hook are taken out of the text and run in a scratch repository.
+"""The workflow and the pre-commit hook of docs/CI.md work: they are taken out of the text and
+run in a scratch repository.
 
 Usage: ci_recipes.py CDPREP
 """
@@ -21,9 +21,9 @@ from validate import CORNERS, CUBE, ROOT, shuffled, write_obj
 
 def recipes():
     """The shell lines of the baseline, of the workflow, and the hook."""
-    section = (ROOT / "README.md").read_text().split("## Meshes in CI\n")[1].split("\n## ")[0]
+    section = (ROOT / "docs/CI.md").read_text()
     blocks = re.findall(r"```(\w+)\n(.*?)```", section, re.DOTALL)
-    must([kind for kind, _ in blocks] == ["sh", "yaml", "sh"], f"README has {blocks}")
+    must([kind for kind, _ in blocks] == ["sh", "yaml", "sh"], f"docs/CI.md has {blocks}")
     steps = re.findall(r"^( *)run: \|\n((?:\1  .*\n)+)", blocks[1][1], re.MULTILINE)
     must(len(steps) == 1 and "cdprep validate" in steps[0][1], f"the workflow runs {steps}")
     return blocks[0][1], textwrap.dedent(steps[0][1]), blocks[2][1]
@@ -160,7 +160,7 @@ def main():
         repository.sh(workflow, 0)
 
         test_hook(repository, hook)
-    print("the recipes of README.md hold")
+    print("the recipes of docs/CI.md hold")
 
 
 main()

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "manuals/command_page.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace cdprep::cli {
+namespace {
+
+/// CLI11 keeps one text behind a command's options: notes, this line, then examples.
+constexpr const char* kExamples = "Examples:";
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text);
+    for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+    return parts;
+}
+
+std::string upper(std::string word) {
+    for (char& letter : word) {
+        if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+    }
+    return word;
+}
+
+/// What CLI11 calls a type, in words for people.
+std::string placeholder(const std::string& type) {
+    if (type == "UINT" || type == "INT") return "N";
+    if (type == "FLOAT") return "NUMBER";
+    return type;
+}
+
+OptionEntry entry_of(const CLI::Option& option) {
+    OptionEntry entry;
+    if (option.get_positional()) {
+        entry.names = {upper(option.get_name())};
+    } else {
+        for (const std::string& name : option.get_snames()) entry.names.push_back("-" + name);
+        for (const std::string& name : option.get_lnames()) entry.names.push_back("--" + name);
+    }
+    const std::string type = option.get_type_name();  // and what usage.cpp's checks add to it
+    const std::size_t colon = type.find(':');
+    if (option.get_type_size_max() > 0) entry.value = placeholder(type.substr(0, colon));
+    const std::string allowed = colon == std::string::npos ? "" : type.substr(colon + 1);
+    if (allowed.starts_with('{')) {
+        entry.words = split(allowed.substr(1, allowed.size() - 2), '|');
+    } else if (allowed != "DIR") {  // CLI::ExistingDirectory
+        entry.range = allowed;
+    }
+    entry.text = option.get_description();
+    entry.preset = option.get_default_str();
+    entry.is_required = option.get_required();
+    entry.is_repeatable = option.get_items_expected_max() > 1;
+    return entry;
+}
+
+}  // namespace
+
+std::string CommandPage::usage() const {
+    std::string text = name;
+    if (!groups.empty()) text += " [OPTION]...";
+    if (!commands.empty()) text += " COMMAND";
+    for (const OptionEntry& input : inputs) {
+        const std::string word = input.names.front() + (input.is_repeatable ? "..." : "");
+        text += input.is_required ? " " + word : " [" + word + "]";
+    }
+    return text;
+}
+
+CommandPage page_of(const CLI::App& command, const std::string& name) {
+    CommandPage page;
+    page.name = name;
+    page.summary = command.get_description();
+    for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; })) {
+        page.commands.emplace_back(each->get_name(), each->get_description());
+    }
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->get_group().empty()) continue;
+        if (option->get_positional()) {
+            page.inputs.push_back(entry_of(*option));
+            continue;
+        }
+        const std::string& title = option->get_group();
+        auto group = std::ranges::find(page.groups, title, &OptionGroup::title);
+        if (group == page.groups.end()) group = page.groups.insert(group, {title, {}});
+        group->options.push_back(entry_of(*option));
+    }
+    // What every command has comes last; CLI11 adds it first.
+    const auto general = std::ranges::find(page.groups, "General", &OptionGroup::title);
+    if (general != page.groups.end()) std::rotate(general, general + 1, page.groups.end());
+    const std::string footer = command.get_footer();
+    const std::size_t begin = footer.find(kExamples);
+    page.notes = footer.substr(0, begin);
+    while (!page.notes.empty() && page.notes.back() == '\n') page.notes.pop_back();
+    if (begin != std::string::npos) {
+        for (const std::string& line : split(footer.substr(begin), '\n')) {
+            if (line.starts_with("  ")) page.examples.push_back(line.substr(2));
+        }
+    }
+    return page;
+}
+
+std::vector<CommandPage> pages_of(const CLI::App& program) {
+    std::vector<CommandPage> pages;
+    const auto add = [&](const auto& again, const CLI::App& command, const std::string& name) -> void {
+        pages.push_back(page_of(command, name));
+        for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; })) {
+            again(again, *each, name + " " + each->get_name());
+        }
+    };
+    add(add, program, program.get_name());
+    return pages;
+}
+
+void set_notes(CLI::App& command, const std::string& notes,
+               const std::vector<std::string>& examples) {
+    std::string footer = notes;
+    if (!examples.empty()) footer += (notes.empty() ? "" : "\n\n") + std::string(kExamples);
+    for (const std::string& example : examples) footer += "\n  " + example;
+    command.footer(footer);
+}
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
+    std::vector<std::string> lines;
+    std::string line;
+    std::istringstream stream(text);
+    for (std::string word; stream >> word;) {
+        if (!line.empty() && line.size() + 1 + word.size() > width) {
+            lines.push_back(line);
+            line.clear();
+        }
+        line += (line.empty() ? "" : " ") + word;
+    }
+    if (!line.empty()) lines.push_back(line);
+    return lines;
+}
+
+std::string full_text(const OptionEntry& option) {
+    std::string text = option.text;
+    if (!option.words.empty()) {
+        text += ": ";
+        for (std::size_t i = 0; i < option.words.size(); ++i) {
+            const bool is_last = i + 1 == option.words.size();
+            text += (i == 0 ? "" : is_last ? " or " : ", ") + option.words[i];
+        }
+    }
+    if (!text.empty() && !text.ends_with('.')) text += '.';
+    std::string limits;
+    if (!option.range.empty()) limits = option.range;
+    if (!option.preset.empty()) limits += (limits.empty() ? "" : "; ") + ("default " + option.preset);
+    if (option.is_required && !option.names.front().starts_with('-')) return text;
+    if (option.is_required) limits += (limits.empty() ? "" : "; ") + std::string("required");
+    return limits.empty() ? text : text + " [" + limits + "]";
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+
+#include "manuals/write_manuals.h"
+
+namespace cdprep::cli {
+namespace {
+
+/// Values that a shell completes as paths.
+bool is_path(const std::string& value) {
+    return value == "FILE" || value == "FOLDER" || value == "FILES" || value == "PATTERN";
+}
+
+std::string joined(const std::vector<std::string>& words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+std::vector<const OptionEntry*> options_of(const CommandPage& page) {
+    std::vector<const OptionEntry*> options;
+    for (const OptionGroup& group : page.groups) {
+        for (const OptionEntry& option : group.options) options.push_back(&option);
+    }
+    return options;
+}
+
+std::vector<std::string> command_names(const CommandPage& page) {
+    std::vector<std::string> names;
+    for (const auto& [name, summary] : page.commands) names.push_back(name);
+    return names;
+}
+
+/// In single quotes of a shell.
+std::string shell_quoted(const std::string& text) {
+    std::string out = "'";
+    for (const char letter : text) out += letter == '\'' ? "'\\''" : std::string(1, letter);
+    return out + "'";
+}
+
+/// Without what zsh reads in the description of an option.
+std::string for_zsh(const std::string& text) {
+    std::string out;
+    for (const char letter : text) {
+        if (letter == '[' || letter == ']' || letter == ':' || letter == '\\') out += '\\';
+        out += letter;
+    }
+    return out;
+}
+
+/// "cdprep query collide" as the name of a function: "_cdprep_query_collide".
+std::string function_name(const std::string& name) {
+    std::string out = "_" + name;
+    std::ranges::replace(out, ' ', '_');
+    return out;
+}
+
+}  // namespace
+
+std::string bash_completion(const std::vector<CommandPage>& pages) {
+    std::string text =
+        "# bash completion for cdprep. Generated from its options.\n"
+        "_cdprep() {\n"
+        "    local word=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n"
+        "    local path=cdprep i\n"
+        "    for ((i = 1; i < COMP_CWORD; ++i)); do\n"
+        "        case \"$path ${COMP_WORDS[i]}\" in\n";
+    for (const CommandPage& page : pages) {
+        if (page.name.find(' ') != std::string::npos) {
+            text += "            " + shell_quoted(page.name) + ") path=" + shell_quoted(page.name) + " ;;\n";
+        }
+    }
+    text +=
+        "        esac\n"
+        "    done\n"
+        "    COMPREPLY=()\n"
+        "    case \"$path $before\" in\n";
+    for (const CommandPage& page : pages) {
+        for (const OptionEntry* option : options_of(page)) {
+            if (option->words.empty()) continue;
+            std::string names;
+            for (const std::string& name : option->names) {
+                names += (names.empty() ? "" : "|") + shell_quoted(page.name + " " + name);
+            }
+            text += "        " + names + ")\n            COMPREPLY=($(compgen -W " +
+                    shell_quoted(joined(option->words)) + " -- \"$word\")); return ;;\n";
+        }
+    }
+    text +=
+        "    esac\n"
+        "    case \"$path\" in\n";
+    for (const CommandPage& page : pages) {
+        std::vector<std::string> words = command_names(page);
+        for (const OptionEntry* option : options_of(page)) {
+            words.insert(words.end(), option->names.begin(), option->names.end());
+        }
+        text += "        " + shell_quoted(page.name) + ") COMPREPLY=($(compgen -W " +
+                shell_quoted(joined(words)) + " -- \"$word\")) ;;\n";
+    }
+    text +=
+        "    esac\n"
+        "    [[ $word == -* ]] || COMPREPLY+=($(compgen -f -- \"$word\"))\n"
+        "}\n"
+        "complete -o filenames -F _cdprep cdprep\n";
+    return text;
+}
+
+std::string zsh_completion(const std::vector<CommandPage>& pages) {
+    std::string text = "#compdef cdprep\n# Generated from the options of cdprep.\n\n";
+    for (const CommandPage& page : pages) {
+        text += function_name(page.name) + "() {\n";
+        if (!page.commands.empty()) {
+            text += "    local -a commands=(\n";
+            for (const auto& [name, summary] : page.commands) {
+                text += "        " + shell_quoted(name + ":" + for_zsh(summary)) + "\n";
+            }
+            text += "    )\n    local curcontext=\"$curcontext\" state line\n";
+        }
+        text += "    _arguments -C \\\n";
+        for (const OptionEntry* option : options_of(page)) {
+            for (const std::string& name : option->names) {
+                std::string spec = (option->is_repeatable ? "*" : "") + name;
+                spec += "[" + for_zsh(option->text) + "]";
+                if (!option->words.empty()) {
+                    spec += ":value:(" + joined(option->words) + ")";
+                } else if (is_path(option->value)) {
+                    spec += option->value == "FOLDER" ? ":folder:_files -/" : ":file:_files";
+                } else if (!option->value.empty()) {
+                    spec += ":" + option->value + ":";
+                }
+                text += "        " + shell_quoted(spec) + " \\\n";
+            }
+        }
+        if (page.commands.empty()) {
+            text += "        '*:file:_files'\n";
+        } else {
+            text += "        '1:command:->command' '*::argument:->argument'\n"
+                    "    case $state in\n"
+                    "        command) _describe command commands ;;\n"
+                    "        argument) " +
+                    function_name(page.name) + "_$line[1] ;;\n    esac\n";
+        }
+        text += "}\n\n";
+    }
+    return text + "_cdprep \"$@\"\n";
+}
+
+std::string fish_completion(const std::vector<CommandPage>& pages) {
+    std::string text = "# fish completion for cdprep. Generated from its options.\n";
+    for (const CommandPage& page : pages) {
+        std::vector<std::string> path;
+        std::size_t begin = page.name.find(' ');
+        while (begin != std::string::npos) {
+            const std::size_t end = page.name.find(' ', begin + 1);
+            path.push_back(page.name.substr(begin + 1, end - begin - 1));
+            begin = end;
+        }
+        std::string when;
+        for (const std::string& word : path) {
+            when += (when.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);
+        }
+        const std::string names = joined(command_names(page));
+        if (!names.empty()) {
+            when += (when.empty() ? "" : "; and ") + ("not __fish_seen_subcommand_from " + names);
+        }
+        const std::string start = "complete -c cdprep" + (when.empty() ? "" : " -n " + shell_quoted(when));
+        for (const auto& [name, summary] : page.commands) {
+            text += start + " -f -a " + name + " -d " + shell_quoted(summary) + "\n";
+        }
+        for (const OptionEntry* option : options_of(page)) {
+            text += start;
+            for (const std::string& name : option->names) {
+                text += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+            }
+            if (!option->value.empty()) text += is_path(option->value) ? " -r -F" : " -x";
+            if (!option->words.empty()) text += " -a " + shell_quoted(joined(option->words));
+            text += " -d " + shell_quoted(option->text) + "\n";
+        }
+    }
+    return text;
+}
+
+}  // namespace cdprep::cli

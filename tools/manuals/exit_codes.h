@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+namespace cdprep::cli {
+
+/// The result of the process. Scripts rely on the numbers.
+enum class Exit : int {
+    success = 0,
+    findings = 1,
+    usage = 2,
+    unreadable = 3,
+    unwritable = 4,
+    over_budget = 5,
+    internal = 6,
+    interrupted = 130,
+};
+
+struct ExitText {
+    Exit code;
+    const char* text;
+};
+
+/// The one list of exit codes: manuals and documents are made of it.
+inline constexpr std::array<ExitText, 8> kExitTexts = {{
+    {Exit::success, "success"},
+    {Exit::findings, "findings: a defect, an unreached goal, a broken promise"},
+    {Exit::usage, "invalid arguments"},
+    {Exit::unreadable, "input not readable"},
+    {Exit::unwritable, "output not written"},
+    {Exit::over_budget, "limit of memory, size or time exceeded"},
+    {Exit::internal, "internal error"},
+    {Exit::interrupted, "interrupted, or the reader of the output has ended"},
+}};
+
+}  // namespace cdprep::cli

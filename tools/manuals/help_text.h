@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "manuals/command_page.h"
+
+namespace cdprep::cli {
+
+/// Returns what --help prints: usage, options by group, notes, examples, in 80 columns.
+[[nodiscard]] std::string help_text(const CommandPage& page);
+
+/// Makes help_text() the help of a program and all its commands.
+void use_help_text(CLI::App& program);
+
+}  // namespace cdprep::cli
