@@ -12,12 +12,13 @@ set(lib_rooms
     "core: exact"
     "build: core exact"
     "walk: core exact kernels"
-    "hull: core exact kernels"
+    "hull: core exact kernels manuals"
     "pieces: core exact hull walk"
-    "query: core exact pieces walk"
+    "query: core exact manuals pieces walk"
     "cells: build core exact kernels walk"
     "c: core kernels pieces walk")
 set(tools_rooms
+    "manuals:"
     "mesh:"
     "page:"
     "text:"
@@ -25,22 +26,23 @@ set(tools_rooms
     "import: mesh"
     "import/child: import"
     "crossings: mesh"
-    "cli: import mesh text write"
+    "cli: import manuals mesh text write"
     "validate/defects: crossings mesh"
-    "validate: cli import mesh page text validate/defects"
-    "hull: cli mesh text write"
-    "repair: cli crossings import mesh text validate/defects write"
+    "validate: cli import manuals mesh page text validate/defects"
+    "hull: cli manuals mesh text write"
+    "repair: cli crossings import manuals mesh text validate/defects write"
     "decompose/surface: hull mesh text"
     "decompose/enclose: cli decompose/surface hull mesh text write"
-    "decompose: cli decompose/enclose decompose/surface hull text write"
-    "bake: cli crossings decompose/enclose decompose/surface hull import mesh repair text validate\
- validate/defects write"
-    "info: bake cli decompose/surface hull mesh study text validate/defects"
+    "decompose: cli decompose/enclose decompose/surface hull manuals text write"
+    "bake: cli crossings decompose/enclose decompose/surface hull import manuals mesh repair\
+ text validate validate/defects write"
+    "info: bake cli decompose/surface hull manuals mesh study text validate/defects"
     "study: bake decompose/enclose decompose/surface mesh"
-    "accuracy: cli decompose/enclose hull mesh page study text"
+    "accuracy: cli decompose/enclose hull manuals mesh page study text"
     "compare/cells: mesh study"
-    "compare: cli compare/cells decompose/surface hull import mesh page query study text"
-    "query: bake cli compare/cells mesh text write")
+    "compare: cli compare/cells decompose/surface hull import manuals mesh page query study\
+ text"
+    "query: bake cli compare/cells manuals mesh text write")
 
 # A library of others: the pattern of its headers, then the folders that may know it.
 set(libraries
@@ -49,7 +51,7 @@ set(libraries
     "H5|hdf5:tools/write"
     "CGAL/:tools/decompose/enclose tools/info tools/query tools/repair"
     "Eigen/:tools/mesh"
-    "CLI/:tools/cli"
+    "CLI/:tools/cli tools/manuals"
     "tbb/|oneapi/:tools/cli/program_threads.cpp"
     "nlohmann/:tools/accuracy tools/bake tools/compare tools/decompose tools/hull tools/info\
  tools/page tools/repair tools/text tools/validate")

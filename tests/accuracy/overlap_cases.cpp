@@ -192,7 +192,7 @@ private:
             found.push_back(pair);
             return true;
         };
-        in_mode([&] {
+        (void)in_mode([&] {
             return study::visit_literal_overlaps(a_->model(), b_->model(), variant_->placement, {},
                                                  keep);
         });

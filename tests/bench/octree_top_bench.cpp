@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "cells/octree_cells.h"
 #include "cdprep/cells/overlap_through.h"
 #include "core/prefetch.h"
 #include "octree_meshes.h"

@@ -135,7 +135,7 @@ TEST(Fan, WhatLiesSideBySideOnAGridDoesNotMeet) {
         }
         const Star star = star_of(spokes, random() % 2 == 0, random);
         const auto has_area = [&](const Triangle& t) {
-            return !is_degenerate(corners_from(star.mesh, t, 0));
+            return !exact::is_degenerate(corners_from(star.mesh, t, 0));
         };
         if (!std::all_of(star.mesh.triangles.begin(), star.mesh.triangles.end(), has_area))
             continue;

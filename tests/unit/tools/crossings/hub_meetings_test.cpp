@@ -35,7 +35,7 @@ bool share_a_vertex(const Mesh& mesh, std::uint32_t a, std::uint32_t b) {
 }
 
 bool has_area(const Mesh& mesh, std::uint32_t triangle) {
-    return !is_degenerate(corners_of(mesh, triangle));
+    return !exact::is_degenerate(corners_of(mesh, triangle));
 }
 
 /// The pairs without a common vertex, one by one.
