@@ -19,7 +19,7 @@ static_assert(CDPREP_BAD_ARGUMENT == static_cast<int>(ErrorCode::bad_argument) &
 
 constexpr std::uint32_t kAbi = 1;
 
-/// Stores a pose that was made, or zeros.
+/// Stores a pose, or zeros if it could not be made.
 int store(Call& call, const Name& name, std::int32_t why, const Result<Pose>& made,
           cdprep_pose& to) {
     if (!made) return call.refuse_with(why, name, made.error().message);
@@ -48,7 +48,7 @@ int nearest(Call& call, const std::array<double, 16>& matrix, std::uint32_t layo
                  pose);
 }
 
-/// Says that nothing is known, and returns whether all is there.
+/// Clears the result, and returns whether all arguments are present.
 int begin(Call& call, const void* first, const char* first_name, cdprep_pose* pose,
           const char* pose_name) noexcept {
     if (const int code = call.need(first, {first_name})) {

@@ -8,7 +8,7 @@
 namespace cdprep::c {
 namespace {
 
-/// Refuses a pair of another size than the first: then nothing is known of where it begins.
+/// Refuses a pair of another size than the first, because its position would be unknown.
 int check_stride(Call& call, const Name& name, const cdprep_pair* first,
                  const cdprep_pair* given) noexcept {
     cdprep_head head, expected;
@@ -19,7 +19,7 @@ int check_stride(Call& call, const Name& name, const cdprep_pair* first,
                        "has size %u, but the first of the array has %u.", head.size, expected.size);
 }
 
-/// A batch of questions about two models.
+/// A batch of queries about two models.
 template <class Answer>
 struct Batch {
     const PairQuestion& question;
@@ -46,8 +46,8 @@ int check_pairs(Call& call, const Batch<Answer>& batch, Check&& check) {
     return CDPREP_OK;
 }
 
-/// Says that nothing is known, checks everything (`check_options(call)`, then `check(call, i,
-/// pair)`), then calls `ask(answer, pair, workspace)` for each, on all lanes.
+/// Sets all answers to unknown, checks everything (`check_options(call)`, then `check(call, i,
+/// pair)`), then calls `ask(answer, pair, workspace)` for each pair, on all lanes.
 template <class Answer, class CheckOptions, class Check, class Asker>
 int ask_pairs(const Batch<Answer>& batch, CheckOptions&& check_options, Check&& check,
               Asker&& ask) noexcept {

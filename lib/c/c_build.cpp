@@ -41,7 +41,7 @@ constexpr std::array kFields = {
 
 constexpr Name kOptions = {"options"};
 
-/// What the sections of build_model() serve.
+/// The queries that sections of build_model() serve.
 constexpr Ask kBuildable = Ask::collide | Ask::overlap | Ask::distance | Ask::within | Ask::inside |
                            Ask::ray | Ask::closest | Ask::touch | Ask::corners | Ask::solid;
 
@@ -56,13 +56,13 @@ static_assert(sizeof(Float3) == 3 * sizeof(float) && alignof(Float3) == alignof(
 static_assert(sizeof(Triangle) == 3 * sizeof(std::uint32_t) &&
               alignof(Triangle) == alignof(std::uint32_t));
 
-/// Where each part of the model's block begins: the object, the image, the index.
+/// The offset of each part of the model's block: the object, the image, the index.
 struct Layout {
     std::uint64_t image = aligned(sizeof(cdprep_model));
     std::uint64_t index;
     std::uint64_t size;
 
-    /// `indexed` is a number of triangles and of vertices; see index_size().
+    /// `indexed` is a number of triangles plus a number of vertices; see index_size().
     Layout(std::uint64_t image_size, std::uint64_t indexed) noexcept
         : index(image + image_size), size(index + indexed * sizeof(std::uint32_t)) {}
 };
@@ -72,7 +72,7 @@ struct Planned {
     cdprep_build_options options{};
     cdprep_allocator allocator{};
     build::PlannedModel model;
-    std::size_t size = 0;  ///< of a block that is enough
+    std::size_t size = 0;  ///< of a block that is large enough
 
     [[nodiscard]] std::span<const Double3> doubles() const noexcept {
         return {reinterpret_cast<const Double3*>(options.positions), model.vertex_count};
@@ -111,7 +111,7 @@ int check_count(Call& call, const char* field, std::size_t count, std::size_t el
     return call.refuse(CDPREP_WHY_OUT_OF_RANGE, kOptions.of(field), "is more than memory holds.");
 }
 
-/// Refuses what needs sections that build_model() does not make.
+/// Refuses queries that need sections which build_model() does not make.
 int check_buildable(Call& call, std::uint32_t ask) noexcept {
     const Ask refused = without(static_cast<Ask>(ask), kBuildable);
     for (const Needs& row : needs()) {
@@ -123,7 +123,7 @@ int check_buildable(Call& call, std::uint32_t ask) noexcept {
     return CDPREP_OK;
 }
 
-/// What remains to be known once the options are checked.
+/// Computes the rest of the plan from the checked options.
 int plan(Call& call, Planned& planned) noexcept {
     const cdprep_build_options& options = planned.options;
     const bool is_single = options.positions_f32 != nullptr || options.precision == CDPREP_SINGLE;
@@ -134,7 +134,7 @@ int plan(Call& call, Planned& planned) noexcept {
     model.precision =
         is_single ? build::Precision::single_precision : build::Precision::double_precision;
     model.wanted = sections_for(asks);
-    // Only questions about pairs read oriented boxes, which cost time and memory.
+    // Only pair queries read oriented boxes, which cost time and memory.
     const bool is_oriented = model.wanted.contains(SectionId::oriented_nodes);
     model.bounds = is_oriented ? build::BvhBounds::oriented : build::BvhBounds::aligned;
     const std::uint64_t indexed = std::uint64_t{model.triangle_count} + model.vertex_count;
@@ -170,7 +170,7 @@ int read(Call& call, const cdprep_build_options* given, Planned& planned) noexce
     return plan(call, planned);
 }
 
-/// The place of the first number that is NaN or beyond `most`, or `count`.
+/// Returns the index of the first number that is NaN or beyond `most`, or `count`.
 template <class Real>
 std::size_t find_wrong(const Real* numbers, std::size_t count, double most) noexcept {
     const format::FloatEnvironment environment;
@@ -204,7 +204,7 @@ int check_triangles(Call& call, const cdprep_build_options& options) noexcept {
     return CDPREP_OK;
 }
 
-/// Checks what the arrays hold.
+/// Checks the contents of the arrays.
 int check_mesh(Call& call, const Planned& planned) noexcept {
     const cdprep_build_options& options = planned.options;
     const bool is_rounded = options.positions != nullptr && options.precision == CDPREP_SINGLE;
@@ -218,8 +218,8 @@ int check_mesh(Call& call, const Planned& planned) noexcept {
     return code != CDPREP_OK ? code : check_triangles(call, options);
 }
 
-/// The lanes of a workspace as the builders take them. Builders have tasks without number, which
-/// may throw; `run` of the caller gets one task a lane, and no exception.
+/// The lanes of a workspace as threads for the builders. Builders submit any number of tasks, which
+/// may throw. The caller's `run` gets one task per lane and no exception.
 class BuildersThreads {
 public:
     explicit BuildersThreads(const cdprep_workspace& workspace) noexcept : workspace_(workspace) {}
@@ -265,7 +265,7 @@ Result<build::ModelArrays> built_arrays(const Planned& planned, const BuildersTh
     return build::build_model(planned.doubles(), planned.triangles(), options);
 }
 
-/// Lays the arrays out, in the caller's memory or in memory of its own, and opens them.
+/// Lays the arrays out, in the caller's memory or in memory of its own, and opens them as a model.
 int lay_out(Call& call, const Planned& planned, const build::ModelArrays& arrays,
             const Given& given, cdprep_model** to) {
     const build::SectionList list = arrays.sections(planned.model.wanted);

@@ -76,8 +76,8 @@ int read(Call& call, const cdprep_contact_options* given,
                        options.manifold, kManifold);
 }
 
-/// Calls `take(contact)` with contacts in order, as many as the bound of work allows, until it
-/// returns false. Returns whether all were looked at.
+/// Calls `take(contact)` for contacts in order, until it returns false or the work limit is
+/// reached. Returns whether all contacts were visited.
 template <class Take>
 bool visit_all(const AskedPair& asked, const cdprep_contact_options& options, Workspace& scratch,
                Take&& take) noexcept {
@@ -92,13 +92,13 @@ bool visit_all(const AskedPair& asked, const cdprep_contact_options& options, Wo
     return visit_contacts(asked.pair(), scratch, visit, wanted);
 }
 
-/// Visitors call it in the caller's floating-point environment.
+/// Compares by depth, then by pieces. Visitors call it in the caller's floating-point environment.
 bool is_deeper(const cdprep_contact& x, const cdprep_contact& y) noexcept {
     const format::FloatEnvironment environment;
     return std::tie(x.lower, x.piece_a, x.piece_b) < std::tie(y.lower, y.piece_a, y.piece_b);
 }
 
-/// The deepest contacts that there is room for: a heap whose first is the shallowest.
+/// The deepest contacts that there is room for: a heap with the shallowest contact first.
 class Deepest {
 public:
     explicit Deepest(std::span<cdprep_contact> room) noexcept : room_(room) {}

@@ -30,7 +30,7 @@ static_assert(CDPREP_PROMISE_SURFACE == int{format::promise_surface} &&
               CDPREP_PROMISE_SIMPLE_SOLID == int{format::promise_simple_solid} &&
               CDPREP_PROMISE_CONTAINED_PIECES == int{format::promise_contained_pieces});
 
-/// Sets of vertices that triangles connect, in the memory that later holds their numbers.
+/// Sets of vertices that triangles connect, stored where their component numbers will be.
 class ConnectedVertices {
 public:
     explicit ConnectedVertices(std::span<std::uint32_t> parent) noexcept : parent_(parent) {
@@ -57,7 +57,7 @@ bool has_several_components(const Model& model) noexcept {
     return model.record().components.size() > 1;
 }
 
-/// Components are numbered by the order of the section, which names one vertex of each.
+/// Numbers the components in the order of the section, which names one vertex of each.
 void number_components(cdprep_model& model) noexcept {
     const std::span<std::uint32_t> of = model.component_of_vertex;
     ConnectedVertices connected(of);
@@ -66,9 +66,10 @@ void number_components(cdprep_model& model) noexcept {
         connected.join(triangle.vertex[0], triangle.vertex[1]);
         connected.join(triangle.vertex[0], triangle.vertex[2]);
     }
-    // A root is the lowest vertex of its set, so by rising numbers each parent is a root by now.
+    // A root is the lowest vertex of its set. So, in rising order, each parent is already a root.
     for (std::uint32_t i = 0; i < of.size(); ++i) of[i] = of[of[i]];
-    // Roots take their component's number, marked so that it is no vertex; then all others.
+    // Roots take their component's number first, marked so that it is no vertex; then all others
+    // do.
     constexpr std::uint32_t kNumber = 0x80000000U;
     const std::span<const format::Component> components = model.model.record().components;
     for (std::uint32_t i = 0; i < components.size(); ++i) {
@@ -92,7 +93,7 @@ void number_triangles(cdprep_model& model) noexcept {
     }
 }
 
-/// The run that holds a source triangle, or null.
+/// Returns the run that holds a source triangle, or null.
 template <class Run>
 const Run* run_of(std::span<const Run> runs, std::uint32_t triangle) noexcept {
     const auto after = std::ranges::upper_bound(runs, triangle, {}, &Run::first_triangle);
@@ -153,7 +154,8 @@ std::uint32_t count_names(const Model& model, SectionId names) noexcept {
     return static_cast<std::uint32_t>(std::ranges::count(bytes, std::byte{0}));
 }
 
-/// A box around all triangles: as baked, or else of the positions, where they are open.
+/// Stores a box around all triangles: the baked one, otherwise that of the positions if they are
+/// open.
 void store_box(const Model& model, cdprep_model_info& info) noexcept {
     if (model.record().bounds != nullptr) {
         store(model.record().bounds->lower, info.lower);
@@ -171,7 +173,7 @@ void store_box(const Model& model, cdprep_model_info& info) noexcept {
     }
 }
 
-/// A text and whether there is one of its kind and number.
+/// A text, and whether a text of its kind and number exists.
 struct Found {
     bool exists;
     std::string_view text;
@@ -200,7 +202,7 @@ Found find_text(const Model& model, std::uint32_t kind, std::uint32_t number) no
     }
 }
 
-/// A section that the file has, although it was not opened.
+/// Returns whether the file has a section, even if it was not opened.
 bool is_in_file(const Model& model, SectionId id) noexcept {
     const format::FileHeader& header = model.header();
     return format::find_section({reinterpret_cast<const std::byte*>(&header),

@@ -51,7 +51,7 @@ int check_scope(Call& call, const Name& name, std::uint32_t scope) noexcept {
                        static_cast<std::uint32_t>(CDPREP_HULL_PIECE));
 }
 
-/// Whether the model has the hull.
+/// Returns whether the model has the hull.
 bool exists(const cdprep_hull& hull) noexcept {
     const Model& model = hull.model->model;
     if (hull.scope == CDPREP_HULL_PIECE) return hull.number < model.pieces().pieces.size();
@@ -66,7 +66,7 @@ int check_exists(Call& call, const Name& name, const cdprep_hull& hull) noexcept
                        hull.number);
 }
 
-/// The corners of a hull that exists.
+/// Returns the corners of a hull that exists.
 ConvexPoints points_of(const cdprep_hull& hull) noexcept {
     const Model& model = hull.model->model;
     if (hull.scope == CDPREP_HULL_PIECE) return piece_points(model, hull.number);
@@ -89,7 +89,7 @@ int read_hull(Call& call, const Name& name, const cdprep_hull& hull, bool is_a, 
     return check_exists(call, name.of(is_a ? "a.number" : "b.number"), hull);
 }
 
-/// `needs` is Ask::contacts for questions about features, which only pieces have.
+/// `needs` is Ask::contacts for queries about features, which only pieces have.
 int read_hulls(Call& call, const cdprep_hull_pair* given, std::optional<Ask> needs,
                AskedHulls& asked) {
     const Name name = {"pair"};
@@ -115,7 +115,7 @@ int read_hulls(Call& call, const cdprep_hull_pair* given, std::optional<Ask> nee
     return CDPREP_OK;
 }
 
-/// What a hull cache holds: the cache of either kind of question, in words.
+/// The contents of a hull cache in words: the cache of either kind of query.
 struct CacheWords {
     std::array<std::uint32_t, 9> convex;
     std::array<std::uint32_t, 5> features;
@@ -124,7 +124,7 @@ struct CacheWords {
 static_assert(sizeof(CacheWords) == sizeof(cdprep_hull_cache) &&
               sizeof(CacheWords::convex) == sizeof(ConvexCache));
 
-/// The caches of C++ while one question is asked. Any words are allowed: the questions check them.
+/// The C++ caches during one query. Any words are allowed: the queries check them.
 class HullCacheWords {
 public:
     explicit HullCacheWords(cdprep_hull_cache* words) noexcept : to_(words) {
@@ -162,7 +162,7 @@ private:
     FeatureCache features;
 };
 
-/// A question about two hulls: `check(call)`, then `ask(a, b, placement, cache)`.
+/// Runs a query about two hulls: `check(call)`, then `ask(a, b, placement, cache)`.
 template <class Answer, class Check, class Asker>
 int ask_hulls(const cdprep_hull_pair* pair, Answer* answer, const char* answer_name,
               cdprep_error* error, Check&& check, Asker&& ask) noexcept {
@@ -204,7 +204,7 @@ cdprep_penetration in_c(const std::optional<Penetration>& found) noexcept {
     return to;
 }
 
-/// The vertices that a feature of a piece's hull is made of, in the imported file.
+/// Returns a feature of a piece's hull as the vertices that define it, by source number.
 cdprep_feature in_c(const Model& model, const FeatureHull& hull,
                     const HullFeature& feature) noexcept {
     cdprep_feature to = {static_cast<std::uint32_t>(feature.kind),
@@ -248,8 +248,8 @@ cdprep_closest_features in_c(const AskedHulls& asked, const FeatureHull& a, cons
     return to;
 }
 
-/// Stores corners and facets of a piece's hull. Unlike questions about its features this does not
-/// need the adjacency of its facets.
+/// Stores corners and facets of a piece's hull. Unlike feature queries, this does not read the
+/// adjacency of the facets.
 void write_piece(const Model& model, std::uint32_t piece, cdprep_mesh& mesh) noexcept {
     const ConvexPoints points = piece_points(model, piece);
     const auto facets =
@@ -265,7 +265,7 @@ void write_piece(const Model& model, std::uint32_t piece, cdprep_mesh& mesh) noe
     }
 }
 
-/// The same of a baked hull.
+/// Stores the same for a baked hull.
 void write_hull(const Model& model, std::uint32_t number, cdprep_mesh& mesh) noexcept {
     const format::Hull& hull = model.hulls().hulls[number];
     const ConvexPoints points = convex_points(model, number);

@@ -18,7 +18,7 @@ inline void store(const Double3& p, double* numbers) noexcept {
     numbers[2] = p.z;
 }
 
-/// Vertices whose positions are open.
+/// Returns the number of vertices if their positions are open, otherwise 0.
 [[nodiscard]] inline std::uint32_t count_positions(const Model& model) noexcept {
     const bool has_any = !model.mesh().positions_f32.empty() || !model.mesh().positions_f64.empty();
     return has_any ? model.vertex_count() : 0;
@@ -30,14 +30,14 @@ inline void store(const Double3& p, double* numbers) noexcept {
     return {p.x, p.y, p.z};
 }
 
-/// The imported file's number of a vertex.
+/// Returns the source number of a vertex.
 [[nodiscard]] inline std::uint32_t source_vertex_of(const Model& model,
                                                     std::uint32_t vertex) noexcept {
     const auto source = model.source().vertex;
     return source.empty() ? vertex : source[vertex];
 }
 
-/// Says that nothing is known, and refuses room that is null.
+/// Sets the counts to 0, and refuses arrays that are null but have room.
 inline int begin_mesh(Call& call, cdprep_mesh* mesh) noexcept {
     if (const int code = call.need(mesh, {"mesh"})) return code;
     mesh->vertex_count = 0;
@@ -51,7 +51,7 @@ inline int begin_mesh(Call& call, cdprep_mesh* mesh) noexcept {
     return CDPREP_OK;
 }
 
-/// Fills a mesh one after the other; the counts are the caller's to set.
+/// Fills a mesh element by element. The caller sets the counts.
 class MeshWriter {
 public:
     explicit MeshWriter(const cdprep_mesh& mesh) noexcept : mesh_(mesh) {}

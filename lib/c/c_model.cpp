@@ -21,7 +21,7 @@ constexpr std::array kFields = {
     Field{"mode", offsetof(cdprep_open_options, mode), Holds::choice, CDPREP_MAP_TRUSTED},
 };
 
-/// What descriptions read, whatever is asked.
+/// The sections that descriptions read, for any query.
 constexpr SectionSet kAlways = {SectionId::bounds, SectionId::provenance, SectionId::verdicts,
                                 SectionId::findings, SectionId::repaired_from};
 
@@ -47,7 +47,8 @@ int read(Call& call, const cdprep_open_options* given, Asked& asked) noexcept {
     return CDPREP_OK;
 }
 
-/// A mistake in opening: a file that lacks what is asked for was not baked for it.
+/// Reports a failure to open. If the requested sections are missing, the file was not baked for the
+/// query.
 int fail_opening(Call& call, const Error& error, const Asked& asked) noexcept {
     if (error.code != ErrorCode::bad_argument) {
         return call.fail(static_cast<int>(error.code), error.message);
@@ -64,7 +65,7 @@ void release_all(const Memory& object, const Memory& bytes, const Memory& index)
     release(object);
 }
 
-/// Takes over the model and the copy of its bytes.
+/// Makes the model. It takes over the opened Model and the copy of its bytes.
 int make_model(Call& call, const Asked& asked, Model&& model, const Memory& bytes,
                cdprep_model** to) noexcept {
     Memory object, index;

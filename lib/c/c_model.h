@@ -9,15 +9,15 @@
 #include "cdprep/c/model.h"
 #include "cdprep/model.h"
 
-/// An open model, and what geometry out needs beside it.
+/// An open model, with indices for cdprep_model_corners() and cdprep_model_mesh().
 struct cdprep_model {
     cdprep::Model model;
-    cdprep::c::Memory object;  ///< this, or none in memory of the caller
+    cdprep::c::Memory object;  ///< this object; none in the caller's memory
     cdprep::c::Memory bytes;   ///< a copy of the file, or none
     cdprep::c::Memory index;   ///< of what follows, or none
-    /// By number of the imported file; empty where the model does not serve Ask::corners.
+    /// By source number; empty where the model does not serve Ask::corners.
     std::span<std::uint32_t> tree_triangle;
-    /// Empty where there is one component at most.
+    /// Empty where there is at most one component.
     std::span<std::uint32_t> component_of_vertex;
 };
 
@@ -35,14 +35,15 @@ inline constexpr std::uint32_t kSectionNumbers = 64;
 /// Refuses bits that this version does not know.
 int check_asks(Call& call, const Name& name, std::uint32_t ask) noexcept;
 
-/// Refuses what a model does not serve.
+/// Refuses queries that a model does not serve.
 int check_serves(Call& call, const Name& name, const cdprep_model& model, Ask asks);
 
-/// Fills the two index arrays: `room` has index_size() bytes, or is null where that is 0.
+/// Returns the bytes for the two index arrays, and fills them. `room` has index_size() bytes, or is
+/// null where that is 0.
 [[nodiscard]] std::size_t index_size(const Model& model) noexcept;
 void make_index(cdprep_model& model, void* room) noexcept;
 
-/// The bytes of a section that is open, or none.
+/// Returns the bytes of a section that is open, or none.
 [[nodiscard]] std::span<const std::byte> section_bytes(const Model& model, SectionId id) noexcept;
 
 }  // namespace cdprep::c

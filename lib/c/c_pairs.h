@@ -30,16 +30,17 @@ struct Input<cdprep_distance_options> {
     static cdprep_distance_options defaults() noexcept;
 };
 
-/// Fields of a pair that a question may use; others must be at their defaults.
+/// Fields of a pair that a query may use. The others must be at their defaults.
 enum Uses : std::uint32_t { uses_body = 1, uses_overlap = 2, uses_degenerate = 4 };
 
-/// Bits of the structures that a question may go through.
+/// Bits of the structures through which a query may be computed.
 inline constexpr std::uint32_t kBvhAlone = 1U << CDPREP_THROUGH_BVH;
 inline constexpr std::uint32_t kBvhOrPieces = kBvhAlone | 1U << CDPREP_THROUGH_PIECES;
 inline constexpr std::uint32_t kAnyStructure = (2U << CDPREP_THROUGH_PIECES) - 1;
 inline constexpr std::uint32_t kAnyButPieces = kAnyStructure & ~(1U << CDPREP_THROUGH_PIECES);
 
-/// A question about two models: what it needs and uses.
+/// A query about two models: the parts of the model that it needs, and the fields and structures
+/// that it uses.
 struct PairQuestion {
     Ask needs;
     std::uint32_t uses;
@@ -52,7 +53,7 @@ inline constexpr PairQuestion kContainment = {Ask::collide | Ask::solid, 0, kBvh
 inline constexpr PairQuestion kCollideAtLevel = {Ask::tetra_tree, 0, kBvhAlone};
 inline constexpr PairQuestion kOverlaps = {Ask::overlap, uses_overlap | uses_degenerate,
                                            kAnyStructure};
-/// Split, visited or marked.
+/// Overlaps that are split, visited or marked.
 inline constexpr PairQuestion kOverlapsOtherwise = {Ask::overlap, uses_overlap | uses_degenerate,
                                                     kBvhAlone};
 inline constexpr PairQuestion kDistance = {Ask::distance, uses_body, kBvhOrPieces};
@@ -61,7 +62,7 @@ inline constexpr PairQuestion kPairsWithin = {Ask::within, uses_degenerate, kBvh
 inline constexpr PairQuestion kPairsWithinVisit = {Ask::within, uses_degenerate, kBvhAlone};
 inline constexpr PairQuestion kContacts = {Ask::contacts, uses_degenerate, kBvhOrPieces};
 
-/// A pair whose every field was checked, in the terms of C++.
+/// A pair whose every field was checked, as C++ types.
 struct AskedPair {
     const Model* a = nullptr;
     const Model* b = nullptr;
@@ -73,7 +74,7 @@ struct AskedPair {
         assert(a != nullptr && b != nullptr);
         return {*a, *b, placement, options};
     }
-    /// The same with a cache, where the answer is found through the BVH.
+    /// Returns the same with a cache, if the query uses the BVH.
     [[nodiscard]] Pair with(PairCacheWords& words) const noexcept {
         assert(a != nullptr && b != nullptr);
         const bool uses_cache = options.through == Structure::bvh;
@@ -81,15 +82,15 @@ struct AskedPair {
     }
 };
 
-/// Checks all of a pair, or finds what was checked before.
+/// Reads a pair and checks all of it.
 int read_pair(Call& call, const Name& name, const PairQuestion& question, const cdprep_pair* given,
               const cdprep_workspace& workspace, AskedPair& asked);
 
-/// The structure, and what a model needs to be asked through it.
+/// Returns the structure, and the Ask that a model must serve for it.
 [[nodiscard]] Structure structure_of(std::uint32_t through) noexcept;
 [[nodiscard]] Ask needs_of(std::uint32_t through) noexcept;
 
-/// Checks options of a distance; null stands for the defaults.
+/// Reads and checks the options of a distance. Null gives the defaults.
 int read_distance_options(Call& call, const cdprep_distance_options* given,
                           cdprep_distance_options& options) noexcept;
 
@@ -98,7 +99,7 @@ int read_distance_options(Call& call, const cdprep_distance_options* given,
     return answer ? CDPREP_YES : CDPREP_NO;
 }
 
-/// Answers that say that nothing is known.
+/// Sets one answer to unknown.
 inline void set_unknown(std::uint32_t& answer) noexcept {
     answer = CDPREP_UNKNOWN;
 }
@@ -111,7 +112,7 @@ inline void set_unknown(cdprep_nearest& answer) noexcept {
 inline void set_unknown(cdprep_marks& answer) noexcept {
     answer.count = 0;
 }
-/// Any list.
+/// The same for any list.
 template <class List>
 requires requires(List list) {
     list.room;
@@ -120,11 +121,11 @@ void set_unknown(List& list) noexcept {
     list.count = 0;
 }
 
-/// Most answers of a batch that can be in memory.
+/// The maximum number of answers of a batch that fit into memory.
 template <class Answer>
 inline constexpr std::size_t kMostAnswers = PTRDIFF_MAX / sizeof(Answer);
 
-/// Says of all answers that nothing is known.
+/// Sets all answers to unknown.
 template <class Answer>
 void set_unknown(Answer* answers, std::size_t count) noexcept {
     if (answers == nullptr || count > kMostAnswers<Answer>) return;
@@ -142,9 +143,9 @@ int check_list(Call& call, const Name& name, const List& list) noexcept {
     return {reinterpret_cast<TrianglePair*>(list.items), list.room};
 }
 
-/// A question about one pair: says that nothing is known, checks everything (`check(call)` what is
-/// particular to the question), then calls `ask(pair, workspace)`, or `ask(call, pair, workspace)`,
-/// which may still refuse.
+/// Runs a query about one pair. Sets the answer to unknown, then checks everything; `check(call)`
+/// checks the query's own arguments. Then calls `ask(pair, workspace)`, or `ask(call, pair,
+/// workspace)`, which may still refuse.
 template <class Answer, class Check, class Asker>
 int ask_pair(const PairQuestion& question, const cdprep_pair* pair, cdprep_workspace* workspace,
              Answer* answer, const char* answer_name, cdprep_error* error, Check&& check,
@@ -170,7 +171,7 @@ int ask_pair(const PairQuestion& question, const cdprep_pair* pair, cdprep_works
     });
 }
 
-/// For questions without anything of their own to check.
+/// The check of queries without arguments of their own.
 inline constexpr auto nothing_to_check = [](Call& /*call*/) -> int { return CDPREP_OK; };
 
 }  // namespace cdprep::c

@@ -73,7 +73,7 @@ int check_points(Call& call, const cdprep_point_query& query) noexcept {
     return CDPREP_OK;
 }
 
-/// The caller's floating-point environment may take a short direction for none.
+/// The caller's floating-point environment could make a short direction equal to 0.
 bool is_zero(const double (&direction)[3]) noexcept {
     const format::FloatEnvironment environment;
     return direction[0] == 0 && direction[1] == 0 && direction[2] == 0;
@@ -130,7 +130,8 @@ inline void set_unknown(cdprep_ray_hit_list& answer) noexcept {
     answer.count = 0;
 }
 
-/// How many answers a query that may be wrong has room for: none where that is not known.
+/// Returns the number of answers that a query has room for. The query may be invalid; the result is
+/// 0 if the number is not known.
 template <class Query>
 std::size_t count_of(const Query* query) noexcept {
     Query read{};
@@ -146,8 +147,8 @@ std::size_t count_of(const Query* query) noexcept {
     return read.count;
 }
 
-/// A question that is asked once for each point or ray: says that nothing is known, checks
-/// everything (`check(call, query)`), then calls `ask(answer, query, i, workspace)` on all lanes.
+/// Runs a query for each point or ray. Sets all answers to unknown, checks everything (`check(call,
+/// query)`), then calls `ask(answer, query, i, workspace)` on all lanes.
 template <class Query, class Answer, class Check, class Asker>
 int ask_each(const Query* query, cdprep_workspace* workspace, Answer* answers,
              const char* answers_name, cdprep_error* error, Check&& check, Asker&& ask) noexcept {
@@ -206,7 +207,7 @@ Ray ray_of(const cdprep_ray_query& query, std::size_t i) noexcept {
 static_assert(sizeof(cdprep_ray_hit) == sizeof(RayHit));
 static_assert(alignof(cdprep_ray_hit) == alignof(RayHit));
 
-/// The hits that C++ stored in the room of a list, in the form of C.
+/// Converts the hits that C++ stored in the room of a list to C.
 void turn_into_c(cdprep_ray_hit* hits, std::size_t count) noexcept {
     for (std::size_t i = 0; i < count; ++i) {
         RayHit hit{};
@@ -226,8 +227,8 @@ const InputType Input<cdprep_ray_query>::type = {"cdprep_ray_query", 0xcd500008U
 
 namespace {
 
-/// Refuses directions that are so short that t would be beyond the largest double: at most how far
-/// the model reaches from the ray's origin, in lengths of the direction.
+/// Refuses directions so short that t could exceed the largest double. The greatest t is the
+/// model's reach from the ray's origin, in lengths of the direction.
 int check_lengths(Call& call, const cdprep_ray_query& query) noexcept {
     const format::FloatEnvironment environment;
     const format::FileHeader& header = query.model->model.header();
@@ -249,7 +250,7 @@ int check_lengths(Call& call, const cdprep_ray_query& query) noexcept {
 
 }  // namespace
 
-/// Checks rays, and that the model serves them.
+/// Checks rays, and whether the model serves them.
 int check_ray_query(Call& call, const cdprep_ray_query& query) {
     if (const int code = check_rays(call, query)) return code;
     if (const int code = check_lengths(call, query)) return code;

@@ -35,7 +35,7 @@ constexpr std::array kFields = {
 
 constexpr Name kQuery = {"query"};
 
-/// Which of its points a shape uses, and whether a radius.
+/// The number of points that a shape uses, and whether it has a radius.
 struct ShapeFields {
     std::size_t points;
     bool has_radius;
@@ -54,7 +54,7 @@ ShapeFields fields_of(std::uint32_t shape) noexcept {
     }
 }
 
-/// Limits may be infinite, but there is room between them.
+/// Limits may be infinite, but no lower limit may exceed its upper limit.
 int check_box(Call& call, const cdprep_shape_query& query) noexcept {
     const format::FloatEnvironment environment;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -117,7 +117,7 @@ Shape shape_of(const cdprep_shape_query& query) noexcept {
     }
 }
 
-/// A query whose every field was checked, but for what depends on the question.
+/// A query whose every field was checked, except for what depends on the kind of query.
 struct AskedShape {
     cdprep_shape_query query{};
     Shape shape;
@@ -145,8 +145,8 @@ int check_distance(Call& call, const AskedShape& asked) noexcept {
     return skips ? refuse_meaning(call, "degenerate") : CDPREP_OK;
 }
 
-/// A question about a shape: says that nothing is known, checks everything (`check(call, shape)`
-/// what is particular to the question), then calls `ask(query, workspace)`.
+/// Runs a query about a shape. Sets the answer to unknown, then checks everything; `check(call,
+/// shape)` checks what depends on the kind of query. Then calls `ask(shape, model, workspace)`.
 template <class Answer, class Check, class Asker>
 int ask_shape(const cdprep_shape_query* query, cdprep_workspace* workspace, Answer* answer,
               const char* answer_name, cdprep_error* error, Check&& check, Asker&& ask) noexcept {

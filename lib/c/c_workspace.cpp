@@ -38,7 +38,7 @@ const CellSearches* cells_of(const cdprep_workspace_options& options) noexcept {
     return reinterpret_cast<const CellSearches*>(options.cells);
 }
 
-/// Where each part of the block begins.
+/// The offset of each part of the block.
 struct Layout {
     Layout(std::uint32_t lanes, const CellSearches* cells) noexcept
         : objects(aligned(sizeof(cdprep_workspace))),
@@ -100,7 +100,7 @@ cdprep_workspace* make_in(const Asked& asked, std::byte* block, const Memory& me
                                         false};
 }
 
-/// What the tasks of one run share.
+/// The data that the tasks of one run share.
 struct Handed {
     Task task;
     std::size_t count;

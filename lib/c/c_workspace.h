@@ -12,21 +12,21 @@
 #include "cdprep/ask.h"
 #include "cdprep/workspace.h"
 
-/// A workspace of one or more lanes. The object, the lanes' objects, their counts and their
-/// scratch lie behind each other in one block.
+/// A workspace of one or more lanes. The object, the lanes' objects, their counts and their scratch
+/// memory lie one after another in one block.
 struct cdprep_workspace {
     std::span<cdprep::Workspace> lanes;
     std::span<cdprep::QueryCounts> counts;  ///< of each lane; empty without counting
     void (*run)(void*, std::size_t, cdprep_task, const void*);
     void* context;
-    cdprep::c::Memory memory;  ///< none when the caller's
+    cdprep::c::Memory memory;  ///< none if it is the caller's
     bool has_cells;
     std::atomic<bool> in_use = false;
 };
 
 namespace cdprep::c {
 
-/// Most lanes of a workspace.
+/// The maximum number of lanes of a workspace.
 inline constexpr std::uint32_t kMostLanes = 256;
 
 template <>
@@ -35,7 +35,7 @@ struct Input<cdprep_workspace_options> {
     static cdprep_workspace_options defaults() noexcept;
 };
 
-/// The use of a workspace by one call: no other may begin until it ends.
+/// The use of a workspace by one call. No other call may begin until it ends.
 class InUse {
 public:
     InUse() noexcept = default;
@@ -51,11 +51,11 @@ private:
     cdprep_workspace* workspace_ = nullptr;
 };
 
-/// Refuses a workspace without the searches through octrees and tetra-trees where `needs` has
-/// such a structure.
+/// Refuses a workspace without searches through octrees and tetra-trees if `needs` has such a
+/// structure.
 int check_cells(Call& call, const cdprep_workspace& workspace, Ask needs) noexcept;
 
-/// The caller's threads, as questions take them: each task runs once, whatever `run` does.
+/// The caller's threads, as queries use them. Each task runs once, whatever `run` does.
 class CallersThreads {
 public:
     explicit CallersThreads(const cdprep_workspace& workspace) noexcept : workspace_(workspace) {}

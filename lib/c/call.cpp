@@ -13,7 +13,7 @@ namespace {
 
 using Argument = std::array<char, sizeof(cdprep_error::argument)>;
 
-/// Writes as much of it as there is room for.
+/// Writes text, cut off where the room ends.
 class Writer {
 public:
     explicit Writer(Argument& text) noexcept : text_(text) {

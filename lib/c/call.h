@@ -12,7 +12,7 @@
 
 namespace cdprep::c {
 
-/// What an error names: "pairs[3].pose_b", "query.points[5]".
+/// The name of an argument in an error: "pairs[3].pose_b", "query.points[5]".
 struct Name {
     static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
@@ -26,21 +26,22 @@ struct Name {
     }
 };
 
-/// One call of the C API: where its error goes. Every function returns the code that it fills in.
+/// One call of the C API, with the place for its error. Every function returns the code that it
+/// fills in.
 class Call {
 public:
-    /// Says that all is well. `error` may be null.
+    /// Sets the error to OK. `error` may be null.
     explicit Call(cdprep_error* error) noexcept;
 
-    /// A mistake of the caller. The message is a format of std::snprintf; the name stands in
+    /// Reports an invalid argument. The message is a format of std::snprintf; the name is put in
     /// front of it.
     [[gnu::format(printf, 4, 5)]] int refuse(std::int32_t why, const Name& name,
                                              const char* message, ...) noexcept;
 
-    /// The same with a whole sentence.
+    /// The same with a complete sentence.
     int refuse_with(std::int32_t why, const Name& name, std::string_view sentence) noexcept;
 
-    /// Something else that went wrong.
+    /// Reports any other failure.
     int fail(int code, std::string_view sentence) noexcept;
 
     /// Refuses a null pointer.

@@ -51,7 +51,7 @@ int refuse_number(Call& call, const Name& name, Holds holds, double number) noex
                        "is %.17g; it must be %s.", number, allowed);
 }
 
-/// In the order in which mistakes are reported.
+/// The kinds of fields, in the order in which their errors are reported.
 enum class Phase : std::uint8_t { pointers, words, numbers };
 
 Phase phase_of(Holds holds) noexcept {

@@ -11,7 +11,7 @@
 
 namespace cdprep::c {
 
-/// What a field of an input struct may hold.
+/// The values that a field of an input struct may hold.
 enum class Holds : std::uint8_t {
     pointer,   ///< not null
     choice,    ///< uint32, at most Field::most
@@ -21,16 +21,16 @@ enum class Holds : std::uint8_t {
     limit,     ///< double, not negative; may be infinite
 };
 
-/// One field of an input struct that is checked whatever is asked.
+/// One field of an input struct that is checked for every query.
 struct Field {
     const char* name;
     std::size_t offset;
     Holds holds;
     std::uint32_t most = 0;
-    std::uint32_t count = 1;  ///< doubles that follow each other
+    std::uint32_t count = 1;  ///< consecutive doubles
 };
 
-/// A type of input struct: all that the checks know of it.
+/// A type of input struct, as the checks know it.
 struct InputType {
     const char* name;
     std::uint32_t tag;
@@ -39,20 +39,20 @@ struct InputType {
     std::span<const Field> fields;
 };
 
-/// Greatest size of a struct that is believed: no version will be larger.
+/// The greatest size of a struct that is accepted. No version will be larger.
 inline constexpr std::uint32_t kGreatestSize = 4096;
 
-/// Checks size and tag, and that what this library does not know is 0. `from` is not null.
+/// Checks size and tag, and that bytes unknown to this library are 0. Refuses null.
 int check_head(Call& call, const Name& name, const InputType& type, const void* from) noexcept;
 
 /// Checks every field of a struct that was read.
 int check_fields(Call& call, const Name& name, const InputType& type, const void* given) noexcept;
 
-/// Checks `count` numbers of a caller; names the wrong one.
+/// Checks `count` numbers of a caller. Names the invalid one.
 int check_numbers(Call& call, const Name& name, Holds holds, const double* numbers,
                   std::size_t count) noexcept;
 
-/// Whether a number is infinite, in any floating-point environment of the caller.
+/// Returns whether a number is infinite, in any floating-point environment of the caller.
 [[nodiscard]] bool is_infinite(double number) noexcept;
 
 /// Checks a number that is an argument of its own.
@@ -60,11 +60,11 @@ inline int check_number(Call& call, const char* name, Holds holds, double number
     return check_numbers(call, {name}, holds, &number, 1);
 }
 
-/// For each input struct: its InputType, as `type`, and what its _init() writes.
+/// For each input struct: its InputType, as `type`, and the values that its _init() writes.
 template <class T>
 struct Input;
 
-/// Writes what _init() functions write.
+/// Writes the default values, for the _init() functions.
 template <class T>
 void initialise(T* to, std::size_t size) noexcept {
     if (to == nullptr || size < sizeof(cdprep_head) || size > kGreatestSize) return;
@@ -74,8 +74,8 @@ void initialise(T* to, std::size_t size) noexcept {
     std::memcpy(static_cast<void*>(to), &made, std::min(size, sizeof made));
 }
 
-/// Reads a struct of the caller's, whose size may be another: fields that it does not have are at
-/// their defaults. Checks all but what depends on the question.
+/// Reads a caller's struct, whose size may differ: missing fields get their defaults. Checks all
+/// but what depends on the kind of query.
 template <class T>
 int read_input(Call& call, const Name& name, const T* from, T& to) noexcept {
     if (const int code = check_head(call, name, Input<T>::type, from)) return code;
@@ -87,7 +87,7 @@ int read_input(Call& call, const Name& name, const T* from, T& to) noexcept {
     return check_fields(call, name, Input<T>::type, &to);
 }
 
-/// The same where null stands for the defaults.
+/// The same, except that null gives the defaults.
 template <class T>
 int read_options(Call& call, const Name& name, const T* from, T& to) noexcept {
     if (from != nullptr) return read_input(call, name, from, to);
@@ -95,7 +95,7 @@ int read_options(Call& call, const Name& name, const T* from, T& to) noexcept {
     return CDPREP_OK;
 }
 
-/// Element `index` of an array of input structs, whose size stands in the first.
+/// Returns element `index` of an array of input structs. The first element holds the size of all.
 template <class T>
 const T* element(const T* first, std::size_t index) noexcept {
     cdprep_head head;

@@ -8,7 +8,7 @@
 
 namespace cdprep::c {
 
-/// A block that an allocator gave, or none. Freed by release() alone.
+/// A block from an allocator, or none. Only release() frees it.
 struct Memory {
     cdprep_allocator allocator{};
     void* start = nullptr;
@@ -19,24 +19,24 @@ struct Memory {
 int read_allocator(Call& call, const Name& name, const cdprep_allocator* given,
                    cdprep_allocator& allocator) noexcept;
 
-/// Allocates `size` bytes, aligned to CDPREP_ALIGNMENT; none for 0.
+/// Allocates `size` bytes, aligned to CDPREP_ALIGNMENT. Allocates nothing for 0.
 int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
              Memory& memory) noexcept;
 
 void release(const Memory& memory) noexcept;
 
-/// Memory of the caller, from the arguments `memory` and `size`; null for one allocation.
+/// Memory of the caller, from the arguments `memory` and `size`; null to allocate one block.
 struct Given {
     void* start;
     std::size_t size;
 };
 
-/// Refuses memory that is smaller than `needed` bytes, or misaligned, or given beside an
-/// allocator: that of the options, or null.
+/// Refuses memory that is smaller than `needed` bytes, misaligned, or given together with an
+/// allocator. `allocator` is that of the options, or null.
 int check_memory(Call& call, const Given& given, std::size_t needed,
                  const cdprep_allocator* allocator) noexcept;
 
-/// A block that is released unless somebody takes it over, also when an exception is thrown.
+/// A block that is released unless it is taken over, also when an exception is thrown.
 class OwnedMemory {
 public:
     OwnedMemory() noexcept = default;

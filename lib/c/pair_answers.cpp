@@ -9,7 +9,7 @@
 namespace cdprep::c {
 namespace {
 
-/// Words that a bit for each triangle takes.
+/// Returns the number of words with a bit for each triangle.
 std::size_t words_for(const Model& model) noexcept {
     return (std::size_t{model.triangle_count()} + 63) / 64;
 }

@@ -6,8 +6,8 @@
 
 #include "c/c_pairs.h"
 
-// The questions about two models that are asked one by one and in batches: each takes a pair that
-// was checked and a workspace.
+// Queries about two models that exist both singly and in batches. Each takes a checked pair and a
+// workspace.
 
 namespace cdprep::c {
 
@@ -28,7 +28,7 @@ namespace cdprep::c {
                                             Workspace& workspace,
                                             std::span<TrianglePair> room) noexcept;
 
-/// Refuses null words and too few of them.
+/// Refuses null bit arrays, and arrays with too few words.
 int check_marks(Call& call, const Name& name, const cdprep_marks& marks,
                 const AskedPair& asked) noexcept;
 

@@ -16,9 +16,9 @@ constexpr std::size_t kSeal = sizeof(cdprep_cache) / sizeof(std::uint64_t) - 1;
 static_assert(sizeof(PairCache) % sizeof(std::uint64_t) == 0 && kWords <= kSeal);
 static_assert(std::is_trivially_copyable_v<PairCache>);
 
-/// A checksum of the words, side by side so that it costs a few steps. It tells words that a
-/// question wrote from all others, such as those of another program, version or moment; it is no
-/// defence against somebody who makes it up.
+/// Returns a checksum of the words, computed side by side so that it costs a few steps. It detects
+/// words that no query wrote, such as those of another program, version or moment. It is no defence
+/// against forgery.
 std::uint64_t seal_of(const cdprep_cache& words) noexcept {
     constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15U;
     std::array<std::uint64_t, 4> mixed = {kOdd, ~kOdd, kOdd << 1, 0x63647072U};
@@ -35,7 +35,7 @@ std::uint64_t seal_of(const cdprep_cache& words) noexcept {
 
 PairCacheWords::PairCacheWords(cdprep_cache* words) noexcept : words_(words) {
     if (words == nullptr) return;
-    cdprep_cache copy;  // what is verified is what is used, also where another thread writes
+    cdprep_cache copy;  // the verified copy is used, even if another thread writes meanwhile
     std::memcpy(&copy, words, sizeof copy);
     if (copy.words[kSeal] != seal_of(copy)) return;
     std::memcpy(static_cast<void*>(&cache_), &copy, sizeof cache_);

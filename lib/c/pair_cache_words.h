@@ -6,8 +6,8 @@
 
 namespace cdprep::c {
 
-/// The cache of C++ while one question is asked: read from the words of a C program and written
-/// back. Words that were not written here, whatever they are, give a new cache.
+/// The C++ cache during one query. It is read from the words of a C program and written back. Any
+/// words that were not written here give a new cache.
 class PairCacheWords {
 public:
     /// `words` may be null.

@@ -66,7 +66,7 @@ int read_placement(Call& call, const Name& name, std::uint32_t moving, const cdp
     }
     const format::FloatEnvironment environment;
     const bool moves_b = moving == CDPREP_MOVE_B;
-    // A model at the identity leaves the other's pose as it is, to the last bit.
+    // If a model is at the identity, the other's pose is used unchanged, to the last bit.
     const bool is_relative = !is_identity(moves_b ? pose_a : pose_b);
     Pose relative = moves_b ? b : a;
     if (is_relative) relative = moves_b ? relative_pose(a, b) : relative_pose(b, a);

@@ -11,10 +11,10 @@ inline constexpr cdprep_pose kIdentity = {{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}};
 
 [[nodiscard]] cdprep_pose stored(const Pose& pose) noexcept;
 
-/// Reads a pose whose numbers were checked; refuses one that is not rigid.
+/// Reads a pose whose numbers were checked. Refuses one that is not rigid.
 int read_rigid(Call& call, const Name& name, const cdprep_pose& given, Pose& pose);
 
-/// Reads a pose that is an argument of its own: numbers, then rigid.
+/// Reads a pose that is an argument of its own: checks its numbers, then that it is rigid.
 int read_pose(Call& call, const Name& name, const cdprep_pose* given, Pose& pose);
 
 /// Reads two world poses; `moving` is one of CDPREP_MOVE_. Refuses models that are too far apart.

@@ -10,13 +10,13 @@
 
 namespace cdprep {
 
-/// A model's octree with split points of its own, as walk_cells() sees it.
+/// A model's octree with split points of its own, in the form for CellWalk.
 class AdaptiveOctreeTree {
 public:
     static constexpr std::uint32_t kMostLevels = format::kOctreeBits + 1;
     static constexpr bool kOriented = false;
 
-    /// A node and its box, model coordinates.
+    /// A node and its box in model coordinates.
     struct Cell {
         std::uint32_t node;
         std::array<double, 3> lower;
@@ -72,7 +72,7 @@ public:
         return {{cell.lower[0], cell.lower[1], cell.lower[2]},
                 {cell.upper[0], cell.upper[1], cell.upper[2]}};
     }
-    /// Where the planes between the children are; not of the cell above the root.
+    /// Returns the planes between the children. Not for the cell above the root.
     [[nodiscard]] Double3 split(const Cell& cell) const noexcept {
         assert(cell.node != kAboveRoots);
         return nodes_[cell.node].split;

@@ -17,16 +17,15 @@
 #include "core/guarded_for.h"
 #include "exact/triangle_box.h"
 
-// Level by level. The cells of a level have their lists one behind the other in one
-// array; each list is cut in pieces of a fixed size, every piece finds for each of its
-// triangles the children that it touches, and after all have counted, each knows where
-// its part of the children's lists goes. So lists rise as the first one did, and nothing
-// depends on who did which piece.
+// Built level by level. The lists of a level's cells lie one after another in one array. Each list
+// is cut into pieces of a fixed size. Every piece finds, for each of its triangles, the children
+// that it touches. After all have counted, each knows where its part of the children's lists goes.
+// So lists rise as the first one did, and nothing depends on which task did which piece.
 //
-// Scratch: a box of 48 bytes per triangle; 8 bytes per triangle of each median in work; for the
-// lists of a level and of the next 4 bytes per reference, and of the one a byte more; cells
-// and pieces of a level, and cells of the next. No level has more references or nodes than the
-// result.
+// Scratch: 48 bytes per triangle for its box; 8 bytes per triangle of each median being computed. 4
+// bytes per reference of a level and of the next, and one more per reference of the former. The
+// cells and pieces of a level, and the cells of the next. No level has more references or nodes
+// than the result.
 
 namespace cdprep::build {
 namespace {
@@ -38,13 +37,13 @@ using format::Triangle;
 
 constexpr std::size_t kChildren = 8;
 
-/// Trees do not get larger; see build_adaptive_octree().
+/// Returns the maximum number of references of a tree; see build_adaptive_octree().
 std::uint64_t most_references(std::uint64_t triangle_count) {
     constexpr std::uint64_t kMost = std::uint64_t{1} << 31;
     return std::min(kMostFreeReferences + kMostReferencesPerTriangle * triangle_count, kMost);
 }
 
-/// A cell of the level in work: its triangles are list[first, first + count).
+/// A cell of the current level: its triangles are list[first, first + count).
 struct Cell {
     Box3 box;
     Double3 split;
@@ -55,12 +54,12 @@ struct Cell {
     bool divided;
 };
 
-/// A part of a cell's list that one task goes through.
+/// A part of a cell's list that one task processes.
 struct Piece {
     std::size_t cell;
     std::size_t first;
     std::size_t last;
-    std::array<std::uint32_t, kChildren> children;  ///< counts; then where they go
+    std::array<std::uint32_t, kChildren> children;  ///< counts, then the places where they go
 };
 
 Box3 child_box(const Cell& cell, std::size_t child) {
@@ -73,8 +72,8 @@ bool holds(const Box3& outer, const Box3& inner) {
            outer.lower.z <= inner.lower.z && inner.upper.z <= outer.upper.z;
 }
 
-/// Children, a bit each, on whose side of the cell's planes some of a triangle's box lies;
-/// and how many of the planes cut it.
+/// The children, a bit each, on whose side of the cell's planes a part of a triangle's box lies.
+/// Also the number of planes that cut the box.
 struct Candidates {
     unsigned mask = 0xff;
     int cuts = 0;
@@ -97,7 +96,8 @@ Candidates candidates_of(const Cell& cell, const Box3& box) {
     return found;
 }
 
-/// Leaves axes whole along which every triangle's box would be cut, unless that is so of all.
+/// Leaves a cell undivided along axes whose plane would cut every triangle's box, unless that holds
+/// for all axes.
 void leave_whole(Cell& cell) {
     const auto& [x, y, z] = cell.separates;
     if (!x && !y && !z) return;
@@ -159,8 +159,8 @@ private:
         return {positions_[a], positions_[b], positions_[c]};
     }
 
-    /// Runs body(first, last) over neighbours among `count` things that have kItemsPerTask
-    /// triangles or more together; each group `repeats` times, with the number in front.
+    /// Groups `count` consecutive items so that each group has kItemsPerTask triangles or more.
+    /// Runs body(repeat, first, last) for each group, `repeats` times.
     template <class Size, class Body>
     void for_groups(std::size_t count, std::size_t repeats, Size size_of, const Body& body) {
         groups_.assign(1, 0);
@@ -243,8 +243,8 @@ private:
         }
     }
 
-    /// Of a triangle that touches the cell. Seen along one axis, it touches what its box
-    /// touches: the exact test is for the rest.
+    /// Returns the children that a triangle touches. The triangle touches the cell. Seen along one
+    /// axis, it touches what its box touches; the exact test is for other cases.
     [[nodiscard]] unsigned children_touched(const Cell& cell, std::uint32_t reference) const {
         const Box3& box = boxes_[reference & ~kSharedReference];
         const Candidates found = candidates_of(cell, box);
@@ -258,8 +258,8 @@ private:
         return touched;
     }
 
-    /// A cell is divided when some child has fewer triangles; none of the level is when the
-    /// tree would get too large.
+    /// Divides a cell if some child has fewer triangles. Divides no cell of the level if the tree
+    /// would get too large.
     void decide() {
         std::uint64_t references = result_.references.size();
         std::size_t children = 0;
@@ -279,7 +279,7 @@ private:
         for (Cell& cell : cells_) cell.divided = false;
     }
 
-    /// Writes the nodes of this level, the lists of its leaves and the cells of the next.
+    /// Writes the nodes of this level, the lists of its leaves and the cells of the next level.
     void end_level() {
         const std::size_t first_node = result_.nodes.size() - cells_.size();
         std::size_t next = 0;
@@ -305,10 +305,10 @@ private:
                                   first + static_cast<std::ptrdiff_t>(cell.count));
     }
 
-    /// Makes the cell's children, whose lists begin at `next`; returns where they end.
-    /// cell.children become where each list begins.
+    /// Makes the cell's children, whose lists begin at `next`. Returns the end of these lists. Sets
+    /// cell.children to the start of each list.
     std::size_t add_children(Cell& cell, format::AdaptiveOctreeNode& node, std::size_t next) {
-        // The nodes of this level are the last; those of the next follow.
+        // The nodes of this level are the last ones so far. Those of the next level follow.
         node = {cell.split, static_cast<std::uint32_t>(result_.nodes.size()), kInnerNode};
         std::uint32_t mask = 0;
         for (std::size_t child = 0; child < kChildren; ++child) {
@@ -342,7 +342,7 @@ private:
         if (!cells_[piece.cell].divided) return;
         for (std::size_t i = piece.first; i < piece.last; ++i) {
             const unsigned mask = masks_[i];
-            assert(mask != 0);  // what touches a cell touches a child
+            assert(mask != 0);  // a triangle that touches a cell touches a child
             const std::uint32_t shared = (mask & (mask - 1)) != 0 ? kSharedReference : 0;
             for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
                 const auto child = static_cast<std::size_t>(std::countr_zero(rest));
@@ -360,7 +360,7 @@ private:
     std::vector<Cell> next_cells_;
     std::vector<std::uint32_t> list_;  ///< of all cells of the level; see Cell
     std::vector<std::uint32_t> next_list_;
-    std::vector<std::uint8_t> masks_;  ///< for each of list_: the children that it touches
+    std::vector<std::uint8_t> masks_;  ///< for each entry of list_: the children that it touches
     std::vector<Piece> pieces_;
     std::vector<std::size_t> groups_;
 };

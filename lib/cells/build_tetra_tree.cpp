@@ -17,16 +17,16 @@
 #include "core/guarded_for.h"
 #include "exact/winding.h"
 
-// Level by level, all cones of a level at once: each cone's list of triangles is handed
-// down to its children. Most triangles lie inside one finest cone, which is known from
-// their corners alone (inner_cone); for the others the exact test is asked. Lists are
-// cut into pieces of kItemsPerTask: counted first, then moved to places that are known,
-// so that every list rises and no thread waits for another. The first levels, whose cones
-// are split anyway, are done in one step.
+// Built level by level, all cones of a level at once: each cone's list of triangles is passed down
+// to its children. Most triangles lie inside one finest cone, which is known from their corners
+// alone (inner_cone). The exact test decides the others. Lists are cut into pieces of
+// kItemsPerTask. These are counted first, then moved to places that are known, so that every list
+// rises and no thread waits for another. The first levels, whose cones are split in any case, are
+// done in one step.
 //
-// Scratch, in bytes: 20 a vertex, and 1 while the centre is sought; 4 a triangle, and 3 in
-// the first step; 9 a reference of the two levels that follow each other, either of them no
-// more than the result has: a triangle that touches a cone touches a child.
+// Scratch, in bytes: 20 per vertex, and 1 during the search for the centre; 4 per triangle, and 3
+// in the first step; 9 per reference of two consecutive levels. Neither level has more references
+// than the result: a triangle that touches a cone touches a child.
 
 namespace cdprep::build {
 namespace {
@@ -38,7 +38,7 @@ using format::Triangle;
 
 constexpr double kThird = 0.57735026918962576;  ///< 1 / sqrt(3)
 
-/// Part of a level's references: those of one cone.
+/// A part of a level's references: those of one cone.
 struct Run {
     std::uint32_t key;
     std::size_t first;
@@ -46,15 +46,15 @@ struct Run {
     std::size_t node;  ///< its number, once it has one
 };
 
-/// Part of a run, for one task.
+/// A part of a run, for one task.
 struct Piece {
     std::size_t run;
     std::size_t first;
     std::size_t last;
-    std::array<std::size_t, 4> place;  ///< for each child: how many, then where the next goes
+    std::array<std::size_t, 4> place;  ///< for each child: counts, then the place of the next
 };
 
-/// One level: who is where.
+/// One level: its references, and the cones that they belong to.
 struct Level {
     std::unique_ptr<std::uint32_t[]> items;
     std::size_t count;
@@ -65,7 +65,7 @@ std::uint32_t reference_of(std::uint32_t item) {
     return item & ~kSharedReference;
 }
 
-/// The deepest cone above both.
+/// Returns the deepest cone above both, or 0.
 std::uint32_t common_cone(std::uint32_t a, std::uint32_t b) {
     assert(a != 0 && b != 0);
     const int bits = std::min(std::bit_width(a), std::bit_width(b));
@@ -76,7 +76,7 @@ std::uint32_t common_cone(std::uint32_t a, std::uint32_t b) {
     return std::bit_width(a) < static_cast<int>(kOctantKeyBits) ? 0 : a;
 }
 
-/// Of a part of a leaf's list, in the units of the builder.
+/// The reach of a part of a leaf's list, in the units of the builder.
 struct LeafReach {
     std::size_t node;
     RadialRange reach;
@@ -149,7 +149,7 @@ private:
                        for (std::size_t i = first; i < last; ++i) home_[i] = home_of(i);
                    });
     }
-    /// The deepest cone that certainly holds all of the triangle inside; 0 when none does.
+    /// Returns the deepest cone that certainly contains the whole triangle, or 0 if there is none.
     [[nodiscard]] std::uint32_t home_of(std::size_t triangle) const {
         const auto& v = input_.triangles[triangle].vertex;
         const std::uint32_t a = places_[v[0]].inner_cone;
@@ -178,8 +178,9 @@ private:
         }
     }
 
-    /// The level that triangles are sorted into first: where cones above it are split anyway,
-    /// their lists are not asked for. Where triangles are few for it, that is not likely.
+    /// Returns the level into which triangles are sorted first. If the cones above it are split in
+    /// any case, their lists are never used. With few triangles that is unlikely, and the result is
+    /// 0.
     [[nodiscard]] std::uint32_t level_at_once() const {
         constexpr std::size_t kTimes = 8;
         const format::TetraTree& tree = result_.tree;
@@ -189,8 +190,8 @@ private:
         return tree.threshold == 1 || input_.triangles.size() >= enough ? level : 0;
     }
 
-    /// The cones of level `depth`, below those of the levels above; or the octants, and then
-    /// `depth` is 0.
+    /// Returns the cones of level `depth` and adds those of the levels above to the tree. If these
+    /// are not all split, returns the octants and sets `depth` to 0.
     Level first_level(std::uint32_t& depth) {
         ConeLists lists = split_at_once(input_, home_.get(), depth, options_.parallel_for);
         if (!may_be_first(lists, depth)) {
@@ -204,7 +205,7 @@ private:
         return {std::move(lists.items), lists.first.back(), runs_of(lists, depth, depth)};
     }
 
-    /// The cones of level `above` that something in the lists of level `level` lies in.
+    /// Returns the cones of level `above` that contain something from the lists of level `level`.
     static std::vector<Run> runs_of(const ConeLists& lists, std::uint32_t level,
                                     std::uint32_t above) {
         assert(above <= level);
@@ -218,7 +219,8 @@ private:
         return runs;
     }
 
-    /// Whether all cones above would be split: they hold what any cone below holds.
+    /// Returns whether all cones above would be split. A cone's list holds everything that the list
+    /// of a cone below holds.
     [[nodiscard]] bool may_be_first(const ConeLists& lists, std::uint32_t level) const {
         if (level == 0) return true;
         if (lists.first.back() > most_references()) return false;
@@ -235,7 +237,7 @@ private:
         return true;
     }
 
-    /// Adds the cones of level `above`, all of which are split.
+    /// Adds the cones of level `above`. All of them are split.
     void take_inner(const ConeLists& lists, std::uint32_t level, std::uint32_t above) {
         const std::vector<Run> runs = runs_of(lists, level, above);
         const std::vector<Run> children = runs_of(lists, level, above + 1);
@@ -265,7 +267,7 @@ private:
         return inner;
     }
 
-    /// Whether the references of the level, with these cones split, are not too many.
+    /// Returns whether the references of the level, with these cones split, are few enough.
     [[nodiscard]] bool has_room(const Level& level, const std::vector<Run>& inner,
                                 const std::vector<Piece>& pieces) const {
         std::uint64_t count = result_.references.size() + level.count;
@@ -306,7 +308,7 @@ private:
         return pieces;
     }
 
-    /// Calls body(piece) for each, some a task.
+    /// Calls body(piece) for each piece, several per task.
     template <class Body>
     void for_pieces(std::vector<Piece>& pieces, const Body& body) const {
         std::vector<std::size_t> begin;
@@ -324,7 +326,8 @@ private:
         });
     }
 
-    /// How many of each piece go to each child; and in mask_ who goes where.
+    /// Counts, for each piece, how many references go to each child. Stores in mask_ the children
+    /// of each reference.
     std::vector<Piece> count_children(const Level& level, const std::vector<Run>& runs) {
         std::vector<Piece> pieces = pieces_of(runs);
         if (pieces.empty()) return pieces;
@@ -351,7 +354,7 @@ private:
         }
     }
 
-    /// The children that have something, each list in the order of its parent's.
+    /// Returns the children with references, each list in the order of its parent's.
     Level move_down(const Level& from, const std::vector<Run>& runs, std::vector<Piece>& pieces) {
         Level level{};
         std::size_t piece = 0;
@@ -370,7 +373,7 @@ private:
         return level;
     }
 
-    /// Turns counts of one cone's pieces into places, and adds its children to the level.
+    /// Turns the counts of one cone's pieces into places, and adds its children to the level.
     static void place_pieces(std::uint32_t key, std::span<Piece> pieces, Level& level) {
         for (std::uint32_t child = 0; child < 4; ++child) {
             const std::size_t begin = level.count;
@@ -402,7 +405,8 @@ private:
         }
     }
 
-    /// Of leaves from their triangles, of the others from their children: these cover them.
+    /// Computes the radii of leaves from their triangles and those of other nodes from their
+    /// children, which cover them.
     void find_radii() {
         std::vector<TetraNode>& nodes = result_.nodes;
         std::vector<RadialRange> reach(nodes.size());
@@ -412,7 +416,7 @@ private:
         for (std::size_t i = nodes.size(); i-- > 0;) {
             TetraNode& node = nodes[i];
             if ((node.flags & format::tetra_inner) != 0) {
-                assert(node.first > i);  // children stand behind their parents
+                assert(node.first > i);  // children follow their parents
                 for (std::size_t k = node.first; k < node.first + node.count; ++k) {
                     reach[i].add(reach[k]);
                 }
@@ -421,7 +425,8 @@ private:
         }
     }
 
-    /// A leaf may be in several tasks: parts of its list.
+    /// Returns the reach of all leaves. A leaf may occur several times, with parts of its list from
+    /// several tasks.
     [[nodiscard]] std::vector<LeafReach> reach_of_leaves() const {
         std::vector<std::uint32_t> leaves;
         for (std::uint32_t i = 0; i < result_.nodes.size(); ++i) {
@@ -445,7 +450,7 @@ private:
                                      [&](std::size_t place, std::uint32_t node) {
                                          return place < result_.nodes[node].first;
                                      });
-        // Before all lists are the triangles that hold the centre.
+        // The triangles that hold the centre come before all lists.
         if (leaf != leaves.begin()) --leaf;
         for (; leaf != leaves.end() && result_.nodes[*leaf].first < last; ++leaf) {
             const TetraNode& node = result_.nodes[*leaf];
@@ -456,7 +461,8 @@ private:
         }
     }
 
-    /// How far its corners are, as far as the sum of sizes is that within the octant.
+    /// The least and greatest sum of sizes of a triangle's corners. For corners within the octant,
+    /// that sum is their distance from the centre.
     struct Sizes {
         float least;
         float greatest;
@@ -466,7 +472,8 @@ private:
         const float a = reach_[v[0]], b = reach_[v[1]], c = reach_[v[2]];
         return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
     }
-    /// Rounded to double by 8 u and to float by 2^-24; tiny ones by some 2^-149.
+    /// Returns the range, widened by the rounding: to double by 8 u and to float by 2^-24; tiny
+    /// numbers by about 2^-149.
     static RadialRange range_of(const Sizes& sizes) {
         constexpr double kRounding = 0x1p-22;
         constexpr double kTiny = 0x1p-140;
@@ -474,8 +481,9 @@ private:
                 double{sizes.greatest} * (1 + kRounding) + kTiny};
     }
 
-    /// A triangle that is listed in one leaf lies in it, whole: these come first, the others
-    /// are kept for later. Without a branch: nothing foretells which is which.
+    /// Returns the reach of a part of a leaf's list. A triangle listed in one leaf only lies
+    /// entirely in it. These come first; the shared ones follow. The loop has no branch, because it
+    /// is unpredictable which triangles are shared.
     [[nodiscard]] RadialRange reach_of_part(std::uint32_t key, std::size_t begin,
                                             std::size_t end) const {
         constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -497,7 +505,7 @@ private:
         return range;
     }
 
-    /// Of triangles that are in this leaf and in others.
+    /// Adds triangles that are in this leaf and in others.
     void add_parts(std::uint32_t key, std::span<const std::uint32_t> triangles,
                    RadialRange& range) const {
         const ConeFaces faces = cone_faces(tetra_cone(key));
@@ -511,7 +519,7 @@ private:
     }
 
     void set_radii(const RadialRange& reach, TetraNode& node) const {
-        // The factor and two products round; then lengths below every float.
+        // The factor and two products are rounded. kTiny covers lengths below every float.
         constexpr double kRounding = 0x1p-50;
         constexpr double kTiny = 0x1p-1000;
         constexpr double kMost = std::numeric_limits<float>::max();
@@ -525,8 +533,8 @@ private:
         node.radius_min = float_below(std::clamp(least, 0.0, kMost));
     }
 
-    /// A ray from the centre crosses triangles of one cone only: that of its direction,
-    /// closed, even when it is perturbed.
+    /// Sets the flag tetra_centre_inside. A ray from the centre crosses only triangles of the
+    /// closed cone of its direction, even when it is perturbed.
     void find_inside() {
         if (result_.nodes.empty() || result_.tree.centre_count > 0) return;
         const TetraNode& leaf = result_.nodes.back();

@@ -11,17 +11,17 @@
 
 namespace cdprep {
 
-/// A lowest node of one hierarchy that one of the other may meet, and which of their
-/// leaves: bits as kernels::BoxPairs.
+/// A lowest node of one hierarchy that one of the other may meet. `pairs` are the pairs of their
+/// leaves that may meet, with bits as kernels::BoxPairs.
 struct CandidateNode {
     kernels::BoxPairs pairs;
     std::uint32_t node;
     std::uint32_t slot;
 };
 
-/// A set of lowest nodes, by number. When more are added than there is room for, it keeps
-/// the lower half of the numbers and refuses the others: those below limit() are complete,
-/// and what is at or above it is to be asked for again with begin(limit()).
+/// A set of lowest nodes, by number. When there is no room for all, it keeps the lower half of the
+/// numbers and refuses the others. Numbers below limit() are complete. For the others, call
+/// begin(limit()) and add them again.
 class CandidateNodes {
 public:
     static constexpr std::uint32_t kRoom = 512;
@@ -51,12 +51,12 @@ public:
     [[nodiscard]] std::span<const CandidateNode> nodes() const noexcept {
         return std::span(nodes_).first(count_);
     }
-    /// Numbers from here on were refused; kNoLimit when none was.
+    /// Returns the first number that was refused, or kNoLimit if none was.
     [[nodiscard]] std::uint32_t limit() const noexcept {
         return limit_;
     }
 
-    /// For tests: how many have room, at least 2.
+    /// For tests: sets the number of nodes that there is room for, at least 2.
     void set_room(std::uint32_t room) noexcept {
         assert(room >= 2 && room <= kRoom);
         room_ = room;
@@ -65,7 +65,7 @@ public:
 private:
     static constexpr std::uint32_t kSlots = 2 * kRoom;
 
-    /// Neighbours in the tree, likely together, get slots of their own.
+    /// Neighbours in the tree, which are likely to occur together, get separate slots.
     static std::uint32_t slot_of(std::uint32_t node) noexcept {
         return (node ^ node >> 10) % kSlots;
     }

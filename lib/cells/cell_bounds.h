@@ -12,39 +12,39 @@
 
 namespace cdprep {
 
-/// What bounds eight cells side by side, in frame coordinates, as the kernels read them.
+/// The bounds of eight cells side by side, in frame coordinates, as the kernels read them.
 struct MadeBounds {
     format::BvhNode boxes;
-    format::OrientedNode oriented;  ///< set by trees that say so
+    format::OrientedNode oriented;  ///< set by trees with kOriented
 };
 
-/// The same in a file: the second, or both, may be null.
+/// The same from a file. The second pointer, or both, may be null.
 struct StoredBounds {
     const format::BvhNode* boxes = nullptr;
     const format::OrientedNode* oriented = nullptr;
 };
 
-/// The boxes of eight cells side by side, wherever they are.
+/// The boxes of eight cells side by side, wherever they are stored.
 struct CellBounds {
     const format::BvhNode& boxes;
 };
 
-/// The bounds of the children of the cells that a walk came to last.
+/// The bounds of the children of the cells that a walk visited last.
 struct KeptBounds {
     static constexpr std::size_t kPlaces = 32;
 
     struct Place {
-        std::uint64_t holds;  ///< question and node
-        unsigned leaf_lanes;  ///< which of the children are leaves
+        std::uint64_t holds;  ///< query and node
+        unsigned leaf_lanes;  ///< the children that are leaves
         MadeBounds bounds;
     };
-    // Lanes that no child has hold what was there before, or zeros: numbers too small for
-    // float would slow the kernels down.
+    // Lanes without a child hold earlier values or zeros. Subnormal numbers would slow the kernels
+    // down.
     std::array<Place, kPlaces> place{};
     std::uint64_t question = 0;
 };
 
-/// From model coordinates to a model's frame, rounded outwards.
+/// The map from model coordinates to a model's frame.
 class FrameOf {
 public:
     explicit FrameOf(const Model& model) noexcept
@@ -54,7 +54,7 @@ public:
           second_factor_(
               two_to(model.header().frame_exponent - model.header().frame_exponent / 2)) {}
 
-    /// In double: off by 2^-53 of itself at most.
+    /// Returns a frame coordinate in double, off by at most 2^-53 of itself.
     [[nodiscard]] double frame(std::size_t axis, double x) const noexcept {
         return (x - origin_[axis]) * first_factor_ * second_factor_;
     }
@@ -65,8 +65,9 @@ private:
     double second_factor_;
 };
 
-/// Of a number that is off by 2^-52 of itself and by 2^-46 at most (frame units: nothing in
-/// a file is finer than float there): float rounds by 2^-24 of it, twice that covers all.
+/// Rounds a number outwards to float. The number may be off by 2^-52 of itself and by 2^-46 (frame
+/// units: nothing in a file is finer than float there). Float rounds by 2^-24 of it; twice that
+/// covers all errors.
 inline float float_below(double x) noexcept {
     return static_cast<float>(x - (std::fabs(x) * 0x1p-23 + 0x1p-45));
 }
@@ -74,7 +75,7 @@ inline float float_over(double x) noexcept {
     return static_cast<float>(x + (std::fabs(x) * 0x1p-23 + 0x1p-45));
 }
 
-/// Everything of a model lies in its frame: what of a box is outside holds nothing.
+/// Clips to the frame. Everything of a model lies in it, so the part of a box outside is empty.
 inline float clipped(float x) noexcept {
     return std::clamp(x, -1.0F, 1.0F);
 }
@@ -86,8 +87,8 @@ struct DividedAxis {
     double upper;
 };
 
-/// The boxes of the eight children of a box, frame coordinates; lane as octree.h numbers
-/// them.
+/// Sets the boxes of the eight children of a box, in frame coordinates. Lanes are numbered as in
+/// octree.h.
 inline void bound_octants(std::size_t axis, const DividedAxis& planes,
                           format::BvhNode& boxes) noexcept {
     assert(axis < 3);
@@ -101,7 +102,7 @@ inline void bound_octants(std::size_t axis, const DividedAxis& planes,
     }
 }
 
-/// The stored boxes of children, which stand side by side from `first` on, to their lanes.
+/// Copies the stored boxes of children, side by side from `first` on, to their lanes.
 inline void bound_by_boxes(const format::CellBox* first, unsigned lanes,
                            format::BvhNode& boxes) noexcept {
     assert(lanes <= 0xff);
@@ -114,18 +115,18 @@ inline void bound_by_boxes(const format::CellBox* first, unsigned lanes,
     }
 }
 
-/// The one box of a root, in lane 0; the others repeat it.
+/// Sets the box of a root in lane 0. The other lanes repeat it.
 inline void bound_root(std::size_t axis, double lower, double upper,
                        format::BvhNode& boxes) noexcept {
     boxes.lower[axis].fill(clipped(float_below(lower)));
     boxes.upper[axis].fill(clipped(float_over(upper)));
 }
 
-/// In place of a node's number: what stands above the roots of a tree.
+/// The node number of the cell above the roots of a tree.
 inline constexpr std::uint32_t kAboveRoots = 0xffffffff;
 
-/// How many of eight bits are set. Without the instruction, which not every processor has,
-/// std::popcount() is a call.
+/// Returns the number of set bits of eight. std::popcount() is a call without the instruction,
+/// which not every processor has.
 inline std::uint32_t bits_in(unsigned lanes) noexcept {
     assert(lanes <= 0xff);
     lanes -= lanes >> 1 & 0x55;
@@ -133,13 +134,13 @@ inline std::uint32_t bits_in(unsigned lanes) noexcept {
     return (lanes + (lanes >> 4)) & 0xf;
 }
 
-/// How many lanes below `lane` are in a bit set: the place of a child among its siblings.
+/// Returns the number of set lanes below `lane`: the place of a child among its siblings.
 inline std::uint32_t lanes_before(unsigned lanes, unsigned lane) noexcept {
     assert(lane < format::kBvhWidth);
     return bits_in(lanes & ((1U << lane) - 1));
 }
 
-/// All pairs of some lanes of A and some of B.
+/// Returns all pairs of some lanes of A and some of B.
 inline kernels::BoxPairs lane_pairs(unsigned of_a, unsigned of_b) noexcept {
     assert(of_a <= 0xff && of_b <= 0xff);
     kernels::BoxPairs pairs = 0;

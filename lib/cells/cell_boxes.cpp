@@ -11,8 +11,8 @@
 #include "cells/octree_codes.h"
 #include "cells/split_box.h"
 
-// A box is worked out in model coordinates, where least and greatest of corners and planes are
-// exact, and rounded once, outwards, when it becomes one of the frame.
+// Boxes are computed in model coordinates, where minima and maxima of corners and planes are exact.
+// They are rounded once, outwards, on conversion to the frame.
 
 namespace cdprep::build {
 namespace {
@@ -25,7 +25,7 @@ constexpr std::size_t kNodesPerTask = 256;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr Box3 kNothing = {{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 
-/// Widens `box` by what two boxes, that touch, have in common.
+/// Widens `box` by the intersection of two boxes that touch.
 void add_common(const Box3& a, const Box3& b, Box3& box) {
     assert(overlap(a, b));
     const auto add = [](double lower_a, double lower_b, double upper_a, double upper_b,
@@ -56,7 +56,7 @@ CellBox around(const CellBox& a, const CellBox& b) {
     return result;
 }
 
-/// The cells of all nodes.
+/// Returns the cells of all nodes.
 std::vector<Box3> cells_of(const Octree& octree) {
     std::vector<Box3> cells;
     cells.reserve(octree.nodes.size());
@@ -71,7 +71,7 @@ std::vector<Box3> cells_of(const AdaptiveOctree& octree) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
         const format::AdaptiveOctreeNode& node = octree.nodes[i];
         if ((node.count & kInnerNode) == 0) continue;
-        assert(node.first > i);  // children stand behind their parents
+        assert(node.first > i);  // children follow their parents
         std::size_t child = node.first;
         for (unsigned rest = node.count & 0xff; rest != 0; rest &= rest - 1) {
             const auto lane = static_cast<std::size_t>(std::countr_zero(rest));
@@ -81,7 +81,7 @@ std::vector<Box3> cells_of(const AdaptiveOctree& octree) {
     return cells;
 }
 
-/// What bounding needs of a tree and its triangles.
+/// The lists and triangles of a tree, for bounding.
 struct Listing {
     std::span<const std::uint32_t> references;
     std::span<const format::Double3> positions;
@@ -110,7 +110,7 @@ void bound(Tree& tree, const Listing& listing, const Frame& frame, ParallelFor p
             tree.boxes[i] = in_frame(listing.around_listed(node.first, node.count, cells[i]), map);
         }
     });
-    // Children stand behind their parents.
+    // Children follow their parents.
     for (std::size_t i = tree.nodes.size(); i-- > 0;) {
         const auto& node = tree.nodes[i];
         if ((node.count & kInnerNode) == 0) continue;

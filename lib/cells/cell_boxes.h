@@ -9,13 +9,13 @@
 
 namespace cdprep::build {
 
-/// Fills octree.boxes, of its nodes and references; all in `frame`, which holds the positions.
-/// O(references), and 48 bytes of scratch for each node.
+/// Fills octree.boxes from its nodes and references. All boxes are in `frame`, which contains the
+/// positions. O(references), and 48 bytes of scratch for each node.
 void bound_cells(Octree& octree, std::span<const format::Double3> positions,
                  std::span<const format::Triangle> triangles, const Frame& frame,
                  ParallelFor parallel_for);
 
-/// The same of one whose nodes chose their split points.
+/// The same for an octree whose nodes chose their split points.
 void bound_cells(AdaptiveOctree& octree, std::span<const format::Double3> positions,
                  std::span<const format::Triangle> triangles, const Frame& frame,
                  ParallelFor parallel_for);

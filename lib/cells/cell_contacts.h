@@ -11,7 +11,8 @@
 
 namespace cdprep {
 
-/// The decision about one pair of triangles by the paper's six segments.
+/// Returns whether two triangles are in contact, by the six segment-triangle tests of Feito and
+/// Torres (1997).
 inline bool in_contact_by_segments(const Corners& a, const Corners& b, Overlap overlap) noexcept {
     if (!triangles_touch_by_segments(a, b)) return false;
     if (overlap == Overlap::closed) return true;
@@ -19,14 +20,14 @@ inline bool in_contact_by_segments(const Corners& a, const Corners& b, Overlap o
     return kind == TriangleContact::cross || kind == TriangleContact::coplanar_overlap;
 }
 
-/// The last stage of a question through cells: pairs of leaves of the two BVHs, and
-/// some lanes of each, are held against each other, many at a time; each pair of
-/// triangles in contact is an answer once, however many cells bring it.
+/// The last stage of a query through cells. It tests pairs of leaves of the two BVHs, or some of
+/// their lanes, many at a time. Each pair of triangles in contact is answered once, however many
+/// cells bring it.
 ///
-/// A question begins with TestedPairs::begin() and may go on through several of these.
-/// `found(at_a, at_b)`, tree order, is called until it returns false. Where there is no
-/// room to remember an answer, `owns(place, at_a, at_b)` decides: of all places that bring
-/// the pair, with both triangles listed, it must be true for one.
+/// A query begins with TestedPairs::begin() and may use several of these. `found(at_a, at_b)` is
+/// called with numbers in tree order, until it returns false. Where there is no room to remember an
+/// answer, `owns(place, at_a, at_b)` decides. It must be true for exactly one of all places that
+/// bring the pair and list both triangles.
 template <class Found, class Owns>
 class CellContacts {
 public:
@@ -44,13 +45,13 @@ public:
           found_(std::move(found)),
           owns_(std::move(owns)) {}
 
-    /// Tests a few pairs of leaves at a time: a hit comes early.
+    /// Tests a few pairs of leaves at a time, so that a hit comes early.
     void hurry() noexcept {
         most_ = kHurriedBatch;
     }
 
-    /// Adds what was not tested yet. `place` is whatever `owns` wants to know of. False
-    /// when `found` ended the question.
+    /// Adds pairs that were not tested yet. `place` is passed to `owns`. Returns false when `found`
+    /// ended the query.
     bool add(const LeafLanes& a, const LeafLanes& b, std::uint64_t place) noexcept {
         const std::uint64_t pairs = pairs_of(a.lanes, b.lanes);
         TestedPairs::Held held = cells_.tested_pairs.hold(a.leaf, b.leaf, pairs);
@@ -65,21 +66,21 @@ public:
         return batch_.size() < most_ || flush();
     }
 
-    /// The same for who brings no two leaves twice: nothing is remembered, and `owns` is
-    /// asked about all answers.
+    /// The same for a caller that brings no two leaves twice. Remembers nothing, and calls `owns`
+    /// for all answers.
     bool add_once(const LeafLanes& a, const LeafLanes& b) noexcept {
         cells_.pending_leaves[batch_.size()] = {0, ~std::uint64_t{0}, false};
         batch_.add(a.leaf, a.lanes, b.leaf, b.lanes);
         return batch_.size() < most_ || flush();
     }
 
-    /// Whether there was no room to remember some answers: from then on every place has to
+    /// Returns whether there was no room to remember some answers. From then on every place must
     /// bring what it lists, tested before or not.
     [[nodiscard]] bool forgets() const noexcept {
         return forgets_;
     }
 
-    /// Tests all that was added. False when `found` ended the question.
+    /// Tests all that was added. Returns false when `found` ended the query.
     bool flush() noexcept {
         if (batch_.size() == 0) return true;
         const std::size_t count = batch_.size();
@@ -92,7 +93,7 @@ public:
 private:
     static constexpr std::size_t kHurriedBatch = 4;
 
-    /// Bits as TestedPairs has them.
+    /// Returns a set of pairs with bits as in TestedPairs.
     static std::uint64_t pairs_of(std::uint8_t lanes_a, std::uint8_t lanes_b) noexcept {
         std::uint64_t pairs = 0;
         for (unsigned rest = lanes_b; rest != 0; rest &= rest - 1) {
@@ -109,10 +110,10 @@ private:
             });
     }
 
-    /// Every pair of triangles by the exact test; nothing in float.
+    /// Tests every pair of triangles by the exact test, without float.
     bool flush_by_segments(std::size_t count) noexcept;
 
-    /// Two triangles of pair `pair` are in contact.
+    /// Handles two triangles of pair `pair` that are in contact.
     bool answer(std::size_t pair, std::uint32_t at_a, std::uint32_t at_b) noexcept {
         const PendingLeaves& leaves = cells_.pending_leaves[pair];
         const std::uint32_t bit = 8 * (at_b % format::kBvhWidth) + at_a % format::kBvhWidth;

@@ -9,7 +9,7 @@
 
 namespace cdprep {
 
-/// The triangles that hold a tetra-tree's centre, as a tree of one leaf: all of the frame.
+/// The triangles that hold a tetra-tree's centre, as a tree with one leaf: the whole frame.
 class CentreCell {
 public:
     static constexpr std::uint32_t kMostLevels = 1;

@@ -19,7 +19,7 @@ Reach reach_of(const Box3& box, std::size_t axis) {
     return {coordinate(box.lower, axis), coordinate(box.upper, axis)};
 }
 
-/// Halfway; finite, and between the two, for all coordinates that models have.
+/// Returns the midpoint: finite and between the two, for all coordinates that models have.
 double middle(const Reach& reach) {
     return reach.lower + (reach.upper - reach.lower) / 2;
 }
@@ -28,7 +28,7 @@ bool is_inside(double x, const Reach& reach) {
     return reach.lower < x && x < reach.upper;
 }
 
-/// Calls body(reach) with what each triangle's box reaches over along the axis.
+/// Calls body(reach) with the extent of each triangle's box along the axis.
 template <class Body>
 void for_reaches(const CellContent& cell, std::size_t axis, Body body) {
     for (const std::uint32_t reference : cell.list) {
@@ -67,8 +67,8 @@ AxisSplit by_median(const CellContent& cell, std::size_t axis, std::vector<doubl
 
 constexpr std::size_t kSlices = 16;
 
-/// Planes between slices, and how many triangles lie to both sides of each, those that it
-/// cuts to both.
+/// The planes between slices, and the number of triangles on each side of every plane. Triangles
+/// that a plane cuts count on both sides.
 struct Slices {
     std::array<double, kSlices - 1> plane;
     std::array<std::size_t, kSlices - 1> below;
@@ -105,9 +105,9 @@ Slices slices_of(const CellContent& cell, std::size_t axis) {
     return slices;
 }
 
-/// Half the area of a cell that is cut across an axis: `across` is fixed, `along` is
-/// multiplied by its share of the whole. In units of the longest side, so that no
-/// model's size leaves the range of double.
+/// Half the surface area of a cell that is cut across an axis: `across` is fixed, and `along` is
+/// multiplied by the part's share. In units of the longest side, so that no model's size leaves the
+/// range of double.
 struct HalfArea {
     double across;
     double along;

@@ -10,28 +10,28 @@
 
 namespace cdprep::build {
 
-/// What is known of a cell that is to be divided.
+/// The contents of a cell that is to be divided.
 struct CellContent {
     Box3 box;
-    /// Of the triangles that touch it, numbers into `boxes`, perhaps with
+    /// The triangles that touch the cell: numbers into `boxes`, perhaps with
     /// format::kSharedReference.
     std::span<const std::uint32_t> list;
     std::span<const Box3> boxes;  ///< around each triangle
 };
 
-/// Where a cell may be divided along one axis.
+/// A plane at which a cell may be divided along one axis.
 struct AxisSplit {
-    double plane;    ///< strictly inside the cell's box; its upper bound where nothing is
+    double plane;    ///< strictly inside the cell's box; its upper bound if nothing is inside
     bool separates;  ///< some triangle's box lies strictly to one side
 };
 
-/// Chooses it.
+/// Chooses the plane at which to divide a cell along one axis.
 ///
-/// Median: of the middles of the triangles' boxes, each cut to the cell; where that is on
-/// the cell's border, because most lie flat on it, the middle of the cell. Surface area:
-/// of the 15 planes between 16 slices of equal width the one with the least sum, over
-/// both sides, of area times triangles; of equal ones the nearest to the middle.
-/// `scratch` is for the median: a double per triangle of the list.
+/// Median: the median of the middles of the triangles' boxes, each cut to the cell. If that is on
+/// the cell's border, because most triangles lie flat on it, the middle of the cell. Surface area:
+/// of the 15 planes between 16 slices of equal width, the one with the least sum, over both sides,
+/// of area times triangles. Of equal planes, the nearest to the middle. `scratch` is for the
+/// median: a double per triangle of the list.
 [[nodiscard]] AxisSplit choose_split(const CellContent& cell, std::size_t axis,
                                      format::SplitRule rule, std::vector<double>& scratch);
 

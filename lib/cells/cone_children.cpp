@@ -8,16 +8,16 @@ namespace cdprep::build {
 namespace {
 
 constexpr std::uint32_t kMiddle = 3;  ///< the child between the other three
-/// Generators of the middle child are m12, m23, m31: across from m12 is the child of v3.
+/// The generators of the middle child are m12, m23, m31. The child of v3 is across from m12.
 constexpr std::array<std::uint32_t, 3> kBehind = {2, 0, 1};
 constexpr std::uint32_t kAllChildren = 0xf;
 constexpr std::uint32_t kAllOctants = 0xff;
 
-/// Places are off by 8 u, then rounded to float, at most 1: less than half of this.
+/// Places are at most 1. They are off by 8 u, then rounded to float: less than half of this.
 constexpr float kPlaceSlack = 0x1p-23F;
 
-/// The octants that corners of these signs may reach, when all are on one side of some
-/// coordinate planes. Signs of differences are exact.
+/// Returns the octants that the triangle may reach. It excludes octants beyond a coordinate plane
+/// that has all corners strictly on its other side. Signs of differences are exact.
 std::uint32_t possible_octants(const SeenTriangle& t) noexcept {
     constexpr std::array<std::uint32_t, 3> kPositive = {0x55, 0x33, 0x0f};
     std::uint32_t mask = kAllOctants;
@@ -29,8 +29,8 @@ std::uint32_t possible_octants(const SeenTriangle& t) noexcept {
     return mask;
 }
 
-/// The octants that the corners lie strictly in, when that are two side by side: then the
-/// triangle is nowhere else. 0 when not.
+/// Returns the octants that strictly contain the corners, if these are one octant or two side by
+/// side. Then the triangle is in no other octant. Returns 0 otherwise.
 std::uint32_t neighbours_of(const std::array<const PlacedVertex*, 3>& at) noexcept {
     std::uint32_t differing = 0;
     std::uint32_t mask = 0;
@@ -60,19 +60,19 @@ ConeChildren::ConeChildren(const TetraInput& input, std::uint32_t key) noexcept
     }
 }
 
-/// The children that corners certainly lie in.
+/// Returns the children in which corners certainly lie.
 std::uint32_t ConeChildren::sure_children(const Places& at) const noexcept {
     std::uint32_t mask = 0;
     for (const PlacedVertex* p : at) {
-        // An inner cone that is not a finest one is too short to match.
+        // The key of an inner cone that is not a finest one is too short to match.
         const std::uint32_t child = p->inner_cone >> below_;
         if (child >> bits_ == key_) mask |= 1U << (child & ((1U << bits_) - 1));
     }
     return mask;
 }
 
-// What has all corners on one side of a plane through the centre is there. In one octant
-// planes are lines of its face.
+// A triangle with all corners on one side of a plane through the centre lies on that side. In one
+// octant, planes are lines of its face.
 std::uint32_t ConeChildren::possible_by_places(const Places& at) const noexcept {
     const bool is_upright = middle_.face[0].side > 0;  // as are all three
     std::uint32_t mask = kAllChildren;
@@ -104,7 +104,7 @@ std::uint32_t ConeChildren::possible_by_values(const SeenTriangle& t) const noex
     return mask;
 }
 
-/// Of these children those that the triangle touches, by exact tests.
+/// Returns those of some children that the triangle touches, by exact tests.
 std::uint32_t ConeChildren::touched_among(std::uint32_t triangle, std::uint32_t children) {
     const Corners t = input_.corners(triangle);
     const SeenTriangle seen = seen_triangle(input_.centre, t, input_.scale);
@@ -128,7 +128,7 @@ std::uint32_t ConeChildren::touched_by(std::uint32_t triangle, bool in_octant) {
     if (key_ == kRootKey) {
         if (const std::uint32_t octants = neighbours_of(at); octants != 0) return octants;
         possible = possible_octants(input_.seen(triangle));
-        // What is on one side of a plane through the centre does not hold it.
+        // A triangle on one side of a plane through the centre does not hold the centre.
         const Double3& c = input_.centre;
         if (possible == kAllOctants && triangles_touch(input_.corners(triangle), {c, c, c})) {
             return 0;
@@ -136,7 +136,7 @@ std::uint32_t ConeChildren::touched_by(std::uint32_t triangle, bool in_octant) {
     } else {
         possible = in_octant ? possible_by_places(at) : possible_by_values(input_.seen(triangle));
     }
-    // It touches one of them.
+    // The triangle touches one of them.
     assert(possible != 0);
     if ((possible & (possible - 1)) == 0) return possible;
     const std::uint32_t open = possible & ~sure;

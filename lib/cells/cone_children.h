@@ -10,20 +10,20 @@ namespace cdprep::build {
 
 inline constexpr std::uint32_t kRootKey = 1;  ///< of all directions: its children are the octants
 
-/// Where a vertex is, seen from the centre.
+/// The place of a vertex as seen from the centre.
 struct PlacedVertex {
     std::array<float, 3> at;   ///< on the octahedron's face, by axis, rounded; sum 1
     std::uint32_t inner_cone;  ///< cone_place.h
 };
 
-/// What is handed down a tetra-tree.
+/// The data that a tetra-tree's builder passes down the levels.
 struct TetraInput {
     std::span<const format::Double3> positions;
     std::span<const format::Triangle> triangles;
-    std::span<const PlacedVertex> places;  ///< of positions
+    std::span<const PlacedVertex> places;  ///< one per position
     Double3 centre;
     double scale;         ///< a power of two that brings the model near 1
-    std::uint32_t level;  ///< down to which inner cones were sought
+    std::uint32_t level;  ///< the finest level of inner cones
 
     [[nodiscard]] Corners corners(std::uint32_t triangle) const noexcept {
         const auto& v = triangles[triangle].vertex;
@@ -34,16 +34,16 @@ struct TetraInput {
     }
 };
 
-/// The children of one cone, and which of them a triangle touches.
+/// The children of one cone, with a test for which of them a triangle touches.
 class ConeChildren {
 public:
-    /// `key` is a cone's above the input's level, or kRootKey.
+    /// `key` is that of a cone above the input's level, or kRootKey.
     ConeChildren(const TetraInput& input, std::uint32_t key) noexcept;
 
-    /// Returns a bit for each child that the triangle touches, exactly. The triangle touches
-    /// the cone itself; when that is the root, none is set exactly when it holds the centre,
-    /// and else it does not hold it. `in_octant` says that corners have inner cones in one
-    /// octant; may be false all the same.
+    /// Returns a bit for each child that the triangle touches, exactly. The triangle must touch the
+    /// cone itself. For the root, no bit is set exactly when the triangle holds the centre. For any
+    /// other cone, the triangle must not hold the centre. `in_octant` may be true only if the
+    /// corners have inner cones in one octant; it may always be false.
     [[nodiscard]] std::uint32_t touched_by(std::uint32_t triangle, bool in_octant);
 
 private:
@@ -56,17 +56,17 @@ private:
 
     const TetraInput& input_;
     std::uint32_t key_;
-    std::uint32_t bits_;   ///< of a child's key behind the cone's
-    std::uint32_t below_;  ///< bits of a finest cone's key behind the child's
-    ConeFaces middle_{};   ///< of the middle child; of the root not used
-    /// By axis: the middle child's face, and the child behind it.
+    std::uint32_t bits_;   ///< length of a child's key after the cone's
+    std::uint32_t below_;  ///< length of a finest cone's key after the child's
+    ConeFaces middle_{};   ///< of the middle child; not used for the root
+    /// For each axis: the face of the middle child, and the child behind it.
     struct Border {
-        float above;  ///< of what is less, all is certainly below the plane
+        float above;  ///< places less than this are certainly below the plane
         float below;
         std::uint32_t child;  ///< its bit
     };
     std::array<Border, 3> borders_{};
-    std::array<std::optional<ConeFaces>, 8> faces_;  ///< once asked for
+    std::array<std::optional<ConeFaces>, 8> faces_;  ///< computed on first use
 };
 
 }  // namespace cdprep::build

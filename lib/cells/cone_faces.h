@@ -9,15 +9,16 @@
 
 #include "cells/tetra_cones.h"
 
-// Turned into the positive octant, a direction is (x, y, z) >= 0 with the sum s, and
-// (x, y, z) / s is its place on the octahedron's face. The lines that split the face run
-// along its edges: the planes of a cone of level l are 2^l x_axis = m s, three with three
-// axes and whole m. A point p lies in the closed cone when f(p) = side (x_axis - m / 2^l s)
-// is not negative for any of them: f is linear in p, also outside the octant.
+// A direction turned into the positive octant is (x, y, z) >= 0 with the sum s. Its place on the
+// octahedron's face is (x, y, z) / s. The lines that split the face are parallel to its edges. So
+// the planes of a cone of level l are 2^l x_axis = m s, three with three axes and whole m. A point
+// p lies in the closed cone when f(p) = side (x_axis - m / 2^l s) is not negative for any of them.
+// f is linear in p, also outside the octant.
 
 namespace cdprep {
 
-/// One plane of a cone: of `side` (x_axis - weight * s), not negative within.
+/// One plane of a cone, with the function `side` (x_axis - weight * s), which is not negative
+/// inside.
 struct ConeFace {
     std::size_t axis;
     std::int32_t steps;  ///< weight * 2^level
@@ -40,15 +41,14 @@ struct SeenPoint {
     double size;               ///< sum of the sizes
 };
 
-/// Differences this small, beside a triangle's or model's of about 1, are left to exact
-/// numbers: nothing below underflows before.
+/// The size below which differences are left to exact numbers, beside a triangle or model of about
+/// 1. Nothing computed from larger differences underflows.
 inline constexpr double kLeastSeen = 0x1p-900;
 
-/// What rounding may change in f, in s, or in either times a few units in the last
-/// place: each difference is off by a factor 1 + u, u = 2^-53; s by 3.1 u of `size`, m s
-/// by 4.2 u, x by 1 u, and their difference, at most 2 size, by 2 u: 7.3 u. `size`
-/// itself is off by 3 u of it. A factor that is a power of two adds nothing above
-/// kLeastSeen.
+/// Returns a bound of the rounding error of f, of s, or of either times a few units in the last
+/// place. Each difference is off by a factor 1 + u, u = 2^-53. s is off by 3.1 u of `size`, m s by
+/// 4.2 u, x by 1 u, and their difference, at most 2 size, by 2 u: 7.3 u. `size` itself is off by
+/// 3 u of it. A factor that is a power of two adds nothing above kLeastSeen.
 [[nodiscard]] inline double slack_of(const SeenPoint& p) noexcept {
     return 0x1p-50 * p.size + kLeastSeen;
 }
@@ -68,12 +68,12 @@ using SeenTriangle = std::array<SeenPoint, 3>;
             seen_point(centre, t[2], scale)};
 }
 
-/// s of a point, in the octant of these signs.
+/// Returns s of a point, in the octant of these signs.
 [[nodiscard]] inline double sum_in(const std::array<double, 3>& sign, const SeenPoint& p) noexcept {
     return sign[0] * p.at[0] + sign[1] * p.at[1] + sign[2] * p.at[2];
 }
 
-/// f of each face and corner, rounded.
+/// The rounded values of f for each face and corner.
 struct FaceValues {
     std::array<std::array<double, 3>, 3> at;  ///< [face][corner]
     std::array<double, 3> slack;              ///< [corner]: f is off by less
@@ -94,8 +94,8 @@ struct FaceValues {
     return f;
 }
 
-/// triangle_touches_cone() for a triangle of which much is known already: `f` is
-/// face_values() of the same, with whatever scale.
+/// Returns triangle_touches_cone() from values that are already known. `f` is face_values() of the
+/// same triangle and cone, with any scale.
 [[nodiscard]] bool touches_faces(const Corners& t, const Double3& centre, const ConeFaces& faces,
                                  const FaceValues& f) noexcept;
 

@@ -4,22 +4,22 @@
 #include <algorithm>
 #include <limits>
 
-// The part of a triangle in a cone is that of the weights w >= 0, sum 1, with
-// sum(w_i f_k(i)) >= 0 for the three faces k, and v, a linear function with values v_i at
-// the corners, is to be bounded there. For any y >= 0
+// The part of a triangle in a cone is that of the weights w >= 0, sum 1, with sum(w_i f_k(i)) >= 0
+// for the three faces k. A linear function v with values v_i at the corners is to be bounded there.
+// For any y >= 0
 //
-//     v = sum(w_i v_i) <= sum(w_i (v_i + sum(y_k f_k(i)))) <= max_i (v_i + sum(y_k f_k(i))),
+//     v = sum(w_i v_i) <= sum(w_i (v_i + sum(y_k f_k(i)))) <= max_i (v_i + sum(y_k f_k(i))).
 //
-// so every y proves a bound, however y was found and rounded: only the right side must be
-// rounded up. The best y makes the bound the maximum (duality of linear programs), and is
-// one of few: 0, when a corner is the maximum; with one part, that makes two corners
-// equal, when it is where an edge leaves through a face; with two parts, that make all
-// three equal, when it is on a generator. All are tried, but for faces that no edge
-// crosses: these cut nothing off.
+// So every y proves a bound, however y was found and rounded: only the right side must be rounded
+// up. The best y makes the bound the maximum (duality of linear programs). It is one of few
+// candidates. It is 0 when a corner is the maximum. It has one positive part, which makes two
+// corners equal, when the maximum is where an edge leaves through a face. It has two positive
+// parts, which make all three corners equal, when the maximum is on a generator. All are tried,
+// except for faces that no edge crosses: these cut nothing off.
 //
-// Rounding: with e the corner's slack (cone_faces.h: 8 u of its size), v and f are off by
-// less than e each; the products and sums add 3 u (|v| + sum(y |f|)), and both are at
-// most twice the size: less than 6 u of it (1 + sum(y)). Together less than
+// Rounding: let e be the corner's slack (cone_faces.h: 8 u of its size). v and f are off by less
+// than e each. The products and sums add 3 u (|v| + sum(y |f|)). Both v and f are at most twice the
+// size, so this is less than 6 u of it (1 + sum(y)). In all the error is less than
 // 1.75 e (1 + sum(y)).
 
 namespace cdprep::build {
@@ -52,13 +52,13 @@ private:
         return most;
     }
     void take(const std::array<double, 3>& y) noexcept {
-        constexpr double kMost = 0x1p60;  // of more, nothing is left but slack
+        constexpr double kMost = 0x1p60;  // beyond this, only slack is left
         for (const double part : y) {
             if (!(part >= 0 && part < kMost)) return;
         }
         best_ = std::min(best_, of(y));
     }
-    /// Where edges cross face k; whether any does.
+    /// Tries the points where edges cross face k. Returns whether any edge does.
     bool try_face(std::size_t k) noexcept {
         bool crossed = false;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -72,7 +72,7 @@ private:
         }
         return crossed;
     }
-    /// Where the line f_k = f_m = 0 pierces the triangle.
+    /// Tries the point where the line f_k = f_m = 0 pierces the triangle.
     void try_generator(std::size_t k, std::size_t m) noexcept {
         const auto& fk = f_.at[k];
         const auto& fm = f_.at[m];

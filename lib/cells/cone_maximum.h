@@ -5,16 +5,15 @@
 
 namespace cdprep::build {
 
-/// How many times slack_of() a value may be off after a few more steps: 1.75, and what
-/// adding them up rounds.
+/// The error of a value after a few more steps, in units of slack_of(): 1.75, plus the rounding of
+/// their sum.
 inline constexpr double kValueSlacks = 2;
 
-/// Returns a bound from above of a linear function over the part of a triangle that lies in
-/// the closed cone, which some does: proven, and within a few units in the last place of
-/// the corners' where the planes cut it at no grazing angle; never more than the greatest
-/// v + kValueSlacks * slack. `v` are its values at the corners, off by less than
-/// FaceValues::slack each and of no more than twice the sizes; `f` is face_values() of cone
-/// and triangle.
+/// Returns an upper bound of a linear function over the part of a triangle that lies in the closed
+/// cone. The part must not be empty. The bound is proven, and never more than the greatest v +
+/// kValueSlacks * slack. Where the planes cut the part at no grazing angle, it is within a few
+/// units in the last place of the corners'. `v` are the values at the corners. Each is off by less
+/// than FaceValues::slack and is at most twice the size. `f` is face_values() of cone and triangle.
 [[nodiscard]] double cone_maximum(const FaceValues& f, const std::array<double, 3>& v) noexcept;
 
 }  // namespace cdprep::build

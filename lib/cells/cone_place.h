@@ -12,17 +12,17 @@ namespace cdprep {
 
 inline constexpr std::uint32_t kOctantKeyBits = 4;  ///< a leading one, and the octant
 
-/// Returns the key below an octant's of the cone that holds the places between whole
-/// steps, 2^level of them along each edge of the octant's face, that begin at `step`.
+/// Returns the key, below an octant's, of the cone that holds the places between whole steps that
+/// begin at `step`. There are 2^level steps along each edge of the octant's face.
 ///
-/// A place's first binary digits are those of its children: the child of a corner is
-/// where that coordinate is past the middle, and doubles what is left of all; in the
-/// middle child, coordinates run from the middles of the edges inwards.
+/// The first binary digits of a place give its children. The child of a corner holds places whose
+/// coordinate there is past the middle, and doubles the rest of all coordinates. In the middle
+/// child, coordinates run from the middles of the edges inwards.
 [[nodiscard]] inline std::uint32_t cone_below(std::uint32_t key, std::uint32_t level,
                                               std::array<std::uint32_t, 3> step) noexcept {
     for (std::uint32_t bit = level; bit-- > 0;) {
         const std::uint32_t rest = (1U << bit) - 1;
-        // One of them at most is set.
+        // At most one of them is set.
         const std::uint32_t past = step[0] >> bit | step[1] >> bit << 1 | step[2] >> bit << 2;
         assert(past < 8 && (past & (past - 1)) == 0);
         if (past != 0) {
@@ -36,13 +36,13 @@ inline constexpr std::uint32_t kOctantKeyBits = 4;  ///< a leading one, and the 
     return key;
 }
 
-/// Returns the key of the deepest cone of at most `level` splits that certainly holds
-/// the point inside, off all its planes; 0 when that is not even sure of an octant. So
-/// a triangle whose corners lie in one cone, by this, touches no other of its level.
+/// Returns the key of the deepest cone, of at most `level` splits, that certainly holds the point
+/// inside, off all its planes. Returns 0 when not even the octant is certain. So a triangle whose
+/// corners lie in one such cone touches no other cone of its level.
 [[nodiscard]] inline std::uint32_t inner_cone(const SeenPoint& p, std::uint32_t level) noexcept {
     assert(level <= format::kMaxTetraLevel);
-    // x / s is off by 7 u of itself: all differences and sums are of one sign. Times
-    // 2^14 that is less than 2^-36.
+    // x / s is off by 7 u of itself, because all differences and sums are of one sign. Times 2^14
+    // that is less than 2^-36.
     constexpr double kMargin = 0x1p-30;
     if (!(p.size > kLeastSeen && p.size < 1 / kLeastSeen)) return 0;
     const double one = 1 / p.size;

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT
 #include "cells/cone_reach.h"
 
-// A point of the triangle is its corners with weights w >= 0, and it is in the cone when
-// sum(w_i f_k(i)) >= 0 for the three faces k. Weights need not add up to 1: those of a cone
-// are as good times any factor, and v, the sum of coordinates, is divided by the weights'.
+// A point of the triangle is the sum of its corners with weights w >= 0. It is in the cone when
+// sum(w_i f_k(i)) >= 0 for the three faces k. Weights need not add up to 1: those of a cone are as
+// good times any factor. v, the sum of coordinates, is divided by the sum of the weights.
 //
-// Rounding: with e the largest corner's slack (cone_faces.h: 8 u of its size), f and v are off
-// by less than e; three products and their sums add 3 u of at most 2 sizes, the division by
-// weights that add up to 1 but for a few u, 4 u of a size: less than 1.25 e. Together less
-// than 2.25 e.
+// Rounding: let e be the largest corner's slack (cone_faces.h: 8 u of its size). f and v are off by
+// less than e. Three products and their sums add 3 u of at most 2 sizes. The division by weights,
+// which add up to 1 but for a few u, adds 4 u of a size. Together these are less than 1.25 e, so
+// the error is less than 2.25 e.
 
 namespace cdprep {
 namespace {
 
 using Weights = std::array<double, 3>;
 
-constexpr double kSlacks = 3;  ///< 2.25, and what their product rounds
+constexpr double kSlacks = 3;  ///< 2.25, plus the rounding of their product
 
 double weighted(const Weights& w, const std::array<double, 3>& values) noexcept {
     return w[0] * values[0] + w[1] * values[1] + w[2] * values[2];
 }
 
-/// A triangle that planes cut has a corner more for each.
+/// A part of a triangle. Each plane that cuts it adds a corner.
 struct Part {
     std::array<Weights, 6> corner;
     std::size_t count = 0;
@@ -31,7 +31,7 @@ struct Part {
     }
 };
 
-/// What lies on the good side of a face.
+/// Returns the part on the inner side of a face.
 Part cut(const Part& part, const std::array<double, 3>& f) noexcept {
     Part result;
     for (std::size_t i = 0; i < part.count; ++i) {
@@ -58,7 +58,7 @@ Weights middle_of(const Part& part) noexcept {
     return sum;
 }
 
-/// A millionth of the way to the middle: off the planes that meet at the corner.
+/// Moves a corner by a millionth of the way to the middle: off the planes that meet there.
 Weights moved_inwards(const Weights& w, const Weights& middle) noexcept {
     constexpr double kWay = 0x1p-20;
     Weights moved{};
@@ -74,7 +74,7 @@ void add_reach(const ConeFaces& faces, const SeenTriangle& t, ConeReach& reach) 
     const std::array<double, 3> sum = {sum_in(faces.sign, t[0]), sum_in(faces.sign, t[1]),
                                        sum_in(faces.sign, t[2])};
     const auto add = [&](const Weights& w) {
-        // False too for what is no number.
+        // Also false for NaN.
         const bool is_inside = weighted(w, f.at[0]) > slack && weighted(w, f.at[1]) > slack &&
                                weighted(w, f.at[2]) > slack;
         const double v = weighted(w, sum);

@@ -7,8 +7,8 @@
 
 namespace cdprep {
 
-/// How near to the centre and how far from it some points surely are, as the sum of the
-/// coordinates within the octant: no more than there is.
+/// The least and greatest distance from the centre that some points certainly attain, as the sum of
+/// the coordinates within the octant. The true range is never narrower.
 struct ConeReach {
     double least = std::numeric_limits<double>::infinity();
     double greatest = -std::numeric_limits<double>::infinity();
@@ -19,9 +19,10 @@ struct ConeReach {
     }
 };
 
-/// Adds points of the triangle that surely lie in the closed cone: corners that do, and of
-/// what the cone's planes leave of it, the corners but for a millionth of its size. Nothing
-/// where rounding might take them out of the cone. Units of `t`.
+/// Adds points of the triangle that certainly lie in the closed cone. These are corners that do,
+/// and the corners of what the cone's planes leave of the triangle. The latter are moved inwards by
+/// a millionth of its size. Adds nothing where rounding might move points out of the cone. Units of
+/// `t`.
 void add_reach(const ConeFaces& faces, const SeenTriangle& t, ConeReach& reach) noexcept;
 
 }  // namespace cdprep

@@ -8,7 +8,7 @@
 
 namespace cdprep {
 
-/// A question about two models through a structure of both.
+/// A query about two models through a structure of both.
 struct QuestionThrough {
     const StructureOptions& through;
     const Model& a;
@@ -16,11 +16,11 @@ struct QuestionThrough {
     const Placement& placement;
     Workspace& workspace;
     const PairOptions& options;
-    Search search;  ///< first: whoever asks ends at the first pair
+    Search search;  ///< first: the caller stops at the first pair
 };
 
-/// Calls `visit` with every pair of triangles in contact, tree order, each once, until it
-/// returns false; returns false when it did. Neither model is empty.
+/// Calls `visit` once for every pair of triangles in contact, with numbers in tree order, until it
+/// returns false. Returns false when it did. Neither model is empty.
 using ContactVisitor = Visitor<TreePair>;
 
 bool visit_contacts_through_trees(const QuestionThrough& question, ContactVisitor visit) noexcept;

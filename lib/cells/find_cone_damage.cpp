@@ -13,9 +13,9 @@
 #include "cells/list_places.h"
 #include "core/moved_model.h"
 
-// As find_list_damage.cpp: every triangle goes down into each child whose closed cone it
-// touches, stored or not, and must find itself in each leaf. What of it surely lies there,
-// the radii of the leaf and of all nodes above it must reach.
+// Like in find_list_damage.cpp, every triangle goes down into each child whose closed cone it
+// touches, stored or not. It must find itself in each leaf. The radii of the leaf and of all nodes
+// above it must contain the part of it that certainly lies there.
 
 namespace cdprep {
 namespace {
@@ -82,7 +82,7 @@ private:
         return std::nullopt;
     }
 
-    /// From a node whose cone the triangle touches.
+    /// Sends a triangle down from a node whose cone it touches.
     Found send_down(const Corners& t, std::uint32_t triangle, std::uint32_t number) {
         const format::TetraNode& node = nodes_[number];
         if (const Found damage = find_corner_outside(t, number)) return damage;
@@ -102,7 +102,8 @@ private:
         return std::nullopt;
     }
 
-    /// Corners in a node's cone lie in its boxes. Rounding may hide a hair's breadth.
+    /// Finds a corner that lies in a node's cone but outside its boxes. Rounding may hide a tiny
+    /// excess.
     Found find_corner_outside(const Corners& t, std::uint32_t number) const {
         if (boxes_.empty() || oriented_.empty()) return std::nullopt;
         for (const Double3& p : t) {
@@ -156,7 +157,7 @@ private:
         return true;
     }
 
-    /// In a leaf that it touches.
+    /// Looks a triangle up in a leaf that it touches.
     Found look_up(const Corners& t, std::uint32_t triangle, std::uint32_t number) {
         const format::TetraNode& leaf = nodes_[number];
         const auto place = find_reference(references_, leaf.first, leaf.count, triangle);
@@ -169,7 +170,7 @@ private:
         return std::nullopt;
     }
 
-    /// A node whose radii leave out something of its own or of its children's.
+    /// Finds a node whose radii exclude something of its own or of its children's.
     Found find_narrow_cone() {
         constexpr double kThird = 0.57735026918962576;  // 1 / sqrt(3)
         constexpr double kRounding = 0x1p-50;           // of that and of the product
@@ -200,10 +201,10 @@ private:
     std::span<const format::OrientedNode> oriented_;
     FrameOf frame_;
     MovedModel moved_;
-    double scale_;                  ///< frame units in one of the model
+    double scale_;                  ///< frame units per model unit
     std::vector<ConeReach> reach_;  ///< by node
     std::uint32_t octants_ = 0;
-    std::vector<std::uint32_t> places_;  ///< references to the triangle that is on its way
+    std::vector<std::uint32_t> places_;  ///< references to the current triangle
 };
 
 }  // namespace

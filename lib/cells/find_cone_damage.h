@@ -10,10 +10,11 @@
 
 namespace cdprep {
 
-/// find_list_damage() for the tetra-tree: its leaves list exactly the triangles that have a
-/// point in their closed cones, but for those that hold the centre, which come first.
-/// Radii hold of them what surely lies in the cones (cone_reach.h), and boxes, where it has
-/// those, the corners; where edges cross into a cone, boxes are not proved. Nothing without one.
+/// Returns damage in the lists of the tetra-tree, as find_list_damage() does. Returns nothing if
+/// there is none or the model has no tetra-tree. Leaves must list exactly the triangles that have a
+/// point in their closed cones. Triangles that hold the centre are excepted; they come first. Radii
+/// must contain what certainly lies in the cones (cone_reach.h). Boxes, if present, must contain
+/// the corners; they are not proved where edges cross into a cone.
 [[nodiscard]] std::optional<format::Damage> find_cone_damage(std::span<const std::byte> file,
                                                              const Model& model);
 

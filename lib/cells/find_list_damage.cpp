@@ -14,9 +14,9 @@
 #include "cells/list_places.h"
 #include "exact/triangle_box.h"
 
-// Every triangle goes down the tree by itself, into each child whose closed cell it touches,
-// stored or not. It must find every such child, and itself in each leaf; when the places
-// where it was found are all the references there are, none is too many.
+// Every triangle goes down the tree by itself, into each child whose closed cell it touches, stored
+// or not. It must find every such child, and itself in each leaf. If the places where triangles
+// were found are all the references, none is superfluous.
 
 namespace cdprep {
 namespace {
@@ -26,7 +26,7 @@ using format::OctreeNode;
 
 using Found = std::optional<format::Damage>;
 
-/// A model's octree, as the check sees it.
+/// A model's octree in the form for the check.
 class OctreeCells {
 public:
     using Node = OctreeNode;
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] Box3 root() const {
         return octree_box(grid_, {0, 0, 0}, 0);
     }
-    /// More than a step inside the cube.
+    /// Returns whether a point is more than a step inside the cube.
     [[nodiscard]] bool is_inside(const Double3& p) const {
         const std::uint32_t last = kOctreeSteps - 1;
         const auto inside = [&](double origin, double x) {
@@ -70,7 +70,7 @@ private:
     const Model& model_;
 };
 
-/// The same of an octree with split points of its own.
+/// The same for an octree with split points of its own.
 class AdaptiveOctreeCells {
 public:
     using Node = format::AdaptiveOctreeNode;
@@ -96,7 +96,7 @@ public:
     [[nodiscard]] bool is_inside(const Double3& p) const {
         return overlap(root(), {p, p});
     }
-    /// Nothing above an axis that is not divided.
+    /// Returns nothing for a child above an axis that is not divided.
     [[nodiscard]] std::optional<Box3> child(const Node& node, const Box3& box,
                                             std::uint32_t child) const {
         const Double3& s = node.split;
@@ -145,7 +145,7 @@ private:
     Cells cells_;
     MovedModel moved_;
     FrameOf frame_;
-    std::vector<std::uint32_t> places_;  ///< references to the triangle that is on its way
+    std::vector<std::uint32_t> places_;  ///< references to the current triangle
 
     [[nodiscard]] Found find_outside() const {
         for (std::uint32_t i = 0; i < model_.triangle_count(); ++i) {
@@ -156,7 +156,7 @@ private:
         return std::nullopt;
     }
 
-    /// From a node whose cell the triangle touches.
+    /// Sends a triangle down from a node whose cell it touches.
     Found send_down(const Corners& t, std::uint32_t triangle, std::uint32_t number,
                     const Box3& box) {
         const Node& node = cells_.nodes()[number];
@@ -175,7 +175,7 @@ private:
         return std::nullopt;
     }
 
-    /// In a leaf that it touches.
+    /// Looks a triangle up in a leaf that it touches.
     Found look_up(const Corners& t, std::uint32_t triangle, std::uint32_t number,
                   const Box3& cell) {
         const Node& leaf = cells_.nodes()[number];
@@ -185,7 +185,7 @@ private:
         return cells_.boxes().empty() ? std::nullopt : find_small_box(t, number, cell);
     }
 
-    /// A leaf's box that surely leaves out some of what a triangle's box has in the cell.
+    /// Finds a leaf's box that certainly excludes part of what a triangle's box has in the cell.
     [[nodiscard]] Found find_small_box(const Corners& t, std::uint32_t number,
                                        const Box3& cell) const {
         const Box3 around = box_around(t);
@@ -202,7 +202,7 @@ private:
         if (!is_small) return std::nullopt;
         return format::wrong_fact(file_, Cells::kBoxes, number, number, 0);
     }
-    /// As far off as coordinates in the frame are rounded.
+    /// Widens a coordinate by the rounding of coordinates in the frame.
     static double above(double x) {
         return x + std::fabs(x) * 0x1p-50 + 0x1p-1000;
     }
@@ -210,7 +210,7 @@ private:
         return x - std::fabs(x) * 0x1p-50 - 0x1p-1000;
     }
 
-    /// An inner node's box that does not hold a child's.
+    /// Finds an inner node's box that does not contain a child's.
     [[nodiscard]] Found find_small_parent() const {
         const auto boxes = cells_.boxes();
         for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -232,7 +232,7 @@ private:
     }
 };
 
-/// A node that its slot's chain does not hold.
+/// Finds a node that is missing from its slot's chain.
 Found find_lost_node(std::span<const std::byte> file, const Model& model, SectionId id,
                      std::span<const std::uint32_t> table,
                      std::uint64_t (*slot_of)(std::uint64_t, std::uint32_t) noexcept) {

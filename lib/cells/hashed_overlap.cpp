@@ -12,20 +12,21 @@
 #include "cells/octree_parts.h"
 #include "walk/walk_pairs.h"
 
-// Slack. Cells are tested against boxes in float, pair units, v = 2^-24; box_placement.cpp has
-// the terms. Boxes of A lie within s_a of its frame's origin, planes within r: the numbers
-// that are added, r + s_b + |t| at most for |t| the shift, times the square root of 3 along an
-// oriented box's axis. A box turned along A's axes is off by 11 v s_b + 2 v |t|; an axis is
-// off by 5 v, the same in both of its products, which tilts it: 9 v of the distance between
-// two centres. Two dot products are off by 5 v each, three steps to a cell's middle and the
-// sums by another 10 v, all of at most 1.8 (r + s_b + |t|); planes are rounded to float once.
-// Together below 64 v (r + s_b + |t|): twice the slack of boxes, and 64 v r for the planes.
+// Slack. Cells are tested against boxes in float, pair units, v = 2^-24; box_placement.cpp has the
+// terms. Boxes of A lie within s_a of its frame's origin, planes within r. Let |t| be the shift.
+// The numbers that are added are at most r + s_b + |t|. Along an oriented box's axis, they are at
+// most the square root of 3 times that. A box turned along A's axes is off by 11 v s_b + 2 v |t|.
+// An axis is off by 5 v, the same in both of its products. This tilts it: 9 v of the distance
+// between two centres. Two dot products are off by 5 v each. Three steps to a cell's middle and the
+// sums are off by another 10 v. All these are of at most 1.8 (r + s_b + |t|). Planes are rounded to
+// float once. In all less than 64 v (r + s_b + |t|): twice the slack of boxes, and 64 v r for the
+// planes.
 
 namespace cdprep {
 namespace {
 
-/// A cell of an octree, what is in it, and which boxes of a node of the other model's
-/// hierarchy may meet it.
+/// A cell of an octree, its contents, and the boxes of a node of the other model's hierarchy that
+/// may meet it.
 struct KeyedCell {
     OctreePart part;
     CellPlace first;
@@ -47,13 +48,14 @@ struct CellBlock {
     }
 };
 
-/// How many cells each of eight boxes meets.
+/// The number of cells that each of eight boxes meets.
 using MeetingCounts = std::array<std::uint8_t, format::kBvhWidth>;
 
-/// Bit j goes to the lowest of byte j: times a set of A's boxes, all pairs with those.
+/// Moves bit j to the lowest bit of byte j. The result times a set of A's boxes is the set of all
+/// pairs with those.
 kernels::BoxPairs spread_to_rows(unsigned of_b) noexcept {
     assert(of_b >> format::kBvhWidth == 0);
-    // Byte j keeps bit j alone, and then 1 where that is set.
+    // Byte j keeps only bit j, and then becomes 1 if that is set.
     const kernels::BoxPairs bits =
         kernels::BoxPairs{of_b} * 0x0101010101010101U & 0x8040201008040201U;
     return ((bits + 0x7f7f7f7f7f7f7f7fU) >> 7) & 0x0101010101010101U;
@@ -85,14 +87,14 @@ public:
         planes.half = static_cast<float>(0.5 * step_ * block.steps());
         return planes;
     }
-    /// The finest cell that holds x, or the nearest.
+    /// Returns the finest cell that holds x, or the nearest one; `if_no_number` for NaN.
     [[nodiscard]] std::uint32_t cell(std::size_t axis, double x,
                                      std::uint32_t if_no_number) const noexcept {
         const double cell = (x - first_[axis]) / step_;
         if (cell < kOctreeSteps) return cell > 0 ? static_cast<std::uint32_t>(cell) : 0;
         return cell >= kOctreeSteps ? kOctreeSteps - 1 : if_no_number;
     }
-    /// Largest |coordinate|.
+    /// Returns the largest |coordinate|.
     [[nodiscard]] double reach() const noexcept {
         double reach = 0;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -106,8 +108,7 @@ private:
     double step_;
 };
 
-/// One question: the boxes of one model's hierarchy, B's, among the cells of the other's
-/// octree, A's.
+/// One query: the boxes of B's hierarchy among the cells of A's octree.
 template <class Contacts>
 class KeyedWalk {
 public:
@@ -128,7 +129,7 @@ public:
             static_cast<float>(2 * double{cell_placement_.slack} + 0x1p-18 * planes_.reach());
     }
 
-    /// False when the contacts ended the question.
+    /// Returns false when the contacts ended the query.
     bool walk() noexcept {
         std::size_t depth = 0;
         scratch_.pending[depth++] = PendingPair{{tree_b_.shape.levels, 0}, {0, 0}}.packed();
@@ -149,44 +150,44 @@ public:
     }
 
 private:
-    /// The cells that B's boxes may meet and in which triangles are: at most eight, about as
-    /// large as all of the boxes. Returns their number.
+    /// Finds the cells with triangles that B's boxes may meet: at most eight, about as large as all
+    /// the boxes together. Returns their number.
     std::size_t find_cells(const TestedBoxes& side, std::array<KeyedCell, 8>& cells) noexcept;
 
-    /// The deepest cells of which two along each axis hold the boxes.
+    /// Returns the block of the deepest cells, two along each axis, that holds the boxes.
     [[nodiscard]] CellBlock block_around(unsigned boxes) const noexcept;
 
-    /// Adds to the pending places those of B's boxes, the first of which stands for
-    /// `first_below`, that meet one of the cells' children; returns the new depth. Those
-    /// that meet most of them come first.
+    /// Adds those of B's boxes that meet one of the cells' children to the pending places. The
+    /// first box is at `first_below`. Returns the new depth. Boxes that meet most children are
+    /// visited first.
     std::size_t push_met(std::span<const KeyedCell> cells, const TreePlace& first_below,
                          std::size_t depth) noexcept;
-    /// By box, how many of the cells' children with triangles it meets, or of the cells where
-    /// these have boxes: those say more than their children's cells.
+    /// Returns, for each box, the number of the cells' children with triangles that it meets.
+    /// Counts the cells instead if these have boxes, which are tighter than their children's cells.
     [[nodiscard]] MeetingCounts count_met(std::span<const KeyedCell> cells) noexcept;
 
-    /// Which of some of B's boxes may meet what a part that is one node holds.
+    /// Returns which of some of B's boxes may meet the contents of a part that is one node.
     [[nodiscard]] unsigned meeting_node(const OctreePart& part, unsigned boxes) const noexcept;
 
-    /// Of one block of cells.
+    /// Counts the box tests of one block of cells.
     void count_boxes(unsigned boxes) const noexcept {
         if (scratch_.counts == nullptr) return;
         scratch_.counts->box_pairs += 8 * static_cast<std::uint64_t>(std::popcount(boxes));
     }
 
-    /// Adds to `met` the children of a cell that boxes meet; returns the new count.
+    /// Adds the children of a cell that boxes meet to `met`. Returns the new count.
     std::size_t open(const KeyedCell& cell, KeyedCell* met, std::size_t count) noexcept;
 
-    /// Tests what the leaf cells below list against the triangles below B's lowest node.
+    /// Tests the triangles that the leaf cells below list against those below B's lowest node.
     bool look_at(const TestedBoxes& side, std::span<const KeyedCell> cells) noexcept;
-    /// The same cell by cell, so that a hit comes early; pairs of leaves may come again.
+    /// The same cell by cell, so that a hit comes early. Pairs of leaves may be repeated.
     bool try_each(const TestedBoxes& side, std::span<const KeyedCell> cells) noexcept {
         for (const KeyedCell& cell : cells) {
             if (!look_at(side, std::span(&cell, 1)) || !contacts_.flush()) return false;
         }
         return true;
     }
-    /// Notes the nodes of A's hierarchy with what the leaf cells below list.
+    /// Collects the nodes of A's hierarchy with triangles that the leaf cells below list.
     void gather(std::span<const KeyedCell> cells) noexcept;
     void add_listed(std::span<const std::uint32_t> references, unsigned boxes) noexcept;
     bool test_candidates(const TestedBoxes& side) noexcept;
@@ -204,7 +205,7 @@ private:
     Workspace::Storage& scratch_;
     Contacts& contacts_;
     const kernels::Table& kernel_;
-    kernels::BoxesAmongCells boxes_;  ///< of the node that is looked at
+    kernels::BoxesAmongCells boxes_;  ///< of the current node
 };
 
 template <class Contacts>
@@ -223,7 +224,7 @@ CellBlock KeyedWalk<Contacts>::block_around(unsigned boxes) const noexcept {
             upper = std::max(upper, boxes_.upper[i][j]);
         }
         least[i] = planes_.cell(i, lower, 0);
-        // Never below, though a damaged file's boxes may end before they begin.
+        // Never below `least`, although boxes of a damaged file may end before they begin.
         most[i] = std::max(planes_.cell(i, upper, kOctreeSteps - 1), least[i]);
         widest = std::max(widest, most[i] - least[i]);
     }
@@ -279,7 +280,7 @@ std::size_t KeyedWalk<Contacts>::open(const KeyedCell& cell, KeyedCell* met,
 template <class Contacts>
 unsigned KeyedWalk<Contacts>::meeting_node(const OctreePart& part, unsigned boxes) const noexcept {
     if (boxes_of_a_ == nullptr) return boxes;
-    // The slack of B's boxes here is more than they have against boxes of A's frame.
+    // The slack of B's boxes here exceeds their slack against boxes of A's frame.
     const format::CellBox& box = boxes_of_a_[parts_.node_of(part)];
     std::array<std::uint32_t, format::kBvhWidth> apart{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -433,7 +434,7 @@ bool KeyedWalk<Contacts>::test_candidates(const TestedBoxes& side) noexcept {
     return true;
 }
 
-/// The same two models, each in the other's place.
+/// Returns the placement with the two models exchanged.
 Placement swapped(const Placement& placement) noexcept {
     if (!placement.a_is_moved()) return Placement::a_moves(placement.pose_b());
     if (!placement.b_is_moved()) return Placement::b_moves(placement.pose_a());
@@ -447,7 +448,7 @@ bool has_hashed_octree(const Model& model) noexcept {
            !model.octree().mixed_table.empty();
 }
 
-/// Boxes of B among the cells of A.
+/// Visits the contacts of B's boxes among A's cells.
 bool visit_repaired(const QuestionThrough& question, ContactVisitor visit) noexcept {
     const PlacedBoxes placed = place_boxes(question.a, question.b, question.placement);
     if (placed.apart) return true;
@@ -474,8 +475,8 @@ bool visit_swapped(const QuestionThrough& question, ContactVisitor visit) noexce
 
 bool visit_contacts_through_keys(const QuestionThrough& question, ContactVisitor visit) noexcept {
     if (!has_hashed_octree(question.a) || !has_hashed_octree(question.b)) return true;
-    // Measured: the model with fewer triangles has fewer boxes to hold against the other's
-    // cells, up to 5 times; the cells are sized for the other's triangles.
+    // Measured: the model with fewer triangles has fewer boxes to test against the other's cells,
+    // up to 5 times. The cells are sized for the other's triangles.
     return question.a.triangle_count() < question.b.triangle_count()
                ? visit_swapped(question, visit)
                : visit_repaired(question, visit);

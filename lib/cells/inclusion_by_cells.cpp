@@ -19,34 +19,32 @@
 #include "walk/box_placement.h"
 #include "walk/workspace_storage.h"
 
-// The winding number is the sum of winding_term() over any list of triangles that holds
-// each one with a term other than 0 exactly once, and every triangle that q lies on.
-// Let R be the closed ray from q away from the origin o. A triangle whose term is not 0
-// is met by rays from q that come as near to R as one likes, at points that are bounded
-// since the triangle is; where these points pile up there is a point of R, and the
-// triangle, being closed, holds it. So a list will do that has once all triangles that
-// touch R, and of these only those whose box meets that of R need a closer look. The
-// symbolic perturbation of o asks for no neighbours beside.
+// The winding number is the sum of winding_term() over any list of triangles that holds exactly
+// once each triangle with a term other than 0. The list must also hold every triangle that q lies
+// on. Let R be the closed ray from q away from the origin o. A triangle whose term is not 0 is met
+// by rays from q arbitrarily near to R, at points that are bounded because the triangle is. These
+// points accumulate at a point of R, and the triangle, being closed, holds it. So a list is
+// sufficient if it holds each triangle that touches R once. Of these, only those whose box meets
+// that of R are tested further. The symbolic perturbation of o requires no other neighbours.
 //
-// Tetra-tree: o is the centre C, so R = {C + s (q - C), s >= 1} lies in one cone, borders
-// or not: all its points have one direction from C. A triangle that touches R touches
-// that closed cone and so is in its leaf's list, or it holds C. If it holds C and touches
-// R it holds all points between, and q among them: those triangles need not be counted,
-// but they must be asked. A cone without a node touches none of the others. From q = C
-// the ray may run anywhere; it runs along +x, an edge of the cone of the least key.
+// Tetra-tree: o is the centre C, and R = {C + s (q - C), s >= 1}. All points of R have one
+// direction from C, so R lies in one cone, borders or not. A triangle that touches R touches that
+// closed cone. So it is in its leaf's list, or it holds C. If it holds C and touches R, it holds
+// all points between, q among them. Those triangles need not be counted, but they must be tested. A
+// cone without a node touches none of the other triangles. From q = C the ray may run anywhere; it
+// runs along +x, an edge of the cone of the least key.
 //
-// Octrees: R runs along +x, o being q moved back along x alone, and is cut into pieces
-// by the planes of the leaves that it runs through: x0 < x <= x1, the first and the last
-// without an end. A triangle with a term other than 0 has q outside its plane, and that
-// plane does not run along x: else only points beyond all bounds were met. So it has one
-// point h on R, and counts in that leaf alone whose piece has h; the leaf's closed cell
-// touches the triangle at h, so that the leaf lists it. Where h is, relative to x0 and
-// x1, orient3d() tells.
+// Octrees: R runs along +x, because o is q moved back along x alone. The planes of the leaves that
+// R runs through cut it into pieces x0 < x <= x1; the first and the last are unbounded. A triangle
+// with a term other than 0 has q outside its plane. That plane is not parallel to x: otherwise only
+// unbounded points would be met. So it has one point h on R, and counts only in the leaf whose
+// piece has h. The leaf's closed cell touches the triangle at h, so the leaf lists it. orient3d()
+// compares h with x0 and x1.
 
 namespace cdprep {
 namespace {
 
-/// As MovedBoxes::reach() for a model that stays where it is; never 0.
+/// Returns MovedBoxes::reach() for a model that is not moved; never 0.
 double reach_of(const Model& model) noexcept {
     const format::FileHeader& header = model.header();
     const Double3& o = header.frame_origin;
@@ -54,8 +52,8 @@ double reach_of(const Model& model) noexcept {
            std::ldexp(1.0, -header.frame_exponent);
 }
 
-/// The box around the ray from q away from o: along each axis it stays where it is or
-/// goes on for ever.
+/// Returns the box around the ray from q away from o. Along each axis it has no extent, or is
+/// unbounded on one side.
 Box3 box_of_ray(const Double3& o, const Double3& q) noexcept {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return {
@@ -69,19 +67,19 @@ struct Piece {
     double x1 = std::numeric_limits<double>::infinity();
 };
 
-/// Adds up what the ray from q away from o crosses.
+/// The sum of the crossings of the ray from q away from o.
 class Crossings {
 public:
     Crossings(const Model& model, const Double3& o, const Double3& q, QueryCounts* counts) noexcept
         : model_(model, nullptr), o_(o), q_(q), ray_(box_of_ray(o, q)), counts_(counts) {}
 
-    /// All crossings with a triangle; false when q lies on it, which ends the search.
+    /// Adds all crossings with a triangle. Returns false when q lies on it, which ends the search.
     bool add(std::uint32_t triangle) noexcept {
         return add(triangle, [](const Corners&, int) { return true; });
     }
 
-    /// Those in a leaf's references, of which shared ones count in their own piece of the
-    /// ray alone, which must run along +x.
+    /// Adds the crossings with a leaf's references. Shared ones count only in their own piece of
+    /// the ray, which must run along +x.
     bool add(std::span<const std::uint32_t> references, const Piece& piece) noexcept {
         for (const std::uint32_t reference : references) {
             const bool shared = (reference & format::kSharedReference) != 0;
@@ -110,8 +108,8 @@ private:
         return !on_surface_;
     }
 
-    /// A crossing is the side of the plane that the ray comes from: as long as the ray is
-    /// there, the plane is ahead.
+    /// Returns whether a crossing is in a piece. `crossings` is the side of the plane that the ray
+    /// comes from. The plane is ahead as long as the ray is on that side.
     [[nodiscard]] bool is_in(const Piece& piece, const Corners& t, int crossings) const noexcept {
         const auto is_ahead_at = [&](double x) {
             return orient3d(t[0], t[1], t[2], {x, q_.y, q_.z}) == crossings;
@@ -129,14 +127,14 @@ private:
     bool on_surface_ = false;
 };
 
-/// The node's references, which are a leaf's.
+/// Returns the references of a leaf.
 template <class Node>
 std::span<const std::uint32_t> listed(std::span<const std::uint32_t> references,
                                       const Node& leaf) noexcept {
     return references.subspan(leaf.first, leaf.count);
 }
 
-/// The leaf that holds the cone of a key of the deepest level, or null.
+/// Returns the leaf that holds the cone of a key of the deepest level, or null.
 const format::TetraNode* find_leaf(const Model& model, std::uint32_t key) noexcept {
     const format::TetraTree& tree = *model.tetra_tree().tree;
     assert(format::tetra_level(key) == tree.level);
@@ -154,12 +152,11 @@ const format::TetraNode* find_leaf(const Model& model, std::uint32_t key) noexce
     return node;
 }
 
-/// Whether q is farther out along its octant's axis than anything in the leaf: then the
-/// ray, which leads farther still, meets none of it. A difference, two sums, the quotient,
-/// its root and the product are each off by u at most: 6 u, and 2^-50 is 8 u. Scaling
-/// comes first, so that nothing else is rounded below 2^-1022; it may round there itself,
-/// which only a leaf of radius 0 would notice: one with triangles at C alone, which are in
-/// no list.
+/// Returns whether q is farther out along its octant's axis than anything in the leaf. Then the
+/// ray, which leads even farther, meets nothing in it. A difference, two sums, the quotient, its
+/// root and the product are each off by u at most: 6 u, and 2^-50 is 8 u. Scaling comes first, so
+/// that nothing else is rounded below 2^-1022. Scaling may itself round there, which only matters
+/// for a leaf of radius 0: one with triangles at C alone, which are in no list.
 bool is_beyond(const format::TetraNode& leaf, const Model& model, const Double3& q) noexcept {
     constexpr double kRootOfThree = 1.7320508075688772;
     const Double3& c = model.tetra_tree().tree->centre;
@@ -188,16 +185,16 @@ Inclusion through_tetra_tree(const Model& model, const Double3& q, QueryCounts* 
     return crossings.inclusion();
 }
 
-/// Adds what lies in the leaves along the ray, nearest first. Of two cells beside each
-/// other in y or z the ray is in the lower one where it runs on the plane between: either
-/// lists what touches that plane, and an axis that is not divided has the lower one alone.
+/// Adds the crossings in the leaves along the ray, nearest first. On the plane between two cells
+/// side by side in y or z, the ray is in the lower one. Either cell lists what touches that plane,
+/// and an axis that is not divided has only the lower one.
 template <class Tree>
 void walk_row(const Tree& tree, const Double3& q, Crossings& crossings) noexcept {
     struct OpenCell {
         typename Tree::Cell cell;
         Piece piece;
     };
-    std::array<OpenCell, Tree::kMostLevels> open;  // a level down there is one more
+    std::array<OpenCell, Tree::kMostLevels> open;  // each level down adds one
     std::size_t depth = 0;
     open[depth++] = {tree.child(tree.top(), 0), {}};
     while (depth > 0) {
@@ -227,7 +224,7 @@ Inclusion through_cells(const Tree& tree, const Model& model, const Double3& q,
     return crossings.inclusion();
 }
 
-/// The level of the largest cell that holds one finest cell and not the other.
+/// Returns the level of the largest cell that holds one finest cell and not the other.
 std::uint32_t level_between(std::uint64_t code, std::uint64_t other) noexcept {
     assert(code != other);
     const auto differ = static_cast<std::uint32_t>(std::bit_width(code ^ other) - 1);
@@ -240,8 +237,8 @@ struct FoundCell {
     std::uint32_t level;
 };
 
-/// The leaf that holds a finest cell, or the largest cell there that no leaf overlaps:
-/// those before and behind along the z curve are the nearest.
+/// Returns the leaf that holds a finest cell, or the largest cell there that no leaf overlaps. The
+/// leaves before and after it along the z curve are the nearest.
 FoundCell find_cell(const Model& model, std::uint64_t code) noexcept {
     const auto codes = model.octree().leaf_codes;
     const auto top = model.octree().top;

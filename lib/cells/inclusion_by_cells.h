@@ -5,7 +5,8 @@
 
 namespace cdprep {
 
-/// Answers points_inside() of a balanced model with triangles through an octree or a tetra-tree.
+/// Returns points_inside() of a balanced model with triangles, computed through an octree or a
+/// tetra-tree.
 [[nodiscard]] Inclusion inclusion_by_cells(const Model& model, const Double3& p,
                                            Workspace& workspace, Structure through) noexcept;
 

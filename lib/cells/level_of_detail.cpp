@@ -15,11 +15,11 @@
 #include "core/require.h"
 #include "walk/cell_searches.h"
 
-// A solid lies below the outer facets of its cones: a ray from the centre leaves it for
-// good at its last triangle. It holds all that is below the inner facets when it is closed
-// and its centre is inside: no triangle lies between the two. Points are placed and
-// compared in double; radii carry what rounding may do to a point, kSlack times the
-// sizes that take part: rotations are orthogonal to 1e-12, all else is far smaller.
+// A solid lies below the outer facets of its cones: a ray from the centre leaves it for good at its
+// last triangle. If it is closed and its centre is inside, it contains everything below the inner
+// facets: no triangle lies between the centre and them. Points are placed and compared in double.
+// Radii are corrected for the rounding of points: kSlack times the sizes involved. Rotations are
+// orthogonal to 1e-12; all other errors are far smaller.
 
 namespace cdprep {
 namespace {
@@ -60,7 +60,7 @@ public:
         return false;
     }
 
-    /// That in which a cone of the level lies, or null: no triangle is there.
+    /// Returns the cone that contains a cone of the level, or null: no triangle is there.
     [[nodiscard]] const TetraNode* find(std::uint32_t key) const noexcept {
         for (; key >= 8; key >>= 2) {
             const auto at = std::lower_bound(
@@ -77,7 +77,7 @@ private:
     double frame_unit_;
 };
 
-/// A solid whose inside below its inner facets is certain, and where it is.
+/// A solid that certainly contains everything below its inner facets, and its pose.
 class Core {
 public:
     Core(const Model& model, const Pose& pose, const Facets& facets) noexcept
@@ -89,34 +89,33 @@ public:
         reach_ = size_ + std::max({std::fabs(t.x), std::fabs(t.y), std::fabs(t.z)});
     }
 
-    /// Whether there is such an inside.
+    /// Returns whether the inside is certain.
     [[nodiscard]] bool is_certain() const noexcept {
         return model_.is_balanced() && (tree_.flags & format::tetra_centre_inside) != 0 &&
                tree_.centre_count == 0;
     }
 
-    /// Calls visit(p) with points of it, where they stand now, until it returns true;
-    /// returns whether it did.
+    /// Calls visit(p) for points of the inside, as moved, until it returns true. Returns whether it
+    /// did.
     template <class Visit>
     bool any_point(Visit&& visit) const noexcept {
         if (visit(moved_point(pose_, tree_.centre))) return true;
         return facets_.any([&](const TetraNode& node) {
-            // Short of the facet by more than a point may be off.
+            // Below the facet by more than a point may be off.
             const double inner = facets_.inner(node) * (1 - 0x1p-8);
             return facets_.inner(node) - inner > 2 * kSlack * reach_ &&
                    any_below_facet(tetra_cone(node.key), inner * kRoot3, visit);
         });
     }
 
-    /// Whether p, where it stands now, is in it for certain. `reach`: sizes of all that
-    /// p was made of.
+    /// Returns whether p, a moved point, is certainly inside. `reach` is the sizes of everything
+    /// that p was computed from.
     [[nodiscard]] bool holds(const Double3& p, double reach) const noexcept {
         const Double3 own = back(p);
         const double slack = kSlack * (reach + reach_);
         const Double3 d = {own.x - tree_.centre.x, own.y - tree_.centre.y, own.z - tree_.centre.z};
-        // A point that may be in any of some cones is beyond none of their facets when it
-        // is nearer to the centre than that of the one it is found in, less what it may
-        // be off; and else it is not worth the search.
+        // A point this near to a coordinate plane may be in several octants. It is not worth a
+        // search of all their cones.
         if (std::fabs(d.x) <= slack || std::fabs(d.y) <= slack || std::fabs(d.z) <= slack) {
             return false;
         }
@@ -148,8 +147,8 @@ private:
         return false;
     }
 
-    /// Whether all points within `slack` of the direction lie in the node's cone: its
-    /// three faces are farther away.
+    /// Returns whether all points within `slack` of the direction lie in the node's cone: its three
+    /// faces are farther away.
     [[nodiscard]] static bool is_well_inside(const TetraNode& node, const Double3& d,
                                              double slack) noexcept {
         const TetraCone cone = tetra_cone(node.key);
@@ -166,7 +165,7 @@ private:
         return true;
     }
 
-    /// From where it stands now to the model's own coordinates; the pose's transpose.
+    /// Maps a moved point to the model's own coordinates, by the pose's transpose.
     [[nodiscard]] Double3 back(const Double3& p) const noexcept {
         const std::array<double, 9>& r = pose_.rotation();
         const Double3& t = pose_.translation();
@@ -183,7 +182,7 @@ private:
     double reach_ = 0;
 };
 
-/// Whether the cones of a level, cut off at their outer facets, may meet.
+/// Returns whether the cones of a level, cut off at their outer facets, may meet.
 bool may_meet(const Model& a, const Model& b, const Placement& placement, std::uint32_t level,
               Workspace::Storage& scratch) noexcept {
     const PlacedBoxes placed = place_boxes(a, b, placement);
@@ -213,7 +212,7 @@ double level_error(const Model& model, std::uint32_t level) noexcept {
         widest = std::max(widest, facets.outer(node) - facets.inner(node));
         return false;
     });
-    // A ray is at most this oblique to its octant's normal; two roundings upwards.
+    // A ray is at most this oblique to its octant's normal. Two roundings are included.
     return widest * kRoot3 * (1 + 0x1p-50);
 }
 

@@ -13,7 +13,8 @@
 
 namespace cdprep {
 
-/// Where a list that rises names the triangle, among all references.
+/// Returns the place of a triangle's reference among all references, if a sorted list names the
+/// triangle.
 inline std::optional<std::uint32_t> find_reference(std::span<const std::uint32_t> references,
                                                    std::uint32_t first, std::uint32_t count,
                                                    std::uint32_t triangle) {
@@ -26,7 +27,8 @@ inline std::optional<std::uint32_t> find_reference(std::span<const std::uint32_t
     return first + static_cast<std::uint32_t>(at - list.begin());
 }
 
-/// A reference among all that name one triangle that is not marked as it should be.
+/// Finds a reference that is not marked correctly. `places` are all references that name one
+/// triangle.
 inline std::optional<format::Damage> find_wrong_mark(std::span<const std::byte> file,
                                                      format::SectionId id,
                                                      std::span<const std::uint32_t> references,

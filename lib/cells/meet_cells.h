@@ -10,7 +10,7 @@
 
 namespace cdprep {
 
-/// One leaf cell and what it lists.
+/// A leaf cell and its list.
 struct MetCell {
     std::uint32_t node;
     std::span<const std::uint32_t> references;
@@ -18,8 +18,8 @@ struct MetCell {
     unsigned lane;
 };
 
-/// A box around what two cells have in common, in A's frame, laid out as the kernels want a
-/// box among eight: what two triangles share there lies in it.
+/// A box around the intersection of two cells, in A's frame, laid out for the kernels as one box of
+/// eight. Everything that two triangles share there lies in it.
 class CommonBox {
 public:
     CommonBox(const MetCell& a, const MetCell& b, const PlacedBoxes& placed) noexcept {
@@ -46,11 +46,12 @@ public:
         }
     }
 
-    /// As kernels::BoxChoice::around_a.
+    /// Returns the box as kernels::BoxChoice::around_a.
     [[nodiscard]] const float* rows() const noexcept {
         return row_[0].data();
     }
-    /// Which boxes of A reach it: rounding aside, none of those touches anything in it.
+    /// Returns which boxes of A reach this box. Rounding aside, no other box touches anything in
+    /// it.
     [[nodiscard]] unsigned reached_by(const format::BvhNode& boxes) const noexcept {
         std::array<std::uint32_t, format::kBvhWidth> out{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -70,13 +71,13 @@ private:
     std::array<std::array<float, format::kBvhWidth>, 6> row_;  ///< lane 0 is used
 };
 
-/// Holds what two leaf cells list against each other, by low nodes of the BVHs: the kernels
-/// take all of a node and of a leaf in the time of one, so what other cells list of them is
-/// settled on the way, once.
+/// Tests the lists of two leaf cells against each other, by low nodes of the BVHs. The kernels
+/// process a whole node or leaf in the time of one triangle. So pairs that other cells list too are
+/// settled at the same time, once.
 template <class Lists>
 class MeetCells {
 public:
-    /// `met` may be null: then everything is met each time.
+    /// `met` may be null: then everything is tested each time.
     MeetCells(const Model& a, const Model& b, const PlacedBoxes& placed, Lists& lists_a,
               Lists& lists_b, MetNodes* met) noexcept
         : lists_a_(lists_a),
@@ -93,7 +94,7 @@ public:
         lists_b_.begin(b);
     }
 
-    /// False when `contacts` ended the question.
+    /// Returns false when `contacts` ended the query.
     template <class Contacts>
     bool operator()(const MetCell& a, const MetCell& b, std::uint64_t place,
                     Contacts& contacts) noexcept {
@@ -113,7 +114,7 @@ public:
 private:
     static constexpr std::uint32_t kFewNodes = 8;
 
-    /// The pairs of boxes that may touch in what the cells have in common.
+    /// Returns the pairs of boxes that may touch in the intersection of the cells.
     [[nodiscard]] kernels::BoxPairs overlapping(const CommonBox& common, const format::BvhNode& a,
                                                 unsigned lanes_a, const format::BvhNode& b,
                                                 unsigned lanes_b) const noexcept {
@@ -146,7 +147,7 @@ private:
     template <class Contacts>
     bool meet(const CommonBox& common, const NodeBlock& a, const NodeBlock& b, std::uint64_t place,
               Contacts& contacts) const noexcept {
-        // A few are met once and for all sooner than parted in each pair of cells.
+        // Testing a few nodes once is faster than separating them in each pair of cells.
         const bool few = a.count * b.count <= kFewNodes;
         kernels::BoxPairs nodes = few ? lane_pairs(a.lanes(), b.lanes())
                                       : overlapping(common, a.boxes, a.lanes(), b.boxes, b.lanes());
@@ -157,12 +158,12 @@ private:
         return true;
     }
 
-    /// The leaves of two nodes, by all that bounds them. What the cells have in common is
-    /// no matter here: the answer holds for all cells.
+    /// Tests the leaves of two nodes by all their bounds. The intersection of the cells does not
+    /// matter here: the result holds for all cells.
     template <class Contacts>
     bool meet(const LowNode& a, const LowNode& b, std::uint64_t place,
               Contacts& contacts) const noexcept {
-        // Where answers cannot be remembered, each place has to bring what it lists.
+        // Where answers cannot be remembered, each place must bring what it lists.
         MetNodes* met = contacts.forgets() ? nullptr : met_;
         if (met != nullptr && met->holds(a.number, b.number)) return true;
         kernels::BoxSizes sizes;
@@ -190,7 +191,7 @@ private:
     const PlacedBoxes& placed_;
     const format::BvhNode* nodes_a_;  ///< of level 0
     const format::BvhNode* nodes_b_;
-    const format::OrientedNode* oriented_a_ = nullptr;  ///< or null, both
+    const format::OrientedNode* oriented_a_ = nullptr;  ///< or null, both or neither
     const format::OrientedNode* oriented_b_ = nullptr;
     MetNodes* met_;  ///< or null
 };

@@ -17,7 +17,7 @@ namespace cdprep {
 /// A node of the BVH's lowest level.
 struct LowNode {
     std::uint32_t number;  ///< of level 0
-    std::uint8_t leaves;   ///< which it has: bit set
+    std::uint8_t leaves;   ///< its leaves: bit set
 };
 
 /// Eight such nodes and the boxes around them.
@@ -32,7 +32,7 @@ struct alignas(64) NodeBlock {
     }
 };
 
-/// A part of what a cell lists: at most eight blocks, and the boxes around those.
+/// A part of a cell's list: at most eight blocks, and the boxes around them.
 struct NodeList {
     const NodeBlock* block;
     const format::BvhNode* around;
@@ -40,13 +40,13 @@ struct NodeList {
     std::uint32_t end;  ///< one past its last reference
 };
 
-/// What leaf cells of one model list, by the lowest nodes of its BVH, with the boxes around
-/// those: triangles that follow each other in the tree order are neighbours. A walk
-/// comes to a cell many times in short succession: the last kSlots lists are kept.
+/// The lists of one model's leaf cells, as lowest nodes of its BVH with the boxes around them.
+/// Triangles that are consecutive in tree order are neighbours. A walk comes to a cell many times
+/// in short succession, so the last kSlots lists are kept.
 template <std::size_t kSlots>
 class NodeLists {
 public:
-    /// For other models, or another tree of them.
+    /// Begins with another model, or another tree of it.
     void begin(const Model& model) noexcept {
         const format::BvhShape& shape = model.bvh().shape;
         shape_ = &shape;
@@ -54,15 +54,15 @@ public:
         ++question_;
     }
 
-    /// As many of the references of cell `node` as one list takes, from `begin` on; they
-    /// rise. Valid until the next call.
+    /// Returns as many of the references of cell `node` as one list takes, from `begin` on. The
+    /// references are sorted. Valid until the next call.
     [[nodiscard]] NodeList list(std::uint32_t node, std::uint32_t begin,
                                 std::span<const std::uint32_t> references) noexcept {
         assert(shape_ != nullptr && begin < references.size());
         Slot& slot = slots_[(node + begin) % kSlots];
         const bool is_same = slot.question == question_ && slot.node == node && slot.begin == begin;
         if (!is_same || written_ - slot.written > kBlocks) {
-            // A list does not go round the end.
+            // A list does not wrap around the end.
             const std::uint64_t rest = kBlocks - written_ % kBlocks;
             if (rest < kMostBlocks) written_ += rest;
             slot.question = question_;
@@ -76,17 +76,17 @@ public:
 
 private:
     static constexpr std::size_t kMostBlocks = format::kBvhWidth;  ///< of a list
-    // Most lists are of two blocks or fewer.
+    // Most lists have at most two blocks.
     static constexpr std::size_t kBlocks = kSlots == 1 ? kMostBlocks : 2 * kSlots;
 
     struct Slot {
         std::uint64_t question = 0;
-        std::uint64_t written;  ///< when it began: good until kBlocks more were written
+        std::uint64_t written;  ///< its start: valid until kBlocks more were written
         std::uint32_t node;
         std::uint32_t begin;
         std::uint32_t end;
         std::uint32_t blocks;
-        format::BvhNode around{};  ///< as block_
+        format::BvhNode around{};  ///< zeroed as block_
     };
 
     void fill(Slot& slot, std::span<const std::uint32_t> references) noexcept {
@@ -101,7 +101,7 @@ private:
         written_ += slot.blocks;
     }
 
-    /// Fills a block from references[at] on; returns one past the last that it holds.
+    /// Fills a block from references[at] on. Returns one past the last reference that it holds.
     std::size_t fill(NodeBlock& block, std::span<const std::uint32_t> references,
                      std::size_t at) const noexcept {
         block.count = 0;
@@ -119,7 +119,8 @@ private:
         return at;
     }
 
-    /// The box around a node, as its parent has it; a root's is the frame.
+    /// Sets lane `lane` to the box around a node, as its parent stores it. A root's box is the
+    /// frame.
     void put_box(std::uint32_t node, format::BvhNode& boxes, std::uint32_t lane) const noexcept {
         const std::uint32_t box = node % format::kBvhWidth;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -147,8 +148,8 @@ private:
         }
     }
 
-    // Lanes past the last of a block hold an earlier one's, or zeros: numbers too small for float,
-    // as memory may hold, would slow the kernels down.
+    // Lanes past the last of a block hold an earlier block's values, or zeros. Subnormal numbers,
+    // which memory may hold, would slow the kernels down.
     std::array<NodeBlock, kBlocks> block_{};
     std::array<Slot, kSlots> slots_;
     const format::BvhShape* shape_ = nullptr;
@@ -157,8 +158,7 @@ private:
     std::uint64_t written_ = 0;
 };
 
-/// Which pairs of low nodes were held against each other in a question; some are
-/// forgotten, and then met again.
+/// The pairs of low nodes that a query has tested. Some are forgotten, and then tested again.
 class MetNodes {
 public:
     void begin() noexcept {

@@ -16,7 +16,7 @@ using CellPlace = std::array<std::uint32_t, 3>;
 
 inline constexpr std::uint32_t kOctreeSteps = 1U << format::kOctreeBits;
 
-/// Plane `i` of an axis, as format::OctreeGrid defines it: one rounding.
+/// Returns plane `i` of an axis, as format::OctreeGrid defines it. Rounds once.
 inline double octree_plane(double origin, double step, std::uint32_t i) noexcept {
     return origin + static_cast<double>(i) * step;
 }
@@ -25,13 +25,13 @@ using format::cells_below;
 using format::code_of;
 using format::level_of;
 
-/// The number of the half-open finest cell [plane i, plane i + 1) that holds x along one
-/// axis, exactly; outside the cube the nearest. x must not be NaN.
+/// Returns the number of the half-open finest cell [plane i, plane i + 1) that holds x along one
+/// axis, exactly. Outside the cube, returns the nearest cell. x must not be NaN.
 inline std::uint32_t octree_cell(double origin, double step, double x) noexcept {
     const double guess = (x - origin) / step;
     if (!(guess > 0)) return 0;
     if (guess >= kOctreeSteps - 1) {
-        // May round up over the last plane but one.
+        // May round up past the last plane but one.
         const std::uint32_t last = kOctreeSteps - 1;
         return x >= octree_plane(origin, step, last) ? last : last - 1;
     }
@@ -47,7 +47,7 @@ inline CellPlace octree_cell(const format::OctreeGrid& grid, const Double3& p) n
             octree_cell(grid.origin.z, grid.step, p.z)};
 }
 
-/// The closed box of a cell.
+/// Returns the closed box of a cell.
 inline Box3 octree_box(const format::OctreeGrid& grid, const CellPlace& first,
                        std::uint32_t level) noexcept {
     assert(level <= format::kOctreeBits);

@@ -8,14 +8,14 @@
 
 namespace cdprep {
 
-/// Where a finest cell stands along the z curve: format::code_of() the key of level
-/// kOctreeBits. The same on every machine; kernels::Curve says how.
+/// Returns the place of a finest cell along the z curve: format::code_of() the key of level
+/// kOctreeBits. The same on every machine; see kernels::Curve.
 inline std::uint64_t octree_code(const CellPlace& cell) noexcept {
     assert(cell[0] < kOctreeSteps && cell[1] < kOctreeSteps && cell[2] < kOctreeSteps);
     return kernels::active_curve().code(cell[0], cell[1], cell[2]);
 }
 
-/// The first finest cell of the cell with this key.
+/// Returns the first finest cell of the cell with this key.
 inline CellPlace octree_place(std::uint64_t key) noexcept {
     CellPlace place;
     kernels::active_curve().cell(code_of(key), place.data());

@@ -11,18 +11,19 @@ using format::AdaptiveOctreeNode;
 using format::kInnerNode;
 using format::OctreeNode;
 
-/// What both a model and a builder's tree have.
+/// The parts that a model's tree and a builder's tree have in common.
 template <class Node>
 struct Parts {
     std::uint64_t triangle_count;
     std::span<const Node> nodes;
     std::span<const std::uint32_t> references;
-    std::uint64_t other_bytes;  ///< of the tree's section of one element, where there is one
+    std::uint64_t other_bytes;  ///< of the tree's one-element section, if any
     std::uint64_t table_bytes;
     std::uint64_t box_bytes;
 };
 
-/// Nodes stand level by level: children of a level's nodes are the next level.
+/// Counts the nodes. They are stored level by level: children of a level's nodes are the next
+/// level.
 template <class Node>
 void count_nodes(std::span<const Node> nodes, OctreeFigures& figures) noexcept {
     std::uint64_t next_child = 1;
@@ -52,11 +53,11 @@ OctreeFigures figures_of(const Parts<Node>& parts) noexcept {
     figures.bytes = parts.other_bytes + parts.nodes.size_bytes() + parts.references.size_bytes() +
                     parts.table_bytes + parts.box_bytes;
     figures.nodes = parts.nodes.size();
-    // No octree, or one of a model without triangles.
+    // There is no octree, or the model has no triangles.
     if (parts.nodes.empty()) return figures;
     figures.references = parts.references.size();
     count_nodes(parts.nodes, figures);
-    // A triangle is listed once at least, and then without the mark.
+    // Every triangle is listed at least once. If listed only once, it is not marked.
     const auto alone = std::count_if(
         parts.references.begin(), parts.references.end(),
         [](std::uint32_t reference) { return (reference & format::kSharedReference) == 0; });

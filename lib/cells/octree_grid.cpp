@@ -9,12 +9,12 @@
 #include "build/chunks.h"
 #include "cdprep/advanced/parallel_for.h"
 
-// The step. Planes rise strictly, and no vertex that is more than a step inside is taken to
-// be outside, when a step is at least 2 ulp of every plane: the rounding of a plane moves it
-// by at most half an ulp. An ulp is at most 2^-52 of its number, and no plane is farther out
-// than (1 + 2^-20) times the largest coordinate and twice the extent, so 2^-50 of that sum is
-// enough. The cube: half the extent is at most 2^20 - 4 steps, and its middle and the origin
-// are rounded by less than a step, so three steps stay free on every side.
+// The step. It must be at least 2 ulp of every plane. Then planes rise strictly, and no vertex more
+// than a step inside is taken to be outside. The rounding of a plane moves it by at most half an
+// ulp. An ulp is at most 2^-52 of its number. No plane is farther out than (1 + 2^-20) times the
+// largest coordinate and twice the extent. So 2^-50 of that sum is enough. The cube: half the
+// extent is at most 2^20 - 4 steps. Its middle and the origin are rounded by less than a step, so
+// three steps stay free on every side.
 
 namespace cdprep::build {
 namespace {
@@ -22,13 +22,13 @@ namespace {
 constexpr int kStepBits = 32;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The least number of kStepBits significant bits that is not below x > 0.
+/// Returns the least number of kStepBits significant bits that is not below x > 0.
 double rounded_up(double x) {
     assert(x > 0);
     int exponent = 0;
     const double fraction = std::frexp(x, &exponent);  // in [1/2, 1)
     const double up = std::ldexp(std::ceil(std::ldexp(fraction, kStepBits)), exponent - kStepBits);
-    // Where numbers are subnormal the last step may round down.
+    // For subnormal numbers the last step may round down.
     return up < x ? x : up;
 }
 
@@ -46,7 +46,7 @@ struct Extent {
 };
 
 Extent extent_of(std::span<const Double3> positions) {
-    std::array<Extent, 2> every_other;  // so that one need not wait for the other
+    std::array<Extent, 2> every_other;  // two, so that neither waits for the other
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const Double3& p = positions[i];
         every_other[i % 2].grow({{p.x, p.y, p.z}, {p.x, p.y, p.z}});

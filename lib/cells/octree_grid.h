@@ -9,18 +9,17 @@
 
 namespace cdprep::build {
 
-/// The cube around all positions and its finest planes, as format::OctreeGrid defines them:
-/// the middle of their box in the middle, more than a step beyond on every side, planes that
-/// rise strictly. Around the origin where there are none. `level`, `threshold` and what
-/// concerns tables are left 0.
+/// Returns the cube around all positions and its finest planes, as format::OctreeGrid defines them.
+/// The middle of the positions' box is the cube's middle. The cube extends more than a step beyond
+/// the box on every side, and planes rise strictly. Without positions, the cube is around the
+/// origin. `level`, `threshold` and the fields for tables are 0.
 [[nodiscard]] format::OctreeGrid octree_grid_around(std::span<const Double3> positions,
                                                     ParallelFor parallel_for);
 
-/// Where a vertex stands among the finest planes of each axis, doubled: 2 i on plane i,
-/// 2 i + 1 strictly between planes i and i + 1. What lies on a plane touches both sides, so
-/// this, unlike a number of a cell, tells exactly which closed cells a vertex is in. Floats,
-/// which hold 22 bits exactly, and a fourth lane, always 0, so that one instruction compares
-/// all axes.
+/// The place of a vertex among the finest planes of each axis, doubled: 2 i on plane i, 2 i + 1
+/// strictly between planes i and i + 1. A point on a plane touches both sides. So this value,
+/// unlike the number of a cell, determines exactly which closed cells hold a vertex. Floats hold
+/// its 22 bits exactly. A fourth lane is always 0, so that one instruction compares all axes.
 using Stand = Lanes<float, 4>;
 
 [[nodiscard]] inline float octree_stand(double origin, double step, double x) noexcept {

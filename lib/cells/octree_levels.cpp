@@ -12,13 +12,13 @@
 #include "cells/octree_grid.h"
 #include "exact/triangle_box.h"
 
-// Level by level, all nodes of a level at once: each reference of a node that is divided is
-// given the set of children that its triangle touches, then the references are moved to the
-// children, in the same order. So nodes come sorted by their keys, references rise within a
-// node, and nothing depends on who did what.
+// Built level by level, all nodes of a level at once. Each reference of a node that is divided gets
+// the set of children that its triangle touches. Then the references are moved to the children, in
+// the same order. So nodes come sorted by their keys, references rise within a node, and nothing
+// depends on which task did what.
 //
 // A closed cell is the union of its children's closed cells, whose planes are the very same
-// numbers: a triangle that touches a cell touches a child, and one that touches two children
+// numbers. So a triangle that touches a cell touches a child, and one that touches two children
 // ends up in two leaves.
 
 namespace cdprep::build {
@@ -31,7 +31,7 @@ using format::kSharedReference;
 using format::OctreeNode;
 using format::Triangle;
 
-/// Trees do not get larger; see build_octree().
+/// Returns the maximum number of references of a tree; see build_octree().
 std::uint64_t most_references(std::uint64_t triangle_count) noexcept {
     constexpr std::uint64_t kMost = std::uint64_t{1} << 31;
     return std::min(kMostFreeReferences + kMostReferencesPerTriangle * triangle_count, kMost);
@@ -56,12 +56,12 @@ struct Cell {
     }
 };
 
-/// Children on the lower side of each axis's middle plane; the others are on the upper.
+/// The children on the lower side of each axis's middle plane. The others are on the upper side.
 constexpr Lanes<std::uint32_t, 4> kLowerChildren = {0x55, 0x33, 0x0f, 0xff};
 constexpr Lanes<std::uint32_t, 4> kUpperChildren = {0xaa, 0xcc, 0xf0, 0xff};
 
-/// The children whose closed cells a box reaches that reaches the parent's. Without a
-/// branch: nothing foretells on which side a triangle is.
+/// Returns the children whose closed cells a box reaches. The box reaches the parent's cell. The
+/// loop has no branch, because the side of a triangle is unpredictable.
 unsigned children_between(const Cell& cell, const Stand& least, const Stand& most) noexcept {
     Lanes<std::uint32_t, 4> children;
     for_lanes<4>([&](std::size_t i) {
@@ -72,7 +72,7 @@ unsigned children_between(const Cell& cell, const Stand& least, const Stand& mos
     return children[0] & children[1] & children[2];
 }
 
-/// The children whose closed cells hold a vertex; none when the parent's does not.
+/// Returns the children whose closed cells hold a vertex; none if the parent's cell does not.
 unsigned children_at(const Cell& cell, const Stand& at) noexcept {
     Lanes<std::uint32_t, 4> children;
     for_lanes<4>([&](std::size_t i) {
@@ -83,22 +83,22 @@ unsigned children_at(const Cell& cell, const Stand& at) noexcept {
     return children[0] & children[1] & children[2];
 }
 
-/// Of a set that is not empty. Processors without an instruction that counts bits are
-/// served too, and a call is made for it otherwise.
+/// Returns whether a set has one element. The set is not empty. Counting bits would be a call,
+/// because processors without that instruction are supported too.
 bool is_single(unsigned set) noexcept {
     assert(set != 0);
     return (set & (set - 1)) == 0;
 }
 
-/// What the division looks at.
+/// The input of the division.
 struct Input {
     const format::OctreeGrid& grid;
     std::span<const Double3> positions;
     std::span<const Triangle> triangles;
-    const Stand* stands;  ///< of positions
+    const Stand* stands;  ///< one per position
 };
 
-/// Of these children those that the triangle touches, by exact tests.
+/// Returns those of some children that the triangle touches, by exact tests.
 unsigned touched_among(const Input& input, const Triangle& t, const Cell& cell,
                        unsigned children) noexcept {
     const Corners corners = {input.positions[t.vertex[0]], input.positions[t.vertex[1]],
@@ -120,7 +120,7 @@ unsigned touched_among(const Input& input, const Triangle& t, const Cell& cell,
     return touched;
 }
 
-/// The children of a cell that a triangle touches which touches the cell.
+/// Returns the children of a cell that a triangle touches. The triangle touches the cell.
 unsigned touched_children(const Input& input, const Triangle& t, const Cell& cell) noexcept {
     const Stand& a = input.stands[t.vertex[0]];
     const Stand& b = input.stands[t.vertex[1]];
@@ -143,7 +143,7 @@ struct Segment {
     std::uint32_t node;   ///< of its level
     std::uint32_t first;  ///< of the level's references
     std::uint32_t last;
-    std::array<std::uint32_t, 8> child;  ///< how many each gets, then where they go
+    std::array<std::uint32_t, 8> child;  ///< counts, then the places where they go
 };
 
 /// The nodes of one level, and the triangles that touch them.
@@ -153,14 +153,14 @@ struct Level {
     std::uint32_t reference_count = 0;
 };
 
-/// One level's nodes and references on their way to the next.
+/// The division of one level's nodes and references into the next level.
 class Division {
 public:
     Division(const Input& input, const Level& level, ParallelFor parallel_for)
         : input_(input), level_(level), parallel_for_(parallel_for) {}
 
-    /// Whether anything is divided; false also when the tree would get too large, which has
-    /// `behind` references in the levels above.
+    /// Returns whether any node is divided. Returns false also if the tree would get too large.
+    /// `behind` is the number of references in the levels above.
     bool find_children(std::uint32_t threshold, std::uint64_t behind) {
         cut_segments(threshold);
         if (segments_.empty()) return false;
@@ -169,8 +169,8 @@ public:
         return behind + references_after() <= most_references(input_.triangles.size());
     }
 
-    /// The next level. Nodes that are divided get the numbers of their children in it and
-    /// the set of them; `nodes` are this level's.
+    /// Returns the next level. Divided nodes get the numbers of their children in it and the set of
+    /// them. `nodes` are this level's.
     Level next(std::span<OctreeNode> nodes) {
         Level result;
         for (std::size_t i = 0; i < segments_.size();) i = place_children(i, nodes, result);
@@ -185,7 +185,7 @@ private:
     ParallelFor parallel_for_;
     std::vector<Segment> segments_;
     std::vector<std::size_t> first_of_task_;    ///< segments
-    std::unique_ptr<std::uint8_t[]> children_;  ///< of each reference, a set
+    std::unique_ptr<std::uint8_t[]> children_;  ///< one set per reference
 
     void cut_segments(std::uint32_t threshold) {
         assert(threshold > 0);
@@ -232,7 +232,7 @@ private:
         segment.child = count;
     }
 
-    /// Of this level's leaves and the next level's nodes.
+    /// Returns the number of references of this level's leaves and the next level's nodes.
     [[nodiscard]] std::uint64_t references_after() const {
         std::uint64_t all = level_.reference_count;
         for (const Segment& segment : segments_) {
@@ -242,7 +242,7 @@ private:
         return all;
     }
 
-    /// Of the node of segment i. Returns the first segment of the next node.
+    /// Places the children of the node of segment i. Returns the first segment of the next node.
     std::size_t place_children(std::size_t i, std::span<OctreeNode> nodes, Level& result) {
         OctreeNode& node = nodes[segments_[i].node];
         std::size_t end = i;
@@ -301,13 +301,13 @@ Level root_level(std::size_t triangle_count, ParallelFor parallel_for) {
     return root;
 }
 
-/// Adds a level to the tree: leaves take their references along, and children follow behind
-/// all of this level.
+/// Adds a level to the tree. Leaves take their references along, and children follow after all
+/// nodes of this level.
 void append(const Level& level, std::vector<OctreeNode> nodes, Octree& octree) {
     const auto next = static_cast<std::uint32_t>(octree.nodes.size() + nodes.size());
     std::size_t listed = octree.references.size();
     for (const OctreeNode& node : nodes) listed += (node.count & kInnerNode) != 0 ? 0 : node.count;
-    octree.references.reserve(listed);  // else vectors take twice of what they need
+    octree.references.reserve(listed);  // otherwise vectors take twice the memory they need
     octree.nodes.reserve(next);
     for (OctreeNode& node : nodes) {
         if ((node.count & kInnerNode) != 0) {

@@ -12,7 +12,7 @@
 
 namespace cdprep {
 
-/// What an octree has in one cell: a run of its sorted leaves, or, from a table, one node.
+/// The contents of one cell in an octree: a run of its sorted leaves or, from a table, one node.
 /// Empty where no triangle touches the cell.
 struct OctreePart {
     std::uint32_t first = 0;
@@ -24,20 +24,20 @@ struct OctreePart {
     friend bool operator==(const OctreePart&, const OctreePart&) = default;
 };
 
-/// Goes straight to the part of any cell by its key, and down from there.
+/// Finds the part of any cell directly by its key, and goes down from there.
 class OctreeParts {
 public:
     OctreeParts(const OctreeIndex& index, std::span<const std::uint32_t> references,
                 CellSearch search) noexcept
         : index_(index), references_(references), search_(search) {}
 
-    /// No cell below this level has a part of its own.
+    /// Returns the deepest level at which cells have parts of their own.
     [[nodiscard]] std::uint32_t deepest() const noexcept {
         return index_.deepest;
     }
 
-    /// The part of the cell of `level`, at most deepest(), that begins with the finest cell
-    /// `code`: what is in it, or the leaf that holds it. There are nodes.
+    /// Returns the part of the cell of `level` that begins with the finest cell `code`: its
+    /// contents, or the leaf that holds it. `level` is at most deepest(). There must be nodes.
     [[nodiscard]] OctreePart at(std::uint64_t code, std::uint32_t level) const noexcept {
         assert(!index_.nodes.empty() && level <= deepest());
         switch (search_) {
@@ -51,35 +51,35 @@ public:
         return run(code, level);
     }
 
-    /// Whether a part that is not empty is one leaf.
+    /// Returns whether a part that is not empty is one leaf.
     [[nodiscard]] bool is_single_leaf(const OctreePart& part) const noexcept {
         assert(!part.empty());
         if (search_ == CellSearch::sorted) return part.last - part.first == 1;
         return is_leaf(index_.nodes[part.first]);
     }
 
-    /// The triangles of one leaf.
+    /// Returns the triangles of one leaf.
     [[nodiscard]] std::span<const std::uint32_t> references(const OctreePart& leaf) const noexcept {
         const format::OctreeNode& node = index_.nodes[node_of(leaf)];
         assert(is_leaf(node));
         return references_.subspan(node.first, node.count);
     }
-    /// The number of a part that is one node.
+    /// Returns the number of a part that is one node.
     [[nodiscard]] std::uint32_t node_of(const OctreePart& part) const noexcept {
         assert(!part.empty() && is_node(part));
         return search_ == CellSearch::sorted ? index_.leaf_nodes[part.first] : part.first;
     }
 
-    /// Whether a part that is not empty is one node.
+    /// Returns whether a part that is not empty is one node.
     [[nodiscard]] bool is_node(const OctreePart& part) const noexcept {
         return search_ != CellSearch::sorted || part.last - part.first == 1;
     }
 
-    /// Which children of what is no leaf may have parts: a bit each.
+    /// Returns a bit for each child that may have a part. The given part is not a leaf.
     [[nodiscard]] unsigned children(const OctreePart& part) const noexcept {
         return search_ == CellSearch::sorted ? 0xff : index_.nodes[part.first].count & 0xff;
     }
-    /// Whether the i-th child's part, as child() has it, is not empty.
+    /// Returns whether the i-th child's part, as child() returns it, is not empty.
     [[nodiscard]] bool has_child(const OctreePart& part, unsigned i, std::uint64_t code,
                                  std::uint32_t level) const noexcept {
         if (search_ != CellSearch::sorted) {
@@ -89,8 +89,8 @@ public:
             i == 0 ? part.first : leaves_up_to(part.first, part.last, code - 1);
         return first < part.last && index_.leaf_codes[first] - code < cells_below(level);
     }
-    /// The part of the i-th child, one of children(), a cell of `level` that begins with
-    /// the finest cell `code`.
+    /// Returns the part of the i-th child, which is one of children(): a cell of `level` that
+    /// begins with the finest cell `code`.
     [[nodiscard]] OctreePart child(const OctreePart& part, unsigned i, std::uint64_t code,
                                    std::uint32_t level) const noexcept {
         if (search_ != CellSearch::sorted) {
@@ -115,7 +115,8 @@ private:
         return static_cast<std::uint32_t>(end - codes);
     }
 
-    /// Leaves that begin in the cell, or else the leaf before them when it holds the cell.
+    /// Returns the leaves that begin in the cell; if there are none, the leaf before them if it
+    /// holds the cell.
     [[nodiscard]] OctreePart run(std::uint64_t code, std::uint32_t level) const noexcept {
         const std::uint32_t shift = 3 * (format::kOctreeBits - index_.top_level);
         const std::uint64_t last_code = code + (cells_below(level) - 1);
@@ -138,7 +139,7 @@ private:
             const std::uint32_t node =
                 find_chained(index_, table, slot_of(key, index_.slot_bits), key);
             if (node == kNoNode) continue;
-            // Above the cell an inner node says that its child there is empty.
+            // An inner node above the cell means that its child there is empty.
             const bool holds = key == own || is_leaf(index_.nodes[node]);
             return holds ? OctreePart{node, node + 1} : OctreePart{};
         }

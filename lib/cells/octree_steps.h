@@ -8,12 +8,12 @@
 
 namespace cdprep::build {
 
-/// Fills what finds cells by their keys, from octree.nodes: leaf_codes, leaf_nodes, top and
-/// the two tables; and grid.top_level and grid.slot_bits.
+/// Fills the tables that find cells by their keys, from octree.nodes: leaf_codes, leaf_nodes, top
+/// and the two hash tables. Also sets grid.top_level and grid.slot_bits.
 void make_octree_tables(Octree& octree);
 
-/// Fills octree.nodes and octree.references; octree.grid is set, but for the tables. There is
-/// at least one triangle.
+/// Fills octree.nodes and octree.references. octree.grid is set, except for the tables. There is at
+/// least one triangle.
 void divide_octree(Octree& octree, std::span<const format::Double3> positions,
                    std::span<const format::Triangle> triangles, ParallelFor parallel_for);
 

@@ -13,15 +13,15 @@ namespace {
 using format::kInnerNode;
 using format::OctreeNode;
 
-/// The top table's level at most, 1 MiB, and its cells for each leaf: by octree_top_bench on
-/// octrees of 14,000 to 2,200,000 leaves. A finer table saves steps in cells that are full, as
-/// near the surface; but where most are empty it is what misses the caches: one level more
-/// takes up to three times as long there.
+/// The maximum level of the top table, 1 MiB, and its cells per leaf. Both were measured by
+/// octree_top_bench on octrees of 14,000 to 2,200,000 leaves. A finer table saves steps in cells
+/// that are full, as near the surface. Where most cells are empty, however, the table misses the
+/// caches: one level more takes up to three times as long there.
 constexpr std::uint32_t kMostTopLevel = 6;
 constexpr std::uint64_t kTopCellsPerLeaf = 2;
 
-/// Along the z curve: a walk of the tree, children in order. The levels stand one behind
-/// the other, so the next node of each is the one after the last.
+/// A walk of the tree along the z curve, children in order. The levels are stored one after
+/// another, so the next node of each level is the one after the last.
 class LeafWalk {
 public:
     explicit LeafWalk(Octree& octree) : octree_(octree) {}
@@ -58,8 +58,8 @@ void make_top(Octree& octree) {
     octree.top[cells] = static_cast<std::uint32_t>(leaves);
 }
 
-/// Nodes chained by slot. From the last to the first, each before those of its slot: so
-/// numbers rise along every chain, which proves that it ends.
+/// Returns the nodes chained by slot. They are added from the last to the first, each before those
+/// of its slot. So numbers rise along every chain, which proves that it ends.
 template <class Slot>
 std::vector<std::uint32_t> chained(const Octree& octree, const Slot& slot) {
     const std::size_t slots = std::size_t{1} << octree.grid.slot_bits;
@@ -78,7 +78,7 @@ std::vector<std::uint32_t> chained(const Octree& octree, const Slot& slot) {
 void make_octree_tables(Octree& octree) {
     if (!octree.nodes.empty()) LeafWalk(octree).add_below(0);
     make_top(octree);
-    // At least two slots a node.
+    // At least two slots per node.
     const std::uint32_t bits = std::bit_width(std::max<std::size_t>(octree.nodes.size(), 1)) + 1;
     octree.grid.slot_bits = bits;
     octree.modulus_table =

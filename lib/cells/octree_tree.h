@@ -10,13 +10,13 @@
 
 namespace cdprep {
 
-/// A model's octree as walk_cells() sees it.
+/// A model's octree in the form for CellWalk.
 class OctreeTree {
 public:
     static constexpr std::uint32_t kMostLevels = format::kOctreeBits + 1;
     static constexpr bool kOriented = false;
 
-    /// A node and where it is.
+    /// A node and its place.
     struct Cell {
         std::uint32_t node;
         std::uint32_t level;
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] static Cell top() noexcept {
         return {kAboveRoots, 0, {}};
     }
-    /// Which children there are; one, the root, above it.
+    /// Returns the set of children of a cell. Above the root it is one child, the root.
     [[nodiscard]] unsigned lanes(const Cell& cell) const noexcept {
         return cell.node == kAboveRoots ? 1 : nodes_[cell.node].count & 0xff;
     }
@@ -52,7 +52,7 @@ public:
         assert(cell.node != kAboveRoots);
         return (nodes_[cell.node].count & format::kInnerNode) == 0;
     }
-    /// Which of the children are leaves.
+    /// Returns the set of children that are leaves.
     [[nodiscard]] unsigned leaf_lanes(const Cell& cell) const noexcept {
         unsigned leaves = 0;
         for (unsigned rest = lanes(cell); rest != 0; rest &= rest - 1) {
@@ -69,7 +69,7 @@ public:
     [[nodiscard]] Box3 box(const Cell& cell) const noexcept {
         return octree_box(*grid_, cell.first, cell.level);
     }
-    /// Where the planes between the children are; not of the cell above the root.
+    /// Returns the planes between the children. Not for the cell above the root.
     [[nodiscard]] Double3 split(const Cell& cell) const noexcept {
         assert(cell.node != kAboveRoots);
         const std::uint32_t half = kOctreeSteps >> 1 >> cell.level;
@@ -99,7 +99,7 @@ public:
             }
         }
     }
-    /// Which children list a triangle, and nothing else does.
+    /// Returns the set of children that list a triangle. No other child lists it.
     [[nodiscard]] unsigned lanes_listing(const Cell& cell, std::uint32_t /*triangle*/,
                                          const Corners& corners) const noexcept {
         unsigned listing = 0;

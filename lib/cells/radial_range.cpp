@@ -15,7 +15,7 @@ void add_part(const ConeFaces& faces, const SeenTriangle& t, RadialRange& range)
     }
     const bool lowers = whole.least < range.least && range.least > 0;
     const bool raises = whole.greatest > range.greatest;
-    // Nearly always the whole triangle is within what others reach.
+    // Nearly always the whole triangle is within the range of others.
     if (!lowers && !raises) return;
     const FaceValues f = face_values(faces, t);
     if (raises) range.greatest = std::max(range.greatest, cone_maximum(f, sum));

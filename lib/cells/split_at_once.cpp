@@ -13,10 +13,10 @@ namespace {
 
 constexpr std::uint16_t kSeveral = 0xffff;  ///< instead of one cone's number: see `several`
 
-/// What one task found about its triangles.
+/// The results of one task for its triangles.
 struct Chunk {
-    std::vector<std::uint32_t> place;    ///< by cone: how many, then where the next one goes
-    std::vector<std::uint16_t> several;  ///< of each that is not in one: how many, and which
+    std::vector<std::uint32_t> place;    ///< by cone: counts, then the place of the next one
+    std::vector<std::uint16_t> several;  ///< for each that is not in one: count, then cones
     std::vector<std::uint32_t> centre;
 };
 
@@ -43,13 +43,13 @@ public:
     }
 
 private:
-    /// The cones below one that a triangle touches.
+    /// Finds the cones below one that a triangle touches.
     class Descent {
     public:
         Descent(const TetraInput& input, std::uint32_t level)
             : input_(input), level_(level), children_(format::tetra_cones(level)) {}
 
-        /// Adds numbers of cones of the level, rising. The triangle touches `key`.
+        /// Adds the numbers of the touched cones of the level, rising. The triangle touches `key`.
         void descend(std::uint32_t key, std::uint32_t triangle, bool in_octant,
                      std::vector<std::uint16_t>& cones) {
             const bool is_root = key == kRootKey;
@@ -70,7 +70,7 @@ private:
     private:
         const TetraInput& input_;
         std::uint32_t level_;
-        std::vector<std::unique_ptr<ConeChildren>> children_;  ///< by key, once asked for
+        std::vector<std::unique_ptr<ConeChildren>> children_;  ///< by key, made on first use
     };
 
     void find_cones(std::size_t first, std::size_t last) {

@@ -8,13 +8,13 @@
 
 namespace cdprep {
 
-/// Which triangles of which two BVH leaves a question has held against each other: bit
-/// 8 j + i for triangle i of A's leaf and j of B's. Where many cells list one triangle, this
-/// is what makes each pair one answer, and one test.
+/// The pairs of triangles of two BVH leaves that a query has tested. Bit 8 j + i is for triangle i
+/// of A's leaf and j of B's. Where many cells list one triangle, this set makes each pair one
+/// answer and one test.
 ///
-/// Two leaves are held while their test is pending. Settled, they are remembered for
-/// certain when the test found anything, and for as long as there is room when it did not:
-/// to test those again answers nothing twice.
+/// Two leaves are held while their test is pending. Settled leaves are remembered for certain when
+/// the test found anything, otherwise for as long as there is room. Testing the latter again yields
+/// no answer twice.
 class TestedPairs {
 public:
     static constexpr std::size_t kWays = 8;
@@ -28,12 +28,12 @@ public:
     }
 
     struct Held {
-        std::uint64_t fresh;  ///< what of the asked was not tested before
-        bool has_room;        ///< false: nothing is held, and all that is asked is fresh
+        std::uint64_t fresh;  ///< those of the given pairs that were not tested before
+        bool has_room;        ///< false: nothing is held, and all given pairs are fresh
     };
 
-    /// Holds some pairs of two leaves. Where there is no room, there is some after what is
-    /// pending was settled, or else never for these two.
+    /// Holds some pairs of two leaves. If there is no room now, there may be after the pending
+    /// pairs are settled; otherwise never for these two.
     [[nodiscard]] Held hold(std::uint32_t leaf_a, std::uint32_t leaf_b,
                             std::uint64_t bits) noexcept {
         assert(question_ > 0);
@@ -53,7 +53,7 @@ public:
         return {fresh, true};
     }
 
-    /// Two leaves that were held have been tested.
+    /// Records the test of two leaves that were held.
     void settle(std::uint32_t leaf_a, std::uint32_t leaf_b, bool found) noexcept {
         const std::uint64_t key = key_of(leaf_a, leaf_b);
         const std::size_t bucket = bucket_of(key);
@@ -63,15 +63,15 @@ public:
         at = (at & ~kPending) | (found ? kFound : 0);
     }
 
-    /// For tests: how many buckets are used, one at least.
+    /// For tests: sets the number of buckets used, at least one.
     void limit(std::size_t buckets) noexcept {
         assert(buckets > 0 && buckets <= kBuckets);
         limit_ = buckets;
     }
 
 private:
-    // A key: which question in six bits, whether something was found, whether it is
-    // pending, and two leaves.
+    // A key: the query in six bits, whether something was found, whether it is pending, and two
+    // leaves.
     static constexpr std::uint64_t kLeafBits = 28;
     static constexpr std::uint64_t kPending = std::uint64_t{1} << (2 * kLeafBits);
     static constexpr std::uint64_t kFound = kPending << 1;
@@ -90,7 +90,7 @@ private:
         while (way < kWays && (key_[bucket][way] & ~(kFound | kPending)) != key) ++way;
         return way;
     }
-    /// An empty way, or one of which nothing need be remembered.
+    /// Returns an empty way, or one whose contents need not be remembered; kWays if there is none.
     [[nodiscard]] std::size_t free_way(std::size_t bucket, std::uint64_t key) const noexcept {
         const std::size_t begin = (key ^ key >> 7) % kWays;
         std::size_t free = kWays;
@@ -109,7 +109,7 @@ private:
     std::size_t limit_ = kBuckets;
 };
 
-/// Where two triangles belong that there was no room to remember: the last ones looked up.
+/// The places that own pairs of triangles for which there was no room: the last ones looked up.
 struct FirstPlaces {
     static constexpr std::size_t kSlots = 512;
 
@@ -126,9 +126,9 @@ struct FirstPlaces {
     }
 };
 
-/// Of a pair of leaves that waits for its test.
+/// The data of a pair of leaves that waits for its test.
 struct PendingLeaves {
-    std::uint64_t place;  ///< which cells brought it
+    std::uint64_t place;  ///< the pair of cells that brought it
     std::uint64_t fresh;  ///< as TestedPairs::Held
     bool is_held;
 };

@@ -12,10 +12,10 @@
 #include "cdprep/format/octree.h"
 #include "cells/cone_maximum.h"
 
-// Each node by itself, from all lists below it: what a triangle that other leaves list too
-// has in the node's cone is bounded by cone_maximum(). An aligned box is found along x, y
-// and z, an oriented one along the axes of the surface, which are those of its triangles,
-// whole: axes need not be exact.
+// Each node is bounded separately, from all lists below it. cone_maximum() bounds the part in the
+// node's cone of a triangle that other leaves list too. An aligned box is found along x, y and z,
+// an oriented one along the axes of the surface. Those are computed from whole triangles, because
+// axes need not be exact.
 
 namespace cdprep::build {
 namespace {
@@ -31,8 +31,9 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 
 constexpr std::array<Vector, 3> kAligned = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-/// What lies in a cone, seen from the centre, along three axes whose components are at most
-/// 1 + 2^-23: corners are off by 5 u of their sizes along one, which slack_of() covers.
+/// The reach of the contents of a cone, seen from the centre, along three axes. Components of the
+/// axes are at most 1 + 2^-23. Corners are off by 5 u of their sizes along one, which slack_of()
+/// covers.
 class ReachOf {
 public:
     ReachOf(const ConeFaces& faces, const std::array<Vector, 3>& axes)
@@ -42,8 +43,8 @@ public:
         return reach_;
     }
 
-    /// Widens it by the part of a triangle that lies in the cone; the order in which
-    /// triangles come changes nothing.
+    /// Widens the reach by the part of a triangle that lies in the cone. The order of triangles
+    /// changes nothing.
     void add(const SeenTriangle& t, bool is_within) {
         FaceValues f;
         bool has_values = is_within;
@@ -51,7 +52,7 @@ public:
             const Along along = along_axis(t, axes_[k]);
             const bool lowers = along.lower < reach_.lower[k];
             const bool raises = along.upper > reach_.upper[k];
-            // Mostly the whole triangle is within what others reach.
+            // Mostly the whole triangle is within the reach of others.
             if (!lowers && !raises) continue;
             if (is_within) {
                 reach_.lower[k] = std::min(reach_.lower[k], along.lower);
@@ -91,13 +92,13 @@ private:
     Reach reach_{{kFar, kFar, kFar}, {-kFar, -kFar, -kFar}};
 };
 
-/// The surface below nodes, seen from the centre; shared triangles count more than once.
+/// The surface below nodes, seen from the centre. Shared triangles count more than once.
 struct SurfaceSum {
     double area = 0;
     Vector first{};                  ///< integral of x - middle
     std::array<double, 6> second{};  ///< of (x - middle) (x - middle)^T
 
-    /// Of one triangle the integral of x x^T is area / 12 (9 m m^T + sum of p p^T).
+    /// Adds a triangle. Its integral of x x^T is area / 12 (9 m m^T + sum of p p^T).
     void add(const SeenTriangle& t, const Vector& middle) {
         std::array<Vector, 3> p{};
         Vector sum{};
@@ -173,7 +174,7 @@ private:
                        for (std::size_t i = first; i < last; ++i) body(i);
                    });
     }
-    /// Calls body(triangle, is shared) for all that the leaves below a node list.
+    /// Calls body(triangle, is shared) for every reference of the leaves below a node.
     template <class Body>
     void for_listed(std::size_t node, const Body& body) const {
         const TetraNode& at = tree_.nodes[node];
@@ -188,7 +189,7 @@ private:
     [[nodiscard]] Reach reach_along(std::size_t node, const std::array<Vector, 3>& axes) const {
         const ConeFaces faces = cone_faces(tetra_cone(tree_.nodes[node].key));
         ReachOf reach(faces, axes);
-        // What is whole comes first: then little of the rest reaches farther.
+        // Whole triangles come first: then few of the others reach farther.
         for (const bool wanted : {false, true}) {
             for_listed(node, [&](const SeenTriangle& t, bool is_shared) {
                 if (is_shared == wanted) reach.add(t, !is_shared);
@@ -249,7 +250,7 @@ private:
         tree_.oriented.assign(count, no_oriented);
     }
 
-    /// In the frame, what a centre and a distance seen from there, and their sum round by
+    /// The rounding, in the frame, of a centre, of a distance seen from there, and of their sum:
     /// 2^-53 of less than 2 each.
     static constexpr double kRounding = 0x1p-50;
 
@@ -257,7 +258,7 @@ private:
         const std::size_t at = node / kTetraBoxStride;
         const std::size_t lane = node % kTetraBoxStride;
         BvhNode& box = tree_.boxes[at];
-        Vector middle{};  // of floats: near everything in the box
+        Vector middle{};  // float numbers near everything in the box
         for (std::size_t k = 0; k < 3; ++k) {
             box.lower[k][lane] = float_below(frame(k, aligned_[node].lower[k]) - kRounding);
             box.upper[k][lane] = float_above(frame(k, aligned_[node].upper[k]) + kRounding);
@@ -268,7 +269,7 @@ private:
         copy_lane(box, lane, tree_.boxes[at - 1]);
         copy_lane(tree_.oriented[at], lane, tree_.oriented[at - 1]);
     }
-    /// To where it stands a second time.
+    /// Copies a lane to the place where it is stored a second time.
     static void copy_lane(const BvhNode& from, std::size_t lane, BvhNode& to) {
         for (std::size_t k = 0; k < 3; ++k) {
             to.lower[k][lane + kTetraBoxStride] = from.lower[k][lane];
@@ -287,9 +288,9 @@ private:
         return centre_[axis] + std::ldexp(seen, exponent_);
     }
 
-    /// Axes are unit and at right angles to 8 * 2^-24, and the tests treat the rest as zero:
-    /// coordinates along them are off by 48 * 2^-24 of how far from the middle something is
-    /// (make_oriented.cpp), for which 2^-17 of how far the box reaches is taken.
+    /// Axes are unit and at right angles to 8 * 2^-24, and the tests treat the rest as zero. So
+    /// coordinates along them are off by 48 * 2^-24 of the distance from the middle
+    /// (make_oriented.cpp). The margin for this is 2^-17 of the box's reach.
     void write_oriented(std::size_t node, const Vector& middle, OrientedNode& boxes,
                         std::size_t lane) const {
         const Axes& axes = axes_[node];
@@ -309,7 +310,7 @@ private:
     const TetraInput& input_;
     const TetraTreeOptions& options_;
     TetraTree& tree_;
-    int exponent_;  ///< from what is seen to the frame
+    int exponent_;  ///< from seen coordinates to the frame
     Vector centre_{};
     std::vector<Reach> aligned_;  ///< seen from the centre
     std::vector<Moments> moments_;

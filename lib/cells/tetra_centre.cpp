@@ -37,7 +37,7 @@ Marks mark_used(std::size_t vertices, std::span<const Triangle> triangles,
     return used;
 }
 
-/// Of what one task sums up, in the vertices' order: the same on any number of threads.
+/// Returns the sum of one task, in the vertices' order: the same for any number of threads.
 Sum sum_of(std::span<const Double3> positions, const Marks& used, std::size_t first,
            std::size_t last, const Extent& extent, double scale) {
     Sum sum;

@@ -8,24 +8,24 @@
 #include "cells/cone_place.h"
 #include "exact/wide_integer.h"
 
-// A triangle with corners p_i touches the closed cone exactly when the point
-// sum(w_i p_i) of some weights w >= 0, sum 1, has f_k >= 0 for the three faces k: the
-// nine numbers f_k(p_i) decide it, whether the triangle has area, lies in a plane with
-// the centre, or holds it. It does when
+// Let a triangle have the corners p_i. It touches the closed cone exactly when a point sum(w_i
+// p_i), with weights w >= 0, sum 1, has f_k >= 0 for the three faces k. So the nine numbers
+// f_k(p_i) decide it, whether the triangle has area, lies in a plane with the centre, or holds it.
+// The triangle touches the cone when
 //
 // - a corner lies in the cone; or
-// - an edge meets it: three intervals of the edge have a common point, which they do
-//   when each two have; where two ends f_k = 0 and f_m = 0 lie to each other is the sign
-//   of a 2 x 2 minor f_k(i) f_m(j) - f_m(i) f_k(j); or
-// - no edge meets it: then what they share, being convex, lies inside the triangle. If
-//   the centre is not in its plane, each ray of the cone pierces it, the generators too.
-//   If it is, then what they share is the centre, and generators that are not in the
-//   plane pierce it there. A generator, the line f_k = f_m = 0, pierces the triangle when
-//   the minors of its three edges have one sign: they are the weights of the point, up
-//   to a factor, and the third f there is the determinant of all nine, with that sign.
+// - an edge meets it: three intervals of the edge have a common point. They do when each two have
+//   one. The order of two ends f_k = 0 and f_m = 0 is the sign of a 2 x 2 minor f_k(i) f_m(j) -
+//   f_m(i) f_k(j); or
+// - no edge meets it. Then the common part, being convex, lies inside the triangle. If the centre
+//   is not in the triangle's plane, each ray of the cone pierces the triangle, the generators too.
+//   If it is, the common part is the centre, and generators that are not in the plane pierce it
+//   there. A generator, the line f_k = f_m = 0, pierces the triangle when the minors of its three
+//   edges have one sign. They are the weights of the point, up to a factor. The third f there is
+//   the determinant of all nine, with that sign.
 //
-// All signs are taken from rounded numbers where those leave no doubt, and else from
-// integers: p - C is a multiple of the lowest bit of any coordinate.
+// All signs are taken from rounded numbers where those leave no doubt. Otherwise they are taken
+// from integers: p - C is a multiple of the lowest bit of any coordinate.
 
 namespace cdprep {
 namespace {
@@ -43,7 +43,7 @@ int lowest_of(const Double3& p) noexcept {
     return std::min({lowest_bit(p.x), lowest_bit(p.y), lowest_bit(p.z)});
 }
 
-/// p - C.
+/// Returns p - C.
 std::array<Length, 3> exact_difference(const Double3& p, const Double3& c, int lowest) noexcept {
     const auto along = [&](double x, double origin) {
         return Length::from_double(x, lowest) - Length::from_double(origin, lowest);
@@ -51,13 +51,14 @@ std::array<Length, 3> exact_difference(const Double3& p, const Double3& c, int l
     return {along(p.x, c.x), along(p.y, c.y), along(p.z, c.z)};
 }
 
-/// The sign of `value`, off by less than `slack`, or 2 where that may change it.
+/// Returns the sign of `value`, which is off by less than `slack`; 2 where that may change the
+/// sign.
 int certain_sign(double value, double slack) noexcept {
     if (value > slack) return 1;
     return value < -slack ? -1 : 2;
 }
 
-/// f of each face and corner times 2^level, exactly.
+/// The exact values of f for each face and corner, times 2^level.
 class ExactValues {
 public:
     ExactValues(const Corners& t, const Double3& centre, const ConeFaces& faces) noexcept {
@@ -84,7 +85,7 @@ public:
                                  std::size_t j) const noexcept {
         return at_[k][i] * at_[m][j] - at_[m][i] * at_[k][j];
     }
-    /// Of rows k, m and then `last`.
+    /// Returns the sign of the determinant of rows k, m and then `last`.
     [[nodiscard]] int determinant_sign(std::size_t k, std::size_t m,
                                        std::size_t last) const noexcept {
         return (minor_of(k, m, 1, 2) * at_[last][0] + minor_of(k, m, 2, 0) * at_[last][1] +
@@ -96,7 +97,7 @@ private:
     std::array<std::array<Value, 3>, 3> at_;
 };
 
-/// The signs that decide, each exact.
+/// The contact of a triangle and a cone, decided by exact signs.
 class ConeContact {
 public:
     ConeContact(const Corners& t, const Double3& centre, const ConeFaces& faces,
@@ -125,7 +126,7 @@ private:
         return *exact_;
     }
 
-    /// Whether all corners lie strictly beyond a face; finds the signs on the way.
+    /// Returns whether all corners lie strictly beyond a face. Sets the signs.
     bool is_outside(std::size_t k) noexcept {
         int greatest = -1;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -136,8 +137,8 @@ private:
         return greatest < 0;
     }
 
-    /// A minor in double. With f off by less than e, a product a b is off by less than
-    /// |a| e_b + |b| e_a + e_a e_b and u |a b|, their difference by u of itself.
+    /// A minor in double. Let f be off by less than e. A product a b is off by less than |a| e_b +
+    /// |b| e_a + e_a e_b and u |a b|. Their difference is off by u of itself.
     struct Rounded {
         double value;
         double slack;
@@ -174,7 +175,7 @@ private:
         return true;
     }
 
-    /// Whether the line f_k = f_m = 0 pierces the triangle where f_last >= 0.
+    /// Returns whether the line f_k = f_m = 0 pierces the triangle where f_last >= 0.
     bool generator_pierces(std::size_t k, std::size_t m, std::size_t last) noexcept {
         const int side = minor_sign(k, m, 0, 1);
         if (side == 0 || minor_sign(k, m, 1, 2) != side || minor_sign(k, m, 2, 0) != side) {
@@ -206,8 +207,8 @@ private:
     std::optional<ExactValues> exact_;
 };
 
-/// The power of two that brings the farthest corner near 1, where the filters work;
-/// 1 where they do anyway.
+/// Returns the power of two that brings the farthest corner near 1, where the filters work; 1 where
+/// they work anyway.
 double scale_for(const Double3& centre, const Corners& t) noexcept {
     double most = 0;
     for (const Double3& p : t) most = std::max(most, seen_point(centre, p, 1).size);
@@ -215,8 +216,8 @@ double scale_for(const Double3& centre, const Corners& t) noexcept {
     return std::ldexp(1.0, std::clamp(-std::ilogb(most), -1010, 1010));
 }
 
-/// Returns the number of the child that holds the place with barycentric coordinates `l`
-/// of the given sum, which become those within the child; ties go to the lowest.
+/// Returns the number of the child that holds the place with barycentric coordinates `l` of the
+/// given sum. Sets `l` to the coordinates within the child. Ties go to the lowest child.
 std::uint32_t split_place(std::array<Length, 3>& l, const Length& sum) noexcept {
     for (std::uint32_t child = 0; child < 3; ++child) {
         if ((l[child] + l[child] - sum).sign() < 0) continue;
@@ -325,7 +326,7 @@ bool triangle_touches_cone(const Corners& t, const Double3& centre,
 }
 
 Double3 behind_centre(const Double3& centre, const TetraCone& cone) noexcept {
-    // As far away as the origin is: so differences lose little, whatever the model's size.
+    // The point is as far away as the origin, so differences lose little for any model size.
     const double far =
         std::max({std::fabs(centre.x), std::fabs(centre.y), std::fabs(centre.z), kLeastSeen});
     const double unit = std::ldexp(far, -static_cast<int>(cone.level));

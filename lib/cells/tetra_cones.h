@@ -9,7 +9,7 @@
 
 namespace cdprep {
 
-/// A generator of a cone, times 2^level: whole numbers whose sizes add up to that.
+/// A generator of a cone, times 2^level: whole numbers whose sizes add up to 2^level.
 using Generator = std::array<std::int32_t, 3>;
 
 /// A cone of the octahedral map: directions from the centre.
@@ -20,12 +20,12 @@ struct TetraCone {
 
 using format::tetra_level;
 
-/// The cone of a key.
+/// Returns the cone of a key.
 [[nodiscard]] TetraCone tetra_cone(std::uint32_t key) noexcept;
 
-/// Returns the key of the half-open cone of `level` that holds the direction from
-/// `centre` to `p`, which must differ: exactly, in O(level) without looking at a tree.
-/// Ties go to the child of the lowest number, zeros to the positive octant.
+/// Returns the key of the half-open cone of `level` that holds the direction from `centre` to `p`,
+/// which must differ. Exact, in O(level), without reading a tree. Ties go to the child of the
+/// lowest number, zeros to the positive octant.
 [[nodiscard]] std::uint32_t tetra_key(const Double3& centre, const Double3& p,
                                       std::uint32_t level) noexcept;
 
@@ -36,8 +36,9 @@ using format::tetra_level;
                                          const TetraCone& cone) noexcept;
 
 /// Returns a point from which the centre lies in the direction of the middle of the cone's
-/// generators, up to rounding by a few units in the last place: then the ray that starts at
-/// the centre and runs away from the point is inside the cone (winding.h). Never the centre.
+/// generators. The direction is rounded by a few units in the last place. The ray that starts at
+/// the centre and runs away from the point is then inside the cone (winding.h). Never returns the
+/// centre.
 [[nodiscard]] Double3 behind_centre(const Double3& centre, const TetraCone& cone) noexcept;
 
 }  // namespace cdprep

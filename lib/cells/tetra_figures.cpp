@@ -17,7 +17,7 @@ namespace {
 using format::kSharedReference;
 using format::TetraNode;
 
-/// What both a model and a builder's tree have.
+/// The parts that a model's tree and a builder's tree have in common.
 struct Parts {
     const format::TetraTree* tree;
     std::uint64_t triangle_count;
@@ -73,7 +73,8 @@ TetraFigures figures_of(const Parts& parts) {
     return figures;
 }
 
-/// Of the ray through the middle of a leaf. Triangles of other leaves are not crossed.
+/// Returns the number of triangles that the ray through the middle of a leaf crosses. It crosses no
+/// triangles of other leaves.
 template <class CornersOf>
 std::uint64_t layers_of(const Parts& parts, const TetraNode& leaf, const CornersOf& corners_of) {
     const Double3& centre = parts.tree->centre;

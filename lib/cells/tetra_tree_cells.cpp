@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-// The part of a cone's triangles between its two radii lies in a truncated cone of six
-// corners. Both of a cone's bounds hold these corners, which are worked out in double:
-// components are sums of at most seven units, so off by 2^-47 at most (float_below(),
-// float_over()). The kernels' slack is for boxes within one unit of the frame's origin,
-// and a cone's corners may be seven away: the oriented box is enlarged by 2^-18 of that.
-// This covers also that its axes are rounded: unit and at right angles up to 2^-22.
+// The part of a cone's triangles between its two radii lies in a truncated cone of six corners.
+// Both of a cone's bounds hold these corners, which are computed in double. Components are sums of
+// at most seven units, so they are off by 2^-47 at most (float_below(), float_over()). The kernels'
+// slack is for boxes within one unit of the frame's origin, but a cone's corners may be seven away.
+// So the oriented box is enlarged by 2^-18 of that. This also covers the rounding of its axes: unit
+// and at right angles up to 2^-22.
 
 namespace cdprep {
 namespace {
@@ -22,7 +22,7 @@ Vector cross(const Vector& a, const Vector& b) noexcept {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Rounded to float; of unit length up to that.
+/// Returns a vector of unit length, up to the rounding of its components to float.
 Vector unit(const Vector& v) noexcept {
     const double factor = 1 / std::sqrt(dot(v, v));
     Vector result{};
@@ -46,7 +46,7 @@ Vector middle(const Vector& a, const Vector& b) noexcept {
     return {(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
 }
 
-/// The generators of the four children, as format::TetraTree numbers them.
+/// Returns the generators of the four children, as format::TetraTree numbers them.
 std::array<Generators, 4> split(const Generators& v) noexcept {
     const Vector m12 = middle(v[0], v[1]);
     const Vector m23 = middle(v[1], v[2]);
@@ -54,7 +54,7 @@ std::array<Generators, 4> split(const Generators& v) noexcept {
     return {{{v[0], m12, m31}, {m12, v[1], m23}, {m31, m23, v[2]}, {m12, m23, m31}}};
 }
 
-/// The corners of a truncated cone, from its centre.
+/// The corners of a truncated cone, relative to its centre.
 using SixCorners = std::array<Vector, 6>;
 
 SixCorners corners_of(const Generators& v, const format::TetraNode& node) noexcept {
@@ -83,7 +83,7 @@ void bound_aligned(const Vector& centre, const SixCorners& corners, unsigned lan
     }
 }
 
-/// A box along the cone's middle direction.
+/// Bounds the corners by a box along the cone's middle direction.
 void bound_oriented(const Vector& centre, const SixCorners& corners, const Generators& v,
                     unsigned lane, format::OrientedNode& boxes) noexcept {
     const Vector along = unit(

@@ -10,19 +10,19 @@
 
 namespace cdprep {
 
-/// The least key of a level.
+/// Returns the least key of a level.
 inline std::uint32_t first_key_of(std::uint32_t level) noexcept {
     return 8U << (2 * level);
 }
 
-/// How much of a tetra-tree a walk is to see.
+/// The part of a tetra-tree that a walk uses.
 struct TetraDetail {
     std::uint32_t level = format::kMaxTetraLevel;  ///< cones of this level are leaves
     bool solid = false;                            ///< cones reach from the centre outwards
 };
 
-/// A model's tetra-tree as walk_cells() sees it, without the triangles that hold its
-/// centre: no cone lists those.
+/// A model's tetra-tree in the form for CellWalk, without the triangles that hold its centre: no
+/// cone lists those.
 class TetraTreeCells {
 public:
     static constexpr std::uint32_t kMostLevels = format::kMaxTetraLevel + 1;
@@ -40,7 +40,7 @@ public:
     [[nodiscard]] static Cell top() noexcept {
         return {kAboveRoots};
     }
-    /// Children stand where tetra_boxes has their boxes.
+    /// Returns the set of children, in the lanes where tetra_boxes has their boxes.
     [[nodiscard]] unsigned lanes(const Cell& cell) const noexcept {
         if (cell.node == kAboveRoots) return (1U << octants_) - 1;
         const format::TetraNode& node = nodes_[cell.node];
@@ -75,7 +75,7 @@ public:
     [[nodiscard]] unsigned lanes_listing(const Cell& cell, std::uint32_t triangle,
                                          const Corners& corners) const noexcept;
 
-    /// The triangles that hold the centre.
+    /// Returns the triangles that hold the centre.
     [[nodiscard]] std::span<const std::uint32_t> at_centre() const noexcept {
         return tree_ == nullptr ? references_ : references_.first(tree_->centre_count);
     }
@@ -87,7 +87,8 @@ public:
     }
 
 private:
-    /// Of tetra_boxes: that which begins with, or shortly before, a cell's first child.
+    /// Returns the element of tetra_boxes that begins with a cell's first child, or shortly before
+    /// it.
     [[nodiscard]] std::uint32_t first_box(const Cell& cell) const noexcept {
         return cell.node == kAboveRoots ? 0 : nodes_[cell.node].first / format::kTetraBoxStride;
     }
@@ -95,11 +96,11 @@ private:
     TetraDetail detail_;
     const format::TetraTree* tree_;
     const format::TetraNode* nodes_;
-    const format::BvhNode* boxes_;          ///< or null: none, or they do not hold what is wanted
+    const format::BvhNode* boxes_;          ///< or null: none, or unusable for detail_.solid
     const format::OrientedNode* oriented_;  ///< or null
     std::span<const std::uint32_t> references_;
     std::array<double, 3> centre_;  ///< frame coordinates
-    unsigned octants_ = 0;          ///< how many are there
+    unsigned octants_ = 0;          ///< the number of octants with a node
 };
 
 }  // namespace cdprep

@@ -18,7 +18,7 @@ struct SomeChildren {
     unsigned lanes;  ///< bit set
 };
 
-/// Two leaf cells, by their parents and which children of those they are.
+/// Two leaf cells, by their parents and their lanes among the children.
 template <class CellA, class CellB>
 struct CellPair {
     CellA a;
@@ -27,7 +27,7 @@ struct CellPair {
     unsigned lane_b;
 };
 
-/// What of two trees a walk may enter: everything.
+/// The lanes of two trees that a walk may enter: all.
 struct AllLanes {
     template <class TreeA, class TreeB>
     [[nodiscard]] kernels::BoxPairs kept(const TreeA& /*a*/, const typename TreeA::Cell& /*cell_a*/,
@@ -37,13 +37,13 @@ struct AllLanes {
     }
 };
 
-/// A walk of two trees of cells side by side, from above their roots down.
+/// A walk of two trees of cells together, from above their roots down.
 ///
-/// A tree has Cell, a node and whatever tells where it is; top(), which stands above the
-/// roots; lanes(), which children a cell has, at most eight; child(); is_leaf(); leaf_lanes();
-/// stored_bounds(), what bounds the children where a file has that; and bound(), what bounds
-/// them where not. A step bounds some children of one node and some of
-/// another, and one kernel call parts the pairs of them that are apart.
+/// A tree has Cell, a node and its place, and these functions: top() returns the cell above the
+/// roots. lanes() returns the set of children of a cell, at most eight. child() returns one of
+/// them; is_leaf() and leaf_lanes() find the leaves. stored_bounds() returns the bounds of the
+/// children if a file has them, and bound() computes them otherwise. A step bounds some children of
+/// one node and some of another. One kernel call discards the pairs of them that are apart.
 template <Search kSearch, class TreeA, class TreeB, class Lanes>
 class CellWalk {
 public:
@@ -55,7 +55,7 @@ public:
              const Lanes& lanes) noexcept
         : a_(a), b_(b), placed_(placed), lanes_(lanes), descent_(descent) {}
 
-    /// Keeps bounds and counts steps in the workspace, which no walk within this one may.
+    /// Keeps bounds and counts steps in the workspace. No walk within this one may do so.
     void use(Workspace::Storage& scratch) noexcept {
         counts_ = scratch.counts;
         kept_a_ = &cells_of(scratch).bounds_a;
@@ -64,8 +64,8 @@ public:
         ++kept_b_->question;
     }
 
-    /// Calls leaf(pair, bounds_a, bounds_b) for each pair of leaf cells that no test
-    /// parts, until it returns false; returns false when it did.
+    /// Calls leaf(pair, bounds_a, bounds_b) for each pair of leaf cells that no test separates,
+    /// until it returns false. Returns false when it did.
     template <class Leaf>
     bool run(Leaf&& leaf) noexcept {
         std::size_t depth = 0;
@@ -99,7 +99,7 @@ private:
     // A step takes at least one side a level down.
     static constexpr std::size_t kMostSteps = TreeA::kMostLevels + TreeB::kMostLevels + 1;
 
-    /// What bounds the children of a cell.
+    /// The bounds of the children of a cell.
     struct Opened {
         const format::BvhNode* boxes;
         const format::OrientedNode* oriented;  ///< or null
@@ -111,7 +111,7 @@ private:
                 oriented ? opened.oriented->axis[0][0].data() : nullptr};
     }
 
-    /// From the file, from where they are kept, or made at `place`.
+    /// Returns bounds from the file, from where they are kept, or made at `place`.
     template <class Tree>
     static Opened opened(const Tree& tree, const typename Tree::Cell& cell, KeptBounds* kept,
                          KeptBounds::Place& place) noexcept {
@@ -143,7 +143,7 @@ private:
         step.a = side_a.parent;
         step.b = side_b.parent;
         step.pairs = 0;
-        if (side_a.lanes == 0 || side_b.lanes == 0) return;  // a damaged file's
+        if (side_a.lanes == 0 || side_b.lanes == 0) return;  // in a damaged file
         opened_a_ = opened(a_, side_a.parent, kept_a_, place_a_);
         opened_b_ = opened(b_, side_b.parent, kept_b_, place_b_);
         const kernels::BoxChoice choice = {static_cast<std::uint8_t>(side_a.lanes),
@@ -167,7 +167,7 @@ private:
         return kSearch == Search::first ? deepest_of(pairs, depths_) : first_of(pairs);
     }
 
-    /// Calls leaf() for the pairs of a step that are both leaves, and takes them away.
+    /// Calls leaf() for the pairs of a step that are both leaves, and removes these pairs.
     template <class Leaf>
     bool take_leaves(Step& step, Leaf& leaf) noexcept {
         if (step.pairs == 0) return true;
@@ -185,7 +185,8 @@ private:
         return true;
     }
 
-    /// What replaces a pair of children: theirs, or one's and the other as it is.
+    /// Chooses what replaces a pair of children: the children of both, or the children of one with
+    /// the other.
     void choose(const Step& step, unsigned bit, SomeChildren<CellA>& side_a,
                 SomeChildren<CellB>& side_b) const noexcept {
         const unsigned lane_a = bit % 8;
@@ -197,7 +198,7 @@ private:
         bool down_a = a_can;
         bool down_b = b_can;
         if (a_can && b_can && descent_ != Descent::both) {
-            // Asked so that a size that is no number takes one side down too.
+            // Written so that a size that is NaN takes one side down too.
             down_a = descent_ == Descent::a_first ||
                      (descent_ == Descent::larger && step.sizes.a[lane_a] >= step.sizes.b[lane_b]);
             down_b = !down_a;

@@ -8,21 +8,21 @@
 #include "cells/tetra_tree_cells.h"
 #include "cells/walk_cells.h"
 
-// Each pair once. A triangle is listed in all the cells that it touches, so two in contact
-// meet in several pairs of leaf cells. TestedPairs remembers which were answered; where it
-// has no room, that pair of leaf cells answers which is the first to bring the two in the
-// same walk confined to cells that list them. The walk of all comes to it too, and brings
-// them there: each step tests the same boxes by the same kernel. And there is one: the
-// cells that hold a common point of the two.
+// Each pair once. A triangle is listed in all the cells that it touches, so two triangles in
+// contact meet in several pairs of leaf cells. TestedPairs remembers which pairs of triangles were
+// answered. Where it has no room, one pair of leaf cells answers: the first that brings the two in
+// a confined walk. That is the same walk, confined to cells that list the two. The full walk comes
+// to that pair too, and brings the two there: each step tests the same boxes by the same kernel.
+// Such a pair exists: the cells that hold a common point of the two.
 
 namespace cdprep {
 namespace {
 
-/// Confines a walk to cells that list two triangles.
+/// The restriction of a walk to cells that list two triangles.
 struct ListingLanes {
     std::uint32_t at_a;
     std::uint32_t at_b;
-    Corners a;  ///< where the files have them
+    Corners a;  ///< as stored in the files
     Corners b;
 
     template <class TreeA, class TreeB>
@@ -34,11 +34,11 @@ struct ListingLanes {
     }
 };
 
-/// Waits for two BVH leaves, in place of CellContacts.
+/// A visitor that stops at two given BVH leaves, in place of CellContacts.
 struct FirstPlace {
     std::uint32_t leaf_a;
     std::uint32_t leaf_b;
-    std::uint64_t place = ~std::uint64_t{0};  ///< which brought them
+    std::uint64_t place = ~std::uint64_t{0};  ///< the pair of cells that brought them
 
     bool add(const LeafLanes& a, const LeafLanes& b, std::uint64_t at) noexcept {
         if (a.leaf != leaf_a || b.leaf != leaf_b) return true;
@@ -50,7 +50,7 @@ struct FirstPlace {
     }
 };
 
-/// One walk of two trees of one question.
+/// One walk of two trees in a query.
 template <Search kSearch, class TreeA, class TreeB>
 class Walk {
 public:
@@ -113,7 +113,7 @@ private:
         return slot.place;
     }
 
-    /// The first pair of leaf cells that brings two triangles.
+    /// Returns the first pair of leaf cells that brings two triangles.
     [[nodiscard]] std::uint64_t first_place(std::uint32_t at_a, std::uint32_t at_b) const noexcept {
         const ListingLanes listing = {at_a, at_b, MovedModel(question_.a, nullptr).corners(at_a),
                                       MovedModel(question_.b, nullptr).corners(at_b)};
@@ -141,7 +141,7 @@ bool walk_trees(const QuestionThrough& question, const PlacedBoxes& placed, cons
     return Walk<kSearch, TreeA, TreeB>(question, placed, a, b).run(visit);
 }
 
-/// Two tetra-trees, and the triangles that hold either's centre: they touch every cone.
+/// Walks two tetra-trees, and the triangles that hold either's centre: these touch every cone.
 template <Search kSearch>
 bool walk_tetra_trees(const QuestionThrough& question, const PlacedBoxes& placed,
                       ContactVisitor visit) noexcept {

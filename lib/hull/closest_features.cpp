@@ -13,29 +13,31 @@
 #include "hull/hull_edges.h"
 #include "hull/hull_nearest.h"
 
-// Two features, a vertex or edge of the one hull and a vertex, edge or face of the other, hold the
-// nearest points when no neighbouring feature comes nearer: each of the two nearest points of the
-// features lies in the other one's Voronoi region (Lin and Canny 1991). A step goes to a feature
-// in which the distance falls, or to the end of an edge at which the nearest point is. Faces
-// against edges or faces are left at once for a corner or an edge of the border. That the march
-// ends right is not taken for granted: bounds are proved as by GJK, and where they are not narrow
-// GJK answers.
+// Each feature is a vertex, an edge or a face of a hull. At least one of the two is a vertex or an
+// edge. Two features hold the nearest points when no neighbouring feature comes nearer. That is so
+// when each nearest point lies in the Voronoi region of the other feature (Lin and Canny 1991). A
+// step goes to a feature in which the distance falls, or to the end of an edge that holds the
+// nearest point. A face against an edge or a face is left at once for a corner or an edge of the
+// border. The result of the march is not trusted: it is proved by bounds, as in GJK. Where the
+// bounds are not tight, GJK answers.
 
 namespace cdprep {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
 constexpr int kMostSteps = 64;
-/// Directions that are parallel, or at right angles, but for rounding: the sine of the angle.
+/// The threshold, as the sine of the angle, below which directions count as parallel or
+/// perpendicular.
 constexpr double kParallel = 1e-9;
 
-/// A feature on the march: a vertex where an edge begins, the edge, or the face of its facet.
+/// A feature on the march: the vertex where an edge begins, the edge itself, or the face of its
+/// facet.
 struct Station {
     FeatureKind kind;
     FacetPlace place;
 };
 
-/// One of the hulls on the march.
+/// One of the two hulls on the march.
 class Ground {
 public:
     Ground(const FeatureHull& hull, const MovedHull& moved) noexcept
@@ -59,7 +61,7 @@ public:
         return cross(t[1] - t[0], t[2] - t[0]);
     }
 
-    /// The edge at a vertex along which a point comes nearest, if one does.
+    /// Returns the edge at a vertex along which the distance to a point falls most, if one exists.
     [[nodiscard]] std::optional<FacetPlace> uphill(const FacetPlace& vertex,
                                                    const Double3& towards) const noexcept {
         const Double3 at = start(vertex), way = towards - at;
@@ -76,7 +78,8 @@ public:
         return best;
     }
 
-    /// The facet beside an edge into which a point comes nearer from a point of the edge, if one.
+    /// Returns the facet beside an edge into which the distance falls from a point of the edge, if
+    /// one exists.
     [[nodiscard]] std::optional<std::uint32_t> beside(const FacetPlace& edge,
                                                       const Double3& gap) const noexcept {
         for (const FacetPlace& p : {edge, edges_.twin(edge)}) {
@@ -88,7 +91,8 @@ public:
         return std::nullopt;
     }
 
-    /// The edge around a face that a point is farthest beyond, seen along the normal, if it is.
+    /// Returns the edge around a face that a point lies farthest beyond, seen along the normal.
+    /// Returns nothing if the point is not beyond any edge.
     [[nodiscard]] std::optional<FacetPlace> beyond(std::uint32_t first, const Double3& normal,
                                                    const Double3& point) const noexcept {
         std::optional<FacetPlace> worst;
@@ -115,12 +119,12 @@ public:
     March(const Ground& a, const Ground& b) noexcept : ground_{&a, &b} {}
 
     Station at[2];         ///< of A and B
-    Double3 witness[2]{};  ///< their nearest points
-    Double3 gap{};         ///< from A to B, of any length, at right angles on what is parallel
-    double upper = 0;      ///< the witnesses are at most so far apart
-    double size = 0;       ///< of the differences between corners that it comes from
+    Double3 witness[2]{};  ///< the nearest points of the two
+    Double3 gap{};         ///< from A to B, any length; perpendicular to edges and faces it joins
+    double upper = 0;      ///< an upper bound of the distance of the witnesses
+    double size = 0;       ///< of the differences between corners that it is computed from
 
-    /// False when the march does not end at features that are nearest.
+    /// Returns false when the march does not end at nearest features.
     [[nodiscard]] bool run() noexcept {
         for (int i = 0; i < kMostSteps; ++i) {
             const Outcome outcome = step();
@@ -151,13 +155,15 @@ private:
         return climb(0) || climb(1) ? Outcome::moved : Outcome::arrived;
     }
 
-    /// A difference of witnesses, a sum of a few of such a size.
+    /// Sets the upper bound from `apart`, a computed difference of witnesses. `of` is the size of
+    /// the few terms in its sum.
     void measure(const Double3& apart, double of) noexcept {
         size = of;
         upper = length_of(apart.x, apart.y, apart.z) * (1 + 4 * kUnit) + 20 * kUnit * of;
     }
 
-    /// From a vertex to the edge along which the other's point comes nearer.
+    /// Moves from a vertex to the edge along which it comes nearest to the other witness. Returns
+    /// false if there is none.
     [[nodiscard]] bool climb(std::size_t side) noexcept {
         const auto edge_there = ground_[side]->uphill(at[side].place, witness[1 - side]);
         if (!edge_there) return false;
@@ -165,7 +171,7 @@ private:
         return true;
     }
 
-    /// To the end of an edge.
+    /// Moves to one end of an edge.
     void stop_at(std::size_t side, bool is_end) noexcept {
         const FacetPlace p = at[side].place;
         at[side] = {vertex, is_end ? HullEdges::next(p) : p};
@@ -190,7 +196,7 @@ private:
         return widen(edge_side) ? Outcome::moved : Outcome::arrived;
     }
 
-    /// From an edge, against a vertex, to a face beside it.
+    /// Moves from an edge, against a vertex, to a face beside it. Returns false if there is none.
     [[nodiscard]] bool widen(std::size_t side) noexcept {
         const Double3 towards = side == 0 ? gap : -gap;
         const auto facet = ground_[side]->beside(at[side].place, towards);
@@ -228,7 +234,8 @@ private:
         return Outcome::arrived;
     }
 
-    /// Where two segments are nearest, as shares of them. They are not parallel.
+    /// Returns the nearest points of two segments, as fractions of their lengths. The segments are
+    /// not parallel.
     static std::array<double, 2> nearest_places(const std::array<Double3, 2>& from,
                                                 const std::array<Double3, 2>& along) noexcept {
         const Double3 between = from[0] - from[1];
@@ -244,8 +251,8 @@ private:
         return {s, t};
     }
 
-    /// An edge of the other hull over a face, from a share of the edge on: to where it gets lower,
-    /// as far as it is over the face.
+    /// Slides an edge of the other hull over a face. It begins at the fraction `place` of the edge
+    /// and goes down, as far as the edge is over the face.
     [[nodiscard]] Outcome slide_over(std::size_t face_side, std::uint32_t facet,
                                      const Double3& along, double place) noexcept {
         const std::size_t side = 1 - face_side;
@@ -338,7 +345,7 @@ private:
 
 // --- Proof -------------------------------------------------------------------------
 
-/// A lower bound of the distance by the farthest points along the gap; see gjk.cpp.
+/// Returns a lower bound of the distance, by the farthest points along the gap. See gjk.cpp.
 double proven_gap(const TwoHulls& hulls, const March& march, std::uint32_t near_a,
                   std::uint32_t near_b) noexcept {
     const double most = largest_of(march.gap);
@@ -368,7 +375,7 @@ HullFeature feature_of(const HullEdges& edges, const Station& station) noexcept 
     }
 }
 
-/// Where a cache says, if that is anywhere.
+/// Returns the station that a cache names, or nothing if it names none of this hull.
 std::optional<Station> station_of(const HullEdges& edges, FeatureKind kind,
                                   std::uint32_t edge) noexcept {
     if (edge / 3 >= edges.facets().size()) return std::nullopt;
@@ -384,7 +391,7 @@ std::optional<Station> station_of(const HullEdges& edges, FeatureKind kind,
     return std::nullopt;
 }
 
-/// The corners of one side that a nearest point is made of.
+/// The corners of one side that define a nearest point.
 struct CornerSet {
     std::array<std::uint32_t, 4> corner{};
     std::size_t count = 0;
@@ -401,7 +408,8 @@ struct CornerSet {
     }
 };
 
-/// The face at a corner that has all of them and looks along the gap most: a polygon has two.
+/// Returns the face at a corner that contains the whole set and faces the gap most. A polygon has
+/// two faces.
 std::optional<Station> face_over(const Ground& ground, const FacetPlace& corner,
                                  const CornerSet& set, const Double3& gap) noexcept {
     const HullEdges& edges = ground.edges();
@@ -419,17 +427,18 @@ std::optional<Station> face_over(const Ground& ground, const FacetPlace& corner,
     return best;
 }
 
-/// A place where a corner is, the first.
+/// Returns the first place that begins at a corner.
 FacetPlace place_of(const HullEdges& edges, std::uint32_t number) noexcept {
     for (std::uint32_t f = 0; f < edges.facets().size(); ++f) {
         for (std::uint32_t k = 0; k < 3; ++k) {
             if (edges.start({f, k}) == number) return {f, k};
         }
     }
-    return {0, 0};  // no corner of the surface, though all are to be
+    return {0, 0};  // not on the surface, though every corner should be
 }
 
-/// Through a hull that is thin within rounding corners of both sides may hold a point.
+/// Returns the face nearest to a point. In a hull thinner than rounding, the corners that define a
+/// point may lie on both sides. Then no face has them all.
 Station nearest_face(const Ground& ground, const Double3& point) noexcept {
     std::uint32_t best = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -455,7 +464,7 @@ Station station_over(const Ground& ground, const CornerSet& set, const Double3& 
     return face ? *face : nearest_face(ground, witness);
 }
 
-/// What of a hull is nearest: a corner, an edge along a direction, or a face.
+/// The part of a hull that is nearest: a corner, an edge along a direction, or a face.
 struct Level {
     int dimension;
     Double3 along;
@@ -476,7 +485,8 @@ Level level_of(const Ground& ground, const Station& station, const Double3& gap)
     };
     ground.edges().each_from(station.place, take);
     if (station.kind == FeatureKind::edge) {
-        // Level itself; another one at its end is the side of a level face.
+        // The edge itself is level and is counted twice. Another level edge at its end borders a
+        // level face.
         ground.edges().each_from(ground.edges().twin(station.place), take);
         --level.dimension;
         level.along = ground.end(station.place) - ground.start(station.place);
@@ -492,7 +502,7 @@ bool are_parallel(const Level& of_a, const Level& of_b) noexcept {
            kParallel * kParallel * dot(of_a.along, of_a.along) * dot(of_b.along, of_b.along);
 }
 
-/// What is found of one of the two hulls.
+/// The result for one of the two hulls.
 struct Found {
     HullFeature feature;
     Level level;
@@ -502,7 +512,7 @@ Found found_at(const Ground& ground, const Station& station, const Double3& gap)
     return {feature_of(ground.edges(), station), level_of(ground, station, gap)};
 }
 
-/// Of a point or a segment.
+/// The same for a hull that is a point or a segment.
 Found found_of_flat(const MovedHull& hull, const CornerSet& set, const Double3& gap) noexcept {
     const Double3 along = hull.point(hull.count() - 1) - hull.point(0);
     if (set.count > 1) return {{FeatureKind::edge, 0}, {1, along}};
@@ -530,7 +540,8 @@ private:
         return !ground_a_.edges().facets().empty() && !ground_b_.edges().facets().empty();
     }
 
-    /// From the cache; nothing where that is not proved to lead to the nearest.
+    /// Marches from the cached features. Returns nothing where the result is not proved to be
+    /// nearest.
     [[nodiscard]] std::optional<ClosestFeatures> march() noexcept {
         if (cache_ == nullptr || !cache_->is_set || !has_surfaces()) return std::nullopt;
         const auto from_a = station_of(ground_a_.edges(), cache_->kind[0], cache_->edge[0]);

@@ -12,7 +12,7 @@
 namespace cdprep {
 namespace {
 
-/// Whether the bounds are as near each other as was promised.
+/// Returns whether the bounds are as close to each other as promised.
 bool is_good(const GjkResult& found, const DistanceOptions& options) {
     const double width = found.upper - found.lower;
     if (width <= options.relative_error * found.upper || width <= options.absolute_error) {

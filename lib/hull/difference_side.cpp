@@ -12,7 +12,7 @@
 namespace cdprep {
 namespace {
 
-/// (p - d) of points of A less that of points of B, and the sum of the sizes of both.
+/// (p - d) of points of A minus that of points of B, and the sum of the sizes of both.
 struct Step {
     Double3 at;
     Double3 size;
@@ -45,9 +45,9 @@ int side_in_integers(const Difference& p, const Difference& q, const Difference&
 
 }  // namespace
 
-// The filter: with m the largest size per axis, each of the nine coordinates is off by at
-// most 2 u m, so each of the six products of three by 6 u and three roundings, and their
-// sum by 5 u more of at most 6 m_x m_y m_z: less than 100 u of m_x m_y m_z in all.
+// The filter: let m be the largest size per axis. Each of the nine coordinates is off by at most
+// 2 u m. So each of the six products of three is off by 6 u and three roundings. Their sum adds 5 u
+// of at most 6 m_x m_y m_z. In all that is less than 100 u of m_x m_y m_z.
 int side_of(const Difference& p, const Difference& q, const Difference& r,
             const Difference& d) noexcept {
     const Step a = step_between(p, d), b = step_between(q, d), c = step_between(r, d);

@@ -8,16 +8,16 @@
 
 #include "exact/wide_vector.h"
 
-// The search of Gilbert, Johnson and Keerthi without rounding. Kept are the corners of
-// the face that holds the nearest point x so far; the corner of A - B that is lowest
-// along x is added, and among all subsets of the at most four the one is kept whose
-// nearest point is nearest to all of them: there is one, with no other corner lower
-// along it. When no corner is lower than x, x is nearest. Each step brings x strictly
-// nearer, and there are finitely many faces: so it ends, whatever it started from.
+// The search of Gilbert, Johnson and Keerthi without rounding. It keeps the corners of the face
+// that holds the nearest point x so far. It adds the corner of A - B that is lowest along x. Among
+// all subsets of the at most four corners it keeps the one whose nearest point is nearest to all of
+// them. Such a subset exists: no other corner is lower along its nearest point. When no corner is
+// lower than x, x is nearest. Each step brings x strictly nearer, and there are finitely many
+// faces. So the search ends for any start.
 //
-// Every sign is that of a polynomial of coordinates, taken as integers: multiples of the
-// lowest bit of the points in question. x is needed up to its length: p itself for one
-// corner, p (e.e) - e (p.e) for an edge e, the normal n for a face.
+// Every sign is that of a polynomial of coordinates, taken as integers: multiples of the lowest bit
+// of the points involved. x is computed only up to its length. It is p itself for one corner,
+// p (e.e) - e (p.e) for an edge e, the normal n for a face.
 
 namespace cdprep {
 namespace {
@@ -49,7 +49,7 @@ Places places_of(const Difference* corner, std::size_t count, int at_most) {
     return places;
 }
 
-/// value * 2^exponent, within 2.1 u of the integer.
+/// An integer as value * 2^exponent, within 2.1 u of it.
 struct Approximate {
     double value;
     int exponent;
@@ -63,7 +63,7 @@ Approximate approximate(const WideView& wide) {
     return {wide.negative ? -value : value, static_cast<int>(32 * (wide.size - used))};
 }
 
-/// The sizes of numbers, divided by their sum, which is not 0.
+/// Returns the sizes of numbers, divided by their sum, which is not 0.
 std::array<double, 4> parts_of_one(const std::array<Approximate, 4>& numbers) {
     int most = std::numeric_limits<int>::min();
     for (const Approximate& x : numbers) {
@@ -82,7 +82,7 @@ std::array<double, 4> parts_of_one(const std::array<Approximate, 4>& numbers) {
     return parts;
 }
 
-/// Which corners of a simplex, and what their hull's nearest point is.
+/// The corners of a face of a simplex, and whether their hull holds the origin.
 struct Face {
     std::array<std::uint8_t, 4> corner{};
     std::size_t count = 0;
@@ -94,8 +94,8 @@ public:
     ExactSimplex(const Difference* corner, std::size_t count)
         : places_(places_of(corner, count, lowest_bit(0))), count_(count) {}
 
-    /// The face nearest to the origin; afterwards direction() is known unless the origin
-    /// lies in it.
+    /// Returns the face nearest to the origin. Sets direction() unless the origin lies in that
+    /// face.
     Face nearest() {
         const auto count = static_cast<std::uint8_t>(count_);
         for (std::uint8_t i = 0; i < count; ++i) {
@@ -113,7 +113,7 @@ public:
                 }
             }
         }
-        // No face of it is nearest: the origin lies inside.
+        // No face is nearest: the origin lies inside.
         assert(count_ == 4);
         return {{0, 1, 2, 3}, count_, true};
     }
@@ -121,7 +121,8 @@ public:
         return direction_;
     }
 
-    /// Of the nearest point, as nearest() found it: parts of a whole, none negative.
+    /// Returns the weights of the nearest point, as nearest() found it: fractions that are not
+    /// negative.
     [[nodiscard]] std::array<double, 4> weights(const Face& face) const {
         const auto& [i, j, k, l] = face.corner;
         if (face.count == 1) return {1};
@@ -147,7 +148,7 @@ private:
     [[nodiscard]] const WidePlace& at(std::uint8_t i) const {
         return places_.at[i];
     }
-    /// Whether no corner is lower along the direction than p.
+    /// Returns whether no corner is lower along the direction than p.
     [[nodiscard]] bool none_is_lower(std::uint8_t p) const {
         for (std::size_t i = 0; i < count_; ++i) {
             if (i != p && dot(direction_, places_.at[i] - at(p)).sign() < 0) return false;
@@ -170,7 +171,7 @@ private:
     }
     Face triangle(std::uint8_t p, std::uint8_t q, std::uint8_t r) {
         const WideVector<kSquare> n = cross(at(q) - at(p), at(r) - at(p));
-        // The foot of the origin, being parallel to n, adds nothing to these.
+        // The foot of the origin is parallel to n and adds nothing to these.
         const std::array<int, 3> weight = {dot(n, cross(at(q), at(r))).sign(),
                                            dot(n, cross(at(r), at(p))).sign(),
                                            dot(n, cross(at(p), at(q))).sign()};
@@ -190,7 +191,7 @@ private:
     Direction direction_;
 };
 
-/// An exact direction, and in double where that suffices to tell points apart.
+/// An exact direction, and its rounded form for comparisons that double can decide.
 class Compared {
 public:
     explicit Compared(const Direction& exact) : exact_(&exact) {
@@ -206,7 +207,7 @@ public:
         for (std::size_t i = 0; i < 3; ++i) {
             if (parts[i].value == 0) continue;
             rounded[i] = std::ldexp(parts[i].value, std::max(parts[i].exponent - most, -2000));
-            // Of less, products with large coordinates may lose too much.
+            // Products of smaller numbers with large coordinates may lose too much.
             constexpr double kLeast = 0x1p-900;
             certain_ = certain_ && std::fabs(rounded[i]) >= kLeast;
         }
@@ -216,8 +217,8 @@ public:
         return rounded_;
     }
 
-    /// The sign of direction . (p - q). In double the direction is off by 2.1 u, the
-    /// difference, the products and sums by 4 u.
+    /// Returns the sign of direction . (p - q). In double, the direction is off by 2.1 u; the
+    /// difference, the products and the sums by 4 u.
     [[nodiscard]] int sign(const Double3& p, const Double3& q) const {
         constexpr double kError = 12 * 0x1p-53;
         constexpr double kUnderflow = 0x1p-1060;
@@ -241,7 +242,7 @@ struct PlacedPoint {
     Double3 at;
 };
 
-/// The point that is highest along a direction, or lowest.
+/// Returns the point that is highest (kSide > 0) or lowest along a direction.
 template <int kSide>
 PlacedPoint extreme(const MovedHull& hull, const Compared& direction) {
     const Double3 along = kSide > 0 ? direction.rounded() : -direction.rounded();
@@ -253,7 +254,7 @@ PlacedPoint extreme(const MovedHull& hull, const Compared& direction) {
     return best;
 }
 
-/// The sign of direction . (p - q) for corners, or of direction . p.
+/// Returns the sign of direction . (p - q) for corners, or of direction . p if q is null.
 int sign_along(const Direction& direction, const Difference& p, const Difference* q) {
     const std::array<Difference, 2> both = {p, q == nullptr ? p : *q};
     const Places places = places_of(both.data(), 2, lowest_bit(0));
@@ -261,7 +262,7 @@ int sign_along(const Direction& direction, const Difference& p, const Difference
     return dot(direction, places.at[0] - places.at[1]).sign();
 }
 
-/// The square of the distance, numerator and denominator, in units of places.lowest.
+/// The square of the distance as numerator and denominator, in units of places.lowest.
 struct SquaredDistance {
     WideInteger<2 * kVolume> numerator;
     WideInteger<2 * kSquare> denominator;

@@ -11,11 +11,10 @@
 #include "hull/difference_side.h"
 #include "hull/exact_nearest.h"
 
-// The border of a polytope that holds the origin is as far from it as the nearest of its
-// triangles. A triangle is at least min d . x / |d| away, over its corners x, for any
-// direction d: no normal needs to be trusted. And A - B reaches at most as far along d as
-// A's and B's farthest points prove, for any d. So both bounds hold whatever the search
-// does, as long as the origin is inside; exact signs see to that.
+// The distance of the origin from the border of a polytope that holds it is that of the nearest
+// triangle. For any direction d, a triangle is at least min d . x / |d| away, over its corners x.
+// So no normal has to be trusted. The farthest points of A and B bound the reach of A - B along any
+// d. So both bounds hold for any search, as long as the origin is inside. Exact signs ensure that.
 
 namespace cdprep {
 namespace {
@@ -23,7 +22,7 @@ namespace {
 constexpr double kUnit = 0x1p-53;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The largest coordinate made 1; false for no direction.
+/// Scales a direction so that its largest coordinate is 1. Returns false for no direction.
 bool normalise(Double3& d) {
     const double most = largest_of(d);
     if (!(most > 0 && most < kInfinity)) return false;
@@ -31,14 +30,15 @@ bool normalise(Double3& d) {
     return true;
 }
 
-/// q - p, from points of A and of B: off by their rounding, not by that of the corners.
+/// Returns q - p from the points of A and of B. The error is their rounding, not that of the
+/// corners.
 Double3 edge_between(const Difference& p, const Difference& q) {
     return (q.at_a - p.at_a) - (q.at_b - p.at_b);
 }
 
 using Accurate3 = std::array<DoubleDouble, 3>;
 
-/// The same times a power of two, in twice the precision.
+/// Returns the same times a power of two, in twice the precision.
 Accurate3 accurate_edge(const Difference& p, const Difference& q, double scale) {
     const auto along = [&](double qa, double pa, double qb, double pb) {
         const DoubleDouble e = (DoubleDouble(qa) - pa) - (DoubleDouble(qb) - pb);
@@ -49,8 +49,8 @@ Accurate3 accurate_edge(const Difference& p, const Difference& q, double scale) 
             along(q.at_a.z, p.at_a.z, q.at_b.z, p.at_b.z)};
 }
 
-/// A power of two, at most 2^1000 and at least its inverse, that brings the largest coordinate to
-/// 1 up to 2, in size; from the exponent as it stands.
+/// Returns a power of two, between 2^-1000 and 2^1000, from the exponent of the largest coordinate.
+/// Multiplied by the result, that coordinate has a size in [1, 2), unless the limits prevent it.
 double scale_of(const Double3& edge) {
     constexpr int kBias = 1023;
     constexpr int kMost = 1000;
@@ -59,10 +59,10 @@ double scale_of(const Double3& edge) {
     return std::bit_cast<double>(static_cast<std::uint64_t>(wanted + kBias) << 52);
 }
 
-/// Across p, q, r, which turn counter-clockwise seen from where it points; edges of length
-/// 1 first, so that no product leaves the range of double, and slivers in twice the
-/// precision: their normals are what the bounds of thin hulls hang on. False for no
-/// direction.
+/// Sets `normal` to the normal of p, q, r, which turn counter-clockwise as seen from its tip.
+/// Returns false for no direction. The edges are scaled to length 1 first, so that no product
+/// leaves the range of double. Slivers are computed in twice the precision, because the bounds of
+/// thin hulls depend on their normals.
 bool normal_of(const Difference& p, const Difference& q, const Difference& r, Double3& normal) {
     const Double3 first = edge_between(p, q);
     const Double3 second = edge_between(p, r);
@@ -85,7 +85,7 @@ double length(const Double3& d) {
     return std::sqrt(dot(d, d));
 }
 
-/// Two directions at right angles to one.
+/// Returns two directions at right angles to d.
 std::array<Double3, 2> across(const Double3& d) {
     const Double3 least =
         std::fabs(d.x) <= std::fabs(d.y) && std::fabs(d.x) <= std::fabs(d.z)
@@ -98,7 +98,7 @@ std::array<Double3, 2> across(const Double3& d) {
     return {first, second};
 }
 
-/// Below, a corner's distance from the others may be rounding alone.
+/// Returns the threshold below which a corner's distance from the others may be rounding alone.
 double noise_of(const Difference& p, const Difference& q) {
     const auto most = [](const Difference& d) {
         return std::max(largest_of(d.at_a), largest_of(d.at_b));
@@ -129,8 +129,8 @@ void ExpandingPolytope::bound_along(const Double3& direction, const Difference& 
     if (!(unit > 0)) return;
     constexpr double kUnderflow = 0x1p-1050;
     const double upper = std::max(0.0, reach / unit * (1 + 8 * kUnit)) + kUnderflow;
-    // Triangles with one normal prove as much, also those that lay deeper: the last has
-    // the witnesses.
+    // All triangles with one normal prove the same bound, including those found deeper inside. The
+    // last one has the witnesses.
     const double noise = 16 * kUnit * size;
     NearestSimplex nearest = corners;
     keep_nearest(nearest);
@@ -150,7 +150,7 @@ Penetration ExpandingPolytope::answer() noexcept {
     for (std::size_t i = 0; i < nearest_.count; ++i) {
         size = std::max(size, largest_of(nearest_.corner[i].at));
     }
-    // Corners all but in a line have weights that rounding made.
+    // The weights of nearly collinear corners are rounding errors.
     constexpr double kWellPlaced = 0x1p-48;
     if (!(largest_of(off) <= kWellPlaced * size)) {
         nearest_ = exactly_weighted(all_.corner.data(), all_.count);
@@ -252,7 +252,7 @@ void ExpandingPolytope::look_closely(Face& face) const noexcept {
     face.looked_at = true;
     NearestSimplex nearest = simplex_of(face);
     keep_nearest(nearest);
-    // What is nearly a line has a poor normal.
+    // A triangle that is nearly a line has a poor normal.
     Double3 other = nearest_direction(nearest);
     if (nearest.count < 3 && normalise(other)) {
         face.lower = std::max(face.lower, lower_along(other, face));
@@ -294,7 +294,7 @@ bool ExpandingPolytope::grow(const Difference& corner) noexcept {
         }
         for (std::size_t j = 0; j < 3; ++j) {
             const Edge edge = {face.corner[j], face.corner[(j + 1) % 3]};
-            // An edge between two faces that are seen is met from both sides.
+            // An edge between two visible faces is met from both sides.
             const auto end = edge_.begin() + static_cast<std::ptrdiff_t>(edges);
             const auto back = std::find_if(edge_.begin(), end, [&](const Edge& other) {
                 return other.from == edge.to && other.to == edge.from;

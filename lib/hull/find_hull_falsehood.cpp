@@ -25,7 +25,7 @@ std::vector<Double3> vertices_of(const Model& model) {
     return vertices;
 }
 
-/// Which vertex stands for a number of the imported file.
+/// Returns pairs of source number and vertex, sorted by source number.
 std::vector<std::array<std::uint32_t, 2>> by_source(const Model& model) {
     std::vector<std::array<std::uint32_t, 2>> pairs;
     const auto source = model.source().vertex;
@@ -38,7 +38,7 @@ bool equal(const Double3& a, const Double3& b) {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/// Of a facet's plane, the points that may be in front of it: almost all are far behind.
+/// Discards points that are certainly behind a facet's plane. Almost all are far behind.
 class FarBehind {
 public:
     FarBehind(const Double3& a, const Double3& b, const Double3& c) : at_(a) {
@@ -49,9 +49,8 @@ public:
                  std::fabs(ux * vy) + std::fabs(uy * vx)};
     }
 
-    /// Never true of a point that is not behind: heights are off by less than 2^-49 of the
-    /// sum of their terms' sizes, and by what underflows: 2^-1074 a product, times a
-    /// difference or alone.
+    /// Returns true only for points that are behind. Heights are off by less than 2^-49 of the sum
+    /// of their terms' sizes, plus underflow: 2^-1074 per product, times a difference or alone.
     [[nodiscard]] bool operator()(const Double3& p) const {
         constexpr double kDoubt = 0x1p-48, kUnderflow = 1e-300;
         const double x = p.x - at_.x, y = p.y - at_.y, z = p.z - at_.z;
@@ -79,7 +78,7 @@ public:
         return find_outside(number, hull, points);
     }
 
-    /// A vertex that no part holds, where there are parts; exact.
+    /// Finds a vertex that no part contains, if there are parts. Exact.
     [[nodiscard]] Found find_left_out() const {
         const auto first = find_hull(model_, format::HullScope::part);
         if (!first) return std::nullopt;
@@ -90,7 +89,7 @@ public:
             parts.push_back(convex_points(model_, i));
             bounds.push_back(bounds_of(parts.back()));
         }
-        std::size_t last = 0;  // the next vertex is often in the same one
+        std::size_t last = 0;  // the next vertex is often in the same part
         for (std::uint32_t v = 0; v < vertices_.size(); ++v) {
             const auto is_in = [&](std::size_t i) {
                 return i < parts.size() && bounds[i].contains(vertices_[v]) &&
@@ -140,7 +139,7 @@ private:
         return model_.hulls().facets.subspan(hull.first_facet, hull.facet_count);
     }
 
-    /// A point of an exact hull that is not the vertex it names.
+    /// Finds a point of an exact hull that differs from the vertex it names.
     [[nodiscard]] Found find_strange_point(const Hull& hull, const ConvexPoints& points) const {
         if ((hull.flags & format::hull_exact) == 0 || by_source_.empty()) return std::nullopt;
         for (std::uint32_t p = 0; p < hull.point_count; ++p) {
@@ -155,7 +154,7 @@ private:
         return std::nullopt;
     }
 
-    /// An edge that is reflex, or flat between groups, or not flat within one.
+    /// Finds an edge that is reflex, or flat between groups, or not flat within one.
     [[nodiscard]] Found find_bad_edge(const Hull& hull, const ConvexPoints& points) const {
         const auto all = facets(hull);
         for (std::uint32_t f = 0; f < all.size(); ++f) {
@@ -178,7 +177,7 @@ private:
         return std::nullopt;
     }
 
-    /// Neighbours are the ends of the facets' edges, no more and no fewer.
+    /// Finds a difference between the neighbours and the ends of the facets' edges.
     [[nodiscard]] Found find_bad_neighbour(const Hull& hull, const ConvexPoints& points) const {
         if (points.neighbours.empty()) return std::nullopt;
         std::vector<std::array<std::uint32_t, 2>> edges;
@@ -201,7 +200,8 @@ private:
                           edges.size());
     }
 
-    /// What must not be outside: all vertices for the whole's hull, else its own points.
+    /// Returns the points that must not be outside: all vertices for the whole model's hull,
+    /// otherwise the hull's own points.
     [[nodiscard]] std::vector<Double3> contained(const Hull& hull,
                                                  const ConvexPoints& points) const {
         if (hull.scope == format::HullScope::whole) return vertices_;
@@ -210,7 +210,7 @@ private:
         return own;
     }
 
-    /// A point in front of a facet; of a hull of one point, another one.
+    /// Finds a point in front of a facet. For a hull of one point, finds a different point.
     [[nodiscard]] Found find_outside(std::uint32_t number, const Hull& hull,
                                      const ConvexPoints& points) const {
         const std::vector<Double3> inside = contained(hull, points);

@@ -7,11 +7,11 @@
 
 #include "exact/length_of.h"
 
-// The lower bound trusts no step of the search. Whatever the direction d, the planes
-// across it through A's and B's farthest points lie d . (b - a) / |d| apart: with p - q a
-// corner of the simplex, no point of A is farther along -d from p than the first bound
-// of MovedHull::proven(), none of B along d from q than the second. The upper bound is
-// the length of a sum of corners with weights that are not negative.
+// The lower bound trusts no step of the search. For any direction d, the planes across it through
+// the farthest points of A and B are d . (b - a) / |d| apart. Let p - q be a corner of the simplex.
+// No point of A is farther along -d from p than the first bound of MovedHull::proven(). No point of
+// B is farther along d from q than the second. The upper bound is the length of a sum of corners
+// with non-negative weights.
 
 namespace cdprep {
 namespace {
@@ -58,7 +58,7 @@ public:
     [[nodiscard]] std::uint64_t steps() const noexcept {
         return steps_;
     }
-    /// Where the search ended.
+    /// Stores where the search ended.
     void remember(ConvexCache& cache) const noexcept;
 
 private:
@@ -68,16 +68,16 @@ private:
         return {i, j, p, q, p - q};
     }
     [[nodiscard]] bool takes(const ConvexCache& cache) noexcept;
-    /// The corner that is lowest along a direction.
+    /// Returns the corner that is lowest along a direction.
     [[nodiscard]] Difference lowest(const Direction& d) noexcept {
         ++steps_;
         near_a_ = is_warm_ ? a_.farthest(-d.at, near_a_) : a_.farthest_anew(-d.at, near_a_);
         near_b_ = is_warm_ ? b_.farthest(d.at, near_b_) : b_.farthest_anew(d.at, near_b_);
         return difference(near_a_, near_b_);
     }
-    /// Adds a corner; false when that brought the simplex no nearer.
+    /// Adds a corner. Returns false when the simplex came no nearer.
     [[nodiscard]] bool add(const Difference& corner) noexcept;
-    /// Proves a lower bound.
+    /// Proves a lower bound along a direction.
     void prove(const Direction& d) noexcept;
     [[nodiscard]] GjkVerdict proved(const Direction& d) noexcept {
         prove(d);
@@ -92,8 +92,8 @@ private:
     double lower_ = 0;
     std::uint32_t near_a_ = 0;
     std::uint32_t near_b_ = 0;
-    bool is_warm_ = false;       ///< began where another question ended
-    bool ended_by_gap_ = false;  ///< by a proof that they are farther apart than was asked
+    bool is_warm_ = false;       ///< began where an earlier query ended
+    bool ended_by_gap_ = false;  ///< by a proof that the distance exceeds goal_.farther
     std::uint64_t steps_ = 0;
 };
 
@@ -181,8 +181,8 @@ void Search::remember(ConvexCache& cache) const noexcept {
         cache.a[cache.count] = a;
         cache.b[cache.count++] = b;
     };
-    // The pair that proved the gap is where the next climb is to begin, and one more corner
-    // for the next simplex.
+    // The pair that proved the gap is the start of the next climb and one more corner of the next
+    // simplex.
     if (ended_by_gap_) add(near_a_, near_b_);
     for (std::size_t i = 0; i < simplex_.count; ++i) {
         if (cache.count < 4) add(simplex_.corner[i].a, simplex_.corner[i].b);
@@ -192,7 +192,7 @@ void Search::remember(ConvexCache& cache) const noexcept {
 }  // namespace
 
 double upper_bound(const NearestSimplex& simplex) noexcept {
-    // The corners and the weights are off by u, the sums by 3 u, the weights' sum by 4 u.
+    // The corners and the weights are off by u, their sums by 3 u, the sum of the weights by 4 u.
     const Double3 v = weighted_point(simplex);
     const double error = 20 * kUnit * largest_corner(simplex);
     return length_of(v.x, v.y, v.z) * (1 + 4 * kUnit) + error;

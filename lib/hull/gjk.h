@@ -10,17 +10,17 @@
 
 namespace cdprep {
 
-/// What ends a search.
+/// The conditions that end a search.
 struct GjkGoal {
     double relative_error = 0;
     double absolute_error = 0;
-    /// A proof that the hulls are farther apart than this, model units.
+    /// Ends on a proof that the hulls are farther apart than this, model units.
     double farther = std::numeric_limits<double>::infinity();
-    /// Two points that are at most so far apart, model units; negative: that is not asked.
+    /// Ends at two points at most this far apart, model units; negative: never.
     double nearer = -1;
 };
 
-/// What double knows for certain.
+/// The verdict that double arithmetic proves.
 enum class GjkVerdict : std::uint8_t {
     apart,   ///< lower > 0
     meet,    ///< the simplex has the origin inside
@@ -29,17 +29,17 @@ enum class GjkVerdict : std::uint8_t {
 
 struct GjkResult {
     GjkVerdict verdict;
-    double lower;  ///< the hulls are at least so far apart, model units; proved
-    double upper;  ///< and at most so far; proved; infinite when they meet
+    double lower;  ///< proven lower bound of the distance, model units
+    double upper;  ///< proven upper bound; infinite when they meet
     NearestSimplex simplex;
 };
 
-/// Searches in double. Where the verdict is `apart` and no goal ended the search before,
-/// the bounds are as near each other as rounding lets them.
+/// Searches in double. If the verdict is `apart` and no goal ended the search earlier, the bounds
+/// are as close to each other as rounding permits.
 [[nodiscard]] GjkResult gjk(const MovedHull& a, const MovedHull& b, const GjkGoal& goal,
                             ConvexCache* cache, QueryCounts* counts) noexcept;
 
-/// The distance of the simplex's nearest point from the origin, rounded up.
+/// Returns the distance of the simplex's nearest point from the origin, rounded up.
 [[nodiscard]] double upper_bound(const NearestSimplex& simplex) noexcept;
 
 }  // namespace cdprep

@@ -8,14 +8,15 @@
 
 namespace cdprep {
 
-/// An edge of a facet, by the corner that it begins at.
+/// An edge of a facet, given by the corner at which it begins.
 struct FacetPlace {
     std::uint32_t facet;
     std::uint32_t corner;
     friend bool operator==(const FacetPlace&, const FacetPlace&) = default;
 };
 
-/// Ways about the surface of a hull: a closed one whose edges are paired.
+/// The edges of a hull's surface, for walks along them. The surface is closed and its edges are
+/// paired.
 class HullEdges {
 public:
     HullEdges(std::span<const format::PieceFacet> facets,
@@ -37,7 +38,7 @@ public:
     [[nodiscard]] static FacetPlace previous(const FacetPlace& p) noexcept {
         return {p.facet, (p.corner + 2) % 3};
     }
-    /// The same edge from the facet beyond.
+    /// Returns the same edge as seen from the adjacent facet.
     [[nodiscard]] FacetPlace twin(const FacetPlace& p) const noexcept {
         const std::uint32_t facet = adjacency_[p.facet].across[p.corner];
         const std::uint32_t first = end(p);
@@ -48,7 +49,7 @@ public:
         while ((facets_[facet].flags & format::facet_first_of_face) == 0) --facet;
         return facet;
     }
-    /// One past the last facet of the face that begins at `first`.
+    /// Returns the number after the last facet of the face that begins at `first`.
     [[nodiscard]] std::uint32_t end_of_face(std::uint32_t first) const noexcept {
         std::uint32_t end = first + 1;
         while (end < facets_.size() && (facets_[end].flags & format::facet_first_of_face) == 0) {
@@ -56,7 +57,7 @@ public:
         }
         return end;
     }
-    /// Whether the edge is between two faces, and not a diagonal of one.
+    /// Returns whether the edge lies between two faces, rather than being a diagonal of one.
     [[nodiscard]] bool is_edge(const FacetPlace& p) const noexcept {
         const std::uint32_t other = adjacency_[p.facet].across[p.corner];
         const std::uint32_t low = p.facet < other ? p.facet : other;
@@ -67,7 +68,7 @@ public:
         return false;
     }
 
-    /// Calls visit(place) with the edges around the face that begins at `first`, in order.
+    /// Calls visit(place) for the edges around the face that begins at `first`, in order.
     template <class Visit>
     void each_around_face(std::uint32_t first, Visit&& visit) const noexcept {
         const std::uint32_t end_facet = end_of_face(first);
@@ -84,7 +85,7 @@ public:
         } while (!(at == begin));
     }
 
-    /// Calls visit(place) with the edges that begin where `p` begins.
+    /// Calls visit(place) for the edges that begin where `p` begins.
     template <class Visit>
     void each_from(const FacetPlace& p, Visit&& visit) const noexcept {
         FacetPlace at = p;

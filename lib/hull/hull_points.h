@@ -8,8 +8,8 @@
 
 namespace cdprep {
 
-/// ConvexPoints::point() for the insides of questions: inline, and in the environment that they
-/// have set.
+/// Returns ConvexPoints::point(). Inline, for use inside queries, which have set the floating-point
+/// environment.
 [[nodiscard]] inline Double3 hull_point(const ConvexPoints& points, std::uint32_t number) noexcept {
     if (points.corners.empty()) {
         const auto& at = points.blocks[number / format::kHullLanes].at;
@@ -22,7 +22,7 @@ namespace cdprep {
     return {p.x, p.y, p.z};
 }
 
-/// direction_cell() likewise.
+/// Returns direction_cell(), under the same conditions.
 [[nodiscard]] inline std::uint32_t cell_of_direction(const Double3& direction) noexcept {
     const std::array<double, 3> d = {direction.x, direction.y, direction.z};
     std::uint32_t axis = std::fabs(d[1]) > std::fabs(d[0]) ? 1 : 0;

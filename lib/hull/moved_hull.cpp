@@ -6,36 +6,36 @@
 #include <cmath>
 #include <limits>
 
-// A climb goes over the hull as it is stored, whose edges are exact, along the direction
-// d turned back to its frame, d'. What it finds is to be proved about the points as they
-// are moved. Let u = 2^-53, X the largest coordinates of stored points, and
-// S = sum_i |d_i| (sum_j |R_ij| X_j + |T_i|). For stored points p and v
+// Hill climbing walks the stored hull, whose edges are exact, along d': the direction d turned back
+// to the hull's frame. Its result is then proved for the points as they are moved. Let u = 2^-53, X
+// the largest coordinates of stored points, and S = sum_i |d_i| (sum_j |R_ij| X_j + |T_i|). For
+// stored points p and v
 //
 //   G = d' . (p - v) in double  is off by 4u of the products' sizes:       8.1 u S
 //   d' is off by 3u in each component, times |p - v| <= 2 X:               6.1 u S
-//   transform_point(p) and transform_point(v) are off by 4u of their products' sizes and T:    8.1
-//   u S
+//   transform_point(p) and transform_point(v) are off by 4u of
+//   their products' sizes and T:                                           8.1 u S
 //
 // so d . (transform_point(p) - transform_point(v)) differs from G by less than s = 24 u S.
 //
-// The corners of a convex polytope that are higher than any given height hang together
-// by its edges. So let M be a set of corners that hang together, among them v, such that
-// G < -2 s for every neighbour of M: all corners outside M are lower than v by more than
-// s before they are moved, and lower still than v after. The highest is in M.
+// In a convex polytope, the corners higher than a given height are connected by its edges. So let M
+// be a connected set of corners that contains v, such that G < -2 s for every neighbour of M. Then
+// all corners outside M are lower than v by more than s before moving, and still lower than v
+// afterwards. So the highest corner is in M.
 
 namespace cdprep {
 namespace {
 
 constexpr double kSlack = 24 * 0x1p-53;
-constexpr double kValueError = 6 * 0x1p-53;  ///< as of the kernel
+constexpr double kValueError = 6 * 0x1p-53;  ///< as in the kernel
 constexpr double kUnderflow = 0x1p-1060;     ///< what products of numbers near 0 may lose
-constexpr std::size_t kMostAlike = 24;       ///< corners of about one height that are looked at
+constexpr std::size_t kMostAlike = 24;       ///< limit of corners of about the same height
 
 double at(const Double3& p, std::size_t axis) {
     return axis == 0 ? p.x : (axis == 1 ? p.y : p.z);
 }
 
-/// Numbers of corners, in the order they were met.
+/// Numbers of corners, in the order they were found.
 class Alike {
 public:
     explicit Alike(std::uint32_t first) : number_{first} {}
@@ -50,7 +50,7 @@ public:
         const auto* end = number_.data() + size_;
         return std::find(number_.data(), end, number) != end;
     }
-    /// False when there is no room.
+    /// Adds a number. Returns false when there is no room.
     bool add(std::uint32_t number) {
         if (size_ == kMostAlike) return false;
         number_[size_++] = number;

@@ -13,8 +13,8 @@
 
 namespace cdprep {
 
-/// A hull as one query sees it: where its points are after moving, each rounded by
-/// transform_point(). The answers are about those points.
+/// A hull in one query: its points after moving, each rounded by transform_point(). The answers
+/// refer to those points.
 class MovedHull {
 public:
     MovedHull(const ConvexPoints& points, const Pose* pose) noexcept;
@@ -27,22 +27,23 @@ public:
         return pose_ == nullptr ? p : moved_point(*pose_, p);
     }
 
-    /// Returns the point that is farthest along a direction, as far as double can tell. A
-    /// climb begins at `near`, a point's number.
+    /// Returns the point that is farthest along a direction, up to rounding. Hill climbing begins
+    /// at `near`, a point's number.
     [[nodiscard]] std::uint32_t farthest(const Double3& direction,
                                          std::uint32_t near) const noexcept;
 
-    /// The same where `near` may be far: from a start for the direction, if that is better.
+    /// The same where `near` may be far away: begins at the stored start for the direction if that
+    /// is better.
     [[nodiscard]] std::uint32_t farthest_anew(const Double3& direction,
                                               std::uint32_t near) const noexcept;
 
-    /// Returns how far the points reach along a direction from `origin`, with a bound that
-    /// none exceeds, rounding included, underflow not. `farthest` is what farthest()
-    /// answered; another point is answered where it was wrong.
+    /// Returns the farthest point along a direction, and its reach from `origin`. The result's
+    /// bound holds for every point; it includes rounding, but not underflow. `farthest` is the
+    /// result of farthest(); if it was wrong, another point is returned.
     [[nodiscard]] kernels::FarthestPoint proven(const Double3& direction, const Double3& origin,
                                                 std::uint32_t farthest) const noexcept;
 
-    /// The same by looking at every point.
+    /// The same, by testing every point.
     [[nodiscard]] kernels::FarthestPoint proven_by_all(const Double3& direction,
                                                        const Double3& origin) const noexcept;
 
@@ -69,10 +70,10 @@ private:
     [[nodiscard]] double slack(const Double3& direction) const noexcept;
 
     const ConvexPoints* points_;
-    const Pose* pose_;  ///< null: the hull stays as it is
+    const Pose* pose_;  ///< null: the hull is not moved
 };
 
-/// The two hulls of a question.
+/// The two hulls of a query.
 struct TwoHulls {
     MovedHull a;
     MovedHull b;

@@ -11,7 +11,7 @@
 namespace cdprep {
 namespace {
 
-/// Which corners, with which weights, and the square of the nearest point's distance.
+/// The chosen corners, their weights, and the squared distance of the nearest point.
 struct Nearest {
     std::array<std::uint8_t, 3> corner{};
     std::array<double, 3> weight{};
@@ -58,9 +58,9 @@ void take_nearer(Nearest& best, const Nearest& other) {
     if (other.squared < best.squared || best.count == 0) best = other;
 }
 
-/// Twice the areas that the origin's foot spans with the edges opposite each corner, seen
-/// along the axis on which the triangle is largest, are n . (q x r) and so on: the foot
-/// is parallel to n, and adds nothing.
+/// Twice the areas that the origin's foot spans with the edges opposite each corner are n . (q x r)
+/// and so on, seen along the axis on which the triangle is largest. The foot is parallel to n and
+/// adds nothing.
 Nearest Search::triangle(std::uint8_t i, std::uint8_t j, std::uint8_t k) const {
     const Double3& p = at(i);
     const Double3& q = at(j);
@@ -114,7 +114,7 @@ void keep(NearestSimplex& simplex, const Nearest& nearest) {
     }
 }
 
-/// p - e (p . e) / (e . e), whose terms may cancel.
+/// Returns p - e (p . e) / (e . e), whose terms may cancel.
 Double3 across_segment(const Double3& p, const Double3& q) {
     const Double3 e = q - p;
     const double whole = dot(e, e);
@@ -154,7 +154,7 @@ bool certainly_encloses_origin(const NearestSimplex& simplex) noexcept {
     if (simplex.count < 4) return false;
     constexpr Double3 kOrigin{};
     const auto sign = [&](std::size_t i, std::size_t j, std::size_t k) {
-        // A difference rounded once is what the filter takes for one.
+        // The filter expects differences that were rounded once, and these are.
         return filtered_orient3d(simplex.corner[i].at, simplex.corner[j].at, simplex.corner[k].at,
                                  kOrigin);
     };

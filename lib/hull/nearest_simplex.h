@@ -9,8 +9,8 @@
 
 namespace cdprep {
 
-/// A point of A less a point of B: of the corners of A - B, the set of all differences.
-/// The two hulls have a common point exactly when A - B holds the origin.
+/// A point of A minus a point of B: a corner of A - B, the set of all differences. The two hulls
+/// have a common point exactly when A - B holds the origin.
 struct Difference {
     std::uint32_t a;
     std::uint32_t b;
@@ -19,7 +19,7 @@ struct Difference {
     Double3 at;  ///< at_a - at_b, each coordinate rounded once
 };
 
-/// At most four corners, and the point of their hull that is nearest to the origin.
+/// Up to four corners, and the point of their hull that is nearest to the origin.
 struct NearestSimplex {
     std::array<Difference, 4> corner;
     std::array<double, 4> weight{};  ///< >= 0, sum 1 up to rounding
@@ -33,28 +33,28 @@ struct NearestSimplex {
     }
 };
 
-/// Drops the corners that the nearest point does not need and sets the weights. All four
-/// stay when the origin is inside, as far as double can tell. (The signed volumes of
-/// Montanari, Petrinic and Barbieri 2017; where their signs leave a choice, or are all 0,
-/// the nearest of the faces in question is taken.)
+/// Drops the corners that the nearest point does not depend on, and sets the weights. Keeps all
+/// four when the origin is inside, up to rounding. (The signed volumes of Montanari, Petrinic and
+/// Barbieri 2017. Where their signs leave a choice, or are all 0, the nearest of the candidate
+/// faces is taken.)
 void keep_nearest(NearestSimplex& simplex) noexcept;
 
-/// True when four corners have the origin strictly inside for certain.
+/// Returns true only when four corners certainly hold the origin strictly inside.
 [[nodiscard]] bool certainly_encloses_origin(const NearestSimplex& simplex) noexcept;
 
-/// Returns the sum of the corners' points, of A, of B or of A - B, with their weights.
+/// Returns the weighted sum of the corners' points: of A, of B or of A - B.
 [[nodiscard]] Double3 weighted_sum(const NearestSimplex& simplex,
                                    Double3 Difference::*side) noexcept;
 
-/// Returns the nearest point by the weights.
+/// Returns the nearest point, by the weights.
 [[nodiscard]] inline Double3 weighted_point(const NearestSimplex& simplex) noexcept {
     return weighted_sum(simplex, &Difference::at);
 }
 
-/// Returns the direction from the origin to the nearest point of at most three corners,
-/// of any length: more exact than weighted_point(), which is off by about 1e-16 of the
-/// corners' distance from the origin however near that point is. 0, 0, 0 when the corners
-/// have no area or length.
+/// Returns the direction from the origin to the nearest point of at most three corners, of any
+/// length. More exact than weighted_point(). The error of that point is about 1e-16 of the corners'
+/// distance from the origin, however near the point is. Returns 0, 0, 0 when the corners have no
+/// area or length.
 [[nodiscard]] Double3 nearest_direction(const NearestSimplex& simplex) noexcept;
 
 }  // namespace cdprep

@@ -10,10 +10,11 @@ namespace cdprep {
 namespace {
 
 constexpr std::size_t kMostOutline = 64;  ///< corners kept of a face
-/// A face stands across the normal when the cosine says so: rounding turns neither as far.
+/// The cosine above which a face counts as perpendicular to the contact normal. Rounding turns
+/// neither that far.
 constexpr double kAcross = 1 - 1e-10;
 
-/// Corners of a convex polygon, counter-clockwise seen against `normal`.
+/// Corners of a convex polygon, counter-clockwise as seen from the tip of `normal`.
 struct Polygon {
     std::array<Double3, 2 * kMostOutline> at;
     std::size_t count = 0;
@@ -37,8 +38,8 @@ Polygon triangle_polygon(const ContactSide& side, std::uint32_t triangle,
     return polygon;
 }
 
-/// All corners, or as many of them, evenly, as there is room for: a part of the face. The
-/// normal may be that of its back.
+/// Returns the corners of a face or, if there are too many, an even selection of them: a part of
+/// the face. `normal` may be that of its back.
 Polygon face_polygon(const ContactSide& side, std::uint32_t first, const Double3& normal) {
     const HullEdges edges(side.facets(), side.adjacency());
     std::size_t all = 0;
@@ -62,12 +63,12 @@ Polygon face_polygon(const ContactSide& side, std::uint32_t first, const Double3
     return polygon;
 }
 
-/// The face that looks along a direction most: of the hull, if triangles cover it, or the
-/// feature's own triangle.
+/// Returns the face that faces a direction most: a face of the hull if triangles cover it,
+/// otherwise the feature's own triangle.
 Polygon facing(const ContactSide& side, const PieceFeature& feature, const Double3& direction) {
     const Polygon own = triangle_polygon(side, feature.triangle, direction);
     std::optional<std::uint32_t> best;
-    double most = dot(own.normal, direction) - 1e-12;  // the whole face before its part
+    double most = dot(own.normal, direction) - 1e-12;  // prefers the whole face to its part
     Double3 normal = own.normal;
     const auto facets = side.facets();
     for (std::uint32_t f = 0; f < facets.size(); ++f) {
@@ -75,16 +76,16 @@ Polygon facing(const ContactSide& side, const PieceFeature& feature, const Doubl
         const auto& c = facets[f].corner;
         const Double3 n = unit_normal({side.corner(c[0]), side.corner(c[1]), side.corner(c[2])});
         const double along = dot(n, direction);
-        // What nobody's inside is behind of is met from either side.
+        // A surface that bounds no solid can be met from either side.
         const double faces = side.is_contained() ? along : std::fabs(along);
         if (faces > most) most = faces, best = f, normal = along < 0 ? -n : n;
     }
     if (!best) return own;
     const Polygon whole = face_polygon(side, *best, normal);
-    return whole.count < 3 ? own : whole;  // flags of a damaged file may leave nothing around it
+    return whole.count < 3 ? own : whole;  // flags of a damaged file may leave no outline
 }
 
-/// The part of a polygon where dot(inward, p - on) >= 0.
+/// Returns the part of a polygon where dot(inward, p - on) >= 0.
 Polygon clipped(const Polygon& polygon, const Double3& on, const Double3& inward) {
     Polygon result;
     result.normal = polygon.normal;
@@ -99,7 +100,7 @@ Polygon clipped(const Polygon& polygon, const Double3& on, const Double3& inward
     return result;
 }
 
-/// The part of a polygon that is over another one, seen along that one's normal.
+/// Returns the part of a polygon that is over another one, seen along the other's normal.
 Polygon over(const Polygon& base, Polygon polygon) {
     for (std::size_t i = 0; i < base.count && polygon.count > 0; ++i) {
         const Double3 &p = base.at[i], &q = base.at[(i + 1) % base.count];
@@ -118,8 +119,8 @@ public:
         return count_;
     }
 
-    /// The deepest, the one farthest from it, and those with the largest triangles on either
-    /// side of the line between. Of equal ones the first.
+    /// Takes the deepest point, the one farthest from it, and those with the largest triangles on
+    /// either side of the line between. Of equal points it takes the first.
     void choose(Contact& contact) const noexcept {
         const std::size_t first = best([&](const ManifoldPoint& p) { return -p.distance; });
         take(first, contact);
@@ -136,7 +137,7 @@ public:
                 return side * dot(contact.normal, cross(line, p.on_a - origin));
             };
             const std::size_t third = best(area);
-            // Nothing but rounding is beside the line.
+            // A smaller area is rounding: no point is beside the line.
             if (area(point_[third]) > 1e-12 * dot(line, line)) take(third, contact);
         }
     }

@@ -12,10 +12,10 @@ namespace cdprep {
 namespace {
 
 constexpr double kUnit = 0x1p-53;
-/// Ways out of a piece along the normals of so many triangles at most are tried.
+/// The maximum number of a piece's triangles whose normals are tried as ways out.
 constexpr std::size_t kMostWays = 256;
 
-/// The vertices that a nearest point is made of.
+/// Returns the vertices that define a nearest point.
 VertexSet vertices_of(const NearestSimplex& simplex, std::uint32_t Difference::*side,
                       std::span<const std::uint32_t> corners) {
     VertexSet set;
@@ -26,7 +26,7 @@ VertexSet vertices_of(const NearestSimplex& simplex, std::uint32_t Difference::*
     return set;
 }
 
-/// Two features, and where they are nearest.
+/// Two features and their nearest points.
 struct Meeting {
     PieceFeature a;
     PieceFeature b;
@@ -60,7 +60,8 @@ public:
 private:
     // --- Apart ----------------------------------------------------------------------
 
-    /// The features of the hulls, if triangles have them; else of the nearest triangles.
+    /// Returns the features of the hulls if triangles have them, otherwise those of the nearest
+    /// triangles.
     [[nodiscard]] Meeting nearest_features(const HullNearest& hulls) const noexcept {
         if (!hulls.meet) {
             const auto a =
@@ -114,7 +115,8 @@ private:
         return meeting;
     }
 
-    /// Of a face or of two edges by themselves, which is exact however small the gap is.
+    /// Returns the contact normal. It is computed from a face or from two edges alone, so it is
+    /// exact however small the gap is.
     [[nodiscard]] Double3 normal_between(const Meeting& meeting,
                                          const Contact& contact) const noexcept {
         const Double3 gap = nearest_direction(meeting.nearest.simplex);
@@ -140,7 +142,8 @@ private:
         return upright ? std::optional(shorter_of_both_ways(*upright)) : std::nullopt;
     }
 
-    /// Upright on a surface that bounds no solid is towards where more of the other piece is.
+    /// Returns `normal` or its opposite. On a surface that bounds no solid both are upright, and
+    /// the shorter way out leads towards more of the other piece.
     [[nodiscard]] Double3 shorter_of_both_ways(const Double3& normal) const noexcept {
         if (a_.is_contained() && b_.is_contained()) return normal;
         return way_out(-normal).length < way_out(normal).length ? -normal : normal;
@@ -169,13 +172,14 @@ private:
         return meeting;
     }
 
-    /// Through a face that no triangle covers: deeper into the solid, not out of it.
+    /// Returns whether a direction leads through a face that no triangle covers: deeper into the
+    /// solid, not out of it.
     static bool leads_inside(const ContactSide& side, const PieceFeature& feature,
                              const Double3& direction) noexcept {
         return side.is_contained() && !side.leads_out(feature, direction);
     }
 
-    /// The unit normal of a triangle of either piece along which the way out is the shortest.
+    /// Returns the unit normal of a triangle of either piece with the shortest way out along it.
     [[nodiscard]] std::optional<Double3> shortest_way() const noexcept {
         std::optional<Double3> best;
         double least = std::numeric_limits<double>::infinity();
@@ -193,7 +197,8 @@ private:
         return best;
     }
 
-    /// How far B must go along a unit direction to be out of A: no farther, rounding included.
+    /// The distance that B must move along a unit direction to be out of A: an upper bound,
+    /// rounding included.
     struct WayOut {
         double length;
         Double3 on_a;
@@ -215,8 +220,8 @@ private:
         return {sum / shortest * (1 + 4 * kUnit), a.point(of_a.number), b.point(of_b.number)};
     }
 
-    /// Another normal, and the points that meet along it: of the farthest ones that of the piece
-    /// without a face there, and its foot on the other.
+    /// Sets another normal and the points that meet along it. These are the farthest point of the
+    /// piece without a face there, and its foot on the other piece.
     void turn(const Double3& normal, Meeting& meeting, Contact& contact) const noexcept {
         const WayOut way = way_out(normal);
         contact.flags |= contact_internal_edge;

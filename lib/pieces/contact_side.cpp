@@ -15,16 +15,17 @@ namespace {
 
 using format::EdgeConvexity;
 
-/// Of two unit directions that are one but for rounding: 1 - 1e-10 stands for 1.4e-5 radians, far
-/// more than what rounding turns a direction by, far less than what bends a surface.
+/// The cosine above which two unit directions are equal up to rounding. 1 - 1e-10 is 1.4e-5
+/// radians: far more than rounding turns a direction, far less than a surface bends.
 constexpr double kAligned = 1 - 1e-10;
-/// Corners of one height but for rounding, as a share of the hull's extent along a direction.
+/// The share of a hull's extent along a direction within which corners have equal height up to
+/// rounding.
 constexpr double kLevel = 1e-9;
-/// What a unit direction leans by rounding alone, at most.
+/// The greatest lean of a unit direction that is rounding alone.
 constexpr double kNoLean = 1e-12;
 
-/// Whether a triangle's normal is far off a unit direction either way, at the cost of a few
-/// products: what underflows or overflows is not.
+/// Returns whether a triangle's normal is far off a unit direction and its opposite. Costs a few
+/// products. Returns false on underflow or overflow.
 bool clearly_turns_from(const Corners& t, const Double3& direction) {
     constexpr double kFar = 0.99;
     const Double3 n = cross(t[1] - t[0], t[2] - t[0]);
@@ -113,7 +114,7 @@ std::optional<PieceFeature> ContactSide::find_face(const Double3& direction,
         const Corners at = model_->corners(t);
         if (clearly_turns_from(at, direction)) continue;
         const double along = dot(unit_normal(at), direction);
-        // What nobody's inside is behind of is met from either side.
+        // A surface that bounds no solid can be met from either side.
         if ((is_contained() ? along : std::fabs(along)) < kAligned) continue;
         const double distance = point_triangle_distance(near, at).computed;
         if (distance < least) least = distance, best = PieceFeature{FeatureKind::face, t, 0};
@@ -142,8 +143,8 @@ PieceFeature ContactSide::feature_along(const Double3& direction,
 
 // --- Edges inside the surface --------------------------------------------------------
 
-/// Calls visit(triangle, edges) with the piece's triangles that have the feature, and a bit for
-/// each edge of theirs that has it.
+/// Calls visit(triangle, edges) for the piece's triangles that have the feature. `edges` has a bit
+/// for each of their edges that has it.
 template <class Visit>
 void ContactSide::each_around(const PieceFeature& feature, Visit&& visit) const noexcept {
     const format::Triangle& own = model_->model->mesh().triangles[feature.triangle];
@@ -181,7 +182,8 @@ bool ContactSide::is_seen_from_behind(const PieceFeature& feature,
     return is_contained() && facing(feature, direction) < -kNoLean;
 }
 
-/// Whether another triangle of the piece has the edge: then the hull says how normals stand.
+/// Returns whether another triangle of the piece has the edge. Then the hull determines the normals
+/// there.
 bool ContactSide::is_inner(std::uint32_t triangle, unsigned edge) const noexcept {
     const auto& vertex = model_->model->mesh().triangles[triangle].vertex;
     const std::uint32_t from = vertex[edge], to = vertex[(edge + 1) % 3];
@@ -200,7 +202,7 @@ std::optional<ContactSide::Lean> ContactSide::find_lean(const PieceFeature& feat
         const Corners at = model_->corners(t);
         const Double3 front = unit_normal(at);
         const bool from_front = is_contained() || dot(front, direction) >= 0;
-        // Seen from behind what is convex is reflex.
+        // Seen from behind, a convex edge is reflex.
         const EdgeConvexity inward = from_front ? EdgeConvexity::reflex : EdgeConvexity::convex;
         for (unsigned k = 0; k < 3; ++k) {
             const EdgeConvexity edge = format::edge_convexity(bits, k);
@@ -222,7 +224,8 @@ std::optional<Double3> ContactSide::upright(const PieceFeature& feature,
     const auto first = find_lean(feature, direction, 0);
     if (!first) return std::nullopt;
     if (feature.kind == FeatureKind::edge) return first->face;
-    // Out of the one edge, and if that leads over another, along what is upright on both.
+    // Removes the lean over one edge. If the result leans over another edge, takes the direction
+    // that is upright on both.
     const Double3 turned = unit(direction - first->by * first->outward);
     const auto second = find_lean(feature, turned, kNoLean);
     if (!second) return turned;

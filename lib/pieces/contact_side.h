@@ -13,7 +13,7 @@
 
 namespace cdprep {
 
-/// A direction of length 1 up to rounding; 0, 0, 0 of no direction.
+/// Returns a direction of length 1 up to rounding, or 0, 0, 0 for no direction.
 inline Double3 unit(const Double3& d) noexcept {
     const double most = largest_of(d);
     if (!(most > 0)) return {0, 0, 0};
@@ -21,12 +21,13 @@ inline Double3 unit(const Double3& d) noexcept {
     return (1 / std::sqrt(dot(scaled, scaled))) * scaled;
 }
 
-/// The way that a triangle faces; 0, 0, 0 of one without area.
+/// Returns the normal of a triangle's front, of length 1 up to rounding, or 0, 0, 0 for one without
+/// area.
 inline Double3 unit_normal(const Corners& t) noexcept {
     return unit(cross(unit(t[1] - t[0]), unit(t[2] - t[0])));
 }
 
-/// A feature by its place in the tree order.
+/// A feature, given by a triangle in tree order.
 struct PieceFeature {
     FeatureKind kind = FeatureKind::face;
     std::uint32_t triangle = 0;
@@ -46,7 +47,7 @@ struct VertexSet {
     }
 };
 
-/// A piece of one of the two models of a question.
+/// A piece of one of the two models of a query.
 class ContactSide {
 public:
     ContactSide(const MovedModel& model, std::uint32_t piece) noexcept;
@@ -69,12 +70,12 @@ public:
     [[nodiscard]] bool is_contained() const noexcept {
         return contained_;
     }
-    /// The corners of the hull, before they are moved; of a triangle.
+    /// Returns the corners of the hull, or of a triangle, before they are moved.
     [[nodiscard]] const ConvexPoints& points() const noexcept {
         return hull_.points;
     }
     [[nodiscard]] ConvexPoints points_of(std::uint32_t triangle) const noexcept;
-    /// The hull where it is. Valid as long as this.
+    /// Returns the hull as moved. Valid as long as this object.
     [[nodiscard]] MovedHull hull() const noexcept {
         return is_placed() ? MovedHull(placed_points_, nullptr)
                            : MovedHull(hull_.points, model_->pose);
@@ -87,36 +88,37 @@ public:
         return unit_normal(model_->corners(triangle));
     }
 
-    /// The feature that one to three vertices span, if a triangle of the piece has them all: of
-    /// several the first.
+    /// Returns the feature that one to three vertices span, if a triangle of the piece has them
+    /// all. The first of several triangles counts.
     [[nodiscard]] std::optional<PieceFeature> find_feature(const VertexSet& set) const noexcept;
 
-    /// The feature that is farthest along a unit direction, near a point of the hull's border.
+    /// Returns the feature that is farthest along a unit direction, near a point of the hull's
+    /// border.
     [[nodiscard]] PieceFeature feature_along(const Double3& direction,
                                              const Double3& near) const noexcept;
 
-    /// Whether the way out of the piece along a unit direction leads away from the solid: a
-    /// triangle with the feature faces it.
+    /// Returns whether the way out of the piece along a unit direction leads away from the solid: a
+    /// triangle with the feature faces that direction.
     [[nodiscard]] bool leads_out(const PieceFeature& feature,
                                  const Double3& direction) const noexcept {
         return facing(feature, direction) > 0;
     }
-    /// Whether what is there in a unit direction is in the solid, clearly: it sees the backs of all
-    /// triangles with the feature.
+    /// Returns whether the space in a unit direction is clearly inside the solid: the direction is
+    /// behind all triangles with the feature.
     [[nodiscard]] bool is_seen_from_behind(const PieceFeature& feature,
                                            const Double3& direction) const noexcept;
 
-    /// A unit direction at a feature, made not to lean over edges where the surface goes on;
-    /// nothing when it does not.
+    /// Returns a unit direction at a feature, changed so that it does not lean over edges where the
+    /// surface continues. Returns nothing when it does not lean over any.
     [[nodiscard]] std::optional<Double3> upright(const PieceFeature& feature,
                                                  const Double3& direction) const noexcept;
 
-    /// In the numbering of the imported file.
+    /// Returns the feature with source numbers.
     [[nodiscard]] ContactFeature in_source(const PieceFeature& feature) const noexcept;
 
 private:
-    /// Hulls of so many blocks at most are moved once and for all, and scanned eight corners at a
-    /// time: most pieces have few corners, and each is asked for many times.
+    /// The maximum number of blocks of a hull that is moved once and scanned eight corners at a
+    /// time. Most pieces have few corners, and each is queried many times.
     static constexpr std::size_t kMostPlaced = 8;
 
     [[nodiscard]] bool is_placed() const noexcept {
@@ -125,20 +127,22 @@ private:
     void place() noexcept;
     [[nodiscard]] std::optional<PieceFeature> find_face(const Double3& direction,
                                                         const Double3& near) const noexcept;
-    /// How much a triangle with the feature faces a unit direction, at most: a cosine.
+    /// Returns the greatest cosine of the angle between a unit direction and the normal of a
+    /// triangle with the feature.
     [[nodiscard]] double facing(const PieceFeature& feature,
                                 const Double3& direction) const noexcept;
     [[nodiscard]] std::uint32_t nearest_triangle(const Double3& near) const noexcept;
     template <class Visit>
     void each_around(const PieceFeature& feature, Visit&& visit) const noexcept;
-    /// By how much a direction leans over an edge of a triangle, which way that is, and how the
-    /// triangle faces where the direction comes from.
+    /// The lean of a direction over an edge of a triangle: its amount, and the direction outwards
+    /// over the edge. `face` is the triangle's normal on the side that the direction comes from.
     struct Lean {
         double by;
         Double3 outward;
         Double3 face;
     };
-    /// The greatest above `least`, of the edges at a feature where the surface goes on.
+    /// Returns the greatest lean above `least` over the edges at a feature where the surface
+    /// continues.
     [[nodiscard]] std::optional<Lean> find_lean(const PieceFeature& feature,
                                                 const Double3& direction,
                                                 double least) const noexcept;
@@ -148,7 +152,7 @@ private:
     std::span<const std::uint32_t> triangles_;  ///< tree order
     bool contained_;
     FeatureHull hull_;
-    ConvexPoints placed_points_;  ///< in placed_; none of a hull that is too large
+    ConvexPoints placed_points_;  ///< in placed_; empty for a hull that is too large
     std::array<format::HullBlock, kMostPlaced> placed_;
 };
 

@@ -8,20 +8,20 @@
 
 namespace cdprep {
 
-/// Fills in the points of a contact from its normal, features and points: those of the face of
-/// the one piece that stands across the normal and of the other's that faces it most, clipped by
-/// it, as far as they are within the tolerance; the contact's own points where no face stands
-/// across.
+/// Fills in the manifold of a contact from its normal, features and points. The base is the face of
+/// one piece that is perpendicular to the normal. It clips the face of the other piece that faces
+/// it most. The manifold takes corners of the result within the tolerance. Where no face is
+/// perpendicular to the normal, it takes the contact's own points.
 void add_manifold(const ContactSide& a, const ContactSide& b, const PieceFeature& feature_a,
                   const PieceFeature& feature_b, double tolerance, Contact& contact) noexcept;
 
-/// Finds the two triangles of two pieces, of which none touch, that are nearest to each other as
-/// far as triangle_distance() tells; of several the first, by A's and then by B's. `start` are
-/// two of them, which are near each other. In tree order.
+/// Returns the two nearest triangles of two pieces whose triangles do not touch, as computed by
+/// triangle_distance(). Of several pairs it returns the first, by A's and then by B's triangle.
+/// `start` is a pair of triangles near each other. All numbers are in tree order.
 [[nodiscard]] TreePair nearest_triangles(const ContactSide& a, const ContactSide& b,
                                          const TreePair& start, Degenerate degenerate) noexcept;
 
-/// What all pairs of pieces of a question share.
+/// The values that all pairs of pieces of a query share.
 struct ContactQuestion {
     const Placement* placement;
     ContactOptions options;
@@ -29,7 +29,7 @@ struct ContactQuestion {
     QueryCounts* counts;  ///< or null
 };
 
-/// Answers for one pair of pieces, of which two triangles are within the tolerance.
+/// Returns the contact of two pieces. Two of their triangles are within the tolerance.
 [[nodiscard]] Contact contact_of_pieces(const ContactSide& a, const ContactSide& b,
                                         const NearPieces& near,
                                         const ContactQuestion& question) noexcept;

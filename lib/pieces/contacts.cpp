@@ -11,10 +11,11 @@
 #include "walk/contact_pairs.h"
 #include "walk/near_triangles.h"
 
-// Triangles within the tolerance say which pieces are, each pair of pieces as often as it has
-// such triangles. A walk keeps the smallest pairs of pieces, each once, as many as there is room
-// for, with their nearest triangles; where there are more, another walk takes the next ones. So
-// answers come in order, and memory does not grow with them.
+// Pairs of triangles within the tolerance show which pieces are within it. A pair of pieces occurs
+// once for each such pair of triangles. A walk keeps the smallest pairs of pieces, each once, as
+// many as there is room for. With each it keeps the first pair of triangles, a touching one if
+// there is any. If there are more pairs of pieces, another walk takes the next ones. So the answers
+// come in order, and memory does not grow with their number.
 
 namespace cdprep {
 namespace {
@@ -26,7 +27,7 @@ class Gathered {
 public:
     explicit Gathered(std::span<NearPieces> room) noexcept : room_(room) {}
 
-    /// Forgets all, and from now on takes what is after the last.
+    /// Forgets all, and from now on takes only keys after `last`.
     void begin_after(const std::optional<std::uint64_t>& last) noexcept {
         count_ = 0;
         limit_ = kNoLimit;
@@ -39,12 +40,12 @@ public:
         room_[count_++] = near;
         if (count_ == room_.size()) reduce(room_.size() / 2);
     }
-    /// All that were taken, in order, each once.
+    /// Returns all that were taken, in order, each once.
     [[nodiscard]] std::span<const NearPieces> all() noexcept {
         reduce(room_.size());
         return room_.first(count_);
     }
-    /// Whether greater ones were left out.
+    /// Returns whether greater keys were left out.
     [[nodiscard]] bool is_limited() const noexcept {
         return limit_ != kNoLimit;
     }
@@ -82,7 +83,7 @@ public:
           workspace_(workspace),
           gathered_(workspace.storage().near_pieces) {}
 
-    /// Calls `found` with each contact in order until it returns false; returns false when it did.
+    /// Calls `found` for each contact in order until it returns false; returns false when it did.
     template <class Found>
     bool run(Found&& found) noexcept {
         const ContactQuestion question = {&pair_.placement, options_, pair_.options.degenerate,

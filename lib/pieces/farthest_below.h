@@ -16,14 +16,15 @@
 
 namespace cdprep {
 
-/// How far something reaches along a direction, and where. Pair units, along its model's axes.
+/// The reach of something along a direction, and the point where it is attained. Pair units, along
+/// its model's axes.
 struct Reached {
     double far = -std::numeric_limits<double>::infinity();      ///< nothing is farther
-    double reached = -std::numeric_limits<double>::infinity();  ///< and this far something is
+    double reached = -std::numeric_limits<double>::infinity();  ///< the height of `at`
     Double3 at{};
 };
 
-/// One model's hierarchy over pieces, as a search for its farthest points sees it.
+/// One model's hierarchy over pieces, as used in a search for its farthest points.
 struct TreeSide {
     const Tree& tree;
     const kernels::LeafFrame& leaf;
@@ -34,8 +35,8 @@ struct TreeSide {
 
 using Direction = std::array<float, 3>;
 
-/// How far each box of a node reaches along a direction, or the swept sphere around the same, if
-/// that is less: frame units.
+/// Computes the reach of each box of a node along a direction, or that of its swept sphere if that
+/// is less. Frame units.
 inline void find_reaches(const Tree& tree, std::uint32_t number, const Direction& along,
                          float* reach) noexcept {
     const format::BvhNode& node = tree.nodes[number];
@@ -58,7 +59,7 @@ inline void find_reaches(const Tree& tree, std::uint32_t number, const Direction
     }
 }
 
-/// A triangle's corner of a leaf, where it goes beyond the best.
+/// Updates `best` with the farthest corner of a leaf's triangles, if it is farther.
 inline void offer_leaf(const LeafView& view, const kernels::LeafFrame& frame,
                        const Direction& along, Reached& best) noexcept {
     std::array<float, 3> middle{};
@@ -103,7 +104,8 @@ inline void offer_leaf(const LeafView& view, const kernels::LeafFrame& frame,
     best.at = {coordinate(0), coordinate(1), coordinate(2)};
 }
 
-/// The farthest corner of a hull around what is below a node, likewise.
+/// Updates `best` with the farthest corner of a hull around everything below a node, if it is
+/// farther.
 inline void offer_hull(const TreeSide& side, const format::PieceNodeHull& hull,
                        const Direction& along, Reached& best) noexcept {
     const std::array<double, 3> d = {along[0], along[1], along[2]};
@@ -122,7 +124,7 @@ inline void offer_hull(const TreeSide& side, const format::PieceNodeHull& hull,
     best.at = at;
 }
 
-/// Goes on where a box reaches beyond the best by more than the tolerance.
+/// Descends into boxes that reach beyond the best by more than the tolerance.
 template <class EachView>
 void offer_below(const TreeSide& side, const TreePlace& place, const Direction& along,
                  const EachView& each_view, double tolerance, Reached& best) noexcept {
@@ -157,14 +159,14 @@ void offer_below(const TreeSide& side, const TreePlace& place, const Direction& 
     }
 }
 
-/// Returns how far what is below a place reaches along a direction, or the hull around it, no more
-/// than `tolerance` too far. `each_view(leaf, test)` calls test(view) for a leaf's triangles.
+/// Returns the reach along a direction of what is below a place, or of the hull around it, at most
+/// `tolerance` too large. `each_view(leaf, test)` calls test(view) for a leaf's triangles.
 template <class EachView>
 Reached farthest_below(const TreeSide& side, const TreePlace& place, const Direction& along,
                        const EachView& each_view, double tolerance) noexcept {
     Reached best;
     offer_below(side, place, along, each_view, tolerance, best);
-    // Absurd coordinates reach nowhere: they are to prove nothing.
+    // Coordinates that overflow reach nowhere. They must prove nothing.
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     best.far = best.reached > -kInfinity ? std::max(best.far, best.reached) : kInfinity;
     return best;

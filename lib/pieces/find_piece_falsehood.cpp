@@ -22,7 +22,7 @@ ConvexPoints points_in(std::span<const HullBlock> blocks, std::size_t count) {
     return points;
 }
 
-/// Corners of the triangles below a node.
+/// Returns the corners of the triangles below a node.
 std::vector<Double3> corners_below(const Model& model, std::uint32_t level, std::uint32_t node) {
     const std::uint64_t wide = std::uint64_t{1} << (3 * (level + 1));
     const std::uint64_t last =

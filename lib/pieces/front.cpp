@@ -7,25 +7,26 @@
 
 #include "hull/nearest_simplex.h"
 
-// Rounding. Let v = 2^-24, s_a and s_b the scales, t the shift. When a plane is set, a box's or a
-// swept sphere's reach is off by 20 v of its scale at most, what of a leaf is taken in float by
-// less, hulls and middles are taken in double; the direction along B's axes is off by v in each
-// component, which moves B's reach by 2 v s_b. Together with what moving a plane takes
-// (weak_planes.h: 64 v (s_a + s_b + |t|)) below 96 v (s_a + s_b + |t|): three times BoxPlacement's
-// slack, which also covers that vertices are off their ideal places.
+// Rounding. Let v = 2^-24, s_a and s_b the scales, t the shift. When a plane is set, the reach of a
+// box or a swept sphere is off by at most 20 v of its scale. The reach of a leaf is computed in
+// float and is off by less. Hulls and middles are computed in double. The direction along B's axes
+// is off by v in each component, which moves B's reach by 2 v s_b. Moving a plane adds
+// 64 v (s_a + s_b + |t|) (weak_planes.h). In all that is below 96 v (s_a + s_b + |t|): three times
+// BoxPlacement's slack. That slack also covers vertices that are off their ideal places.
 
 namespace cdprep {
 namespace {
 
-/// A front is begun anew when it has twice as many pairs as when it was, and so many more.
+/// A front is restarted when it has more than twice the pairs of its beginning plus this number.
 constexpr std::uint32_t kMoreBeforeAnew = 64;
-/// 2^0 - 1 questions pass after it was lost, then 2^1 - 1, up to 2^this - 1.
+/// A front that is lost stays unused for 2^0 - 1 queries, after the next loss for 2^1 - 1, up to
+/// 2^this - 1.
 constexpr std::uint32_t kMostFailures = 6;
-/// Times BoxPlacement::slack.
+/// The slack of planes, as a multiple of BoxPlacement::slack.
 constexpr double kSlack = 3;
-/// Of the size of a place: a farthest point is sought no better than so.
+/// The tolerance of a search for a farthest point, as a share of the size of its place.
 constexpr double kTolerance = 0x1p-6;
-/// No rounding makes it longer than 1.
+/// A length that no rounding brings above 1.
 constexpr double kShort = 1 - 0x1p-20;
 
 Direction floats(const Double3& d) noexcept {
@@ -37,7 +38,7 @@ Double3 rounded(const Double3& d) noexcept {
     return {f[0], f[1], f[2]};
 }
 
-/// Not below x, which may be any number.
+/// Returns a float that is not below x, which may be any number.
 float above(double x) noexcept {
     return static_cast<float>(x + 0x1p-22 * std::fabs(x));
 }
@@ -114,7 +115,7 @@ Front::Plane Front::plane_across(const PendingPair& pair, const Double3& d) cons
     return plane;
 }
 
-/// Along A's axes nothing has moved.
+/// Returns a stored plane as it is in this pose. Along A's axes nothing has moved.
 Front::Plane Front::plane_again(std::uint32_t number, const PendingPair& pair) const noexcept {
     Plane plane;
     plane.direction = {at(along, number), at(along + 1, number), at(along + 2, number)};
@@ -136,7 +137,7 @@ Front::Ball Front::ball_around_b(const TreePlace& place) const noexcept {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double lower = b_.scale * double{node.lower[axis][box]};
         const double upper = b_.scale * double{node.upper[axis][box]};
-        // As it will be stored: the reach is from there.
+        // The reach is measured from the middle as it will be stored.
         middle[axis] = double{static_cast<float>((lower + upper) / 2)};
         const double half = std::max(upper - middle[axis], middle[axis] - lower);
         squared += half * half;
@@ -193,9 +194,9 @@ void Front::lose() noexcept {
     kept_.failures = std::min(kept_.failures + 1, kMostFailures);
 }
 
-/// The plane where it was, if it is strong enough there; else a better one, if there is one. Of
-/// two leaves the one across the way between the nearest points so far, or none: to look at their
-/// triangles takes less than a search.
+/// Returns the stored plane if it is strong enough in this pose, otherwise a better one if there is
+/// one. For two leaves, the only other candidate is the plane across the way between the nearest
+/// points so far. Testing their triangles takes less time than a search.
 Front::Plane Front::part(std::uint32_t number, const PendingPair& pair,
                          float limit) const noexcept {
     const Plane again = plane_again(number, pair);
@@ -207,14 +208,14 @@ Front::Plane Front::part(std::uint32_t number, const PendingPair& pair,
     return across_way.gap > again.gap ? across_way : again;
 }
 
-/// Gilbert, Johnson and Keerthi's search for the nearest points, which ends with the first plane
-/// that is strong enough, or when there is none.
+/// Searches for the nearest points by the algorithm of Gilbert, Johnson and Keerthi. Ends with the
+/// first plane that is strong enough, or when there is none.
 Front::Plane Front::search(const PendingPair& pair, const Plane& from, float limit) const noexcept {
     constexpr int kMostSteps = 8;
     NearestSimplex simplex;
     Plane best = from;
     Plane plane = from;
-    plane.of_a = farthest_of_a(pair.a, plane.direction);  // of which its place is not known
+    plane.of_a = farthest_of_a(pair.a, plane.direction);  // its point is not stored
     for (int step = 0; step < kMostSteps; ++step) {
         const Double3 apart = plane.of_a.at - moved_to_a(plane.of_b.at);
         const auto is_known = [&](const Difference& corner) { return corner.at == apart; };

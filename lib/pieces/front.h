@@ -11,54 +11,54 @@
 #include "pieces/farthest_below.h"
 #include "walk/walked_trees.h"
 
-// A front is a set of pairs of places, a cut through the tree of all pairs that a walk of both
-// hierarchies could meet: every pair of leaves is below exactly one of them. Each has a plane
-// between its two places. A plane goes with A, and what it proves of B's place in one pose it
-// proves in every other, less what B has turned (weak_planes.h): so nothing depends on when it was
-// set. A question looks at all planes at once; those that are too weak for it are set anew, or
-// their pair is replaced by its children's.
+// A front is a set of pairs of places: a cut through the tree of all pairs that a walk of both
+// hierarchies could meet. Every pair of leaves is below exactly one of them. Each pair has a plane
+// between its two places. A plane is fixed to A. What it proves of B's place in one pose it proves
+// in every other pose, minus a bound for B's rotation since (weak_planes.h). So nothing depends on
+// when it was set. A query tests all planes at once. A plane that is too weak is computed again, or
+// its pair is replaced by the pairs of its children.
 
 namespace cdprep {
 
-/// How a question to a front ended.
+/// The way in which a query to a front ended.
 enum class FrontEnd : std::uint8_t {
-    whole,  ///< every pair was looked at
-    ended,  ///< who opens pairs wanted no more
-    lost,   ///< the models have jumped, or are near in more places than there is room for: not
-            ///< all was looked at, and it holds nothing any more
+    whole,  ///< every pair was tested
+    ended,  ///< open() returned false
+    lost,   ///< the models have jumped, or are near in more places than there is room for: not all
+            ///< pairs were tested, and the front is now empty
 };
 
-/// Whether it holds anything, of these models.
+/// Returns whether the front is not empty and belongs to these models.
 [[nodiscard]] bool is_of(const PairFront& front, const Model& a, const Model& b) noexcept;
 
-/// Whether it is time to begin it. Counts the question.
+/// Returns whether it is time to begin the front. Counts the query.
 [[nodiscard]] bool is_time_to_begin(PairFront& front) noexcept;
 
-/// A front, for one question.
+/// A front during one query.
 class Front {
 public:
-    /// `way` is a direction from A to B between near points, A's axes, of a length below 1, or
-    /// 0, 0, 0; it may change meanwhile.
+    /// `way` is a direction from A to B between near points, along A's axes, of a length below 1,
+    /// or 0, 0, 0. It may change during the query.
     Front(PairFront& kept, const Model& a, const Model& b, const PlacedBoxes& placed,
           const LeafBatch& leaves, const PieceTrees& trees, Workspace::Storage& scratch,
           const float* way) noexcept;
 
-    /// Forgets all but the roots. Neither model is empty.
+    /// Forgets all pairs but the roots. Neither model is empty.
     void begin() noexcept;
 
-    /// Calls open(pair) for places that may be as near as `limit`, pair units, which may shrink
-    /// meanwhile, until it returns false. What is open stays so.
+    /// Calls open(pair) for places that may be as near as `limit`, in pair units, until it returns
+    /// false. `limit` may shrink meanwhile. An opened pair keeps its plane.
     template <class Open>
     FrontEnd open_near(const float& limit, Open&& open) noexcept;
 
 private:
-    /// Across a direction of a length below 1, and where it stands.
+    /// A plane across a direction of a length below 1, and its position.
     struct Plane {
         Double3 direction{};                                    ///< from A to B, A's axes
         Double3 turned{};                                       ///< the same along B's axes
         Reached of_a;                                           ///< along it
         Reached of_b;                                           ///< against it
-        double gap = -std::numeric_limits<double>::infinity();  ///< proved
+        double gap = -std::numeric_limits<double>::infinity();  ///< proven
     };
     struct Ball {
         Double3 middle;
@@ -79,14 +79,16 @@ private:
     [[nodiscard]] Ball ball_around_b(const TreePlace& place) const noexcept;
     void store(std::uint32_t number, const PendingPair& pair, const Plane& plane) const noexcept;
 
-    /// The weak ones' numbers, in the workspace; begins anew what has grown too large.
+    /// Returns the number of weak planes and stores their numbers in the workspace. Restarts the
+    /// front if it has grown too large.
     [[nodiscard]] std::size_t find_weak(float limit) noexcept;
     void lose() noexcept;
     [[nodiscard]] Plane part(std::uint32_t number, const PendingPair& pair,
                              float limit) const noexcept;
     [[nodiscard]] Plane search(const PendingPair& pair, const Plane& from,
                                float limit) const noexcept;
-    /// Replaces a pair by its children's, of which some wait. False when there is no room.
+    /// Replaces a pair by the pairs of its children, and queues the weak ones. Returns false when
+    /// there is no room.
     [[nodiscard]] bool split(std::uint32_t number, const PendingPair& pair, const Plane& plane,
                              float limit, std::size_t& waiting) noexcept;
 
@@ -105,7 +107,7 @@ private:
 template <class Open>
 FrontEnd Front::open_near(const float& limit, Open&& open) noexcept {
     std::size_t waiting = find_weak(limit);
-    // Moving so many planes takes longer than setting them as the search goes.
+    // Updating more planes than this takes longer than setting them during a search.
     constexpr std::size_t kMostWeak = 128;
     if (waiting > kMostWeak && waiting > kept_.count / 2) {
         lose();

@@ -16,7 +16,7 @@ Box3 around_both(const Box3& x, const Box3& y) {
              std::max(x.upper.z, y.upper.z)}};
 }
 
-/// Whether what two boxes hold is farther apart than `distance` for certain.
+/// Returns whether the contents of two boxes are certainly farther apart than `distance`.
 bool is_beyond(const Box3& x, const Box3& y, double distance) {
     return axis_gap(x, y) > distance * (1 + 0x1p-50);
 }

@@ -7,7 +7,7 @@
 
 namespace cdprep {
 
-// A hull has no neighbours to climb by: its reach is not asked for.
+// A hull has no neighbours to climb, so its reach is never read.
 ConvexPoints hull_points(const format::PieceNodeHull& hull) noexcept {
     ConvexPoints points;
     const std::size_t blocks = (hull.count + format::kHullLanes - 1) / format::kHullLanes;
@@ -17,8 +17,8 @@ ConvexPoints hull_points(const format::PieceNodeHull& hull) noexcept {
     return points;
 }
 
-// From a pair of triangles that touched, boxes around triangles are the nearest way to others;
-// and where nothing touches they are walked as fast.
+// With a cache, boxes around triangles are used. From a pair of triangles that touched, they lead
+// to others fastest. Where nothing touches, they are walked equally fast.
 bool any_contact_of_pieces(const Model& a, const Model& b, const Placement& placement,
                            Workspace& workspace, const PairOptions& options,
                            PairCache* cache) noexcept {

@@ -8,10 +8,10 @@
 
 namespace cdprep {
 
-/// The corners of a hull around a node, as questions about hulls want them.
+/// Returns the corners of a hull around a node in the form for hull queries.
 [[nodiscard]] ConvexPoints hull_points(const format::PieceNodeHull& hull) noexcept;
 
-/// As any_contact(), through pieces.
+/// Returns the result of any_contact(), computed through pieces.
 [[nodiscard]] bool any_contact_of_pieces(const Model& a, const Model& b, const Placement& placement,
                                          Workspace& workspace, const PairOptions& options,
                                          PairCache* cache) noexcept;

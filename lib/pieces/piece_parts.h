@@ -10,8 +10,8 @@
 
 namespace cdprep {
 
-/// What a section holds of a piece: from where the piece begins in it up to where the next does,
-/// or to the end.
+/// Returns the part of a section that belongs to a piece. It ends before the first entry of the
+/// next piece, or at the end of the section.
 template <class T>
 std::span<const T> part_of_piece(std::span<const T> section, const Model& model,
                                  std::uint32_t piece,
