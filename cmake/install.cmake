@@ -20,6 +20,14 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/cdprep.pc DESTINATION ${CMAKE_INSTALL_
 
 if(CDPREP_TOOLS)
     install(TARGETS cdprep_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    set(manuals ${CMAKE_CURRENT_BINARY_DIR}/manuals)
+    install(DIRECTORY ${manuals}/man/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+    install(FILES ${manuals}/completion/cdprep.bash
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME cdprep)
+    install(FILES ${manuals}/completion/_cdprep
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions)
+    install(FILES ${manuals}/completion/cdprep.fish
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
     install(FILES LICENSES/GPL-3.0-or-later.txt DESTINATION ${CMAKE_INSTALL_DOCDIR})
     if(TARGET cdprep-import-child)
         install(TARGETS cdprep-import-child

@@ -23,6 +23,7 @@
 #include "accuracy/accuracy.h"
 #include "accuracy/study_input.h"
 #include "cli/usage.h"
+#include "manuals/command_page.h"
 
 namespace cdprep::cli {
 namespace {
@@ -191,33 +192,47 @@ Exit run(const Arguments& arguments) {
 
 void add_accuracy(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("accuracy", "Show what accuracy costs in time");
-    command->footer(
-        "Asks the same questions about A and B in coarser and finer ways, at seeded poses from\n"
-        "deep in each other to far apart whose exact answers are known, and tells of each way how\n"
-        "long it takes, what it is built of, and how often it is wrong. Promises (an enclosing\n"
-        "shape never misses, an interval holds the truth) are asserted: exit 6 when one breaks.\n"
-        "Times are of one thread of this machine; -j is for what is built before.");
-    command->add_option("A", arguments->a, "The model that stays, a mesh file or a baked file")
+    CLI::App* command = app.add_subcommand("accuracy", "Measure what accuracy costs in time");
+    set_notes(*command,
+              "Answers the same queries about A and B in several ways, from coarse to exact, at "
+              "seeded poses whose exact answers are known. Reports the time, the size and the errors "
+              "of each. The exit code is 6 when a promise breaks: an enclosing shape misses a "
+              "contact, or an interval does not contain the distance. Queries run on one thread; "
+              "--jobs applies to the structures built before.",
+              {"cdprep accuracy arm.obj part.obj --quick",
+               "cdprep accuracy arm.obj part.obj --format html -o cost.html"});
+    command->add_option("A", arguments->a, "The model that stays: a mesh or a baked file")
         ->required();
-    command->add_option("B", arguments->b, "The model that moves, likewise")->required();
-    command->add_option("-o,--output", arguments->output, "A file instead of standard output");
+    command->add_option("B", arguments->b, "The model that moves: a mesh or a baked file")
+        ->required();
+    command->add_option("-o,--output", arguments->output, "The report. Default: standard output")
+        ->type_name("FILE")
+        ->group("Report");
     command
         ->add_option("--save", arguments->saves,
-                     "Another file: .txt, .json, .csv, .svg or .html; may be given again")
-        ->allow_extra_args(false);
-    command->add_flag("--quick", arguments->is_quick,
-                      "Seconds instead of a minute or two: fewer poses, rounds and rungs");
-    command->add_option("--seed", arguments->seed, "Of the poses")->capture_default_str();
+                     "Also write this file: .txt, .json, .csv, .svg or .html. May be repeated")
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->group("Report");
+    command->add_option("--format", arguments->format, "Format of the report")
+        ->type_name("FORMAT")
+        ->check(one_of(std::vector<std::string>(kFormats.begin(), kFormats.end())))
+        ->capture_default_str()
+        ->group("Report");
     command
-        ->add_option("--ladder", arguments->ladders,
-                     "These alone: geometry, distance, predicates, storage, coherence")
+        ->add_flag("--quick", arguments->is_quick,
+                   "Use fewer poses, rounds and rungs: seconds instead of one or two minutes")
+        ->group("Study");
+    command->add_option("--seed", arguments->seed, "Seed of the poses")
+        ->capture_default_str()
+        ->group("Study");
+    command
+        ->add_option("--ladder", arguments->ladders, "Comma-separated ladders. Default: all")
+        ->type_name("LIST")
         ->delimiter(',')
         ->check(one_of(
-            std::vector<std::string>(study::kLadderNames.begin(), study::kLadderNames.end())));
-    command->add_option("--format", arguments->format, "text, json, csv, svg or html")
-        ->check(one_of(std::vector<std::string>(kFormats.begin(), kFormats.end())))
-        ->capture_default_str();
+            std::vector<std::string>(study::kLadderNames.begin(), study::kLadderNames.end())))
+        ->group("Study");
     add_normalize(*command, arguments->load.normalize);
     add_weld(*command, arguments->load.weld_distance);
     add_jobs(*command, arguments->threads);

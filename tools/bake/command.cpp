@@ -12,6 +12,7 @@
 #include "cli/signals.h"
 #include "bake/pipeline.h"
 #include "cli/progress.h"
+#include "manuals/command_page.h"
 #include "text/bounds_name.h"
 #include "text/printable.h"
 #include "cli/usage.h"
@@ -193,47 +194,69 @@ Exit run(Arguments& arguments) {
 
 void add_bake(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("bake", "Turn mesh files into queryable models");
+    CLI::App* command = app.add_subcommand("bake", "Convert mesh files to baked files");
+    set_notes(*command,
+              "The same input, options and version give the same sections, byte for byte. Answers "
+              "never depend on --bounds, --structures or their options: those change speed alone.",
+              {"cdprep bake arm.glb", "cdprep bake *.obj --output-dir baked --effects all",
+               "cdprep bake scan.ply --repair solid --unit mm"});
     command
         ->add_option("input", arguments->inputs,
-                     "Mesh files (OBJ, STL, PLY, OFF, glTF, 3MF and others)")
+                     "Mesh files: OBJ, STL, PLY, OFF, glTF, 3MF and others")
         ->required();
-    CLI::Option* output =
-        command->add_option("-o,--output", arguments->output, "Default: INPUT with .cdp.h5");
-    command->add_option("--output-dir", arguments->output_folder, "Where many outputs go")
-        ->excludes(output);
-    command->add_option("--effects", arguments->effects,
-                        "Comma-separated queries to bake for, or all, with every structure. "
-                        "Default: collide,overlap,distance,within,ray,closest");
+    CLI::Option* output = command
+                              ->add_option("-o,--output", arguments->output,
+                                           "The baked file. Default: the input's name with .cdp.h5")
+                              ->type_name("FILE")
+                              ->group("Output");
+    command
+        ->add_option("--output-dir", arguments->output_folder, "The folder of the baked files")
+        ->type_name("FOLDER")
+        ->excludes(output)
+        ->group("Output");
+    command
+        ->add_option("--effects", arguments->effects,
+                     "Comma-separated queries to bake for, or all, which adds every structure. "
+                     "Default: collide,overlap,distance,within,ray,closest")
+        ->type_name("LIST")
+        ->group("Output");
+    command
+        ->add_flag("--strict", arguments->options.strict,
+                   "Refuse a mesh with warnings or errors of 'cdprep validate' (exit 1)")
+        ->group("Output");
+    command->add_flag("--dry-run", arguments->dry_run, "Print the names of outputs and exit")
+        ->group("Output");
     add_normalize(*command, arguments->options.normalize);
     add_weld(*command, arguments->options.weld_distance);
     command
         ->add_option("--repair", arguments->options.repair,
-                     "Mend first, as 'cdprep repair --preset' does: safe, closed or solid. "
-                     "Numbers are then those of the mended mesh; the file has the old ones too")
-        ->check(one_of({"safe", "closed", "solid"}));
+                     "Repair first, as 'cdprep repair --preset' does. Source numbers are then those "
+                     "of the repaired mesh; the file maps them to the input's")
+        ->type_name("PRESET")
+        ->check(one_of({"safe", "closed", "solid"}))
+        ->group("Mesh");
     command
         ->add_option("--piece-tolerance", arguments->options.piece_tolerance,
-                     "With the effect pieces: let vertices be this much above the triangles of "
-                     "their convex piece, in model units as baked; 0: exact")
+                     "For --effects pieces: the largest height of a vertex above the triangles of "
+                     "its convex piece, in model units; 0: exact")
+        ->type_name("DISTANCE")
         ->check(zero_or_more())
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("Mesh");
     add_max_pairs(*command, arguments->options.max_pairs);
-    command->add_flag("--strict", arguments->options.strict,
-                      "Bake nothing of which 'cdprep validate' finds a warning or more: exit 1");
     command
         ->add_option("--bounds", arguments->bounds,
-                     "Besides aligned boxes, what bounds triangles in pair questions: aabb "
-                     "(nothing), obb (oriented boxes), pss, lss or rss (spheres swept over a "
-                     "point, a line, a rectangle), obb+rss, or auto: obb+rss for distance and "
-                     "within, else obb. No answer depends on it")
+                     "Bounds of triangles besides aligned boxes. aabb: none; obb: oriented boxes; "
+                     "pss, lss, rss: spheres swept over a point, a line, a rectangle; auto: "
+                     "obb+rss with the effects distance and within, else obb")
+        ->type_name("BOUNDS")
         ->check(one_of({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("Structures");
     add_structure_options(*command, arguments->structures);
-    add_jobs(*command, arguments->threads);
-    command->add_flag("--timings", arguments->timings, "Show how long each stage took");
-    command->add_flag("--dry-run", arguments->dry_run, "Say what would become what, and stop");
     add_report_format(*command, arguments->format);
+    add_timings(*command, arguments->timings);
+    add_jobs(*command, arguments->threads);
     add_progress(*command, arguments->progress);
     add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });

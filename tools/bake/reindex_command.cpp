@@ -10,8 +10,8 @@ namespace cdprep::cli {
 void add_reindex(CLI::App& app, Exit& exit) {
     auto file = std::make_shared<std::filesystem::path>();
     CLI::App* command = app.add_subcommand(
-        "reindex", "Make a new section table for a file that another HDF5 tool rewrote");
-    command->add_option("file", *file, "A .cdp.h5 file")->required();
+        "reindex", "Rebuild the section table of a file that another HDF5 tool rewrote");
+    command->add_option("file", *file, "A baked file (.cdp.h5)")->required();
     command->callback([file, &exit] {
         const Result<Done> done = write::reindex_file(*file);
         exit = done ? Exit::success : fail("reindex", done.error());

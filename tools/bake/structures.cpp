@@ -191,59 +191,70 @@ std::vector<report::StructureSettings> settings_of(const StructureChoice& choice
 }
 
 void add_structure_options(CLI::App& command, StructureArguments& arguments) {
-    command.add_option(
-        "--structures", arguments.list,
-        "Which other structures to bake for 'query --structure', with commas: "
-        "octree, octree-adaptive, hashed-octree, tetra-tree, hull; all or none. Default: "
-        "all with --effects all, else none. No answer depends on them");
+    const char* const group = "Structures";
+    command
+        .add_option("--structures", arguments.list,
+                    "Comma-separated structures for 'cdprep query --structure': octree, "
+                    "octree-adaptive, hashed-octree, tetra-tree, hull; or all, or none. Default: "
+                    "all with --effects all, else none")
+        ->type_name("LIST")
+        ->group(group);
     command
         .add_option("--structure-preset", arguments.preset,
-                    "How finely they divide space: tuned (for speed) or paper (512 cells)")
+                    "Fineness of octrees and tetra-trees. tuned: for speed; paper: 512 cells")
+        ->type_name("PRESET")
         ->check(one_of({"tuned", "paper"}))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group(group);
     const auto number = [&](const char* name, std::optional<std::uint32_t>& value,
                             std::uint32_t least, std::uint32_t most, const char* description) {
-        command.add_option(name, value, description)->check(whole_from(least, most));
+        command.add_option(name, value, description)->check(whole_from(least, most))->group(group);
     };
     number("--octree-level", arguments.octree_level, 0, format::kOctreeBits,
-           "All octrees: how often a cell may be divided; else the preset's");
+           "Maximum depth of octrees. Default: by the preset");
     number("--octree-threshold", arguments.octree_threshold, 1, format::kMaxTriangles,
-           "All octrees: a cell with fewer triangles is not divided");
+           "Octrees: do not divide a cell with fewer triangles");
     number("--tetra-level", arguments.tetra_level, 0, format::kMaxTetraLevel,
-           "Tetra-tree: how often a cone may be split; else the preset's");
+           "Maximum depth of the tetra-tree. Default: by the preset");
     number("--tetra-threshold", arguments.tetra_threshold, 1, format::kMaxTriangles,
-           "Tetra-tree: a cone with fewer triangles is not split");
+           "Tetra-tree: do not split a cone with fewer triangles");
     command
-        .add_option(
-            "--split", arguments.split,
-            "Where octree-adaptive splits a cell: at the median of the triangles' middles, or "
-            "at the planes of least area times triangles; else as the preset")
-        ->check(one_of({"median", "area"}));
+        .add_option("--split", arguments.split,
+                    "Split planes of octree-adaptive. median: of the triangles' centres; area: "
+                    "least area times triangles. Default: by the preset")
+        ->type_name("RULE")
+        ->check(one_of({"median", "area"}))
+        ->group(group);
     command
         .add_option("--octree-bounding", arguments.octree_bounding,
-                    "All octrees: what bounds a cell's triangles: boxes, a box around what it "
-                    "holds, or cells, the cell itself; else as the preset")
-        ->check(one_of({"boxes", "cells"}));
+                    "Bounds of an octree cell's triangles. boxes: their bounding box; cells: the "
+                    "cell itself. Default: by the preset")
+        ->type_name("BOUNDS")
+        ->check(one_of({"boxes", "cells"}))
+        ->group(group);
     command
         .add_option("--bounding", arguments.bounding,
-                    "What bounds a cone's triangles: boxes around them, which are fastest; caps, "
-                    "from the nearest to the farthest; or tetra, from the centre, as in the paper; "
-                    "else the preset's: boxes of tuned, caps of paper")
-        ->check(one_of({"boxes", "caps", "tetra"}));
+                    "Bounds of a tetra-tree cone's triangles. boxes: fastest; caps: from the nearest "
+                    "to the farthest point; tetra: from the centre. Default: by the preset")
+        ->type_name("BOUNDS")
+        ->check(one_of({"boxes", "caps", "tetra"}))
+        ->group(group);
     command
         .add_option("--hull-vertices", arguments.hulls.max_vertices,
-                    "Hulls contain the exact ones and have at most so many vertices, 4 or more")
-        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles));
+                    "Maximum number of vertices of a convex hull; it then encloses the exact one")
+        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
+        ->group(group);
     command
         .add_option("--parts", arguments.hulls.parts,
-                    "With the hulls: at most so many convex parts that enclose the mesh, as "
-                    "decompose --parts finds them")
-        ->check(whole_from(1));
+                    "Maximum number of convex parts that enclose the mesh, baked with the hulls")
+        ->check(whole_from(1))
+        ->group(group);
     command
         .add_option("--max-error", arguments.hulls.max_error,
-                    "With the hulls: convex parts that enclose the mesh and stick out by no more "
-                    "than this, in model units as baked")
-        ->check(zero_or_more());
+                    "Maximum distance by which these parts stick out, in model units")
+        ->type_name("DISTANCE")
+        ->check(zero_or_more())
+        ->group(group);
 }
 
 }  // namespace cdprep::cli

@@ -17,9 +17,11 @@ bool colours_allowed() {
 void add_colour(CLI::App& command, std::string& choice) {
     command
         .add_option("--color,--colour", choice,
-                    "Colour the text: auto (a terminal, unless NO_COLOR is set), always or never")
+                    "Colours of text; auto: on a terminal, unless NO_COLOR is set")
+        ->type_name("WHEN")
         ->check(one_of({"auto", "always", "never"}))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("General");
 }
 
 bool is_coloured(const std::string& choice) {

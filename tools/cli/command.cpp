@@ -41,42 +41,56 @@ Exit fail(const char* command, const Error& error) {
 }
 
 void add_input(CLI::App& command, std::filesystem::path& input) {
-    command.add_option("input", input, "A mesh file (OBJ, STL, PLY, OFF, glTF, 3MF and others)")
+    command.add_option("input", input, "A mesh file: OBJ, STL, PLY, OFF, glTF, 3MF and others")
         ->required();
 }
 
 void add_normalize(CLI::App& command, bool& normalize) {
-    command.add_flag("--normalize", normalize, "Fit to a box of diagonal 1, centred");
+    command.add_flag("--normalize", normalize, "Scale to a box of diagonal 1, centred at 0")
+        ->group("Mesh");
 }
 
 void add_weld(CLI::App& command, double& distance) {
-    command.add_option("--weld", distance, "Merge vertices this close, in model units")
+    command.add_option("--weld", distance, "Merge vertices within this distance, in model units")
+        ->type_name("DISTANCE")
         ->check(zero_or_more())
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("Mesh");
 }
 
 void add_max_pairs(CLI::App& command, std::uint64_t& pairs) {
     command
         .add_option("--max-pairs", pairs,
-                    "End the search for crossing triangles soon after so many pairs; counts are "
-                    "then lower bounds, and the report says so. A million pairs take about 0.6 s")
+                    "Stop the search for crossing triangles after N pairs. The report then gives "
+                    "lower bounds and says so. A million pairs take about 0.6 s")
         ->check(whole_from(1, kMostPairs))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("Limits");
 }
 
 void add_jobs(CLI::App& command, std::size_t& threads) {
-    command.add_option("-j,--jobs", threads, "Threads; 0: one per processor")
-        ->check(whole_from(0, kMostThreads));
+    command.add_option("-j,--jobs", threads, "Number of threads; 0: one per processor")
+        ->check(whole_from(0, kMostThreads))
+        ->group("General");
 }
 
 void add_report_format(CLI::App& command, std::string& format) {
-    command.add_option("--format", format, "text or json")
+    command.add_option("--format", format, "Format of the report")
+        ->type_name("FORMAT")
         ->check(one_of({"text", "json"}))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("Report");
+}
+
+void add_timings(CLI::App& command, bool& timings) {
+    command.add_flag("--timings", timings, "Report the time of each stage")->group("Report");
 }
 
 void add_progress(CLI::App& command, std::string& progress) {
-    command.add_option("--progress", progress, "auto, bar, plain or none")->capture_default_str();
+    command.add_option("--progress", progress, "Progress on stderr: auto, bar, plain or none")
+        ->type_name("STYLE")
+        ->capture_default_str()
+        ->group("General");
 }
 
 }  // namespace cdprep::cli

@@ -6,20 +6,9 @@
 #include <string>
 
 #include "cdprep/result.h"
+#include "manuals/exit_codes.h"
 
 namespace cdprep::cli {
-
-/// What the process returns; scripts rely on the numbers.
-enum class Exit : int {
-    success = 0,
-    findings = 1,
-    usage = 2,
-    unreadable = 3,
-    unwritable = 4,
-    over_budget = 5,
-    internal = 6,
-    interrupted = 130,
-};
 
 [[nodiscard]] Exit exit_for(ErrorCode code);
 
@@ -44,6 +33,7 @@ void add_weld(CLI::App& command, double& distance);
 void add_max_pairs(CLI::App& command, std::uint64_t& pairs);
 void add_jobs(CLI::App& command, std::size_t& threads);
 void add_report_format(CLI::App& command, std::string& format);  ///< text or json
+void add_timings(CLI::App& command, bool& timings);
 void add_progress(CLI::App& command, std::string& progress);
 
 /// Each adds its subcommand; its callback stores how it went in `exit`.

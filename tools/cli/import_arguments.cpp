@@ -28,25 +28,38 @@ cdprep::import::ImportOptions ImportArguments::options() const {
 }
 
 void add_import_arguments(CLI::App& command, ImportArguments& arguments) {
+    const char* const group = "Import";
     command
         .add_option("--unit", arguments.unit,
-                    "Unit of the mesh: mm, cm, m, in or ft. Default: what the file says")
-        ->check(one_of({"mm", "cm", "m", "in", "ft"}));
+                    "Length unit of the mesh, instead of the one that the file states")
+        ->type_name("UNIT")
+        ->check(one_of({"mm", "cm", "m", "in", "ft"}))
+        ->group(group);
     command
         .add_option("--up-axis", arguments.up_axis,
-                    "Axis that points up: y or z. Default: what the file says")
-        ->check(one_of({"y", "z"}));
-    command.add_flag("--allow-empty", arguments.allow_empty, "Accept files without a triangle");
+                    "Axis that points up, instead of the one that the file states")
+        ->type_name("AXIS")
+        ->check(one_of({"y", "z"}))
+        ->group(group);
+    command
+        .add_flag("--allow-empty", arguments.allow_empty, "Accept a file without triangles")
+        ->group(group);
     command
         .add_option("--import-memory", arguments.memory_bytes,
-                    "Most memory an import may use, such as 2GB")
-        ->transform(size_to_petabyte());
+                    "Memory limit of an import, such as 2GB")
+        ->type_name("SIZE")
+        ->transform(size_to_petabyte())
+        ->group(group);
     command
         .add_option("--import-file-size", arguments.file_bytes,
-                    "Largest file to import, such as 4GB")
-        ->transform(size_to_petabyte());
-    command.add_option("--import-time", arguments.seconds, "Most seconds an import may take")
-        ->check(whole_from(1, kMostSeconds));
+                    "Size limit of an imported file, such as 4GB")
+        ->type_name("SIZE")
+        ->transform(size_to_petabyte())
+        ->group(group);
+    command.add_option("--import-time", arguments.seconds, "Time limit of an import")
+        ->type_name("SECONDS")
+        ->check(whole_from(1, kMostSeconds))
+        ->group(group);
 }
 
 }  // namespace cdprep::cli

@@ -27,7 +27,8 @@ void add_quiet(CLI::App& command) {
         static Nowhere& nowhere = *new Nowhere;  // outlives the stream, which is flushed last
         std::cout.rdbuf(&nowhere);
     };
-    command.add_flag_callback("-q,--quiet", be_quiet, "Print no report and no progress");
+    command.add_flag_callback("-q,--quiet", be_quiet, "Print no report and no progress")
+        ->group("General");
 }
 
 bool is_quiet() {

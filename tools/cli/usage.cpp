@@ -25,6 +25,12 @@ std::string listed(const std::vector<std::string>& words, const char* conjunctio
     return text;
 }
 
+std::string joined(const std::vector<std::string>& words, const char* separator) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+    return text;
+}
+
 CLI::Validator number_above(double limit, bool may_be_equal, const std::string& wanted) {
     return {[=](std::string& word) -> std::string {
                 double number = 0;
@@ -33,7 +39,7 @@ CLI::Validator number_above(double limit, bool may_be_equal, const std::string& 
                 if (is_number && (number > limit || (may_be_equal && number == limit))) return "";
                 return in_quotes(word) + " is not " + wanted + ".";
             },
-            ""};
+            may_be_equal ? "0 or more" : "above 0"};
 }
 
 /// The command that the arguments came to, "cdprep query collide" with all above it.
@@ -143,11 +149,11 @@ std::string as_sentence(const Reached& at, std::string text) {
 
 CLI::Validator one_of(std::vector<std::string> words) {
     const std::string all = listed(words, "or");
-    return {[words = std::move(words), all](std::string& word) -> std::string {
+    return {[words, all](std::string& word) -> std::string {
                 if (std::find(words.begin(), words.end(), word) != words.end()) return "";
                 return in_quotes(word) + " is not " + all + "." + report::suggestion(word, words);
             },
-            "{" + all + "}"};
+            "{" + joined(words, "|") + "}"};
 }
 
 CLI::Validator whole_from(std::uint64_t least, std::uint64_t most) {
@@ -162,7 +168,8 @@ CLI::Validator whole_from(std::uint64_t least, std::uint64_t most) {
                 if (is_number && number >= least && number <= most) return "";
                 return in_quotes(word) + " is not " + wanted + ".";
             },
-            is_open ? "" : std::to_string(least) + " to " + std::to_string(most)};
+            is_open ? std::to_string(least) + " or more"
+                    : std::to_string(least) + " to " + std::to_string(most)};
 }
 
 CLI::Validator zero_or_more(const char* unit) {
@@ -186,7 +193,7 @@ CLI::Validator size_to_petabyte() {
                 if (typed[0] != '-' && bytes > 0 && bytes <= kPetabyte) return "";
                 return in_quotes(typed) + " is not a size from 1B to 1PB, such as 500MB or 2GB.";
             },
-            "SIZE"};
+            "1B to 1PB"};
 }
 
 CLI::Validator above_zero() {

@@ -18,6 +18,7 @@
 #include "compare/comparison_report.h"
 #include "cli/report_output.h"
 #include "cli/usage.h"
+#include "manuals/command_page.h"
 
 namespace cdprep::cli {
 namespace {
@@ -121,58 +122,79 @@ Exit run(Arguments& arguments) {
 void add_compare(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand(
-        "compare", "Make a comparison paper's tables, and a talk's figures, of these models");
-    command->footer(
-        "Tables 1 to 4: what each strategy can answer, which is tried; what spatial\n"
-        "decompositions cost to build; the same of hulls, hierarchies and convex pieces; what\n"
-        "collisions and overlapping triangles take, pair by pair. The paper's figures stand "
-        "beside\n"
-        "ours where a model has its counts. All models are fitted to a diagonal of 1.\n"
-        "Exits with 6 when an exact strategy gives another answer than the others.");
+        "compare", "Reproduce the tables of two published studies with these models");
+    set_notes(*command,
+              "Tables 1 to 4: what each strategy can answer; the cost of spatial decompositions; "
+              "the cost of hulls, hierarchies and convex pieces; times of collisions and overlapping "
+              "triangles for each pair. Published figures stand beside ours where a model has the "
+              "published counts. Table talk: pruning with hashed octrees. All models are scaled to a "
+              "diagonal of 1. The exit code is 6 when exact strategies disagree.",
+              {"cdprep compare bunny.ply horse.ply --quick",
+               "cdprep compare scans/*.ply --format html -o tables.html"});
     command
         ->add_option("model", arguments->inputs,
-                     "Mesh files (OBJ, STL, PLY, OFF, glTF, 3MF and others)")
+                     "Mesh files: OBJ, STL, PLY, OFF, glTF, 3MF and others")
         ->required();
-    command->add_option("-o,--output", arguments->output, "Default: standard output");
-    command->add_option("--format", arguments->format, "text, json, csv or html")
+    command->add_option("-o,--output", arguments->output, "The tables. Default: standard output")
+        ->type_name("FILE")
+        ->group("Report");
+    command->add_option("--format", arguments->format, "Format of the tables")
+        ->type_name("FORMAT")
         ->check(one_of({"text", "json", "csv", "html"}))
-        ->capture_default_str();
-    command
-        ->add_option("--tables", arguments->tables,
-                     "Which, with commas: 1, 2, 3, 4, talk. Default: all")
+        ->capture_default_str()
+        ->group("Report");
+    command->add_option("--tables", arguments->tables, "Comma-separated tables. Default: all")
+        ->type_name("LIST")
         ->delimiter(',')
-        ->check(one_of({"1", "2", "3", "4", "talk"}));
+        ->check(one_of({"1", "2", "3", "4", "talk"}))
+        ->group("Report");
     ComparisonOptions& options = arguments->options;
     command
         ->add_option("--pairs", arguments->pairs,
-                     "Of Table 4: paper, the pairs that it has; all, every two models; fitting, "
-                     "the first when every model is one of the paper's")
+                     "Pairs of Table 4. paper: the published ones; all: every two models; fitting: "
+                     "paper when every model is a published one, else all")
+        ->type_name("PAIRS")
         ->check(one_of({"fitting", "paper", "all"}))
-        ->capture_default_str();
-    command->add_flag("--quick", options.quick,
-                      "A look: few poses, one round, pairs that have each model once (--pairs "
-                      "paper or all: those), the talk's algorithm to the letter in its own table "
-                      "alone");
+        ->capture_default_str()
+        ->group("Study");
+    command
+        ->add_flag("--quick", options.quick,
+                   "Use few poses, one round, and each model in one pair unless --pairs says paper "
+                   "or all. Skip the literal hashed octree in Table 4")
+        ->group("Study");
     CLI::Option* const drawn =
         command
             ->add_option("--per-stratum", options.per_stratum,
-                         "How many poses a pair in each of five strata, from deep to far. Default: "
-                         "20; quick: 3")
-            ->check(whole_from(1, kMostPoses));
-    command->add_option("--rounds", options.rounds, "Measured how often. Default: 5; quick: 1")
-        ->check(whole_from(1, kMostRounds));
-    CLI::Option* const seed =
-        command->add_option("--seed", options.seed, "Of the poses")->capture_default_str();
+                         "Poses of a pair in each of five strata, from deep to far. Default: 20; "
+                         "with --quick: 3")
+            ->check(whole_from(1, kMostPoses))
+            ->group("Poses");
+    command
+        ->add_option("--rounds", options.rounds,
+                     "Rounds of each measurement. Default: 5; with --quick: 1")
+        ->check(whole_from(1, kMostRounds))
+        ->group("Study");
+    CLI::Option* const seed = command->add_option("--seed", options.seed, "Seed of the poses")
+                                  ->capture_default_str()
+                                  ->group("Poses");
     command
         ->add_option("--poses", options.poses,
-                     "Take them from A-B.pose in this folder instead, for every pair")
+                     "Read the poses of each pair from A-B.pose in this folder")
+        ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory)
         ->excludes(drawn)
-        ->excludes(seed);
-    command->add_option("--save-poses", arguments->poses,
-                        "Write them into this folder: others can then ask at the same ones");
-    command->add_option("--peers", options.peers,
-                        "A program that asks other libraries the same (tests/bench/peers)");
+        ->excludes(seed)
+        ->group("Poses");
+    command
+        ->add_option("--save-poses", arguments->poses,
+                     "Write the poses into this folder, for other programs")
+        ->type_name("FOLDER")
+        ->group("Poses");
+    command
+        ->add_option("--peers", options.peers,
+                     "A program that answers with other libraries (tests/bench/peers)")
+        ->type_name("FILE")
+        ->group("Study");
     add_jobs(*command, options.threads);
     add_progress(*command, arguments->progress);
     add_import_arguments(*command, arguments->import);

@@ -18,6 +18,7 @@
 #include "cli/program_threads.h"
 #include "cli/progress.h"
 #include "decompose/surface/pieces_report.h"
+#include "manuals/command_page.h"
 #include "text/printable.h"
 #include "cli/usage.h"
 #include "write/pieces_file.h"
@@ -184,79 +185,107 @@ Exit run(const CLI::App& command, const Arguments& arguments) {
 
 void add_decompose(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("decompose", "Cut a mesh into convex pieces");
-    command->footer(
-        "Cuts the surface into patches that lie on the boundary of their convex hulls, exactly\n"
-        "or, with --tolerance, nearly. Takes any mesh: borders, edges that are not manifold and\n"
-        "edges whose triangles are wound against each other are never crossed. No name of a node\n"
-        "counts there: a convex body is one piece whatever its name, cut only where it has edges\n"
-        "in common with others, and the hull of one that is not would not lie on it.\n"
-        "With --max-error or --parts, encloses the mesh in few convex pieces instead, which stick\n"
-        "out of the solid by no more than is stated, and proved; components and nodes stay apart,\n"
-        "and nodes named UCX_..., ...-convex or ..._convex become their hulls.\n"
-        "Exits with 1 when it could not be done as asked; what was found is written all the\n"
-        "same. Which node of the file a piece is of is in --table.");
+    CLI::App* command = app.add_subcommand("decompose", "Decompose a mesh into convex pieces");
+    set_notes(*command,
+              "By default, cuts the surface into pieces that lie on their own convex hulls: exactly, "
+              "or within --tolerance. Works for every mesh; no piece crosses a boundary, a "
+              "non-manifold edge or an edge with opposite windings. Names of nodes do not matter.\n\n"
+              "With --max-error or --parts, encloses the solid in few convex pieces instead. The "
+              "distance by which they stick out is proved and reported. Components and nodes stay "
+              "separate. Nodes named UCX_..., ...-convex or ..._convex become their hulls.\n\n"
+              "The exit code is 1 when the request could not be met; the best result is written.",
+              {"cdprep decompose part.obj -o pieces.ply",
+               "cdprep decompose robot.obj -o robot.urdf --max-error 0.5 --unit mm",
+               "cdprep decompose chair.glb -o parts.glb --parts 16 --max-vertices 64"});
     add_input(*command, arguments->input);
-    command->add_option("-o,--output", arguments->output,
-                        "An .obj file with a group for each piece, or a .ply file with colours; "
-                        "of enclosing pieces .obj, .glb, or .urdf, .sdf (with a mesh for each "
-                        "piece beside it), .mjcf, .xml");
-    CLI::Option* exact = command->add_flag("--exact", arguments->exact,
-                                           "Every triangle lies on its hull exactly (the default)");
+    command
+        ->add_option("-o,--output", arguments->output,
+                     "The pieces: .obj with a group for each, or .ply with colours. Enclosing "
+                     "pieces: .obj, .glb, .urdf or .sdf with a mesh beside it for each piece, .mjcf "
+                     "or .xml")
+        ->type_name("FILE")
+        ->group("Output");
+    const char* const surface = "Pieces of the surface";
+    CLI::Option* exact =
+        command
+            ->add_flag("--exact", arguments->exact,
+                       "Pieces that lie on their hulls exactly. This is the default")
+            ->group(surface);
     command
         ->add_option("--tolerance", arguments->tolerance,
-                     "Let vertices be this much above the triangles of their piece, in model "
-                     "units; what was needed is proved and stated")
+                     "Largest height of a vertex above the triangles of its piece, in model units; "
+                     "the height used is proved and reported")
+        ->type_name("DISTANCE")
         ->check(zero_or_more())
-        ->excludes(exact);
+        ->excludes(exact)
+        ->group(surface);
     command
         ->add_option("--order", arguments->order,
-                     "How pieces come about: greedy (patches merge; fewest pieces), depth-first, "
-                     "breadth-first or cresting (patches grow)")
+                     "Algorithm. greedy merges patches and gives the fewest pieces; the others grow "
+                     "patches")
+        ->type_name("ORDER")
         ->check(one_of({"greedy", "depth-first", "breadth-first", "cresting"}))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group(surface);
     EncloseOptions& enclosed = arguments->enclose;
+    const char* const enclosing = "Enclosing pieces";
     command
         ->add_option("--max-error", enclosed.max_error,
-                     "Enclose, with as few pieces as stick out by no more than this, in model "
-                     "units")
+                     "As few pieces as stick out by at most this distance, in model units")
+        ->type_name("DISTANCE")
         ->check(zero_or_more())
-        ->excludes(exact);
+        ->excludes(exact)
+        ->group(enclosing);
     command
         ->add_option("--parts", enclosed.parts,
-                     "Enclose in at most so many pieces that stick out as little as is found")
+                     "At most N pieces that stick out as little as the search finds")
         ->check(whole_from(1))
-        ->excludes(exact);
-    command->add_option("--max-parts", enclosed.max_parts, "An engine's limit, before --max-error")
+        ->excludes(exact)
+        ->group(enclosing);
+    command
+        ->add_option("--max-parts", enclosed.max_parts,
+                     "An engine's limit of pieces; it wins over --max-error")
         ->check(whole_from(1))
-        ->excludes(exact);
+        ->excludes(exact)
+        ->group(enclosing);
     command
         ->add_option("--max-vertices", enclosed.max_vertices,
-                     "An engine's limit of vertices a piece, at least 4")
-        ->check(whole_from(convex::kFewestEnclosingVertices, 1U << 30U));
+                     "An engine's limit of vertices per piece")
+        ->check(whole_from(convex::kFewestEnclosingVertices, 1U << 30U))
+        ->group(enclosing);
     command
         ->add_option("--work", enclosed.work,
-                     "How much may be looked at in all, some ten nanoseconds of a core each; when "
-                     "that is too little, what is found is looser")
-        ->capture_default_str();
-    command->add_flag("--to-surface", enclosed.to_surface,
-                      "Measure from the surface alone: sheets, hollow bodies");
-    command->add_flag("--merge-components", enclosed.merge_components,
-                      "Pieces may take in several components and nodes");
+                     "Search budget, in steps of about 10 ns; a smaller one gives a looser result")
+        ->capture_default_str()
+        ->group(enclosing);
     command
-        ->add_option("--density", enclosed.density,
-                     "Kilograms per cubic metre, for the mass in .urdf, .sdf, .mjcf")
+        ->add_flag("--to-surface", enclosed.to_surface,
+                   "Measure from the surface, not the solid: for sheets and hollow bodies")
+        ->group(enclosing);
+    command
+        ->add_flag("--merge-components", enclosed.merge_components,
+                   "Let a piece enclose several components and nodes")
+        ->group(enclosing);
+    const char* const physics = "Robot and physics files";
+    command
+        ->add_option("--density", enclosed.density, "Density for masses, in kg per cubic metre")
         ->check(above_zero())
-        ->capture_default_str();
-    command->add_flag("!--no-visual", enclosed.has_visual,
-                      ".urdf and .sdf show nothing, instead of a copy of the mesh");
-    command->add_flag("--strict", enclosed.strict,
-                      "Write no .urdf, .sdf or .mjcf of a mesh whose unit nobody says: exit 1");
-    command->add_flag("--table", arguments->table, "Report every piece");
+        ->capture_default_str()
+        ->group(physics);
+    command
+        ->add_flag("!--no-visual", enclosed.has_visual,
+                   "Leave the visual mesh out of .urdf and .sdf")
+        ->group(physics);
+    command
+        ->add_flag("--strict", enclosed.strict,
+                   "Refuse .urdf, .sdf and .mjcf of a mesh without a unit (exit 1)")
+        ->group(physics);
+    command->add_flag("--table", arguments->table, "Report every piece and its node")
+        ->group("Report");
+    add_report_format(*command, arguments->format);
     add_normalize(*command, arguments->load.normalize);
     add_weld(*command, arguments->load.weld_distance);
     add_jobs(*command, arguments->threads);
-    add_report_format(*command, arguments->format);
     add_progress(*command, arguments->progress);
     add_import_arguments(*command, arguments->import);
     command->callback([command, arguments, &exit] { exit = run(*command, *arguments); });

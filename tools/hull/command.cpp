@@ -11,6 +11,7 @@
 #include "cli/import_arguments.h"
 #include "cli/signals.h"
 #include "cli/load_mesh.h"
+#include "manuals/command_page.h"
 #include "mesh/weld.h"
 #include "cli/output_path.h"
 #include "cli/program_threads.h"
@@ -138,28 +139,35 @@ Exit run(const Arguments& arguments) {
 
 void add_hull(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("hull", "Write the convex hull of a mesh");
-    command->footer(
-        "Exact: its points are vertices of the mesh, and no vertex is outside, not by a bit.\n"
-        "With --max-vertices a hull of so many points contains the exact one; how far it is\n"
-        "from that at most is proved and stated. Points, segments and polygons are hulls too.");
+    CLI::App* command = app.add_subcommand("hull", "Compute the convex hull of a mesh");
+    set_notes(*command,
+              "The hull is exact: its points are vertices of the mesh, and no vertex lies outside. "
+              "With --max-vertices, the hull encloses the exact one; its largest distance from that "
+              "is proved and reported. Points, segments and polygons have hulls too.",
+              {"cdprep hull scan.ply -o hull.obj",
+               "cdprep hull robot.glb -o hulls.obj --per node --max-vertices 64"});
     add_input(*command, arguments->input);
     command
         ->add_option("-o,--output", arguments->output,
-                     "An .obj file with a group for each hull, or a .ply, .stl or .off file")
-        ->required();
+                     "The hulls: .obj with a group for each, or .ply, .stl or .off")
+        ->type_name("FILE")
+        ->required()
+        ->group("Output");
     command
         ->add_option("--max-vertices", arguments->max_vertices,
-                     "Enclose the exact hull in one with at most so many vertices; 4 or more")
-        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles));
+                     "Maximum number of vertices; the hull then encloses the exact one")
+        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
+        ->group("Hull");
     command
         ->add_option("--per", arguments->scope,
                      "One hull for the whole mesh, for each component of triangles that share "
                      "vertices, or for each node of the file")
+        ->type_name("SCOPE")
         ->check(one_of({"whole", "component", "node"}))
-        ->capture_default_str();
-    add_jobs(*command, arguments->threads);
+        ->capture_default_str()
+        ->group("Hull");
     add_report_format(*command, arguments->format);
+    add_jobs(*command, arguments->threads);
     add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

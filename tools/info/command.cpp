@@ -16,6 +16,7 @@
 #include "cli/open_for.h"
 #include "cli/program_threads.h"
 #include "info/info_report.h"
+#include "manuals/command_page.h"
 
 namespace cdprep::cli {
 namespace {
@@ -70,9 +71,13 @@ Exit run(const Arguments& arguments) {
 
 void add_info(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("info", "Show what a baked file holds and promises");
-    command->add_option("file", arguments->file, "A .cdp.h5 file")->required();
-    command->add_flag("--deep", arguments->deep, "Prove that the content is right, not only safe");
+    CLI::App* command = app.add_subcommand("info", "Show the content of a baked file");
+    set_notes(*command, "", {"cdprep info arm.cdp.h5", "cdprep info arm.cdp.h5 --deep"});
+    command->add_option("file", arguments->file, "A baked file (.cdp.h5)")->required();
+    command
+        ->add_flag("--deep", arguments->deep,
+                   "Prove that the content is correct; opening proves only that it is safe")
+        ->group("Report");
     add_report_format(*command, arguments->format);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

@@ -12,13 +12,15 @@ report::AnswerFormat parse_answer_format(const std::string& word) {
 }
 
 void add_answer_format(CLI::App& command, std::string& word) {
-    command.add_option("--format", word, "text, json or ndjson")
+    command.add_option("--format", word, "Format of the answers")
+        ->type_name("FORMAT")
         ->check(one_of({"text", "json", "ndjson"}))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("Report");
 }
 
 void add_query(CLI::App& app, Exit& exit) {
-    CLI::App* query = app.add_subcommand("query", "Ask baked files");
+    CLI::App* query = app.add_subcommand("query", "Query baked files");
     query->require_subcommand(1);
     add_pair_questions(*query, exit);
     add_contacts(*query, exit);

@@ -9,6 +9,7 @@
 #include "cdprep/contacts.h"
 #include "cli/signals.h"
 #include "cli/open_for.h"
+#include "manuals/command_page.h"
 #include "query/command.h"
 #include "query/query_placements.h"
 #include "query/query_structure.h"
@@ -72,23 +73,30 @@ Exit run(const Arguments& arguments) {
 
 void add_contacts(CLI::App& query, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = query.add_subcommand(
-        "contacts", "Where and along what normals do A and B touch, or nearly?");
-    command->add_option("a", arguments->a, "A file baked with the effect contacts")->required();
-    command->add_option("b", arguments->b, "A file baked with the effect contacts")->required();
+    CLI::App* command =
+        query.add_subcommand("contacts", "Compute contact points, normals and depths of two models");
+    set_notes(*command, "",
+              {"cdprep query contacts arm.cdp.h5 part.cdp.h5 --poses poses.txt --tolerance 0.01"});
+    command->add_option("a", arguments->a, "A file baked with --effects contacts")->required();
+    command->add_option("b", arguments->b, "A file baked with --effects contacts")->required();
     add_placements(*command, arguments->placement);
     command
         ->add_option("--tolerance", arguments->tolerance,
-                     "The distance of two pieces that still counts, model units")
+                     "Largest distance of two pieces that counts, in model units")
+        ->type_name("DISTANCE")
         ->check(zero_or_more())
-        ->required();
-    command->add_flag("--manifold", arguments->manifold,
-                      "Up to four points for each pair of pieces");
-    command->add_flag("--skip-degenerate", arguments->skip_degenerate,
-                      "Leave triangles with collinear corners out of answers");
+        ->required()
+        ->group("Query");
+    command
+        ->add_flag("--manifold", arguments->manifold, "List up to four points per pair of pieces")
+        ->group("Query");
+    command
+        ->add_flag("--skip-degenerate", arguments->skip_degenerate,
+                   "Ignore triangles with collinear corners")
+        ->group("Query");
     add_structure(*command, arguments->structure,
-                  "Through what pieces that are near are found: bvh, the faster, or pieces. The "
-                  "answers are the same");
+                  "Structure that finds near pieces: bvh, which is faster, or pieces. Both give the "
+                  "same answers");
     add_answer_format(*command, arguments->format);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

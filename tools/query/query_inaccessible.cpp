@@ -8,6 +8,7 @@
 #include "query/inaccessible.h"
 #include "cli/open_for.h"
 #include "cli/program_threads.h"
+#include "manuals/command_page.h"
 #include "query/command.h"
 #include "query/inaccessible_report.h"
 #include "write/coloured_file.h"
@@ -75,13 +76,17 @@ Exit run(const Arguments& arguments) {
 void add_inaccessible(CLI::App& query, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = query.add_subcommand(
-        "inaccessible",
-        "Which triangles does nothing reach that comes straight towards the tetra-tree's centre?");
+        "inaccessible", "List triangles occluded along every ray to the tetra-tree's centre");
+    set_notes(*command, "", {"cdprep query inaccessible arm.cdp.h5 --export occluded.ply"});
     command->add_option("model", arguments->model, "A file baked with --structures tetra-tree")
         ->required();
-    command->add_option("--export", arguments->coloured,
-                        "Also write the model with those triangles coloured: .ply or .obj");
-    command->add_flag("--count", arguments->count, "Count them, do not list them");
+    command
+        ->add_option("--export", arguments->coloured,
+                     "Also write the model with these triangles in colour: .ply or .obj")
+        ->type_name("FILE")
+        ->group("Report");
+    command->add_flag("--count", arguments->count, "Count the triangles, do not list them")
+        ->group("Query");
     add_jobs(*command, arguments->threads);
     add_answer_format(*command, arguments->format);
     command->callback([arguments, &exit] { exit = run(*arguments); });

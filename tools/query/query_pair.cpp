@@ -23,6 +23,7 @@
 #include "cdprep/pairs.h"
 #include "cli/signals.h"
 #include "cli/open_for.h"
+#include "manuals/command_page.h"
 #include "query/command.h"
 #include "query/query_placements.h"
 #include "query/query_structure.h"
@@ -481,49 +482,88 @@ Exit run(const Arguments& arguments) {
 }
 
 void add_as(CLI::App& command, Arguments& arguments) {
-    command.add_option("--as", arguments.as, "surface or solid")
+    command.add_option("--as", arguments.as, "Meaning of a model: its triangles, or also the inside")
+        ->type_name("BODY")
         ->check(one_of({"surface", "solid"}))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("Query");
 }
 
 void add_contact_options(CLI::App& command, Arguments& arguments) {
     add_as(command, arguments);
-    command.add_option("--contact", arguments.contact, "closed: touching counts; or proper")
+    command
+        .add_option("--contact", arguments.contact,
+                    "Meaning of overlap. closed: touching counts; proper: crossing or shared area")
+        ->type_name("CONTACT")
         ->check(one_of({"closed", "proper"}))
-        ->capture_default_str();
-    command.add_flag("--skip-degenerate", arguments.skip_degenerate,
-                     "Leave triangles with collinear corners out of answers");
+        ->capture_default_str()
+        ->group("Query");
+    command
+        .add_flag("--skip-degenerate", arguments.skip_degenerate,
+                  "Ignore triangles with collinear corners")
+        ->group("Query");
 }
 
 void add_distance_options(CLI::App& command, Arguments& arguments) {
     if (arguments.question == Question::within) {
         command
             .add_option("--tolerance", arguments.tolerance,
-                        "The distance that still counts, model units")
+                        "Largest distance that counts, in model units")
+            ->type_name("DISTANCE")
             ->check(zero_or_more())
-            ->required();
-        CLI::Option* pairs =
-            command.add_flag("--pairs", arguments.pairs,
-                             "Which triangles are within the tolerance, not only whether any is");
-        command.add_flag("--count", arguments.count, "Count those pairs, do not list them")
-            ->excludes(pairs);
+            ->required()
+            ->group("Query");
+        CLI::Option* pairs = command
+                                 .add_flag("--pairs", arguments.pairs,
+                                           "List all triangle pairs within the tolerance")
+                                 ->group("Query");
+        command.add_flag("--count", arguments.count, "Count these pairs")
+            ->excludes(pairs)
+            ->group("Query");
         return;
     }
     command
         .add_option("--relative-error", arguments.errors.relative_error,
-                    "Upper may exceed lower by this share of lower")
+                    "Largest width of the interval, as a share of its lower bound")
+        ->type_name("SHARE")
         ->check(zero_or_more())
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("Query");
     command
         .add_option("--absolute-error", arguments.errors.absolute_error,
-                    "Upper may exceed lower by this, model units")
+                    "Largest width of the interval, in model units")
+        ->type_name("DISTANCE")
         ->check(zero_or_more())
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("Query");
     add_as(command, arguments);
     command
         .add_option("--max-distance", arguments.errors.max_distance,
-                    "Nothing beyond is of interest, model units")
-        ->check(zero_or_more());
+                    "Stop at this distance, in model units; larger ones are not reported")
+        ->type_name("DISTANCE")
+        ->check(zero_or_more())
+        ->group("Query");
+}
+
+/// The structures that serve a question, for help.
+const char* structure_text(Question question) {
+    switch (question) {
+        case Question::collide:
+            return "Structure of both files to search: bvh; octree, octree-adaptive, hashed-octree "
+                   "or tetra-tree (bake --structures); or pieces (bake --effects pieces). All give "
+                   "the same answers. hull: test the convex hulls instead";
+        case Question::overlap:
+            return "Structure of both files to search: bvh; octree, octree-adaptive, hashed-octree "
+                   "or tetra-tree (bake --structures); or pieces (bake --effects pieces). All give "
+                   "the same answers. hashed-octree-literal: a published search that misses pairs";
+        case Question::distance:
+            return "Structure of both files to search: bvh, or pieces (bake --effects pieces). Both "
+                   "give the same answers. hull: distance of the convex hulls (bake --structures "
+                   "hull)";
+        default:
+            return "Structure of both files to search: bvh, or pieces (bake --effects pieces). Both "
+                   "give the same answers";
+    }
 }
 
 void add_question(CLI::App& query, Question question, const char* name, const char* description,
@@ -531,38 +571,30 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
     auto arguments = std::make_shared<Arguments>();
     arguments->question = question;
     CLI::App* command = query.add_subcommand(name, description);
+    set_notes(*command, "",
+              {"cdprep query " + std::string(name) + " arm.cdp.h5 part.cdp.h5 --pose " +
+               "'1 0 0 0 1 0 0 0 1 0.1 0 0'" +
+               (question == Question::within ? " --tolerance 0.5" : "")});
     command->add_option("a", arguments->a, "The first baked model")->required();
     command->add_option("b", arguments->b, "The second baked model")->required();
     add_placements(*command, arguments->placement);
+    add_structure(*command, arguments->structure, structure_text(question));
     if (question == Question::collide || question == Question::overlap) {
-        add_structure(*command, arguments->structure,
-                      question == Question::collide
-                          ? "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or "
-                            "tetra-tree, for which bake both with --structures, or pieces, with "
-                            "--effects pieces. The answers are the same, but for hull: do the "
-                            "convex hulls touch?"
-                          : "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or "
-                            "tetra-tree, for which bake both with --structures, or pieces, with "
-                            "--effects pieces; all with the same answers; or "
-                            "hashed-octree-literal, which misses pairs and is for studies");
         add_structure_steps(*command, arguments->structure);
-    } else {
-        add_structure(
-            *command, arguments->structure,
-            question == Question::distance
-                ? "Through what to ask: bvh, or pieces, with the same answers: bake both with "
-                  "--effects pieces; or hull: how far the convex hulls are apart: --structures hull"
-                : "Through what to ask: bvh, or pieces, with the same answers: bake both with "
-                  "--effects pieces");
     }
     add_answer_format(*command, arguments->format);
-    command->add_option("--repeat", arguments->repeat, "Ask each pose this often, for --timings")
+    command
+        ->add_option("--repeat", arguments->repeat, "Repeat each query N times, for --timings")
         ->check(whole_from(1, 1'000'000'000))
-        ->capture_default_str();
-    command->add_flag("--timings", arguments->timings, "What the questions took, to stderr");
-    command->add_flag("--counts", arguments->counts,
-                      "What was tested, of boxes and triangles or of hulls, and which stage "
-                      "decided, to stderr");
+        ->capture_default_str()
+        ->group("Report");
+    command->add_flag("--timings", arguments->timings, "Print times of the queries to stderr")
+        ->group("Report");
+    command
+        ->add_flag("--counts", arguments->counts,
+                   "Print to stderr how many boxes, triangles and hulls were tested, and which stage "
+                   "decided")
+        ->group("Report");
     if (question == Question::collide || question == Question::overlap) {
         add_contact_options(*command, *arguments);
     } else {
@@ -571,17 +603,21 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
     if (question == Question::collide) {
         command
             ->add_option("--level-of-detail", arguments->level_of_detail,
-                         "Ask the facets of this level of both tetra-trees alone: yes, no or "
-                         "unknown of the solids, and how far facets are from the surfaces")
-            ->check(whole_from(0U, format::kMaxTetraLevel));
+                         "Test the facets of this level of both tetra-trees instead. The answer is "
+                         "yes, no or unknown, with the distance of the facets from the surfaces")
+            ->type_name("LEVEL")
+            ->check(whole_from(0U, format::kMaxTetraLevel))
+            ->group("Structure");
     }
     if (question == Question::overlap) {
         CLI::Option* count =
-            command->add_flag("--count", arguments->count, "Count the pairs, do not list them");
+            command->add_flag("--count", arguments->count, "Count the pairs, do not list them")
+                ->group("Query");
         command
             ->add_flag("--segments", arguments->segments,
-                       "Each pair with the segment in which the two triangles meet")
-            ->excludes(count);
+                       "Also list the segment in which each pair of triangles meets")
+            ->excludes(count)
+            ->group("Query");
     }
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
@@ -589,10 +625,12 @@ void add_question(CLI::App& query, Question question, const char* name, const ch
 }  // namespace
 
 void add_pair_questions(CLI::App& query, Exit& exit) {
-    add_question(query, Question::collide, "collide", "Do A and B touch?", exit);
-    add_question(query, Question::overlap, "overlap", "Which triangles of A and B overlap?", exit);
-    add_question(query, Question::distance, "distance", "How far are A and B apart?", exit);
-    add_question(query, Question::within, "within", "Are A and B within a tolerance?", exit);
+    add_question(query, Question::collide, "collide", "Test whether two models collide", exit);
+    add_question(query, Question::overlap, "overlap", "List the overlapping triangles of two models",
+                 exit);
+    add_question(query, Question::distance, "distance", "Compute the distance of two models", exit);
+    add_question(query, Question::within, "within", "Test whether two models are within a distance",
+                 exit);
 }
 
 }  // namespace cdprep::cli

@@ -39,20 +39,31 @@ Result<std::vector<Placement>> placements_of(const PlacementWords& words) {
 }
 
 void add_placements(CLI::App& command, PlacementWords& words) {
-    CLI::Option* poses = command.add_option("--poses", words.poses,
-                                            "File of poses of B in A's frame, 12 numbers a line");
-    CLI::Option* pose = command.add_option("--pose", words.pose, "One pose: R row by row, then T");
+    const char* const group = "Placement";
+    CLI::Option* poses =
+        command
+            .add_option("--poses", words.poses,
+                        "A file with poses of B in A's frame: 12 numbers per line, R by rows, then T")
+            ->type_name("FILE")
+            ->group(group);
+    CLI::Option* pose = command.add_option("--pose", words.pose, "One such pose")
+                            ->type_name("POSE")
+                            ->group(group);
     poses->excludes(pose);
-    for (CLI::Option* world : {command.add_option("--pose-a", words.pose_a, "World pose of A"),
-                               command.add_option("--pose-b", words.pose_b, "World pose of B")}) {
+    for (CLI::Option* world :
+         {command.add_option("--pose-a", words.pose_a, "Pose of A in the world"),
+          command.add_option("--pose-b", words.pose_b, "Pose of B in the world")}) {
+        world->type_name("POSE")->group(group);
         world->excludes(poses);
         world->excludes(pose);
     }
     command
         .add_option("--placement", words.placement,
-                    "With two world poses: relative moves B, world moves both")
+                    "With two world poses. relative: move B by the relative pose; world: move both")
+        ->type_name("KIND")
         ->check(one_of({"relative", "world"}))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group(group);
 }
 
 }  // namespace cdprep::cli

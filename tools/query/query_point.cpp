@@ -12,6 +12,7 @@
 #include "cdprep/points.h"
 #include "cli/signals.h"
 #include "cli/open_for.h"
+#include "manuals/command_page.h"
 #include "query/points_file.h"
 #include "query/command.h"
 #include "query/query_structure.h"
@@ -51,6 +52,7 @@ struct Question {
     Result<std::vector<Place>> (*read)(const std::filesystem::path&);
     std::span<const Structure> serving;  ///< through what it can be asked
     const char* structure_description;
+    const char* example;
     bool can_export;  ///< the places, in colours
     /// Returns the number of the shade in which the place is exported.
     std::uint8_t (*ask)(const Model&, const Place&, Structure, Workspace&, std::size_t number,
@@ -82,38 +84,41 @@ constexpr std::array<Structure, 5> kServingInside = {
 constexpr std::span<const Structure> kBvhAlone = std::span(kServingInside).first(1);
 
 constexpr const char* kThroughInside =
-    "Through what to ask: bvh, octree, octree-adaptive, hashed-octree or tetra-tree; bake it with "
-    "--structures. The answers are the same";
-constexpr const char* kThroughBvh = "bvh: no other serves this question";
+    "Structure to search: bvh, or octree, octree-adaptive, hashed-octree or tetra-tree (bake "
+    "--structures). All give the same answers";
+constexpr const char* kThroughBvh = "Structure to search: bvh, the only one for this query";
 
 constexpr Question<Double3> kInside = {"inside",
                                        Ask::inside,
-                                       "Which points are inside?",
+                                       "Test whether points are inside a model",
                                        "--points",
-                                       "File of points, 3 numbers a line",
+                                       "A file with points: 3 numbers per line",
                                        read_points,
                                        kServingInside,
                                        kThroughInside,
+                                       "cdprep query inside arm.cdp.h5 --points points.txt",
                                        true,
                                        ask_inside};
 constexpr Question<Double3> kClosest = {"closest",
                                         Ask::closest,
-                                        "What is nearest to each point?",
+                                        "Find the closest point of a model to each point",
                                         "--points",
-                                        "File of points, 3 numbers a line",
+                                        "A file with points: 3 numbers per line",
                                         read_points,
                                         kBvhAlone,
                                         kThroughBvh,
+                                        "cdprep query closest arm.cdp.h5 --points points.txt",
                                         false,
                                         ask_closest};
 constexpr Question<Ray> kRay = {"ray",
                                 Ask::ray,
-                                "What does each ray meet first?",
+                                "Find the first triangle that each ray hits",
                                 "--rays",
-                                "File of rays, 6 numbers a line: origin, direction",
+                                "A file with rays: 6 numbers per line, origin and direction",
                                 read_rays,
                                 kBvhAlone,
                                 kThroughBvh,
+                                "cdprep query ray arm.cdp.h5 --rays rays.txt",
                                 false,
                                 ask_ray};
 
@@ -158,12 +163,18 @@ void add_question(CLI::App& query, const Question<Place>& question, Exit& exit) 
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = query.add_subcommand(question.name, question.description);
     command->add_option("model", arguments->model, "A baked model")->required();
+    set_notes(*command, "", {question.example});
     command->add_option(question.option, arguments->places, question.option_description)
-        ->required();
+        ->type_name("FILE")
+        ->required()
+        ->group("Query");
     if (question.can_export) {
-        command->add_option("--export", arguments->coloured,
-                            "Also write the points in colours, .ply or .obj: inside red, outside "
-                            "grey, on the surface yellow, unknown blue");
+        command
+            ->add_option("--export", arguments->coloured,
+                         "Also write the points in colours: .ply or .obj. Inside: red; outside: "
+                         "grey; on the surface: yellow; unknown: blue")
+            ->type_name("FILE")
+            ->group("Report");
     }
     add_structure(*command, arguments->structure, question.structure_description);
     add_answer_format(*command, arguments->format);

@@ -63,29 +63,34 @@ Result<StructureOptions> parse_structure(const StructureWords& words, const char
 }
 
 void add_structure(CLI::App& command, StructureWords& words, const char* description) {
-    command.add_option("--structure", words.structure, description)->capture_default_str();
+    command.add_option("--structure", words.structure, description)
+        ->type_name("STRUCTURE")
+        ->capture_default_str()
+        ->group("Structure");
 }
 
 void add_structure_steps(CLI::App& command, StructureWords& words) {
     command
         .add_option("--leaf-test", words.leaf_test,
-                    "How two triangles are tested, not for bvh: guigue-devillers, by the signs of "
-                    "planes (default), or feito, six edges against triangles, as in the paper. "
-                    "They agree always")
-        ->check(one_of({"guigue-devillers", "feito"}));
+                    "Exact test of two triangles, not for bvh and pieces. guigue-devillers: signs "
+                    "of planes (default); feito: six edges against triangles. Both always agree")
+        ->type_name("TEST")
+        ->check(one_of({"guigue-devillers", "feito"}))
+        ->group("Structure");
     command
         .add_option("--descent", words.descent,
-                    "What a pair of cells becomes, for octree, octree-adaptive and tetra-tree: "
-                    "the children of the larger (larger), of A's first (a-first), of B's first "
-                    "(b-first), or of both (default). No answer depends on it")
-        ->check(one_of({"larger", "a-first", "b-first", "both"}));
+                    "Order of descent in octree, octree-adaptive and tetra-tree: into the larger "
+                    "cell, A's first, B's first, or both (default). Answers do not change")
+        ->type_name("ORDER")
+        ->check(one_of({"larger", "a-first", "b-first", "both"}))
+        ->group("Structure");
     command
-        .add_option(
-            "--search", words.search,
-            "How a cell is found, for hashed-octree: in a hash table by a mixed key (default) "
-            "or by the key's modulus, or among sorted leaves with a top table. No answer "
-            "depends on it")
-        ->check(one_of({"sorted", "modulus", "mixed"}));
+        .add_option("--search", words.search,
+                    "Cell search of hashed-octree: sorted leaves with a top table, a hash table by "
+                    "the key's modulus, or by a mixed key (default). Answers do not change")
+        ->type_name("SEARCH")
+        ->check(one_of({"sorted", "modulus", "mixed"}))
+        ->group("Structure");
 }
 
 }  // namespace cdprep::cli

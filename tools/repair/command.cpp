@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "manuals/command_page.h"
 #include "repair/repair.h"
 
 #include <chrono>
@@ -171,44 +172,62 @@ void add_repair(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     arguments->options.seconds = kMostSeconds;
     CLI::App* command =
-        app.add_subcommand("repair", "Mend what is asked, and account for every change");
-    command->footer(
-        "Exits with 1 when the output is not what the preset promises, has no triangle left,\n"
-        "or has more crossings than the input; it is written all the same. 2-manifold is meant by "
-        "vertex numbers, as the output\n"
-        "is stored; validate joins vertices with equal positions first, and may find what was\n"
-        "parted here.");
+        app.add_subcommand("repair", "Repair a mesh and account for every change");
+    set_notes(*command,
+              "The exit code is 1 when the output does not reach the preset's goal, has no triangle "
+              "or has more crossings than the input. The output is written in each case. 2-manifold "
+              "refers to vertex numbers, as the output stores them; validate first merges vertices "
+              "with equal positions, and may report what repair separated.",
+              {"cdprep repair scan.ply -o fixed.ply --preset solid",
+               "cdprep repair part.obj -o part.stl --seam-width 0.01"});
     add_input(*command, arguments->input);
-    command->add_option("-o,--output", arguments->output, "An .obj, .ply, .stl or .off file")
-        ->required();
+    command
+        ->add_option("-o,--output", arguments->output, "The repaired mesh: .obj, .ply, .stl or .off")
+        ->type_name("FILE")
+        ->required()
+        ->group("Output");
+    const char* const group = "Repair";
     CLI::Option* preset =
         command
             ->add_option("--preset", arguments->preset,
-                         "safe: 2-manifold and oriented, nothing moves. closed: and without "
-                         "holes. solid: and without crossings")
+                         "Goal. safe: 2-manifold and oriented, no vertex moves; closed: also "
+                         "without holes; solid: also without crossings")
+            ->type_name("PRESET")
             ->check(one_of({"safe", "closed", "solid"}))
-            ->capture_default_str();
-    command->add_option("--steps", arguments->steps, "Steps by name, with commas, not a preset")
-        ->excludes(preset);
-    add_weld(*command, arguments->options.weld_distance);
+            ->capture_default_str()
+            ->group(group);
+    command
+        ->add_option("--steps", arguments->steps, "Comma-separated steps, instead of a preset")
+        ->type_name("LIST")
+        ->excludes(preset)
+        ->group(group);
     command
         ->add_option("--seam-width,--seam", arguments->options.seam_width,
-                     "Join boundaries this close, in model units")
-        ->check(zero_or_more());
+                     "Join boundaries within this distance, in model units")
+        ->type_name("DISTANCE")
+        ->check(zero_or_more())
+        ->group(group);
     command
         ->add_option("--hole-size", arguments->options.hole_size,
-                     "Close holes whose box has at most this diagonal, in model units")
-        ->check(zero_or_more());
-    command->add_option("--drop-components", arguments->options.least_triangles,
-                        "Leave out components of fewer triangles");
+                     "Close holes whose bounding box has at most this diagonal, in model units")
+        ->type_name("DISTANCE")
+        ->check(zero_or_more())
+        ->group(group);
+    command
+        ->add_option("--drop-components", arguments->options.least_triangles,
+                     "Drop components with fewer than N triangles")
+        ->group(group);
     command
         ->add_option("--time", arguments->options.seconds,
-                     "Seconds after which crossings are left as they are, and that is said")
+                     "Time limit for removing crossings; the report names those that remain")
+        ->type_name("SECONDS")
         ->check(zero_or_more("seconds"))
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group("Limits");
+    add_weld(*command, arguments->options.weld_distance);
     add_max_pairs(*command, arguments->options.max_pairs);
-    add_jobs(*command, arguments->threads);
     add_report_format(*command, arguments->format);
+    add_jobs(*command, arguments->threads);
     add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }

@@ -19,6 +19,7 @@
 #include "cli/input_list.h"
 #include "cli/signals.h"
 #include "cli/progress.h"
+#include "manuals/command_page.h"
 #include "text/printable.h"
 #include "validate/validation_writer.h"
 #include "cli/report_output.h"
@@ -276,66 +277,95 @@ Exit run(Arguments& arguments) {
 }
 
 void add_judging_options(CLI::App& command, Arguments& arguments) {
+    const char* const group = "Rules";
     command
         .add_option("--fail-on", arguments.fail_on,
-                    "error, warning, note or a rule: what makes the exit code 1. May be given "
-                    "again. Default: error")
-        ->allow_extra_args(false);
+                    "Exit with 1 for findings of this severity (error, warning or note) or this "
+                    "rule. May be repeated. Default: error")
+        ->type_name("SEVERITY")
+        ->allow_extra_args(false)
+        ->group(group);
     command
-        .add_option(
-            "--rule", arguments.rules,
-            "RULE=off, note, warn (or warning) or error, for its id or name. May be given again; "
-            "'cdprep explain' lists all")
-        ->allow_extra_args(false);
-    command.add_option("--baseline", arguments.baseline,
-                       "An older report of --format json: only what it lacks is listed and "
-                       "makes the run fail");
+        .add_option("--rule", arguments.rules,
+                    "RULE=SEVERITY: report a rule, by id or name, as off, note, warn, warning or "
+                    "error. May be repeated. 'cdprep explain' lists the rules")
+        ->type_name("SETTING")
+        ->allow_extra_args(false)
+        ->group(group);
+    command
+        .add_option("--baseline", arguments.baseline,
+                    "An earlier report of --format json: only findings that it lacks are listed and "
+                    "count for --fail-on")
+        ->type_name("FILE")
+        ->group(group);
     command
         .add_option("--max-issues", arguments.max_issues,
-                    "Most places to list of each rule in a file; counts stay true. Default: 3 in "
-                    "text, 100 in sarif and junit, else 1000")
-        ->check(whole_from(0, kMostPlaces));
+                    "Maximum number of listed places per rule and file; counts are not limited. "
+                    "Default: 3 for text, 100 for sarif and junit, else 1000")
+        ->check(whole_from(0, kMostPlaces))
+        ->group("Report");
     command
         .add_option("--weld", arguments.options.defects.weld_distance,
-                    "Look for vertices this close, in model units; 0: not")
+                    "Report distinct vertices within this distance, in model units; 0: do not look")
+        ->type_name("DISTANCE")
         ->check(zero_or_more())
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group(group);
     command
         .add_option("--seam-width,--seam", arguments.options.defects.seam_width,
-                    "Look for boundaries this close, in model units; 0: not")
+                    "Report boundaries within this distance, in model units; 0: do not look")
+        ->type_name("DISTANCE")
         ->check(zero_or_more())
-        ->capture_default_str();
+        ->capture_default_str()
+        ->group(group);
     add_max_pairs(command, arguments.options.defects.max_pairs);
-    command.add_flag("--no-crossings", arguments.no_crossings,
-                     "Leave out CDP0403 and CDP0501 to CDP0503; the verdict then says so");
+    command
+        .add_flag("--no-crossings", arguments.no_crossings,
+                  "Skip rules CDP0403 and CDP0501 to CDP0503; the verdict says so")
+        ->group(group);
 }
 
 }  // namespace
 
 void add_validate(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("validate", "Say what is wrong with meshes, and where");
-    command->footer("Triangles and vertices are numbered as in the file, from 0.");
-    command->add_option("input", arguments->inputs,
-                        "Mesh files, folders of them, or patterns such as 'assets/**/*.obj'");
-    CLI::Option* list =
-        command->add_option("--files-from", arguments->files_from,
-                            "A file that lists inputs, a file or folder in each line and no "
-                            "patterns; empty lines are skipped. -: standard input");
+    CLI::App* command = app.add_subcommand("validate", "Report defects of meshes");
+    set_notes(*command,
+              "Triangles and vertices are numbered from 0, as in the file. Without --fail-on the "
+              "exit code is 1 when an error was found.",
+              {"cdprep validate model.obj", "cdprep validate assets --format sarif -o meshes.sarif",
+               "git diff --name-only -z main | cdprep validate --files-from - -0",
+               "cdprep validate scan.ply --html scan.html"});
     command
-        ->add_flag("-0,--null", arguments->null,
-                   "Names in the list end with NUL, as git -z and find -print0 write them")
-        ->needs(list);
-    command->add_option("--format", arguments->format, "text, json, ndjson, sarif or junit")
+        ->add_option("input", arguments->inputs,
+                     "Mesh files, folders, or patterns such as 'assets/**/*.obj'")
+        ->type_name("PATTERN");
+    CLI::Option* list =
+        command
+            ->add_option("--files-from", arguments->files_from,
+                         "Read inputs from a file, one per line; -: standard input")
+            ->type_name("FILE")
+            ->group("Inputs from a list");
+    command->add_flag("-0,--null", arguments->null, "Inputs of the list end with NUL, not newline")
+        ->needs(list)
+        ->group("Inputs from a list");
+    command->add_option("--format", arguments->format, "Format of the report")
+        ->type_name("FORMAT")
         ->check(one_of({"text", "json", "ndjson", "sarif", "junit"}))
-        ->capture_default_str();
-    command->add_option("-o,--output", arguments->output, "Default: standard output");
-    command->add_option("--html", arguments->html,
-                        "Also write one HTML page that draws the meshes and marks what was "
-                        "found; holds all meshes in memory");
+        ->capture_default_str()
+        ->group("Report");
+    command->add_option("-o,--output", arguments->output, "The report. Default: standard output")
+        ->type_name("FILE")
+        ->group("Report");
+    command
+        ->add_option("--html", arguments->html,
+                     "Also write one HTML page that draws the meshes and their defects; this keeps "
+                     "all meshes in memory")
+        ->type_name("FILE")
+        ->group("Report");
     add_judging_options(*command, *arguments);
+    add_timings(*command, arguments->options.run.timings);
     add_jobs(*command, arguments->threads);
-    command->add_flag("--timings", arguments->options.run.timings, "Report how long stages took");
     add_progress(*command, arguments->progress);
     add_colour(*command, arguments->colour);
     add_import_arguments(*command, arguments->import);

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cli/command.h"
+#include "manuals/command_page.h"
 #include "validate/explain.h"
 #include "validate/rule_settings.h"
 
@@ -35,10 +36,10 @@ Exit run(const Arguments& arguments) {
 
 void add_explain(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command =
-        app.add_subcommand("explain", "Say what a rule of validate means, and the way out");
+    CLI::App* command = app.add_subcommand("explain", "Explain a rule of validate");
+    set_notes(*command, "", {"cdprep explain", "cdprep explain CDP0203"});
     command->add_option("rule", arguments->rule,
-                        "An id such as CDP0203, or a name such as sliver; none: list all");
+                        "An id such as CDP0203, or a name such as sliver. Default: list all rules");
     add_report_format(*command, arguments->format);
     command->callback([arguments, &exit] { exit = run(*arguments); });
 }
