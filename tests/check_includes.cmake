@@ -47,14 +47,15 @@ set(tools_rooms
 # A library of others: the pattern of its headers, then the folders that may know it.
 set(libraries
     "xxh:format/src/checksum.cpp"
-    "assimp/|zip\\.h|pugixml:tools/import/child"
+    "assimp/|zip\\.h:tools/import/child"
+    "pugixml:tools/import/child tools/validate tools/write"
     "H5|hdf5:tools/write"
     "CGAL/:tools/decompose/enclose tools/info tools/query tools/repair"
     "Eigen/:tools/mesh"
     "CLI/:tools/cli tools/manuals"
     "tbb/|oneapi/:tools/cli/program_threads.cpp"
-    "nlohmann/:tools/accuracy tools/bake tools/compare tools/decompose tools/hull tools/info\
- tools/page tools/repair tools/text tools/validate")
+    "nlohmann/:tools/accuracy tools/bake tools/compare tools/decompose tools/hull\
+ tools/import/child tools/info tools/page tools/repair tools/text tools/validate tools/write")
 
 set(offences "")
 function(add_offence file hit)

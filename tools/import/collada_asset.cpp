@@ -9,6 +9,8 @@
 namespace cdprep::import {
 namespace {
 
+// Searches the text instead of parsing it: the child parses such files whole, and they are large.
+
 /// What stands between `before` and the next `after`; empty when there is none.
 std::string_view between(std::string_view text, std::string_view before, char after) {
     const std::size_t first = text.find(before);

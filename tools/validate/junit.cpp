@@ -5,6 +5,8 @@
 #include <array>
 #include <charconv>
 #include <optional>
+#include <pugixml.hpp>
+#include <sstream>
 #include <string_view>
 
 #include "text/json_layout.h"
@@ -15,49 +17,41 @@
 namespace cdprep::report {
 namespace {
 
+using pugi::xml_node;
+
 constexpr const char* kReplacement = "\xEF\xBF\xBD";  ///< U+FFFD
 
-/// U+FFFE and U+FFFF are UTF-8, but no XML.
-std::string without_noncharacters(std::string text) {
+/// Replaces characters that XML 1.0 forbids: control characters, U+FFFE and U+FFFF.
+std::string xml_text(std::string_view text) {
+    std::string valid = valid_utf8(text);
     for (const std::string_view unwanted : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {
-        for (std::size_t at = text.find(unwanted); at != std::string::npos;
-             at = text.find(unwanted, at)) {
-            text.replace(at, unwanted.size(), kReplacement);
+        for (std::size_t at = valid.find(unwanted); at != std::string::npos;
+             at = valid.find(unwanted, at)) {
+            valid.replace(at, unwanted.size(), kReplacement);
         }
     }
-    return text;
-}
-
-/// Text that XML 1.0 can hold, within quotes too: what it cannot is replaced.
-std::string escaped(std::string_view text) {
-    std::string xml;
-    for (const char c : without_noncharacters(valid_utf8(text))) {
-        if (c == '&') {
-            xml += "&amp;";
-        } else if (c == '<') {
-            xml += "&lt;";
-        } else if (c == '>') {
-            xml += "&gt;";
-        } else if (c == '"') {
-            xml += "&quot;";
-        } else if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') {
-            xml += kReplacement;
+    std::string result;
+    for (const char c : valid) {
+        if (static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t') {
+            result += kReplacement;
         } else {
-            xml += c;
+            result += c;
         }
     }
-    return xml;
+    return result;
 }
 
-/// An attribute value keeps no line breaks when it is read.
-std::string attribute(const char* name, std::string_view value) {
-    std::string text = escaped(value);
+/// Readers turn line breaks of attributes into blanks.
+void set(xml_node element, const char* attribute, std::string_view value) {
+    std::string text = xml_text(value);
     std::replace(text.begin(), text.end(), '\n', ' ');
-    return std::string(" ") + name + "=\"" + text + "\"";
+    element.append_attribute(attribute).set_value(text.c_str());
 }
 
-std::string element(const char* name, const std::string& attributes, const std::string& text) {
-    return std::string("<") + name + attributes + ">" + escaped(text) + "</" + name + ">";
+xml_node add_element(xml_node parent, const char* name, std::string_view text) {
+    xml_node element = parent.append_child(name);
+    element.text().set(xml_text(text).c_str());
+    return element;
 }
 
 std::optional<std::size_t> finding_of(const ValidationReport& report, mesh::Rule rule) {
@@ -68,37 +62,29 @@ std::optional<std::size_t> finding_of(const ValidationReport& report, mesh::Rule
     return static_cast<std::size_t>(at - findings.begin());
 }
 
-std::string finding_element(const ValidationReport& report, const ValidationRun& run,
-                            std::size_t i) {
+void add_finding(xml_node test_case, const ValidationReport& report, const ValidationRun& run,
+                 std::size_t i) {
     const mesh::Finding& finding = report.defects.findings[i];
     const Judgement& judgement = report.judgements[i];
     const std::string message = std::string(mesh::text_of(finding.rule).title) + ": " +
                                 count_text(finding, judgement.fresh) +
                                 (run.baseline.empty() ? "" : " new");
     const std::string places = places_text(report, i, run.max_places, "");
+    const std::string severity(severity_name(judgement.severity));
     if (!run.rules.fails(finding.rule)) {
-        return element(
-            "system-out", "",
-            std::string(severity_name(judgement.severity)) + ": " + message + "\n" + places);
+        add_element(test_case, "system-out", severity + ": " + message + "\n" + places);
+        return;
     }
-    return element(
-        "failure",
-        attribute("message", message) + attribute("type", severity_name(judgement.severity)),
-        places);
+    const xml_node failure = add_element(test_case, "failure", places);
+    set(failure, "message", message);
+    set(failure, "type", severity);
 }
 
-/// What a rule's test case holds; "" when it passed.
-std::string outcome(const ValidationReport& report, const ValidationRun& run, mesh::Rule rule) {
-    if (run.rules.severity(rule) == mesh::Severity::off) return "<skipped/>";
-    const auto found = finding_of(report, rule);
-    return found ? finding_element(report, run, *found) : "";
-}
-
-std::string test_case(const ValidationReport& report, const std::string& name,
-                      const std::string& outcome) {
-    const std::string begin =
-        "  <testcase" + attribute("classname", report.input) + attribute("name", name);
-    return outcome.empty() ? begin + "/>\n" : begin + ">" + outcome + "</testcase>\n";
+xml_node add_test_case(xml_node suite, const ValidationReport& report, std::string_view name) {
+    const xml_node test_case = suite.append_child("testcase");
+    set(test_case, "classname", report.input);
+    set(test_case, "name", name);
+    return test_case;
 }
 
 /// XML's decimals have no exponent.
@@ -112,39 +98,35 @@ std::string decimal(double seconds) {
     return {digits.data(), end};
 }
 
-struct Suite {
-    std::string cases;
-    std::size_t tests = 0;
-    std::size_t failures = 0;
-    std::size_t errors = 0;
-    std::size_t skipped = 0;
-};
-
-Suite error_suite(const ValidationReport& report) {
-    Suite suite;
-    suite.tests = 1;
-    suite.errors = report.known_error ? 0 : 1;
-    suite.skipped = report.known_error ? 1 : 0;
-    suite.cases = test_case(
-        report, "can be read",
-        report.known_error
-            ? "<skipped" + attribute("message", *report.error) + "/>"
-            : element("error",
-                      attribute("message", *report.error) + attribute("type", "unreadable"),
-                      *report.error));
-    return suite;
+void add_error_case(xml_node suite, const ValidationReport& report) {
+    xml_node test_case = add_test_case(suite, report, "can be read");
+    if (report.known_error) {
+        set(test_case.append_child("skipped"), "message", *report.error);
+        return;
+    }
+    const xml_node error = add_element(test_case, "error", *report.error);
+    set(error, "message", *report.error);
+    set(error, "type", "unreadable");
 }
 
-Suite rule_suite(const ValidationReport& report, const ValidationRun& run) {
-    Suite suite;
+void add_rule_cases(xml_node suite, const ValidationReport& report, const ValidationRun& run) {
     for (const mesh::RuleText& rule : mesh::all_rules()) {
-        const std::string found = outcome(report, run, rule.rule);
-        suite.cases += test_case(report, mesh::id_of(rule.rule) + " " + rule.name, found);
-        ++suite.tests;
-        if (found.starts_with("<failure")) ++suite.failures;
-        if (found.starts_with("<skipped")) ++suite.skipped;
+        xml_node test_case =
+            add_test_case(suite, report, mesh::id_of(rule.rule) + " " + rule.name);
+        if (run.rules.severity(rule.rule) == mesh::Severity::off) {
+            test_case.append_child("skipped");
+        } else if (const auto found = finding_of(report, rule.rule)) {
+            add_finding(test_case, report, run, *found);
+        }
     }
-    return suite;
+}
+
+std::size_t count_cases(xml_node suite, const char* outcome) {
+    std::size_t count = 0;
+    for (const xml_node test_case : suite.children("testcase")) {
+        if (!outcome || test_case.child(outcome)) ++count;
+    }
+    return count;
 }
 
 }  // namespace
@@ -154,18 +136,25 @@ std::string junit_head() {
 }
 
 std::string junit_suite(const ValidationReport& report, const ValidationRun& run) {
-    const Suite suite = report.error ? error_suite(report) : rule_suite(report, run);
-    std::string text = " <testsuite" + attribute("name", report.input) +
-                       attribute("tests", std::to_string(suite.tests)) +
-                       attribute("failures", std::to_string(suite.failures)) +
-                       attribute("errors", std::to_string(suite.errors)) +
-                       attribute("skipped", std::to_string(suite.skipped));
-    if (run.timings) text += attribute("time", decimal(report.seconds));
-    text += ">\n" + suite.cases;
+    pugi::xml_document document;
+    const xml_node suite = document.append_child("testsuite");
+    if (report.error) {
+        add_error_case(suite, report);
+    } else {
+        add_rule_cases(suite, report, run);
+    }
+    set(suite, "name", report.input);
+    set(suite, "tests", std::to_string(count_cases(suite, nullptr)));
+    set(suite, "failures", std::to_string(count_cases(suite, "failure")));
+    set(suite, "errors", std::to_string(count_cases(suite, "error")));
+    set(suite, "skipped", std::to_string(count_cases(suite, "skipped")));
+    if (run.timings) set(suite, "time", decimal(report.seconds));
     std::string remarks;
     for (const std::string& remark : report.remarks) remarks += remark + "\n";
-    if (!remarks.empty()) text += "  " + element("system-out", "", remarks) + "\n";
-    return text + " </testsuite>\n";
+    if (!remarks.empty()) add_element(suite, "system-out", remarks);
+    std::ostringstream text;
+    suite.print(text, " ", pugi::format_default, pugi::encoding_utf8, 1);
+    return text.str();
 }
 
 std::string junit_tail() {

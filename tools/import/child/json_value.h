@@ -2,52 +2,47 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace cdprep::import {
 
-/// A JSON value. Asking a value for what it is not gives an empty value, so that
-/// a path into a hostile document never fails half way.
+/// A value in a JSON document, or none. A member or element that does not exist is none, and so
+/// are its own members: a path into a hostile document never fails half way. The document must
+/// outlive the values.
 class JsonValue {
 public:
-    /// Throws std::runtime_error with the byte where `text` is no JSON, or nested
-    /// deeper than 100.
-    [[nodiscard]] static JsonValue parse(std::string_view text);
+    explicit JsonValue(const nlohmann::json& value) noexcept : value_(&value) {}
 
-    /// The member of an object; of several with one name, the first.
-    [[nodiscard]] const JsonValue& operator[](std::string_view name) const noexcept;
+    /// The member of an object; the last where several have the name.
+    [[nodiscard]] JsonValue operator[](std::string_view name) const;
     /// The element of an array.
-    [[nodiscard]] const JsonValue& operator[](std::size_t i) const noexcept;
-    [[nodiscard]] const std::vector<JsonValue>& items() const noexcept {
-        return items_;
-    }
+    [[nodiscard]] JsonValue operator[](std::size_t i) const noexcept;
+    /// The elements of an array; empty for other values.
+    [[nodiscard]] std::vector<JsonValue> items() const;
 
     [[nodiscard]] bool exists() const noexcept {
-        return kind_ != Kind::none;
+        return value_ != nullptr;
     }
-    [[nodiscard]] bool is_true() const noexcept {
-        return kind_ == Kind::boolean && number_ != 0;
-    }
-    [[nodiscard]] const std::string& text() const noexcept {
-        return text_;
-    }
+    [[nodiscard]] bool is_true() const noexcept;
+    /// The text of a string; empty for other values.
+    [[nodiscard]] const std::string& text() const noexcept;
     [[nodiscard]] double number(double otherwise) const noexcept;
-    /// A whole number from 0 to 2^53, or `otherwise` where there is none. Throws
-    /// std::runtime_error for any other value, with `name` in its text.
+    /// A whole number from 0 to 2^53, or `otherwise` if the value does not exist. Throws
+    /// std::runtime_error with `name` in its text for any other value.
     [[nodiscard]] std::uint64_t count(std::string_view name, std::uint64_t otherwise) const;
 
 private:
-    friend class JsonReader;
-    enum class Kind : std::uint8_t { none, null, boolean, number, text, array, object };
+    JsonValue() = default;
 
-    Kind kind_ = Kind::none;
-    double number_ = 0;  ///< 1 for true
-    std::string text_;
-    std::vector<std::string> names_;  ///< of items_, in objects
-    std::vector<JsonValue> items_;
+    const nlohmann::json* value_ = nullptr;
 };
+
+/// Parses a document. Throws std::runtime_error with the byte where `text` is not JSON or nests
+/// deeper than 100. Accepts zero bytes at the end, which some writers use as padding, and replaces
+/// bytes that are not UTF-8 by U+FFFD.
+[[nodiscard]] nlohmann::json parse_json(std::string_view text);
 
 }  // namespace cdprep::import

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -166,17 +167,17 @@ Matrix rotation(double x, double y, double z, double w) {
             1};
 }
 
-Matrix local_transform(const JsonValue& node) {
+Matrix local_transform(JsonValue node) {
     Matrix result = kIdentity;
-    if (const JsonValue& matrix = node["matrix"]; matrix.exists()) {
+    if (const JsonValue matrix = node["matrix"]; matrix.exists()) {
         for (std::size_t i = 0; i < result.size(); ++i) {
             result[4 * (i % 4) + i / 4] = matrix[i].number(kIdentity[i]);  // column by column
         }
         return result;
     }
-    const JsonValue& shift = node["translation"];
-    const JsonValue& turn = node["rotation"];
-    const JsonValue& scale = node["scale"];
+    const JsonValue shift = node["translation"];
+    const JsonValue turn = node["rotation"];
+    const JsonValue scale = node["scale"];
     if (turn.exists()) {
         result =
             rotation(turn[0].number(0), turn[1].number(0), turn[2].number(0), turn[3].number(1));
@@ -190,10 +191,11 @@ Matrix local_transform(const JsonValue& node) {
     return result;
 }
 
-/// One document with its buffers.
+/// One document with its buffers. Written by hand: tinygltf does not check accessors against their
+/// buffers, and cgltf names neither the place nor the numbers of a mistake.
 class GltfReader {
 public:
-    GltfReader(const std::filesystem::path& path, const JsonValue& root, std::string_view binary,
+    GltfReader(const std::filesystem::path& path, JsonValue root, std::string_view binary,
                InputFiles& files)
         : path_(path), root_(root), binary_(binary), files_(files) {}
 
@@ -207,9 +209,9 @@ public:
         for (std::size_t i = 0; i < root_["materials"].items().size(); ++i) {
             scene_.materials.push_back(name_of("materials", i, "material_"));
         }
-        for (const JsonValue& mesh : root_["meshes"].items()) {
+        for (const JsonValue mesh : root_["meshes"].items()) {
             first_primitive_.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
-            for (const JsonValue& primitive : mesh["primitives"].items()) {
+            for (const JsonValue primitive : mesh["primitives"].items()) {
                 scene_.meshes.push_back(read_primitive(primitive));
             }
         }
@@ -224,7 +226,7 @@ private:
     /// Refuses what would change the geometry and is not read: packed meshes and instances. How a
     /// surface looks and what stands beside it does not matter.
     void check_extensions() const {
-        for (const JsonValue& name : root_["extensionsRequired"].items()) {
+        for (const JsonValue name : root_["extensionsRequired"].items()) {
             const std::string& text = name.text();
             const bool is_harmless =
                 text == "KHR_mesh_quantization" || text == "KHR_lights_punctual" ||
@@ -232,7 +234,7 @@ private:
                 text.starts_with("EXT_texture");
             if (!is_harmless) fail("it needs the extension " + text + ", which is not read");
         }
-        for (const JsonValue& node : root_["nodes"].items()) {
+        for (const JsonValue node : root_["nodes"].items()) {
             const std::string_view instancing = "EXT_mesh_gpu_instancing";
             if (node["extensions"][instancing].exists()) {
                 fail("it has instances by " + std::string(instancing) + ", which are not read");
@@ -247,7 +249,7 @@ private:
     }
 
     void read_buffers() {
-        for (const JsonValue& buffer : root_["buffers"].items()) {
+        for (const JsonValue buffer : root_["buffers"].items()) {
             const std::string& uri = buffer["uri"].text();
             if (uri.empty()) {
                 owned_.emplace_back();
@@ -286,7 +288,7 @@ private:
 
     /// Finds `count` elements of `width` components where `place` says, an accessor or a part of a
     /// sparse one, and proves that all of them lie in their buffer.
-    [[nodiscard]] Accessor find(const std::string& name, const JsonValue& place,
+    [[nodiscard]] Accessor find(const std::string& name, JsonValue place,
                                 std::uint64_t component, std::uint64_t count,
                                 std::uint64_t width) const {
         Accessor result;
@@ -294,7 +296,7 @@ private:
         result.count = count;
         const std::uint64_t element = width * size_of(result.component);
         if (!place["bufferView"].exists()) fail(name + " has no data");
-        const JsonValue& view = root_["bufferViews"][place["bufferView"].count("bufferView", 0)];
+        const JsonValue view = root_["bufferViews"][place["bufferView"].count("bufferView", 0)];
         const std::uint64_t buffer = view["buffer"].count("buffer", buffers_.size());
         if (buffer >= buffers_.size()) fail(name + " is in a buffer that does not exist");
         result.stride = view["byteStride"].count("byteStride", element);
@@ -314,10 +316,10 @@ private:
         return result;
     }
 
-    [[nodiscard]] Scene::Mesh read_primitive(const JsonValue& primitive) const {
+    [[nodiscard]] Scene::Mesh read_primitive(JsonValue primitive) const {
         Scene::Mesh mesh;
         const std::uint64_t mode = primitive["mode"].count("mode", triangles);
-        const JsonValue& position = primitive["attributes"]["POSITION"];
+        const JsonValue position = primitive["attributes"]["POSITION"];
         if (mode < triangles || mode > fan || !position.exists()) return mesh;
         if (primitive["material"].exists()) {
             mesh.material = static_cast<std::uint32_t>(primitive["material"].count("material", 0));
@@ -329,13 +331,13 @@ private:
 
     /// The elements of an accessor of positions; zeros, where it is sparse and has no others.
     [[nodiscard]] std::vector<std::array<double, 3>> read_points(std::uint64_t number) const {
-        const JsonValue& accessor = root_["accessors"][number];
+        const JsonValue accessor = root_["accessors"][number];
         const std::string name = "accessor " + std::to_string(number);
         if (!accessor.exists()) fail(name + " does not exist");
         if (accessor["type"].text() != "VEC3") fail(name + " is no VEC3");
         const std::uint64_t component = accessor["componentType"].count("componentType", 0);
         const std::uint64_t count = accessor["count"].count("count", 0);
-        const JsonValue& sparse = accessor["sparse"];
+        const JsonValue sparse = accessor["sparse"];
         std::vector<std::array<double, 3>> points;
         if (accessor["bufferView"].exists() || !sparse.exists()) {
             const Accessor all = find(name, accessor, component, count, 3);
@@ -348,9 +350,9 @@ private:
         return points;
     }
 
-    void replace_some(const std::string& name, const JsonValue& accessor,
+    void replace_some(const std::string& name, JsonValue accessor,
                       std::vector<std::array<double, 3>>& points) const {
-        const JsonValue& sparse = accessor["sparse"];
+        const JsonValue sparse = accessor["sparse"];
         const std::uint64_t count = sparse["count"].count("count", 0);
         const Accessor numbers = find(
             name, sparse["indices"], sparse["indices"]["componentType"].count("type", 0), count, 1);
@@ -366,7 +368,7 @@ private:
         }
     }
 
-    static std::array<double, 3> point(const JsonValue& accessor, const Accessor& values,
+    static std::array<double, 3> point(JsonValue accessor, const Accessor& values,
                                        std::uint64_t i) {
         const bool normalized = accessor["normalized"].is_true();
         const char* const at = values.at + i * values.stride;
@@ -378,7 +380,7 @@ private:
         return p;
     }
 
-    [[nodiscard]] std::vector<std::uint32_t> read_indices(const JsonValue& primitive,
+    [[nodiscard]] std::vector<std::uint32_t> read_indices(JsonValue primitive,
                                                           std::uint64_t vertices) const {
         std::vector<std::uint32_t> indices;
         if (!primitive["indices"].exists()) {
@@ -389,7 +391,7 @@ private:
             return indices;
         }
         const std::uint64_t number = primitive["indices"].count("indices", 0);
-        const JsonValue& accessor = root_["accessors"][number];
+        const JsonValue accessor = root_["accessors"][number];
         const std::string name = "accessor " + std::to_string(number);
         if (!accessor.exists()) fail(name + " does not exist");
         if (accessor["type"].text() != "SCALAR") fail(name + " is no SCALAR");
@@ -431,7 +433,7 @@ private:
         while (!pending.empty()) {
             const Pending top = pending.back();
             pending.pop_back();
-            const JsonValue& node = root_["nodes"][top.node];
+            const JsonValue node = root_["nodes"][top.node];
             const std::string name = "node " + std::to_string(top.node);
             if (!node.exists()) fail(name + " does not exist");
             if (top.depth >= count) fail(name + " is below itself");
@@ -441,7 +443,7 @@ private:
             const auto number = static_cast<std::uint32_t>(scene_.nodes.size());
             scene_.nodes.push_back({name_of("nodes", top.node, "node_"), top.parent,
                                     local_transform(node), meshes_of(node)});
-            const std::vector<JsonValue>& children = node["children"].items();
+            const std::vector<JsonValue> children = node["children"].items();
             for (auto child = children.rbegin(); child != children.rend(); ++child) {
                 pending.push_back({child->count("child", 0), number, top.depth + 1});
             }
@@ -450,11 +452,11 @@ private:
 
     [[nodiscard]] std::vector<Pending> roots() const {
         std::vector<Pending> result;
-        const std::vector<JsonValue>& scenes = root_["scenes"].items();
+        const std::vector<JsonValue> scenes = root_["scenes"].items();
         if (!scenes.empty()) {
-            const JsonValue& scene = root_["scenes"][root_["scene"].count("scene", 0)];
+            const JsonValue scene = root_["scenes"][root_["scene"].count("scene", 0)];
             if (!scene.exists()) fail("its scene does not exist");
-            for (const JsonValue& node : scene["nodes"].items()) {
+            for (const JsonValue node : scene["nodes"].items()) {
                 result.push_back({node.count("node", 0), kNoParent, 0});
             }
         } else {
@@ -465,10 +467,10 @@ private:
     }
 
     [[nodiscard]] std::vector<Pending> nodes_without_parent() const {
-        const std::vector<JsonValue>& nodes = root_["nodes"].items();
+        const std::vector<JsonValue> nodes = root_["nodes"].items();
         std::vector<bool> is_child(nodes.size(), false);
-        for (const JsonValue& node : nodes) {
-            for (const JsonValue& child : node["children"].items()) {
+        for (const JsonValue node : nodes) {
+            for (const JsonValue child : node["children"].items()) {
                 const std::uint64_t number = child.count("child", 0);
                 if (number < nodes.size()) is_child[number] = true;
             }
@@ -480,7 +482,7 @@ private:
         return result;
     }
 
-    [[nodiscard]] std::vector<std::uint32_t> meshes_of(const JsonValue& node) const {
+    [[nodiscard]] std::vector<std::uint32_t> meshes_of(JsonValue node) const {
         std::vector<std::uint32_t> meshes;
         if (!node["mesh"].exists()) return meshes;
         const std::uint64_t mesh = node["mesh"].count("mesh", 0);
@@ -494,7 +496,7 @@ private:
     }
 
     const std::filesystem::path& path_;
-    const JsonValue& root_;
+    JsonValue root_;
     std::string_view binary_;
     InputFiles& files_;
     std::vector<std::string> owned_;
@@ -548,8 +550,8 @@ std::optional<Scene> read_gltf(const std::filesystem::path& path, InputFiles& fi
     const std::string bytes = read_bytes(path, files);
     std::optional<Parts> parts = is_glb ? split_glb(bytes) : Parts{bytes, {}};
     if (!parts) return std::nullopt;
-    const JsonValue root = JsonValue::parse(parts->json);
-    GltfReader reader(path, root, parts->binary, files);
+    const nlohmann::json document = parse_json(parts->json);
+    GltfReader reader(path, JsonValue(document), parts->binary, files);
     if (!reader.is_version_2()) return std::nullopt;
     return reader.read();
 }
