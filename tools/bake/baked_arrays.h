@@ -54,8 +54,8 @@ public:
     [[nodiscard]] const mesh::Mesh& mesh() const noexcept {
         return mesh_;
     }
-    [[nodiscard]] const build::Frame& frame() const noexcept {
-        return bvh_.frame;
+    [[nodiscard]] const build::Bvh& bvh() const noexcept {
+        return bvh_;
     }
     [[nodiscard]] const Structures& structures() const noexcept {
         return structures_;

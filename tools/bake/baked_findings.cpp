@@ -37,11 +37,10 @@ bool is_refused(const report::Judgement& judgement) {
 
 }  // namespace
 
-report::ValidationReport find_for_bake(const std::string& input, const mesh::TriangleSoup& soup,
-                                       const mesh::Mesh& welded, std::uint64_t max_pairs,
-                                       ParallelFor parallel_for) {
+report::ValidationReport find_for_bake(const mesh::TriangleSoup& soup, const mesh::Mesh& welded,
+                                       std::uint64_t max_pairs, ParallelFor parallel_for) {
     const mesh::TriangleSoup joined = as_welded(soup, welded);
-    report::ValidationReport found = report::report_on(input, joined);
+    report::ValidationReport found = report::report_on("", joined);
     mesh::DefectOptions options;
     options.max_places = kPlaces;
     options.max_pairs = max_pairs;
@@ -62,7 +61,7 @@ std::uint64_t count_warnings(const report::ValidationReport& found) {
 
 std::string strict_refusal(const report::ValidationReport& found) {
     if (count_warnings(found) == 0) {
-        return found.input + ": " + found.remarks.front() +
+        return found.remarks.front() +
                " --strict allows no mesh that was not examined.";
     }
     const auto first = static_cast<std::size_t>(
@@ -70,9 +69,8 @@ std::string strict_refusal(const report::ValidationReport& found) {
         found.judgements.begin());
     const std::uint64_t rules = count_warnings(found);
     const mesh::Finding& finding = found.defects.findings[first];
-    std::string sentence = found.input + ": " + mesh::id_of(finding.rule) + ", " +
-                           mesh::text_of(finding.rule).title + ": " +
-                           report::count_text(finding, finding.count);
+    std::string sentence = mesh::id_of(finding.rule) + ", " + mesh::text_of(finding.rule).title +
+                           ": " + report::count_text(finding, finding.count);
     if (!finding.places.empty()) {
         sentence += ", first " +
                     report::place_text(found, finding.rule, finding.places[0], kNumbersInSentence);

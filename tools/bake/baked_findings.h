@@ -12,11 +12,10 @@
 
 namespace cdprep::cli {
 
-/// Says what is wrong with a mesh as it is baked: `soup` with the vertices that `welded`
-/// joined in one place. Its exit code is that of findings where one is a warning or more:
-/// what --strict refuses.
-[[nodiscard]] report::ValidationReport find_for_bake(const std::string& input,
-                                                     const mesh::TriangleSoup& soup,
+/// Finds the defects of a mesh as it is baked: `soup` with the vertices that `welded` joined in one
+/// place. The exit code is Exit::findings if a finding is a warning or an error, which --strict
+/// refuses. The report names no input.
+[[nodiscard]] report::ValidationReport find_for_bake(const mesh::TriangleSoup& soup,
                                                      const mesh::Mesh& welded,
                                                      std::uint64_t max_pairs,
                                                      ParallelFor parallel_for);
@@ -24,8 +23,8 @@ namespace cdprep::cli {
 /// How many rules found a warning or more.
 [[nodiscard]] std::uint64_t count_warnings(const report::ValidationReport& found);
 
-/// The sentence with which --strict refuses: the first finding that is a warning or more,
-/// and how many there are.
+/// The message of --strict, without the input's name: the first warning or error, and how many
+/// rules found one.
 [[nodiscard]] std::string strict_refusal(const report::ValidationReport& found);
 
 /// What the file keeps of it and of the repair before, if any: JSON, without names of

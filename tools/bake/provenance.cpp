@@ -5,10 +5,11 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "text/bounds_name.h"
 #include "text/space_name.h"
 #include "text/structure_name.h"
 
-namespace cdprep::report {
+namespace cdprep::cli {
 namespace {
 
 std::string hexadecimal(std::uint64_t value) {
@@ -18,21 +19,22 @@ std::string hexadecimal(std::uint64_t value) {
 }
 
 /// {} when nothing besides the hierarchy of boxes was built.
-nlohmann::json structures_json(const std::vector<StructureSettings>& structures) {
+nlohmann::json structures_json(const std::vector<report::StructureSettings>& structures) {
     nlohmann::json json = nlohmann::json::object();
-    for (const StructureSettings& settings : structures) {
-        nlohmann::json& own = json[structure_name(settings.structure)];
+    for (const report::StructureSettings& settings : structures) {
+        nlohmann::json& own = json[report::structure_name(settings.structure)];
         own = {{"level", settings.level}, {"threshold", settings.threshold}};
-        for (const StructureRule& rule : settings.rules) own[rule.name] = rule.value;
+        for (const report::StructureRule& rule : settings.rules) own[rule.name] = rule.value;
     }
     return json;
 }
 
 }  // namespace
 
-std::string provenance_json(const Provenance& provenance) {
+std::string provenance_json(const BakeOptions& options, const mesh::TriangleSoup& soup) {
+    const HullChoice& hulls = options.structures.hulls;
     nlohmann::json json = {
-        {"tool", {{"name", "cdprep"}, {"version", provenance.tool_version}}},
+        {"tool", {{"name", "cdprep"}, {"version", CDPREP_VERSION}}},
         // Raised whenever a stage gives other bytes for the same input.
         {"algorithms",
          {{"bvh", 1},
@@ -49,28 +51,28 @@ std::string provenance_json(const Provenance& provenance) {
           {"pieces", 1},
           {"contacts", 1}}},
         {"options",
-         {{"bounds", provenance.bounds},
-          {"effects", provenance.effects},
-          {"hulls", provenance.has_hulls},
-          {"normalize", provenance.normalize},
-          {"piece_tolerance", provenance.piece_tolerance},
-          {"repair", provenance.repair},
-          {"structures", structures_json(provenance.structures)},
-          {"weld", provenance.weld_distance}}},
-        {"source", {{"xxh3_64", hexadecimal(provenance.source_hash)}}},
+         {{"bounds", report::bounds_name(options.bounds)},
+          {"effects", options.effects.names},
+          {"hulls", options.structures.has_hulls()},
+          {"normalize", options.normalize},
+          {"piece_tolerance", options.piece_tolerance},
+          {"repair", options.repair},
+          {"structures", structures_json(options.structures.settings)},
+          {"weld", options.weld_distance}}},
+        {"source", {{"xxh3_64", hexadecimal(soup.source_hash)}}},
     };
-    nlohmann::json& options = json["options"];
-    if (provenance.hull_vertices > 0) options["hull_vertices"] = provenance.hull_vertices;
-    if (provenance.parts) options["parts"] = *provenance.parts;
-    if (provenance.max_error) options["max_error"] = *provenance.max_error;
-    if (provenance.max_pairs != mesh::kDefaultMaxPairs) options["max_pairs"] = provenance.max_pairs;
-    if (provenance.metres_per_unit) options["metres_per_unit"] = *provenance.metres_per_unit;
-    if (provenance.up_axis) options["up_axis"] = axis_name(*provenance.up_axis);
-    for (const mesh::InputFile& file : provenance.other_files) {
+    nlohmann::json& given = json["options"];
+    if (hulls.max_vertices > 0) given["hull_vertices"] = hulls.max_vertices;
+    if (hulls.parts) given["parts"] = *hulls.parts;
+    if (hulls.max_error) given["max_error"] = *hulls.max_error;
+    if (options.max_pairs != mesh::kDefaultMaxPairs) given["max_pairs"] = options.max_pairs;
+    if (options.import.metres_per_unit) given["metres_per_unit"] = *options.import.metres_per_unit;
+    if (options.import.up_axis) given["up_axis"] = report::axis_name(*options.import.up_axis);
+    for (const mesh::InputFile& file : soup.other_files) {
         json["source"]["files"].push_back(
             {{"name", file.name}, {"xxh3_64", hexadecimal(file.hash)}});
     }
     return json.dump();
 }
 
-}  // namespace cdprep::report
+}  // namespace cdprep::cli

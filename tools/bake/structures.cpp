@@ -108,6 +108,33 @@ void limit(Options& options, const build::TreeLimits& preset,
     options.threshold = threshold.value_or(preset.threshold);
 }
 
+std::vector<report::StructureSettings> settings_of(const StructureChoice& choice) {
+    std::vector<report::StructureSettings> settings;
+    for (const std::string& name : choice.names) {
+        if (name == kHull) continue;  // nothing about it is chosen
+        const Structure structure = find_baked(name)->structure;
+        if (structure == Structure::adaptive_octree) {
+            settings.push_back(
+                {structure,
+                 choice.adaptive_octree.level,
+                 choice.adaptive_octree.threshold,
+                 {{"split", report::split_name(choice.adaptive_octree.rule)},
+                  {"bounding", report::bounding_name(choice.adaptive_octree_boxes())}}});
+        } else if (structure == Structure::tetra_tree) {
+            settings.push_back({structure,
+                                choice.tetra_tree.level,
+                                choice.tetra_tree.threshold,
+                                {{"bounding", report::bounding_name(choice.tetra_tree.bounding)}}});
+        } else {
+            settings.push_back({structure,
+                                choice.octree.level,
+                                choice.octree.threshold,
+                                {{"bounding", report::bounding_name(choice.octree_boxes())}}});
+        }
+    }
+    return settings;
+}
+
 }  // namespace
 
 Result<StructureChoice> choose_structures(const StructureArguments& arguments,
@@ -160,34 +187,8 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
     if (choice.has_tetra_tree() && choice.tetra_tree.bounding == format::TetraBounding::boxes) {
         choice.sections.insert(find_needs(Ask::tetra_tree)->used);
     }
+    choice.settings = settings_of(choice);
     return choice;
-}
-
-std::vector<report::StructureSettings> settings_of(const StructureChoice& choice) {
-    std::vector<report::StructureSettings> settings;
-    for (const std::string& name : choice.names) {
-        if (name == kHull) continue;  // nothing about it is chosen
-        const Structure structure = find_baked(name)->structure;
-        if (structure == Structure::adaptive_octree) {
-            settings.push_back(
-                {structure,
-                 choice.adaptive_octree.level,
-                 choice.adaptive_octree.threshold,
-                 {{"split", report::split_name(choice.adaptive_octree.rule)},
-                  {"bounding", report::bounding_name(choice.adaptive_octree_boxes())}}});
-        } else if (structure == Structure::tetra_tree) {
-            settings.push_back({structure,
-                                choice.tetra_tree.level,
-                                choice.tetra_tree.threshold,
-                                {{"bounding", report::bounding_name(choice.tetra_tree.bounding)}}});
-        } else {
-            settings.push_back({structure,
-                                choice.octree.level,
-                                choice.octree.threshold,
-                                {{"bounding", report::bounding_name(choice.octree_boxes())}}});
-        }
-    }
-    return settings;
 }
 
 void add_structure_options(CLI::App& command, StructureArguments& arguments) {

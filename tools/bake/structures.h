@@ -54,6 +54,7 @@ struct StructureChoice {
     build::AdaptiveOctreeOptions adaptive_octree;
     build::TetraTreeOptions tetra_tree;
     HullChoice hulls;
+    std::vector<report::StructureSettings> settings;  ///< that decide the bytes of each of `names`
 
     [[nodiscard]] bool has_octree() const noexcept {
         return sections.contains(format::SectionId::octree_nodes);
@@ -81,9 +82,6 @@ struct StructureChoice {
 /// options of a structure that is not built.
 [[nodiscard]] Result<StructureChoice> choose_structures(const StructureArguments& arguments,
                                                         const Effects& effects);
-
-/// What decides the bytes of each, in the order of `names`.
-[[nodiscard]] std::vector<report::StructureSettings> settings_of(const StructureChoice& choice);
 
 /// What was built; empty where it was not asked for.
 struct Structures {

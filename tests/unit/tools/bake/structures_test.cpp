@@ -38,7 +38,7 @@ TEST(ChooseStructures, NoneUnlessAskedFor) {
     EXPECT_TRUE(choice.names.empty());
     EXPECT_EQ(choice.sections, format::SectionSet{});
     EXPECT_FALSE(choice.has_octree() || choice.has_adaptive_octree() || choice.has_tetra_tree());
-    EXPECT_TRUE(settings_of(choice).empty());
+    EXPECT_TRUE(choice.settings.empty());
 }
 
 TEST(ChooseStructures, AllEffectsBringAll) {
@@ -130,7 +130,7 @@ std::string rules_of(const report::StructureSettings& settings) {
 TEST(ChooseStructures, SettingsAreWhatIsBuilt) {
     const StructureChoice choice =
         choose({.list = "all", .octree_level = 6, .tetra_threshold = 3, .split = "area"}).value();
-    const std::vector<report::StructureSettings> settings = settings_of(choice);
+    const std::vector<report::StructureSettings> settings = choice.settings;
     ASSERT_EQ(settings.size(), 4U);
     EXPECT_EQ(settings[0].structure, Structure::octree);
     EXPECT_EQ(settings[0].level, 6U);

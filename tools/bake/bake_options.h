@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "bake/effects.h"
+#include "bake/structures.h"
+#include "cdprep/advanced/build_bvh.h"
+#include "crossings/self_intersections.h"
+#include "import/import_file.h"
+
+namespace cdprep::cli {
+
+struct BakeOptions {
+    Effects effects;
+    StructureChoice structures;
+    bool normalize = false;
+    double weld_distance = 0;    ///< model units
+    std::string repair;          ///< a preset of mesh::find_repair_preset(), or empty
+    double piece_tolerance = 0;  ///< of the effect "pieces"; model units, as baked; 0: exact
+    /// The search for crossings ends at this number of pairs.
+    std::uint64_t max_pairs = mesh::kDefaultMaxPairs;
+    bool strict = false;  ///< refuse a mesh with findings
+    build::BvhBounds bounds = build::BvhOptions{}.bounds;
+    import::ImportOptions import;
+};
+
+}  // namespace cdprep::cli

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "bake/bake_report.h"
+#include "bake/stages.h"
+#include "bake/structures.h"
+#include "cdprep/advanced/build_bvh.h"
+#include "cdprep/result.h"
+#include "cli/program_threads.h"
+#include "decompose/surface/piece_arrays.h"
+#include "mesh/mesh.h"
+
+namespace cdprep::cli {
+
+/// Builds the chosen octrees and tetra-trees over a mesh in tree order, whose numbers they hold.
+[[nodiscard]] Structures build_structures(const mesh::Mesh& ordered, const build::Frame& frame,
+                                          StructureChoice choice, const Threads& threads,
+                                          Stages& stages);
+
+/// Builds hulls over the mesh in source order, in which components and instances are numbered. If
+/// the choice has parts that enclose the mesh, builds them too and describes them in `parts`.
+[[nodiscard]] Result<convex::HullSections> build_hulls(const std::filesystem::path& input,
+                                                       const mesh::TriangleSoup& soup,
+                                                       const mesh::Mesh& mesh,
+                                                       const HullChoice& choice,
+                                                       const Threads& threads,
+                                                       std::optional<report::BakedParts>& parts);
+
+/// Decomposes the surface of a mesh in tree order into convex pieces, each vertex at most
+/// `tolerance` above the triangles of its piece.
+[[nodiscard]] convex::PieceArrays build_pieces(const mesh::Mesh& ordered, double tolerance,
+                                               const Threads& threads);
+
+[[nodiscard]] std::vector<report::StructureReport> structure_reports(const StructureChoice& choice,
+                                                                     const Structures& built,
+                                                                     const mesh::Mesh& mesh);
+
+}  // namespace cdprep::cli
