@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/structures.h"
 #include "cdprep/advanced/build_bvh.h"
 #include "cdprep/advanced/section_list.h"
 #include "cdprep/format/section_set.h"
@@ -14,7 +15,6 @@
 #include "decompose/surface/piece_arrays.h"
 #include "decompose/surface/piece_tree.h"
 #include "mesh/mesh.h"
-#include "bake/structures.h"
 
 namespace cdprep::cli {
 

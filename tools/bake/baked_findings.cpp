@@ -5,10 +5,10 @@
 
 #include "cli/command.h"
 #include "cli/signals.h"
+#include "repair/repair_report.h"
 #include "validate/defects/find_defects.h"
 #include "validate/judge.h"
 #include "validate/place_text.h"
-#include "repair/repair_report.h"
 #include "validate/rule_settings.h"
 #include "validate/validation_json.h"
 
@@ -61,8 +61,7 @@ std::uint64_t count_warnings(const report::ValidationReport& found) {
 
 std::string strict_refusal(const report::ValidationReport& found) {
     if (count_warnings(found) == 0) {
-        return found.remarks.front() +
-               " --strict allows no mesh that was not examined.";
+        return found.remarks.front() + " --strict allows no mesh that was not examined.";
     }
     const auto first = static_cast<std::size_t>(
         std::find_if(found.judgements.begin(), found.judgements.end(), is_refused) -

@@ -40,14 +40,14 @@ Structures build_structures(const mesh::Mesh& ordered, const build::Frame& frame
     return built;
 }
 
-Result<convex::HullSections> build_hulls(const std::filesystem::path& input,
-                                         const mesh::TriangleSoup& soup, const mesh::Mesh& mesh,
-                                         const HullChoice& choice, const Threads& threads,
-                                         std::optional<report::BakedParts>& parts) {
+Result<BuiltHulls> build_hulls(const std::filesystem::path& input, const mesh::TriangleSoup& soup,
+                               const mesh::Mesh& mesh, const HullChoice& choice,
+                               const Threads& threads) {
     auto sections = convex::make_hull_sections(mesh, soup.instances, choice.max_vertices,
                                                threads.parallel_for());
     if (!sections) return report::hull_beyond_range(input.string(), "--hull-vertices");
-    if (!choice.has_parts()) return std::move(*sections);
+    BuiltHulls built = {std::move(*sections), {}};
+    if (!choice.has_parts()) return built;
     const MeshNodes nodes = find_nodes(soup, mesh);
     convex::ApproximateOptions how;
     how.max_error = choice.max_error;
@@ -57,10 +57,10 @@ Result<convex::HullSections> build_hulls(const std::filesystem::path& input,
     how.convex_node = nodes.is_convex;
     const auto found = search_pieces(mesh, how, threads);
     if (!found) return interrupted(input);
-    convex::add_parts(*sections, found->pieces);
-    parts = {found->pieces.size(), found->outer_error, found->is_as_asked, found->proof.fragments,
-             found->proof.outside};
-    return std::move(*sections);
+    convex::add_parts(built.sections, found->pieces);
+    built.parts = {found->pieces.size(), found->outer_error, found->is_as_asked,
+                   found->proof.fragments, found->proof.outside};
+    return built;
 }
 
 convex::PieceArrays build_pieces(const mesh::Mesh& ordered, double tolerance,

@@ -21,14 +21,16 @@ namespace cdprep::cli {
                                           StructureChoice choice, const Threads& threads,
                                           Stages& stages);
 
-/// Builds hulls over the mesh in source order, in which components and instances are numbered. If
-/// the choice has parts that enclose the mesh, builds them too and describes them in `parts`.
-[[nodiscard]] Result<convex::HullSections> build_hulls(const std::filesystem::path& input,
-                                                       const mesh::TriangleSoup& soup,
-                                                       const mesh::Mesh& mesh,
-                                                       const HullChoice& choice,
-                                                       const Threads& threads,
-                                                       std::optional<report::BakedParts>& parts);
+struct BuiltHulls {
+    convex::HullSections sections;
+    std::optional<report::BakedParts> parts;  ///< the parts that enclose the mesh, if chosen
+};
+
+/// Builds hulls over the mesh in source order, in which components and instances are numbered.
+/// Errors name `input`.
+[[nodiscard]] Result<BuiltHulls> build_hulls(const std::filesystem::path& input,
+                                             const mesh::TriangleSoup& soup, const mesh::Mesh& mesh,
+                                             const HullChoice& choice, const Threads& threads);
 
 /// Decomposes the surface of a mesh in tree order into convex pieces, each vertex at most
 /// `tolerance` above the triangles of its piece.

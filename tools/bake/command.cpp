@@ -7,15 +7,15 @@
 #include <new>
 #include <set>
 
+#include "bake/pipeline.h"
 #include "cli/command.h"
 #include "cli/import_arguments.h"
-#include "cli/signals.h"
-#include "bake/pipeline.h"
 #include "cli/progress.h"
+#include "cli/signals.h"
+#include "cli/usage.h"
 #include "manuals/command_page.h"
 #include "text/bounds_name.h"
 #include "text/printable.h"
-#include "cli/usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -190,6 +190,52 @@ Exit run(Arguments& arguments) {
     return bake_all(arguments, outputs.value(), style.value());
 }
 
+/// What goes into the baked file, and where that is written.
+void add_output_options(CLI::App& command, Arguments& arguments) {
+    CLI::Option* output = command
+                              .add_option("-o,--output", arguments.output,
+                                          "The baked file. Default: the input's name with .cdp.h5")
+                              ->type_name("FILE")
+                              ->group("Output");
+    command.add_option("--output-dir", arguments.output_folder, "The folder of the baked files")
+        ->type_name("FOLDER")
+        ->excludes(output)
+        ->group("Output");
+    command
+        .add_option("--effects", arguments.effects,
+                    "Comma-separated queries to bake for, or all, which adds every structure. "
+                    "Default: collide,overlap,distance,within,ray,closest")
+        ->type_name("LIST")
+        ->group("Output");
+    command
+        .add_flag("--strict", arguments.options.strict,
+                  "Refuse a mesh with warnings or errors of 'cdprep validate' (exit 1)")
+        ->group("Output");
+    command.add_flag("--dry-run", arguments.dry_run, "Print the names of outputs and exit")
+        ->group("Output");
+}
+
+void add_mesh_options(CLI::App& command, BakeOptions& options) {
+    add_normalize(command, options.normalize);
+    add_weld(command, options.weld_distance);
+    command
+        .add_option("--repair", options.repair,
+                    "Repair first, as 'cdprep repair --preset' does. Source numbers are then those "
+                    "of the repaired mesh; the file maps them to the input's")
+        ->type_name("PRESET")
+        ->check(one_of({"safe", "closed", "solid"}))
+        ->group("Mesh");
+    command
+        .add_option("--piece-tolerance", options.piece_tolerance,
+                    "For --effects pieces: the largest height of a vertex above the triangles of "
+                    "its convex piece, in model units; 0: exact")
+        ->type_name("DISTANCE")
+        ->check(zero_or_more())
+        ->capture_default_str()
+        ->group("Mesh");
+    add_max_pairs(command, options.max_pairs);
+}
+
 }  // namespace
 
 void add_bake(CLI::App& app, Exit& exit) {
@@ -204,46 +250,8 @@ void add_bake(CLI::App& app, Exit& exit) {
         ->add_option("input", arguments->inputs,
                      "Mesh files: OBJ, STL, PLY, OFF, glTF, 3MF and others")
         ->required();
-    CLI::Option* output = command
-                              ->add_option("-o,--output", arguments->output,
-                                           "The baked file. Default: the input's name with .cdp.h5")
-                              ->type_name("FILE")
-                              ->group("Output");
-    command
-        ->add_option("--output-dir", arguments->output_folder, "The folder of the baked files")
-        ->type_name("FOLDER")
-        ->excludes(output)
-        ->group("Output");
-    command
-        ->add_option("--effects", arguments->effects,
-                     "Comma-separated queries to bake for, or all, which adds every structure. "
-                     "Default: collide,overlap,distance,within,ray,closest")
-        ->type_name("LIST")
-        ->group("Output");
-    command
-        ->add_flag("--strict", arguments->options.strict,
-                   "Refuse a mesh with warnings or errors of 'cdprep validate' (exit 1)")
-        ->group("Output");
-    command->add_flag("--dry-run", arguments->dry_run, "Print the names of outputs and exit")
-        ->group("Output");
-    add_normalize(*command, arguments->options.normalize);
-    add_weld(*command, arguments->options.weld_distance);
-    command
-        ->add_option("--repair", arguments->options.repair,
-                     "Repair first, as 'cdprep repair --preset' does. Source numbers are then those "
-                     "of the repaired mesh; the file maps them to the input's")
-        ->type_name("PRESET")
-        ->check(one_of({"safe", "closed", "solid"}))
-        ->group("Mesh");
-    command
-        ->add_option("--piece-tolerance", arguments->options.piece_tolerance,
-                     "For --effects pieces: the largest height of a vertex above the triangles of "
-                     "its convex piece, in model units; 0: exact")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->capture_default_str()
-        ->group("Mesh");
-    add_max_pairs(*command, arguments->options.max_pairs);
+    add_output_options(*command, *arguments);
+    add_mesh_options(*command, arguments->options);
     command
         ->add_option("--bounds", arguments->bounds,
                      "Bounds of triangles besides aligned boxes. aabb: none; obb: oriented boxes; "

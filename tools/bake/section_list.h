@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cdprep/advanced/section_list.h"
-#include "decompose/surface/contact_arrays.h"
 #include "decompose/enclose/hull_sections.h"
+#include "decompose/surface/contact_arrays.h"
 #include "decompose/surface/piece_arrays.h"
 #include "decompose/surface/piece_tree.h"
 

@@ -7,10 +7,10 @@
 
 #include "cdprep/cells/structure_presets.h"
 #include "cdprep/format/limits.h"
+#include "cli/usage.h"
 #include "hull/enclosing_hull.h"
 #include "text/nearest_word.h"
 #include "text/structure_name.h"
-#include "cli/usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -191,25 +191,75 @@ Result<StructureChoice> choose_structures(const StructureArguments& arguments,
     return choice;
 }
 
+namespace {
+
+constexpr const char* kGroup = "Structures";
+
+/// How cells are split and bounded.
+void add_cell_rules(CLI::App& command, StructureArguments& arguments) {
+    command
+        .add_option("--split", arguments.split,
+                    "Split planes of octree-adaptive. median: of the triangles' centres; area: "
+                    "least area times triangles. Default: by the preset")
+        ->type_name("RULE")
+        ->check(one_of({"median", "area"}))
+        ->group(kGroup);
+    command
+        .add_option("--octree-bounding", arguments.octree_bounding,
+                    "Bounds of an octree cell's triangles. boxes: their bounding box; cells: the "
+                    "cell itself. Default: by the preset")
+        ->type_name("BOUNDS")
+        ->check(one_of({"boxes", "cells"}))
+        ->group(kGroup);
+    command
+        .add_option(
+            "--bounding", arguments.bounding,
+            "Bounds of a tetra-tree cone's triangles. boxes: fastest; caps: from the nearest "
+            "to the farthest point; tetra: from the centre. Default: by the preset")
+        ->type_name("BOUNDS")
+        ->check(one_of({"boxes", "caps", "tetra"}))
+        ->group(kGroup);
+}
+
+void add_hull_options(CLI::App& command, HullChoice& hulls) {
+    command
+        .add_option("--hull-vertices", hulls.max_vertices,
+                    "Maximum number of vertices of a convex hull; it then encloses the exact one")
+        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
+        ->group(kGroup);
+    command
+        .add_option("--parts", hulls.parts,
+                    "Maximum number of convex parts that enclose the mesh, baked with the hulls")
+        ->check(whole_from(1))
+        ->group(kGroup);
+    command
+        .add_option("--max-error", hulls.max_error,
+                    "Maximum distance by which these parts stick out, in model units")
+        ->type_name("DISTANCE")
+        ->check(zero_or_more())
+        ->group(kGroup);
+}
+
+}  // namespace
+
 void add_structure_options(CLI::App& command, StructureArguments& arguments) {
-    const char* const group = "Structures";
     command
         .add_option("--structures", arguments.list,
                     "Comma-separated structures for 'cdprep query --structure': octree, "
                     "octree-adaptive, hashed-octree, tetra-tree, hull; or all, or none. Default: "
                     "all with --effects all, else none")
         ->type_name("LIST")
-        ->group(group);
+        ->group(kGroup);
     command
         .add_option("--structure-preset", arguments.preset,
                     "Fineness of octrees and tetra-trees. tuned: for speed; paper: 512 cells")
         ->type_name("PRESET")
         ->check(one_of({"tuned", "paper"}))
         ->capture_default_str()
-        ->group(group);
+        ->group(kGroup);
     const auto number = [&](const char* name, std::optional<std::uint32_t>& value,
                             std::uint32_t least, std::uint32_t most, const char* description) {
-        command.add_option(name, value, description)->check(whole_from(least, most))->group(group);
+        command.add_option(name, value, description)->check(whole_from(least, most))->group(kGroup);
     };
     number("--octree-level", arguments.octree_level, 0, format::kOctreeBits,
            "Maximum depth of octrees. Default: by the preset");
@@ -219,43 +269,8 @@ void add_structure_options(CLI::App& command, StructureArguments& arguments) {
            "Maximum depth of the tetra-tree. Default: by the preset");
     number("--tetra-threshold", arguments.tetra_threshold, 1, format::kMaxTriangles,
            "Tetra-tree: do not split a cone with fewer triangles");
-    command
-        .add_option("--split", arguments.split,
-                    "Split planes of octree-adaptive. median: of the triangles' centres; area: "
-                    "least area times triangles. Default: by the preset")
-        ->type_name("RULE")
-        ->check(one_of({"median", "area"}))
-        ->group(group);
-    command
-        .add_option("--octree-bounding", arguments.octree_bounding,
-                    "Bounds of an octree cell's triangles. boxes: their bounding box; cells: the "
-                    "cell itself. Default: by the preset")
-        ->type_name("BOUNDS")
-        ->check(one_of({"boxes", "cells"}))
-        ->group(group);
-    command
-        .add_option("--bounding", arguments.bounding,
-                    "Bounds of a tetra-tree cone's triangles. boxes: fastest; caps: from the nearest "
-                    "to the farthest point; tetra: from the centre. Default: by the preset")
-        ->type_name("BOUNDS")
-        ->check(one_of({"boxes", "caps", "tetra"}))
-        ->group(group);
-    command
-        .add_option("--hull-vertices", arguments.hulls.max_vertices,
-                    "Maximum number of vertices of a convex hull; it then encloses the exact one")
-        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
-        ->group(group);
-    command
-        .add_option("--parts", arguments.hulls.parts,
-                    "Maximum number of convex parts that enclose the mesh, baked with the hulls")
-        ->check(whole_from(1))
-        ->group(group);
-    command
-        .add_option("--max-error", arguments.hulls.max_error,
-                    "Maximum distance by which these parts stick out, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->group(group);
+    add_cell_rules(command, arguments);
+    add_hull_options(command, arguments.hulls);
 }
 
 }  // namespace cdprep::cli

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bake/effects.h"
 #include "cdprep/cells/build_adaptive_octree.h"
 #include "cdprep/cells/build_octree.h"
 #include "cdprep/cells/build_tetra_tree.h"
@@ -13,7 +14,6 @@
 #include "cdprep/result.h"
 #include "cli/command.h"
 #include "decompose/enclose/hull_sections.h"
-#include "bake/effects.h"
 #include "text/structure_settings.h"
 
 namespace cdprep::cli {

@@ -111,8 +111,7 @@ void add_error_case(xml_node suite, const ValidationReport& report) {
 
 void add_rule_cases(xml_node suite, const ValidationReport& report, const ValidationRun& run) {
     for (const mesh::RuleText& rule : mesh::all_rules()) {
-        xml_node test_case =
-            add_test_case(suite, report, mesh::id_of(rule.rule) + " " + rule.name);
+        xml_node test_case = add_test_case(suite, report, mesh::id_of(rule.rule) + " " + rule.name);
         if (run.rules.severity(rule.rule) == mesh::Severity::off) {
             test_case.append_child("skipped");
         } else if (const auto found = finding_of(report, rule.rule)) {

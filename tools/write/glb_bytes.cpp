@@ -38,9 +38,9 @@ std::size_t add_accessor(Glb& glb, std::size_t begin, int target, Json accessor)
 std::array<Json, 2> bounds_of(const HullArrays& hull) {
     std::array<Json, 2> bounds = {Json::array(), Json::array()};
     for (const auto axis : {&Double3::x, &Double3::y, &Double3::z}) {
-        const auto [least, greatest] =
-            std::minmax_element(hull.points.begin(), hull.points.end(),
-                                [&](const Double3& a, const Double3& b) { return a.*axis < b.*axis; });
+        const auto [least, greatest] = std::minmax_element(
+            hull.points.begin(), hull.points.end(),
+            [&](const Double3& a, const Double3& b) { return a.*axis < b.*axis; });
         bounds[0].push_back(static_cast<float>((*least).*axis));
         bounds[1].push_back(static_cast<float>((*greatest).*axis));
     }
@@ -85,8 +85,7 @@ void add_node(Glb& glb, const HullArrays& hull) {
     const std::size_t mesh =
         append(glb.document, "meshes",
                {{"name", hull.name}, {"primitives", Json::array({std::move(primitive)})}});
-    const std::size_t node =
-        append(glb.document, "nodes", {{"name", hull.name}, {"mesh", mesh}});
+    const std::size_t node = append(glb.document, "nodes", {{"name", hull.name}, {"mesh", mesh}});
     glb.document["scenes"][0]["nodes"].push_back(node);
 }
 

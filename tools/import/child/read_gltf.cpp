@@ -288,9 +288,8 @@ private:
 
     /// Finds `count` elements of `width` components where `place` says, an accessor or a part of a
     /// sparse one, and proves that all of them lie in their buffer.
-    [[nodiscard]] Accessor find(const std::string& name, JsonValue place,
-                                std::uint64_t component, std::uint64_t count,
-                                std::uint64_t width) const {
+    [[nodiscard]] Accessor find(const std::string& name, JsonValue place, std::uint64_t component,
+                                std::uint64_t count, std::uint64_t width) const {
         Accessor result;
         result.component = component;
         result.count = count;
