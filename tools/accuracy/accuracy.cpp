@@ -5,12 +5,13 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 
-#include "cdprep/pairs.h"
 #include "accuracy/bounding_shapes.h"
 #include "accuracy/ladders.h"
+#include "cdprep/pairs.h"
 
 namespace cdprep::study {
 namespace {
@@ -106,18 +107,6 @@ StudiedModel describe(const mesh::Mesh& mesh, const MemoryModel& model) {
             mesh.single_precision};
 }
 
-TimingOptions timing_options(const AccuracyOptions& options, Steps& steps) {
-    TimingOptions timing;
-    timing.rounds = options.is_quick ? 3 : 5;
-    timing.least_sample_s = options.is_quick ? 10e-6 : 50e-6;
-    timing.budget_s = options.is_quick ? 1 : 25;
-    timing.stop = [&options, &steps] {
-        steps.tick();
-        return options.stop && options.stop();
-    };
-    return timing;
-}
-
 /// What the clock can tell apart: the exact question against itself.
 TimeRatio check_clock(const Climb& climb) {
     Workspace workspace;
@@ -134,83 +123,119 @@ TimeRatio check_clock(const Climb& climb) {
     return ratio_to_itself(climb.set.poses.size(), exact, timing);
 }
 
-void climb_all(const Climb& climb, const AccuracyOptions& options, AccuracyStudy& study) {
-    const auto is_wanted = [&](const char* name) {
-        return !climb.must_stop() &&
-               (options.ladders.empty() || std::ranges::count(options.ladders, name) > 0);
-    };
-    if (is_wanted("geometry")) study.ladders.push_back(climb_geometry(climb, study.broken));
-    if (is_wanted("distance")) study.ladders.push_back(climb_distance(climb, study.broken));
-    if (is_wanted("predicates")) study.ladders.push_back(climb_predicates(climb, study.broken));
-    if (is_wanted("storage")) study.ladders.push_back(climb_storage(climb, study.broken));
-    if (is_wanted("coherence")) {
-        study.ladders.push_back(climb_coherence(climb, study.machine.last_cache, study.broken));
-    }
-}
-
 Error stopped() {
     return {ErrorCode::interrupted, "The study was stopped; nothing was written."};
 }
+
+/// One study of a pair of models.
+class AccuracyRun {
+public:
+    AccuracyRun(const mesh::Mesh& a, const mesh::Mesh& b, const AccuracyOptions& options)
+        : a_(a), b_(b), options_(options), steps_(options) {}
+
+    Result<AccuracyStudy> run() {
+        steps_.begin("models");
+        const MemoryParts parts = {.hulls = true};
+        const Result<MemoryModel> model_a = make_memory_model(a_, parts, options_.parallel_for);
+        if (!model_a) return model_a.error();
+        const Result<MemoryModel> model_b = make_memory_model(b_, parts, options_.parallel_for);
+        if (!model_b) return model_b.error();
+        if (must_stop()) return stopped();
+
+        study_.machine = describe_machine();
+        study_.is_quick = options_.is_quick;
+        study_.a = describe(a_, model_a.value());
+        study_.b = describe(b_, model_b.value());
+        study_.timing = timing_options();
+        if (const auto error = find_poses({model_a->model, model_b->model})) return *error;
+        climb({a_, b_, model_a.value(), model_b.value(), study_.set, study_.timing,
+               options_.is_quick, options_.parallel_for, options_.stop,
+               [this](const std::string& step) { steps_.begin(step); }});
+        if (must_stop()) return stopped();
+        study_.timing.stop = {};  // it refers to this object
+        study_.seconds = std::chrono::duration<double>(Clock::now() - begun_).count();
+        return std::move(study_);
+    }
+
+private:
+    struct Models {
+        const Model& a;
+        const Model& b;
+    };
+
+    [[nodiscard]] bool must_stop() const {
+        return options_.stop && options_.stop();
+    }
+
+    TimingOptions timing_options() {
+        TimingOptions timing;
+        timing.rounds = options_.is_quick ? 3 : 5;
+        timing.least_sample_s = options_.is_quick ? 10e-6 : 50e-6;
+        timing.budget_s = options_.is_quick ? 1 : 25;
+        timing.stop = [this] {
+            steps_.tick();
+            return must_stop();
+        };
+        return timing;
+    }
+
+    std::optional<Error> find_poses(const Models& models) {
+        steps_.begin("poses");
+        study_.set =
+            make_pose_set(models.a, models.b,
+                          {.seed = options_.seed,
+                           .per_stratum = options_.is_quick ? kQuickPosesAStratum : kPosesAStratum,
+                           .parallel_for = options_.parallel_for,
+                           .stop = options_.stop});
+        if (must_stop()) return stopped();
+        if (study_.set.poses.empty()) {
+            return Error{ErrorCode::bad_argument,
+                         "No poses were found in which the models come near each other; do they "
+                         "have any extent?"};
+        }
+        study_.rigid = static_cast<std::size_t>(
+            std::ranges::count_if(study_.set.poses, [](const StudyPose& p) { return p.is_rigid; }));
+        return std::nullopt;
+    }
+
+    void climb(const Climb& climb) {
+        steps_.begin("self-check");
+        study_.self = check_clock(climb);
+        if (is_wanted("geometry")) study_.ladders.push_back(climb_geometry(climb, study_.broken));
+        if (is_wanted("distance")) study_.ladders.push_back(climb_distance(climb, study_.broken));
+        if (is_wanted("predicates")) {
+            study_.ladders.push_back(climb_predicates(climb, study_.broken));
+        }
+        if (is_wanted("storage")) study_.ladders.push_back(climb_storage(climb, study_.broken));
+        if (is_wanted("coherence")) {
+            study_.ladders.push_back(
+                climb_coherence(climb, study_.machine.last_cache, study_.broken));
+        }
+    }
+
+    [[nodiscard]] bool is_wanted(const char* ladder) const {
+        return !must_stop() &&
+               (options_.ladders.empty() || std::ranges::count(options_.ladders, ladder) > 0);
+    }
+
+    const Clock::time_point begun_ = Clock::now();
+    const mesh::Mesh& a_;
+    const mesh::Mesh& b_;
+    const AccuracyOptions& options_;
+    Steps steps_;
+    AccuracyStudy study_;
+};
 
 }  // namespace
 
 Result<AccuracyStudy> study_accuracy(const mesh::Mesh& a, const mesh::Mesh& b,
                                      const AccuracyOptions& options) {
-    const Clock::time_point begun = Clock::now();
     if (a.triangles.empty() || b.triangles.empty()) {
         return Error{ErrorCode::bad_argument,
                      std::string(a.triangles.empty() ? "The first" : "The second") +
                          " model has no triangles; there is nothing to ask."};
     }
-    const auto must_stop = [&] { return options.stop && options.stop(); };
-    Steps steps(options);
-    steps.begin("models");
-    const MemoryParts parts = {.hulls = true};
-    const Result<MemoryModel> model_a = make_memory_model(a, parts, options.parallel_for);
-    if (!model_a) return model_a.error();
-    const Result<MemoryModel> model_b = make_memory_model(b, parts, options.parallel_for);
-    if (!model_b) return model_b.error();
-    if (must_stop()) return stopped();
-
-    AccuracyStudy study;
-    study.machine = describe_machine();
-    study.is_quick = options.is_quick;
-    study.a = describe(a, model_a.value());
-    study.b = describe(b, model_b.value());
-    study.timing = timing_options(options, steps);
-    steps.begin("poses");
-    study.set =
-        make_pose_set(model_a.value().model, model_b.value().model,
-                      {.seed = options.seed,
-                       .per_stratum = options.is_quick ? kQuickPosesAStratum : kPosesAStratum,
-                       .parallel_for = options.parallel_for,
-                       .stop = options.stop});
-    if (must_stop()) return stopped();
-    if (study.set.poses.empty()) {
-        return Error{ErrorCode::bad_argument,
-                     "No poses were found in which the models come near each other; do they have "
-                     "any extent?"};
-    }
-    study.rigid = static_cast<std::size_t>(
-        std::ranges::count_if(study.set.poses, [](const StudyPose& p) { return p.is_rigid; }));
-
-    const Climb climb{a,
-                      b,
-                      model_a.value(),
-                      model_b.value(),
-                      study.set,
-                      study.timing,
-                      options.is_quick,
-                      options.parallel_for,
-                      options.stop,
-                      [&](const std::string& step) { steps.begin(step); }};
-    steps.begin("self-check");
-    study.self = check_clock(climb);
-    climb_all(climb, options, study);
-    if (must_stop()) return stopped();
-    study.timing.stop = {};  // it refers to what ends here
-    study.seconds = std::chrono::duration<double>(Clock::now() - begun).count();
-    return study;
+    return AccuracyRun(a, b, options).run();
 }
 
 }  // namespace cdprep::study
