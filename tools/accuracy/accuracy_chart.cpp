@@ -8,8 +8,8 @@
 #include <functional>
 #include <limits>
 
-#include "text/number_text.h"
 #include "page/page_parts.h"
+#include "text/number_text.h"
 #include "text/printable.h"
 
 namespace cdprep::report {
@@ -288,79 +288,122 @@ private:
 };
 
 /// Time by how far apart the models are: one line a rung.
-std::string strata_body(std::size_t ladder, const std::vector<Rung>& rungs,
-                        const std::vector<std::size_t>& shown) {
-    constexpr std::array<std::size_t, study::kStrata> kOrder = {4, 3, 2, 1, 0};
-    constexpr double kRoom = 150;  // for the names, to the right
-    std::vector<double> values;
-    std::vector<std::size_t> used;
-    for (const std::size_t s : kOrder) {
-        const bool has_any = std::ranges::any_of(
-            shown, [&](std::size_t r) { return rungs[r].strata[s].median_s > 0; });
-        if (has_any) used.push_back(s);
+class StrataChart {
+public:
+    StrataChart(std::size_t ladder, const std::vector<Rung>& rungs,
+                const std::vector<std::size_t>& shown)
+        : ladder_(ladder),
+          rungs_(rungs),
+          shown_(shown),
+          columns_(used_strata()),
+          times_(all_times()) {}
+
+    /// "" when nothing was timed.
+    [[nodiscard]] std::string body() const {
+        if (times_.empty()) return "";
+        const auto [low, high] = std::ranges::minmax(times_);
+        const Axis y(low / 1.5, high * 1.5, kBottom, kTop);
+        std::string text = axes(y);
+        std::vector<End> ends;
+        for (const std::size_t r : shown_) text += rung_line(r, y, ends);
+        return text + names(std::move(ends));
     }
-    for (const std::size_t r : shown) {
-        for (const std::size_t s : used) {
-            if (rungs[r].strata[s].median_s > 0) values.push_back(rungs[r].strata[s].median_s);
-        }
-    }
-    if (values.empty()) return "";
-    const auto [low, high] = std::ranges::minmax(values);
-    constexpr double kBottom = kTop + kPlotHeight;
-    const Axis y(low / 1.5, high * 1.5, kBottom, kTop);
-    const double wide = kChartWidth - kRight - kRoom - kLeft;
-    const auto x_of = [&](std::size_t column) {
-        return kLeft +
-               wide * (static_cast<double>(column) + 0.5) / static_cast<double>(used.size());
-    };
-    std::string text;
-    for (const double tick : y.ticks()) {
-        text += line(kLeft, y.at(tick), kLeft + wide, y.at(tick), "grid");
-        text += words(kLeft - 8, y.at(tick) + 4, "end", "tick", in_time(tick));
-    }
-    for (std::size_t column = 0; column < used.size(); ++column) {
-        text +=
-            words(x_of(column), kBottom + 18, "middle", "tick", study::kStratumNames[used[column]]);
-    }
-    text += line(kLeft, kBottom, kLeft + wide, kBottom, "axis");
-    text += words(kLeft + wide / 2, kBottom + 42, "middle", "name",
-                  "how the surfaces stand to each other, from far apart to deep in each other");
-    // Names to the right, in the order of the lines' ends, none over another.
+
+private:
+    /// The right end of a rung's line.
     struct End {
         std::size_t rung;
         double y;
     };
-    std::vector<End> ends;
-    for (const std::size_t r : shown) {
+
+    static constexpr double kNames = 150;  ///< the width of the names, to the right
+    static constexpr double kBottom = kTop + kPlotHeight;
+    static constexpr double kWide = kChartWidth - kRight - kNames - kLeft;
+
+    /// The strata in which a shown rung was timed, from far to deep.
+    [[nodiscard]] std::vector<std::size_t> used_strata() const {
+        constexpr std::array<std::size_t, study::kStrata> kOrder = {4, 3, 2, 1, 0};
+        std::vector<std::size_t> used;
+        for (const std::size_t s : kOrder) {
+            const bool has_any = std::ranges::any_of(
+                shown_, [&](std::size_t r) { return rungs_[r].strata[s].median_s > 0; });
+            if (has_any) used.push_back(s);
+        }
+        return used;
+    }
+
+    [[nodiscard]] std::vector<double> all_times() const {
+        std::vector<double> times;
+        for (const std::size_t r : shown_) {
+            for (const std::size_t s : columns_) {
+                const double seconds = rungs_[r].strata[s].median_s;
+                if (seconds > 0) times.push_back(seconds);
+            }
+        }
+        return times;
+    }
+
+    [[nodiscard]] double x_of(std::size_t column) const {
+        return kLeft +
+               kWide * (static_cast<double>(column) + 0.5) / static_cast<double>(columns_.size());
+    }
+
+    [[nodiscard]] std::string axes(const Axis& y) const {
+        std::string text;
+        for (const double tick : y.ticks()) {
+            text += line(kLeft, y.at(tick), kLeft + kWide, y.at(tick), "grid");
+            text += words(kLeft - 8, y.at(tick) + 4, "end", "tick", in_time(tick));
+        }
+        for (std::size_t column = 0; column < columns_.size(); ++column) {
+            text += words(x_of(column), kBottom + 18, "middle", "tick",
+                          study::kStratumNames[columns_[column]]);
+        }
+        text += line(kLeft, kBottom, kLeft + kWide, kBottom, "axis");
+        return text + words(kLeft + kWide / 2, kBottom + 42, "middle", "name",
+                            "distance of the surfaces, from far apart to deep in each other");
+    }
+
+    [[nodiscard]] std::string rung_line(std::size_t r, const Axis& y,
+                                        std::vector<End>& ends) const {
         std::string path;
-        double last = kBottom;
-        const std::string family = family_class(rungs[r].name);
         std::string marks;
-        for (std::size_t column = 0; column < used.size(); ++column) {
-            const double seconds = rungs[r].strata[used[column]].median_s;
+        double last = kBottom;
+        const std::string family = family_class(rungs_[r].name);
+        for (std::size_t column = 0; column < columns_.size(); ++column) {
+            const double seconds = rungs_[r].strata[columns_[column]].median_s;
             if (!(seconds > 0)) continue;
             last = y.at(seconds);
             path += path.empty() ? "M" : "L";
             path += units(x_of(column)) + " " + units(last);
             marks += "<circle cx=\"" + units(x_of(column)) + "\" cy=\"" + units(last) +
                      "\" r=\"4\" tabindex=\"0\" class=\"point " + family + "\" data-ladder=\"" +
-                     std::to_string(ladder) + "\" data-rung=\"" + std::to_string(r) + "\"><title>" +
-                     escaped(rungs[r].name) + "</title></circle>\n";
+                     std::to_string(ladder_) + "\" data-rung=\"" + std::to_string(r) +
+                     "\"><title>" + escaped(rungs_[r].name) + "</title></circle>\n";
         }
-        text.append("<path d=\"").append(path).append("\" class=\"trend ").append(family);
-        text.append("\"/>\n").append(marks);
         ends.push_back({r, last});
+        return "<path d=\"" + path + "\" class=\"trend " + family + "\"/>\n" + marks;
     }
-    std::ranges::sort(ends, {}, &End::y);
-    double free = kTop;
-    for (const End& end : ends) {
-        const double at = std::max(end.y, free);
-        free = at + kLine;
-        text += line(x_of(used.size() - 1) + 5, end.y, kLeft + wide + 6, at, "leader");
-        text += words(kLeft + wide + 10, at + 4, "start", "label", rungs[end.rung].name);
+
+    /// The names of the rungs, in the order of the lines' ends, none over another.
+    [[nodiscard]] std::string names(std::vector<End> ends) const {
+        std::ranges::sort(ends, {}, &End::y);
+        std::string text;
+        double free = kTop;
+        for (const End& end : ends) {
+            const double at = std::max(end.y, free);
+            free = at + kLine;
+            text += line(x_of(columns_.size() - 1) + 5, end.y, kLeft + kWide + 6, at, "leader");
+            text += words(kLeft + kWide + 10, at + 4, "start", "label", rungs_[end.rung].name);
+        }
+        return text;
     }
-    return text;
-}
+
+    std::size_t ladder_;
+    const std::vector<Rung>& rungs_;
+    const std::vector<std::size_t>& shown_;
+    std::vector<std::size_t> columns_;
+    std::vector<double> times_;
+};
 
 constexpr int kBarHeight = 30;
 
@@ -472,7 +515,8 @@ void add_charts(std::size_t number, const Ladder& ladder, std::vector<Chart>& ch
     if (!ladder.cases.starts_with("pose")) return;
     charts.push_back({ladder.name + ": time against gap",
                       "The rungs that none beats, and the exact one; medians of each stratum.",
-                      kParetoHeight, strata_body(number, ladder.rungs, rungs_of_front(ladder))});
+                      kParetoHeight,
+                      StrataChart(number, ladder.rungs, rungs_of_front(ladder)).body()});
 }
 
 /// Without its folders, which may be long.

@@ -9,15 +9,15 @@
 #include <vector>
 
 #include "cli/command.h"
-#include "compare/run_comparison.h"
 #include "cli/import_arguments.h"
-#include "cli/signals.h"
 #include "cli/output_path.h"
-#include "compare/pair_poses.h"
+#include "cli/report_output.h"
+#include "cli/signals.h"
+#include "cli/usage.h"
 #include "compare/comparison_page.h"
 #include "compare/comparison_report.h"
-#include "cli/report_output.h"
-#include "cli/usage.h"
+#include "compare/pair_poses.h"
+#include "compare/run_comparison.h"
 #include "manuals/command_page.h"
 
 namespace cdprep::cli {
@@ -117,20 +117,75 @@ Exit run(Arguments& arguments) {
     return exit;
 }
 
+void add_study_options(CLI::App& command, Arguments& arguments) {
+    ComparisonOptions& options = arguments.options;
+    command
+        .add_option("--pairs", arguments.pairs,
+                    "Pairs of Table 4. paper: the published ones; all: every two models; fitting: "
+                    "paper when every model is a published one, else all")
+        ->type_name("PAIRS")
+        ->check(one_of({"fitting", "paper", "all"}))
+        ->capture_default_str()
+        ->group("Study");
+    command
+        .add_flag("--quick", options.quick,
+                  "Use few poses, one round, and each model in one pair unless --pairs says paper "
+                  "or all. Skip the literal hashed octree in Table 4")
+        ->group("Study");
+    command
+        .add_option("--rounds", options.rounds,
+                    "Rounds of each measurement. Default: 5; with --quick: 1")
+        ->check(whole_from(1, kMostRounds))
+        ->group("Study");
+    command
+        .add_option("--peers", options.peers,
+                    "A program that answers with other libraries (tests/bench/peers)")
+        ->type_name("FILE")
+        ->group("Study");
+}
+
+void add_pose_options(CLI::App& command, Arguments& arguments) {
+    ComparisonOptions& options = arguments.options;
+    CLI::Option* const drawn =
+        command
+            .add_option("--per-stratum", options.per_stratum,
+                        "Poses of a pair in each of five strata, from deep to far. Default: 20; "
+                        "with --quick: 3")
+            ->check(whole_from(1, kMostPoses))
+            ->group("Poses");
+    CLI::Option* const seed = command.add_option("--seed", options.seed, "Seed of the poses")
+                                  ->capture_default_str()
+                                  ->group("Poses");
+    command
+        .add_option("--poses", options.poses,
+                    "Read the poses of each pair from A-B.pose in this folder")
+        ->type_name("FOLDER")
+        ->check(CLI::ExistingDirectory)
+        ->excludes(drawn)
+        ->excludes(seed)
+        ->group("Poses");
+    command
+        .add_option("--save-poses", arguments.poses,
+                    "Write the poses into this folder, for other programs")
+        ->type_name("FOLDER")
+        ->group("Poses");
+}
+
 }  // namespace
 
 void add_compare(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand(
         "compare", "Reproduce the tables of two published studies with these models");
-    set_notes(*command,
-              "Tables 1 to 4: what each strategy can answer; the cost of spatial decompositions; "
-              "the cost of hulls, hierarchies and convex pieces; times of collisions and overlapping "
-              "triangles for each pair. Published figures stand beside ours where a model has the "
-              "published counts. Table talk: pruning with hashed octrees. All models are scaled to a "
-              "diagonal of 1. The exit code is 6 when exact strategies disagree.",
-              {"cdprep compare bunny.ply horse.ply --quick",
-               "cdprep compare scans/*.ply --format html -o tables.html"});
+    set_notes(
+        *command,
+        "Tables 1 to 4: what each strategy can answer; the cost of spatial decompositions; "
+        "the cost of hulls, hierarchies and convex pieces; times of collisions and overlapping "
+        "triangles for each pair. Published figures stand beside ours where a model has the "
+        "published counts. Table talk: pruning with hashed octrees. All models are scaled to a "
+        "diagonal of 1. The exit code is 6 when exact strategies disagree.",
+        {"cdprep compare bunny.ply horse.ply --quick",
+         "cdprep compare scans/*.ply --format html -o tables.html"});
     command
         ->add_option("model", arguments->inputs,
                      "Mesh files: OBJ, STL, PLY, OFF, glTF, 3MF and others")
@@ -148,54 +203,9 @@ void add_compare(CLI::App& app, Exit& exit) {
         ->delimiter(',')
         ->check(one_of({"1", "2", "3", "4", "talk"}))
         ->group("Report");
-    ComparisonOptions& options = arguments->options;
-    command
-        ->add_option("--pairs", arguments->pairs,
-                     "Pairs of Table 4. paper: the published ones; all: every two models; fitting: "
-                     "paper when every model is a published one, else all")
-        ->type_name("PAIRS")
-        ->check(one_of({"fitting", "paper", "all"}))
-        ->capture_default_str()
-        ->group("Study");
-    command
-        ->add_flag("--quick", options.quick,
-                   "Use few poses, one round, and each model in one pair unless --pairs says paper "
-                   "or all. Skip the literal hashed octree in Table 4")
-        ->group("Study");
-    CLI::Option* const drawn =
-        command
-            ->add_option("--per-stratum", options.per_stratum,
-                         "Poses of a pair in each of five strata, from deep to far. Default: 20; "
-                         "with --quick: 3")
-            ->check(whole_from(1, kMostPoses))
-            ->group("Poses");
-    command
-        ->add_option("--rounds", options.rounds,
-                     "Rounds of each measurement. Default: 5; with --quick: 1")
-        ->check(whole_from(1, kMostRounds))
-        ->group("Study");
-    CLI::Option* const seed = command->add_option("--seed", options.seed, "Seed of the poses")
-                                  ->capture_default_str()
-                                  ->group("Poses");
-    command
-        ->add_option("--poses", options.poses,
-                     "Read the poses of each pair from A-B.pose in this folder")
-        ->type_name("FOLDER")
-        ->check(CLI::ExistingDirectory)
-        ->excludes(drawn)
-        ->excludes(seed)
-        ->group("Poses");
-    command
-        ->add_option("--save-poses", arguments->poses,
-                     "Write the poses into this folder, for other programs")
-        ->type_name("FOLDER")
-        ->group("Poses");
-    command
-        ->add_option("--peers", options.peers,
-                     "A program that answers with other libraries (tests/bench/peers)")
-        ->type_name("FILE")
-        ->group("Study");
-    add_jobs(*command, options.threads);
+    add_study_options(*command, *arguments);
+    add_pose_options(*command, *arguments);
+    add_jobs(*command, arguments->options.threads);
     add_progress(*command, arguments->progress);
     add_import_arguments(*command, arguments->import);
     command->callback([arguments, &exit] { exit = run(*arguments); });

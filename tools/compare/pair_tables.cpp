@@ -275,6 +275,62 @@ Check one_by_itself(const std::vector<StudyMesh>& meshes, const PairStudy& study
         verdict_of(itself.holds_one())};
 }
 
+void add_detail_columns(Table& table) {
+    for (std::size_t a = 0; a < kAsked; ++a) {
+        for (const Stratum stratum : strata_of(static_cast<Asked>(a))) {
+            const std::string key = std::string(kAskedNames[a]) + "_" + name_of(stratum);
+            add_column(table, key.c_str(), std::string(kAskedNames[a]) + ", " + name_of(stratum),
+                       Unit::seconds);
+        }
+    }
+    add_column(table, "collide_deep_cold", "collide, deep, cold", Unit::seconds);
+    add_column(table, "overlap_deep_cold", "overlap, deep, cold", Unit::seconds);
+    add_column(table, "agreement", "answers as the exact", Unit::share);
+    add_column(table, "found", "pairs found", Unit::share);
+    add_column(table, "boxes_deep", "boxes tested, deep", Unit::count);
+    add_column(table, "cells_deep", "cells met, deep", Unit::count);
+    add_column(table, "leaves_deep", "leaves tested, deep", Unit::count);
+}
+
+Row detail_row(const PairStudy& study, const Contender& contender, const PublishedTimes& times) {
+    Row row{title_of(contender) + (contender.is_approximate ? " (approximate)" : ""), {}};
+    for (std::size_t a = 0; a < kAsked; ++a) {
+        const auto asked = static_cast<Asked>(a);
+        for (const Stratum stratum : strata_of(asked)) {
+            Cell cell = time_cell(study, contender, asked, stratum);
+            if (stratum == Stratum::deep && asked == Asked::collide) cell.published = times.collide;
+            if (stratum == Stratum::deep && asked == Asked::overlap) cell.published = times.overlap;
+            row.cells.push_back(std::move(cell));
+        }
+    }
+    row.cells.push_back(cold_cell(contender, Asked::collide));
+    row.cells.push_back(cold_cell(contender, Asked::overlap));
+    row.cells.push_back(agreement_cell(contender));
+    row.cells.push_back(found_cell(contender));
+    row.cells.push_back(counted_cell(contender, &QueryCounts::box_pairs, Stratum::deep));
+    row.cells.push_back(counted_cell(contender, &QueryCounts::cell_pairs, Stratum::deep));
+    row.cells.push_back(counted_cell(contender, &QueryCounts::leaf_pairs, Stratum::deep));
+    return row;
+}
+
+std::string poses_note(const PairStudy& study) {
+    std::string poses = study.poses.source.empty()
+                            ? "Poses, seed " + std::to_string(study.poses.seed) + ":"
+                            : "Poses of " + study.poses.source + ":";
+    for (std::size_t s = 0; s < kStrata; ++s) {
+        const auto stratum = static_cast<Stratum>(s);
+        poses += std::string(s == 0 ? " " : ", ") + std::to_string(study.poses.of(stratum).size()) +
+                 " " + name_of(stratum);
+        if (study.poses.missing[s] > 0) {
+            poses += " (" + std::to_string(study.poses.missing[s]) + " not found)";
+        }
+        if (stratum == Stratum::deep || stratum == Stratum::shallow) {
+            poses += formatted(" (%.0f pairs overlap in the mean)", mean_pairs(study, stratum));
+        }
+    }
+    return poses + ".";
+}
+
 }  // namespace
 
 Cell deep_cell(const PairStudy& study, const Contender& contender, Asked asked) {
@@ -339,62 +395,13 @@ Table pair_details(const std::vector<StudyMesh>& meshes, const PairStudy& study)
                    {},
                    {},
                    {}};
-    for (std::size_t a = 0; a < kAsked; ++a) {
-        const auto asked = static_cast<Asked>(a);
-        for (const Stratum stratum : strata_of(asked)) {
-            const std::string key = std::string(kAskedNames[a]) + "_" + name_of(stratum);
-            add_column(table, key.c_str(), std::string(kAskedNames[a]) + ", " + name_of(stratum),
-                       Unit::seconds);
-        }
-    }
-    add_column(table, "collide_deep_cold", "collide, deep, cold", Unit::seconds);
-    add_column(table, "overlap_deep_cold", "overlap, deep, cold", Unit::seconds);
-    add_column(table, "agreement", "answers as the exact", Unit::share);
-    add_column(table, "found", "pairs found", Unit::share);
-    add_column(table, "boxes_deep", "boxes tested, deep", Unit::count);
-    add_column(table, "cells_deep", "cells met, deep", Unit::count);
-    add_column(table, "leaves_deep", "leaves tested, deep", Unit::count);
+    add_detail_columns(table);
     const PublishedRow published = published_row(meshes, study);
     for (const Contender& contender : study.contenders) {
-        Row row{title_of(contender) + (contender.is_approximate ? " (approximate)" : ""), {}};
-        const PublishedTimes times = published_times(published, title_of(contender));
-        for (std::size_t a = 0; a < kAsked; ++a) {
-            const auto asked = static_cast<Asked>(a);
-            for (const Stratum stratum : strata_of(asked)) {
-                Cell cell = time_cell(study, contender, asked, stratum);
-                if (stratum == Stratum::deep && asked == Asked::collide) {
-                    cell.published = times.collide;
-                }
-                if (stratum == Stratum::deep && asked == Asked::overlap) {
-                    cell.published = times.overlap;
-                }
-                row.cells.push_back(std::move(cell));
-            }
-        }
-        row.cells.push_back(cold_cell(contender, Asked::collide));
-        row.cells.push_back(cold_cell(contender, Asked::overlap));
-        row.cells.push_back(agreement_cell(contender));
-        row.cells.push_back(found_cell(contender));
-        row.cells.push_back(counted_cell(contender, &QueryCounts::box_pairs, Stratum::deep));
-        row.cells.push_back(counted_cell(contender, &QueryCounts::cell_pairs, Stratum::deep));
-        row.cells.push_back(counted_cell(contender, &QueryCounts::leaf_pairs, Stratum::deep));
-        table.rows.push_back(std::move(row));
+        table.rows.push_back(
+            detail_row(study, contender, published_times(published, title_of(contender))));
     }
-    std::string poses = study.poses.source.empty()
-                            ? "Poses, seed " + std::to_string(study.poses.seed) + ":"
-                            : "Poses of " + study.poses.source + ":";
-    for (std::size_t s = 0; s < kStrata; ++s) {
-        const auto stratum = static_cast<Stratum>(s);
-        poses += std::string(s == 0 ? " " : ", ") + std::to_string(study.poses.of(stratum).size()) +
-                 " " + name_of(stratum);
-        if (study.poses.missing[s] > 0) {
-            poses += " (" + std::to_string(study.poses.missing[s]) + " not found)";
-        }
-        if (stratum == Stratum::deep || stratum == Stratum::shallow) {
-            poses += formatted(" (%.0f pairs overlap in the mean)", mean_pairs(study, stratum));
-        }
-    }
-    table.notes.push_back(poses + ".");
+    table.notes.push_back(poses_note(study));
     table.notes.emplace_back(
         "Cold: everything that both models hold in the form that is asked was "
         "dropped from the caches before each question.");
