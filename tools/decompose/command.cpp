@@ -8,19 +8,19 @@
 #include <memory>
 
 #include "cli/command.h"
-#include "hull/enclosing_hull.h"
-#include "decompose/surface/surface_pieces.h"
-#include "decompose/enclose/enclose.h"
 #include "cli/import_arguments.h"
-#include "cli/signals.h"
 #include "cli/load_mesh.h"
 #include "cli/output_path.h"
 #include "cli/program_threads.h"
 #include "cli/progress.h"
+#include "cli/signals.h"
+#include "cli/usage.h"
+#include "decompose/enclose/enclose.h"
 #include "decompose/surface/pieces_report.h"
+#include "decompose/surface/surface_pieces.h"
+#include "hull/enclosing_hull.h"
 #include "manuals/command_page.h"
 #include "text/printable.h"
-#include "cli/usage.h"
 #include "write/pieces_file.h"
 
 namespace cdprep::cli {
@@ -181,105 +181,119 @@ Exit run(const CLI::App& command, const Arguments& arguments) {
     return Exit::success;
 }
 
+/// Returns --exact, which excludes the enclosing pieces.
+CLI::Option* add_surface_options(CLI::App& command, Arguments& arguments) {
+    const char* const surface = "Pieces of the surface";
+    CLI::Option* exact =
+        command
+            .add_flag("--exact", arguments.exact,
+                      "Pieces that lie on their hulls exactly. This is the default")
+            ->group(surface);
+    command
+        .add_option("--tolerance", arguments.tolerance,
+                    "Largest height of a vertex above the triangles of its piece, in model units; "
+                    "the height used is proved and reported")
+        ->type_name("DISTANCE")
+        ->check(zero_or_more())
+        ->excludes(exact)
+        ->group(surface);
+    command
+        .add_option("--order", arguments.order,
+                    "Algorithm. greedy merges patches and gives the fewest pieces; the others grow "
+                    "patches")
+        ->type_name("ORDER")
+        ->check(one_of({"greedy", "depth-first", "breadth-first", "cresting"}))
+        ->capture_default_str()
+        ->group(surface);
+    return exact;
+}
+
+void add_enclosing_options(CLI::App& command, EncloseOptions& enclosed, CLI::Option* exact) {
+    const char* const enclosing = "Enclosing pieces";
+    command
+        .add_option("--max-error", enclosed.max_error,
+                    "As few pieces as stick out by at most this distance, in model units")
+        ->type_name("DISTANCE")
+        ->check(zero_or_more())
+        ->excludes(exact)
+        ->group(enclosing);
+    command
+        .add_option("--parts", enclosed.parts,
+                    "At most N pieces that stick out as little as the search finds")
+        ->check(whole_from(1))
+        ->excludes(exact)
+        ->group(enclosing);
+    command
+        .add_option("--max-parts", enclosed.max_parts,
+                    "An engine's limit of pieces; it wins over --max-error")
+        ->check(whole_from(1))
+        ->excludes(exact)
+        ->group(enclosing);
+    command
+        .add_option("--max-vertices", enclosed.max_vertices,
+                    "An engine's limit of vertices per piece")
+        ->check(whole_from(convex::kFewestEnclosingVertices, 1U << 30U))
+        ->group(enclosing);
+    command
+        .add_option("--work", enclosed.work,
+                    "Search budget, in steps of about 10 ns; a smaller one gives a looser result")
+        ->capture_default_str()
+        ->group(enclosing);
+    command
+        .add_flag("--to-surface", enclosed.to_surface,
+                  "Measure from the surface, not the solid: for sheets and hollow bodies")
+        ->group(enclosing);
+    command
+        .add_flag("--merge-components", enclosed.merge_components,
+                  "Let a piece enclose several components and nodes")
+        ->group(enclosing);
+}
+
+void add_physics_options(CLI::App& command, EncloseOptions& enclosed) {
+    const char* const physics = "Robot and physics files";
+    command.add_option("--density", enclosed.density, "Density for masses, in kg per cubic metre")
+        ->check(above_zero())
+        ->capture_default_str()
+        ->group(physics);
+    command
+        .add_flag("!--no-visual", enclosed.has_visual,
+                  "Leave the visual mesh out of .urdf and .sdf")
+        ->group(physics);
+    command
+        .add_flag("--strict", enclosed.strict,
+                  "Refuse .urdf, .sdf and .mjcf of a mesh without a unit (exit 1)")
+        ->group(physics);
+}
+
 }  // namespace
 
 void add_decompose(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("decompose", "Decompose a mesh into convex pieces");
-    set_notes(*command,
-              "By default, cuts the surface into pieces that lie on their own convex hulls: exactly, "
-              "or within --tolerance. Works for every mesh; no piece crosses a boundary, a "
-              "non-manifold edge or an edge with opposite windings. Names of nodes do not matter.\n\n"
-              "With --max-error or --parts, encloses the solid in few convex pieces instead. The "
-              "distance by which they stick out is proved and reported. Components and nodes stay "
-              "separate. Nodes named UCX_..., ...-convex or ..._convex become their hulls.\n\n"
-              "The exit code is 1 when the request could not be met; the best result is written.",
-              {"cdprep decompose part.obj -o pieces.ply",
-               "cdprep decompose robot.obj -o robot.urdf --max-error 0.5 --unit mm",
-               "cdprep decompose chair.glb -o parts.glb --parts 16 --max-vertices 64"});
+    set_notes(
+        *command,
+        "By default, cuts the surface into pieces that lie on their own convex hulls: exactly, "
+        "or within --tolerance. Works for every mesh; no piece crosses a boundary, a "
+        "non-manifold edge or an edge with opposite windings. Names of nodes do not matter.\n\n"
+        "With --max-error or --parts, encloses the solid in few convex pieces instead. The "
+        "distance by which they stick out is proved and reported. Components and nodes stay "
+        "separate. Nodes named UCX_..., ...-convex or ..._convex become their hulls.\n\n"
+        "The exit code is 1 when the request could not be met; the best result is written.",
+        {"cdprep decompose part.obj -o pieces.ply",
+         "cdprep decompose robot.obj -o robot.urdf --max-error 0.5 --unit mm",
+         "cdprep decompose chair.glb -o parts.glb --parts 16 --max-vertices 64"});
     add_input(*command, arguments->input);
     command
-        ->add_option("-o,--output", arguments->output,
-                     "The pieces: .obj with a group for each, or .ply with colours. Enclosing "
-                     "pieces: .obj, .glb, .urdf or .sdf with a mesh beside it for each piece, .mjcf "
-                     "or .xml")
+        ->add_option(
+            "-o,--output", arguments->output,
+            "The pieces: .obj with a group for each, or .ply with colours. Enclosing "
+            "pieces: .obj, .glb, .urdf or .sdf with a mesh beside it for each piece, .mjcf "
+            "or .xml")
         ->type_name("FILE")
         ->group("Output");
-    const char* const surface = "Pieces of the surface";
-    CLI::Option* exact =
-        command
-            ->add_flag("--exact", arguments->exact,
-                       "Pieces that lie on their hulls exactly. This is the default")
-            ->group(surface);
-    command
-        ->add_option("--tolerance", arguments->tolerance,
-                     "Largest height of a vertex above the triangles of its piece, in model units; "
-                     "the height used is proved and reported")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->excludes(exact)
-        ->group(surface);
-    command
-        ->add_option("--order", arguments->order,
-                     "Algorithm. greedy merges patches and gives the fewest pieces; the others grow "
-                     "patches")
-        ->type_name("ORDER")
-        ->check(one_of({"greedy", "depth-first", "breadth-first", "cresting"}))
-        ->capture_default_str()
-        ->group(surface);
-    EncloseOptions& enclosed = arguments->enclose;
-    const char* const enclosing = "Enclosing pieces";
-    command
-        ->add_option("--max-error", enclosed.max_error,
-                     "As few pieces as stick out by at most this distance, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->excludes(exact)
-        ->group(enclosing);
-    command
-        ->add_option("--parts", enclosed.parts,
-                     "At most N pieces that stick out as little as the search finds")
-        ->check(whole_from(1))
-        ->excludes(exact)
-        ->group(enclosing);
-    command
-        ->add_option("--max-parts", enclosed.max_parts,
-                     "An engine's limit of pieces; it wins over --max-error")
-        ->check(whole_from(1))
-        ->excludes(exact)
-        ->group(enclosing);
-    command
-        ->add_option("--max-vertices", enclosed.max_vertices,
-                     "An engine's limit of vertices per piece")
-        ->check(whole_from(convex::kFewestEnclosingVertices, 1U << 30U))
-        ->group(enclosing);
-    command
-        ->add_option("--work", enclosed.work,
-                     "Search budget, in steps of about 10 ns; a smaller one gives a looser result")
-        ->capture_default_str()
-        ->group(enclosing);
-    command
-        ->add_flag("--to-surface", enclosed.to_surface,
-                   "Measure from the surface, not the solid: for sheets and hollow bodies")
-        ->group(enclosing);
-    command
-        ->add_flag("--merge-components", enclosed.merge_components,
-                   "Let a piece enclose several components and nodes")
-        ->group(enclosing);
-    const char* const physics = "Robot and physics files";
-    command
-        ->add_option("--density", enclosed.density, "Density for masses, in kg per cubic metre")
-        ->check(above_zero())
-        ->capture_default_str()
-        ->group(physics);
-    command
-        ->add_flag("!--no-visual", enclosed.has_visual,
-                   "Leave the visual mesh out of .urdf and .sdf")
-        ->group(physics);
-    command
-        ->add_flag("--strict", enclosed.strict,
-                   "Refuse .urdf, .sdf and .mjcf of a mesh without a unit (exit 1)")
-        ->group(physics);
+    CLI::Option* const exact = add_surface_options(*command, *arguments);
+    add_enclosing_options(*command, arguments->enclose, exact);
+    add_physics_options(*command, arguments->enclose);
     command->add_flag("--table", arguments->table, "Report every piece and its node")
         ->group("Report");
     add_report_format(*command, arguments->format);

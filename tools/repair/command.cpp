@@ -11,16 +11,16 @@
 #include <sstream>
 
 #include "cli/command.h"
-#include "import/import_file.h"
 #include "cli/import_arguments.h"
-#include "cli/signals.h"
 #include "cli/load_mesh.h"
-#include "repair/repair_goal.h"
 #include "cli/output_path.h"
 #include "cli/program_threads.h"
-#include "text/nearest_word.h"
-#include "repair/repair_report.h"
+#include "cli/signals.h"
 #include "cli/usage.h"
+#include "import/import_file.h"
+#include "repair/repair_goal.h"
+#include "repair/repair_report.h"
+#include "text/nearest_word.h"
 #include "write/mesh_file.h"
 
 namespace cdprep::cli {
@@ -166,64 +166,69 @@ Exit run(const Arguments& arguments) {
     return Exit::findings;
 }
 
+/// The goal or the steps, and their limits.
+void add_goal_options(CLI::App& command, Arguments& arguments) {
+    const char* const group = "Repair";
+    CLI::Option* preset =
+        command
+            .add_option("--preset", arguments.preset,
+                        "Goal. safe: 2-manifold and oriented, no vertex moves; closed: also "
+                        "without holes; solid: also without crossings")
+            ->type_name("PRESET")
+            ->check(one_of({"safe", "closed", "solid"}))
+            ->capture_default_str()
+            ->group(group);
+    command.add_option("--steps", arguments.steps, "Comma-separated steps, instead of a preset")
+        ->type_name("LIST")
+        ->excludes(preset)
+        ->group(group);
+    command
+        .add_option("--seam-width,--seam", arguments.options.seam_width,
+                    "Join boundaries within this distance, in model units")
+        ->type_name("DISTANCE")
+        ->check(zero_or_more())
+        ->group(group);
+    command
+        .add_option("--hole-size", arguments.options.hole_size,
+                    "Close holes whose bounding box has at most this diagonal, in model units")
+        ->type_name("DISTANCE")
+        ->check(zero_or_more())
+        ->group(group);
+    command
+        .add_option("--drop-components", arguments.options.least_triangles,
+                    "Drop components with fewer than N triangles")
+        ->group(group);
+    command
+        .add_option("--time", arguments.options.seconds,
+                    "Time limit for removing crossings; the report names those that remain")
+        ->type_name("SECONDS")
+        ->check(zero_or_more("seconds"))
+        ->capture_default_str()
+        ->group("Limits");
+}
+
 }  // namespace
 
 void add_repair(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     arguments->options.seconds = kMostSeconds;
-    CLI::App* command =
-        app.add_subcommand("repair", "Repair a mesh and account for every change");
-    set_notes(*command,
-              "The exit code is 1 when the output does not reach the preset's goal, has no triangle "
-              "or has more crossings than the input. The output is written in each case. 2-manifold "
-              "refers to vertex numbers, as the output stores them; validate first merges vertices "
-              "with equal positions, and may report what repair separated.",
-              {"cdprep repair scan.ply -o fixed.ply --preset solid",
-               "cdprep repair part.obj -o part.stl --seam-width 0.01"});
+    CLI::App* command = app.add_subcommand("repair", "Repair a mesh and account for every change");
+    set_notes(
+        *command,
+        "The exit code is 1 when the output does not reach the preset's goal, has no triangle "
+        "or has more crossings than the input. The output is written in each case. 2-manifold "
+        "refers to vertex numbers, as the output stores them; validate first merges vertices "
+        "with equal positions, and may report what repair separated.",
+        {"cdprep repair scan.ply -o fixed.ply --preset solid",
+         "cdprep repair part.obj -o part.stl --seam-width 0.01"});
     add_input(*command, arguments->input);
     command
-        ->add_option("-o,--output", arguments->output, "The repaired mesh: .obj, .ply, .stl or .off")
+        ->add_option("-o,--output", arguments->output,
+                     "The repaired mesh: .obj, .ply, .stl or .off")
         ->type_name("FILE")
         ->required()
         ->group("Output");
-    const char* const group = "Repair";
-    CLI::Option* preset =
-        command
-            ->add_option("--preset", arguments->preset,
-                         "Goal. safe: 2-manifold and oriented, no vertex moves; closed: also "
-                         "without holes; solid: also without crossings")
-            ->type_name("PRESET")
-            ->check(one_of({"safe", "closed", "solid"}))
-            ->capture_default_str()
-            ->group(group);
-    command
-        ->add_option("--steps", arguments->steps, "Comma-separated steps, instead of a preset")
-        ->type_name("LIST")
-        ->excludes(preset)
-        ->group(group);
-    command
-        ->add_option("--seam-width,--seam", arguments->options.seam_width,
-                     "Join boundaries within this distance, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->group(group);
-    command
-        ->add_option("--hole-size", arguments->options.hole_size,
-                     "Close holes whose bounding box has at most this diagonal, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->group(group);
-    command
-        ->add_option("--drop-components", arguments->options.least_triangles,
-                     "Drop components with fewer than N triangles")
-        ->group(group);
-    command
-        ->add_option("--time", arguments->options.seconds,
-                     "Time limit for removing crossings; the report names those that remain")
-        ->type_name("SECONDS")
-        ->check(zero_or_more("seconds"))
-        ->capture_default_str()
-        ->group("Limits");
+    add_goal_options(*command, *arguments);
     add_weld(*command, arguments->options.weld_distance);
     add_max_pairs(*command, arguments->options.max_pairs);
     add_report_format(*command, arguments->format);

@@ -2,6 +2,7 @@
 #include "validate/page_marks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -125,70 +126,51 @@ private:
     Marks marks_;
 };
 
+struct RuleStyle {
+    mesh::Rule rule;
+    MarkStyle style;
+};
+
+constexpr MarkShape kPoint = MarkShape::point;
+constexpr MarkShape kPath = MarkShape::path;
+constexpr MarkShape kTriangle = MarkShape::triangle;
+
+/// Rules that are often found together have hues far apart.
+constexpr std::array<RuleStyle, 27> kStyles = {{
+    {Rule::non_finite_coordinate, {kPoint, true, false, "red"}},
+    {Rule::index_out_of_range, {kPoint, true, false, "pink"}},
+    {Rule::extent_beyond_float, {kPoint, true, false, "purple"}},
+    {Rule::unreferenced_vertex, {kPoint, true, false, "slate"}},
+    {Rule::duplicate_vertex, {kPoint, true, false, "teal"}},
+    {Rule::near_vertex, {kPath, true, false, "blue"}},
+    {Rule::empty_mesh, {kPoint, true, false, "slate"}},
+    {Rule::repeated_corner, {kTriangle, true, false, "magenta"}},
+    {Rule::zero_area, {kTriangle, true, false, "purple"}},
+    {Rule::sliver, {kTriangle, true, false, "olive"}},
+    {Rule::duplicate_triangle, {kTriangle, true, false, "teal"}},
+    {Rule::opposite_triangle, {kTriangle, true, false, "brown"}},
+    {Rule::boundary_edge, {kPath, false, false, "orange"}},
+    {Rule::boundary_loop, {kPath, false, true, "blue"}},
+    {Rule::non_manifold_edge, {kPath, false, false, "magenta"}},
+    {Rule::non_manifold_vertex, {kPoint, true, false, "indigo"}},
+    {Rule::inconsistent_winding, {kPath, false, false, "green"}},
+    {Rule::non_orientable, {kTriangle, true, false, "brown"}},
+    {Rule::t_junction, {kPath, true, false, "teal"}},
+    {Rule::near_seam, {kPath, true, false, "olive"}},
+    {Rule::inverted_component, {kTriangle, true, false, "brown"}},
+    {Rule::nested_component, {kTriangle, true, false, "slate"}},
+    {Rule::overlapping_components, {kTriangle, true, false, "purple"}},
+    {Rule::several_components, {kTriangle, true, false, "teal"}},
+    {Rule::crossing_triangles, {kTriangle, true, false, "red"}},
+    {Rule::touching_triangles, {kTriangle, true, false, "olive"}},
+    {Rule::coplanar_overlap, {kTriangle, true, false, "pink"}},
+}};
+
 }  // namespace
 
-// Rules that are often found together have hues far apart.
 MarkStyle mark_style(mesh::Rule rule) noexcept {
-    constexpr MarkShape kPoint = MarkShape::point;
-    constexpr MarkShape kPath = MarkShape::path;
-    constexpr MarkShape kTriangle = MarkShape::triangle;
-    switch (rule) {
-        case Rule::non_finite_coordinate:
-            return {kPoint, true, false, "red"};
-        case Rule::index_out_of_range:
-            return {kPoint, true, false, "pink"};
-        case Rule::extent_beyond_float:
-            return {kPoint, true, false, "purple"};
-        case Rule::unreferenced_vertex:
-            return {kPoint, true, false, "slate"};
-        case Rule::duplicate_vertex:
-            return {kPoint, true, false, "teal"};
-        case Rule::near_vertex:
-            return {kPath, true, false, "blue"};
-        case Rule::empty_mesh:
-            return {kPoint, true, false, "slate"};
-        case Rule::repeated_corner:
-            return {kTriangle, true, false, "magenta"};
-        case Rule::zero_area:
-            return {kTriangle, true, false, "purple"};
-        case Rule::sliver:
-            return {kTriangle, true, false, "olive"};
-        case Rule::duplicate_triangle:
-            return {kTriangle, true, false, "teal"};
-        case Rule::opposite_triangle:
-            return {kTriangle, true, false, "brown"};
-        case Rule::boundary_edge:
-            return {kPath, false, false, "orange"};
-        case Rule::boundary_loop:
-            return {kPath, false, true, "blue"};
-        case Rule::non_manifold_edge:
-            return {kPath, false, false, "magenta"};
-        case Rule::non_manifold_vertex:
-            return {kPoint, true, false, "indigo"};
-        case Rule::inconsistent_winding:
-            return {kPath, false, false, "green"};
-        case Rule::non_orientable:
-            return {kTriangle, true, false, "brown"};
-        case Rule::t_junction:
-            return {kPath, true, false, "teal"};
-        case Rule::near_seam:
-            return {kPath, true, false, "olive"};
-        case Rule::inverted_component:
-            return {kTriangle, true, false, "brown"};
-        case Rule::nested_component:
-            return {kTriangle, true, false, "slate"};
-        case Rule::overlapping_components:
-            return {kTriangle, true, false, "purple"};
-        case Rule::several_components:
-            return {kTriangle, true, false, "teal"};
-        case Rule::crossing_triangles:
-            return {kTriangle, true, false, "red"};
-        case Rule::touching_triangles:
-            return {kTriangle, true, false, "olive"};
-        case Rule::coplanar_overlap:
-            break;
-    }
-    return {kTriangle, true, false, "pink"};
+    const auto* const row = std::ranges::find(kStyles, rule, &RuleStyle::rule);
+    return row == kStyles.end() ? kStyles.back().style : row->style;
 }
 
 Marks make_marks(std::span<const mesh::Double3> positions,

@@ -13,7 +13,6 @@
 #include <utility>
 
 #include "decompose/enclose/distance_field.h"
-#include "hull/enclosing_hull.h"
 #include "decompose/enclose/face_cells.h"
 #include "decompose/enclose/is_convex.h"
 #include "decompose/enclose/join_cells.h"
@@ -22,6 +21,7 @@
 #include "decompose/enclose/piece_cover.h"
 #include "decompose/enclose/piece_points.h"
 #include "decompose/enclose/solid_cells.h"
+#include "hull/enclosing_hull.h"
 
 namespace cdprep::convex {
 namespace {
@@ -536,6 +536,21 @@ private:
             is_measured[i] = i < first && piece.hull.points.size() == exact ? 1 : 0;
         };
         options_.parallel_for(points.size(), finish_piece);
+        measure_errors(found, std::move(is_measured), result);
+        result.proof.triangles = mesh_.triangles.size();
+        for (std::size_t i = 0; i < proofs.size(); ++i) {
+            result.proof.fragments += proofs[i].fragments;
+            result.proof.tests += proofs[i].tests;
+            result.proof.outside += proofs[i].outside;
+            result.outer_error = std::max(result.outer_error, result.pieces[i].error.upper);
+            result.outer_lower = std::max(result.outer_lower, result.pieces[i].error.lower);
+        }
+        return result;
+    }
+
+    /// Measures how far pieces stick out, except those that are measured already.
+    void measure_errors(const Found& found, std::vector<std::uint8_t> is_measured,
+                        ApproximatePieces& result) {
         // Bounds closer than the largest error would not make the bound of all any closer.
         HullErrorOptions how;
         how.relative = kRelative;
@@ -544,7 +559,7 @@ private:
         how.most_cells = 0;
         for (int round = 0; round < 2; ++round) {
             std::vector<std::size_t> open;
-            for (std::size_t i = 0; i < points.size(); ++i) {
+            for (std::size_t i = 0; i < is_measured.size(); ++i) {
                 if (is_measured[i] == 0) open.push_back(i);
             }
             if (open.empty() || most_error_cells(open.size()) <= how.most_cells) break;
@@ -562,15 +577,6 @@ private:
         }
         result.ran_out_of_work =
             std::find(is_measured.begin(), is_measured.end(), 0) != is_measured.end();
-        result.proof.triangles = mesh_.triangles.size();
-        for (std::size_t i = 0; i < proofs.size(); ++i) {
-            result.proof.fragments += proofs[i].fragments;
-            result.proof.tests += proofs[i].tests;
-            result.proof.outside += proofs[i].outside;
-            result.outer_error = std::max(result.outer_error, result.pieces[i].error.upper);
-            result.outer_lower = std::max(result.outer_lower, result.pieces[i].error.lower);
-        }
-        return result;
     }
 
     mesh::Mesh mesh_;

@@ -7,13 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "decompose/enclose/flush_bound.h"
 #include "cdprep/exact/triangles.h"
+#include "decompose/enclose/flush_bound.h"
 #include "mesh/vectors.h"
 
 namespace cdprep::convex {
 namespace {
-
 
 using mesh::middle_of;
 
@@ -202,6 +201,21 @@ private:
         double offset;
     };
 
+    /// The planes of the facets; a facet too thin to have a direction keeps nothing out.
+    static std::vector<Plane> planes_of(const ConvexHull& hull) {
+        std::vector<Plane> planes;
+        for (const auto& f : hull.facets) {
+            const Double3& a = hull.points[f[0]];
+            const Double3 n =
+                mesh::cross(mesh::minus(hull.points[f[1]], a), mesh::minus(hull.points[f[2]], a));
+            const double length = std::sqrt(mesh::dot(n, n));
+            if (!(length > 0)) continue;
+            const Double3 unit = {n.x / length, n.y / length, n.z / length};
+            planes.push_back({unit, mesh::dot(unit, a)});
+        }
+        return planes;
+    }
+
     /// Points within the hull at most `skin` from its surface are not farther from the solid
     /// than that surface by more; the others lie in cubes, which are cut until their bound
     /// is no higher. It is only there that a cavity or a pocket is told.
@@ -210,19 +224,10 @@ private:
         const double most = error_.upper + skin;
         mesh::Box box;
         for (const Double3& p : hull.points) box.add(p);
-        std::vector<Plane> planes;
+        const std::vector<Plane> planes = planes_of(hull);
         Cube root{middle_of(box.lower, box.upper), box.diagonal() / 2, {}, 0, false, 0};
-        for (const auto& f : hull.facets) {
-            const Double3& a = hull.points[f[0]];
-            const Double3 n =
-                mesh::cross(mesh::minus(hull.points[f[1]], a), mesh::minus(hull.points[f[2]], a));
-            const double length = std::sqrt(mesh::dot(n, n));
-            // A facet too thin to have a direction keeps nothing out.
-            if (!(length > 0)) continue;
-            const Double3 unit = {n.x / length, n.y / length, n.z / length};
-            root.planes.push_back(static_cast<std::uint32_t>(planes.size()));
-            planes.push_back({unit, mesh::dot(unit, a)});
-        }
+        root.planes.resize(planes.size());
+        std::iota(root.planes.begin(), root.planes.end(), 0U);
         const double shallow = bound_above_surface(hull, planes, box);
         if (shallow <= std::max(most, prune_below())) {
             error_.upper = std::max(most, shallow);
