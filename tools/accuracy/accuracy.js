@@ -52,7 +52,7 @@ function facts_of(ladder, rung) {
   if (rung.build_s !== undefined) facts.push(["build", in_time(rung.build_s)]);
   if (rung.bytes !== undefined) facts.push(["size", in_bytes(rung.bytes)]);
   if (rung.touched_bytes !== undefined) {
-    facts.push(["reads", `${in_bytes(Math.round(rung.touched_bytes))} a question`]);
+    facts.push(["reads", `${in_bytes(Math.round(rung.touched_bytes))} per query`]);
   }
   if (rung.error) {
     facts.push(["error", `${per_cent(rung.error.value)} (${per_cent(rung.error.low)} to `
@@ -69,7 +69,7 @@ function facts_of(ladder, rung) {
   }
   if (rung.rigid) {
     const {misses, false_hits, undecided} = rung.rigid;
-    facts.push(["at E3", `${misses.count} of ${misses.of} missed, ${false_hits.count} of `
+    facts.push(["proved at E3", `${misses.count} of ${misses.of} missed, ${false_hits.count} of `
       + `${false_hits.of} false hits; ${undecided} poses not proved`]);
   }
   for (const [name, stratum] of Object.entries(rung.strata || {})) {
