@@ -10,9 +10,9 @@
 
 namespace cdprep {
 
-/// What a model can be asked for: questions, effects of scenes, and the structures that a
-/// question may go through, as bits of one set. Values are never reused; 5 to 10, 19 and 24 to
-/// 29 are kept for effects that are not built yet.
+/// The features of a model, as bits of one set: queries that it serves, effects of scenes, and
+/// structures that a query may use. Values are never reused. Bits 6 to 10, 19 and 24 to 29 are
+/// reserved for effects that are not built yet.
 enum class Ask : std::uint32_t {
     nothing = 0,
     collide = 1U << 0,
@@ -24,10 +24,10 @@ enum class Ask : std::uint32_t {
     inside = 1U << 11,
     ray = 1U << 12,
     closest = 1U << 13,
-    touch = 1U << 14,    ///< box, sphere, capsule and triangle against a model
+    touch = 1U << 14,    ///< queries with a box, sphere, capsule or triangle
     hulls = 1U << 15,    ///< convex hulls of the whole, of components, instances and parts
-    pieces = 1U << 16,   ///< convex pieces of the surface, and questions through them
-    corners = 1U << 17,  ///< geometry out: corners, numbers and names of the imported file
+    pieces = 1U << 16,   ///< convex pieces of the surface, and queries through them
+    corners = 1U << 17,  ///< access to geometry: corners, numbers and names of the imported file
     inaccessible = 1U << 18,
     octree = 1U << 20,
     adaptive_octree = 1U << 21,
@@ -42,11 +42,11 @@ enum class Ask : std::uint32_t {
 [[nodiscard]] constexpr Ask operator&(Ask a, Ask b) noexcept {
     return static_cast<Ask>(static_cast<std::uint32_t>(a) & static_cast<std::uint32_t>(b));
 }
-/// What is in `a` and not in `b`.
+/// Returns the bits of `a` that are not in `b`.
 [[nodiscard]] constexpr Ask without(Ask a, Ask b) noexcept {
     return static_cast<Ask>(static_cast<std::uint32_t>(a) & ~static_cast<std::uint32_t>(b));
 }
-/// True when all of `b` is in `a`.
+/// Returns whether `a` contains all of `b`.
 [[nodiscard]] constexpr bool contains(Ask a, Ask b) noexcept {
     return (a & b) == b;
 }
@@ -55,24 +55,25 @@ enum class Ask : std::uint32_t {
 enum class Vertices : std::uint8_t {
     none,
     corners,    ///< positions and triangles, or leaves that hold the corners without loss
-    positions,  ///< positions, and corners as above
+    positions,  ///< positions and, in addition, corners as above
 };
 
-/// The sections of a file that one question, effect or structure reads.
+/// The sections of a file that one query, effect or structure reads.
 struct Needs {
     Ask ask;
-    const char* name;           ///< as options of `cdprep bake` spell it
-    const char* bake_option;    ///< of `cdprep bake`, adds what is missing: "--effects collide"
-    format::SectionSet needed;  ///< every one of them
-    Vertices vertices;          ///< besides
-    format::SectionSet used;    ///< read where the file has them: for speed, or for names
+    const char* name;           ///< as in the options of `cdprep bake`
+    const char* bake_option;    ///< for `cdprep bake`, adds what is missing: "--effects collide"
+    format::SectionSet needed;  ///< all of them are required
+    Vertices vertices;          ///< required in addition
+    format::SectionSet used;    ///< read if the file has them, for speed or for names
 };
 
-/// The table of needs: a row for each bit of Ask. Model::serves(), `bake --effects`, `info`,
-/// `query` and the C API read it; nothing else knows what a question needs.
+/// Returns the table of needs: a row for each bit of Ask. Model::serves(), `bake --effects`,
+/// `info`, `query` and the C API read it. It is the only place that knows the sections of each
+/// query.
 [[nodiscard]] std::span<const Needs> needs() noexcept;
 
-/// Returns the row of one bit, or null for a set, or a bit that this version does not know.
+/// Returns the row of one bit, or null for a set of bits or an unknown bit.
 [[nodiscard]] const Needs* find_needs(Ask one) noexcept;
 
 /// Returns the row with this name, or null.
@@ -81,16 +82,16 @@ struct Needs {
 /// Returns the bits that this version knows.
 [[nodiscard]] Ask known_asks() noexcept;
 
-/// Returns the sections to open, or to bake, for all of `asks`: needed, used, and both kinds of
-/// positions, of which a file has one.
+/// Returns the sections to open or to bake for all of `asks`: those that are needed or used. It
+/// includes both kinds of positions; a file has one of them.
 [[nodiscard]] format::SectionSet sections_for(Ask asks) noexcept;
 
-/// Returns what a file with these sections can be asked. `has_exact_leaves`: its leaves hold
-/// model coordinates without loss (format::model_exact_leaves).
+/// Returns the bits that a file with these sections serves. `has_exact_leaves` means that its
+/// leaves hold model coordinates without loss (format::model_exact_leaves).
 [[nodiscard]] Ask served_by(format::SectionSet sections, bool has_exact_leaves) noexcept;
 
-/// Returns those sections that `ask`, one bit, needs and `sections` lacks. Of two kinds of
-/// positions, positions_f32 is named.
+/// Returns the sections that `ask` needs and `sections` lacks. `ask` is one bit. If both kinds of
+/// positions are missing, the result contains positions_f32 only.
 [[nodiscard]] format::SectionSet missing_sections(Ask ask, format::SectionSet sections,
                                                   bool has_exact_leaves) noexcept;
 

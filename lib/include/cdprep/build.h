@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-/// Models from arrays at run time: build_model() and build_image() make what Model::open() takes,
-/// RuntimeModel keeps one whose vertices move. The single steps, octrees and tetra-trees have
-/// headers of their own in cdprep/advanced/.
+/// Models from arrays at run time. build_model() and build_image() make the bytes that
+/// Model::open() takes. RuntimeModel keeps a model whose vertices move. Headers in cdprep/advanced/
+/// hold the single steps; headers in cdprep/cells/ build octrees and tetra-trees.
 
 #include "cdprep/advanced/build_image.h"
 #include "cdprep/advanced/build_model.h"

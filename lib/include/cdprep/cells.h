@@ -5,8 +5,8 @@ namespace cdprep {
 
 struct CellSearches;
 
-/// The searches through octrees and tetra-trees, for a Workspace. Defined in the library
-/// cdprep::cells, which a program links only when it asks questions through these structures.
+/// Returns the searches through octrees and tetra-trees, for a Workspace. The library cdprep::cells
+/// defines them. A program links it only if its queries use these structures.
 ///
 ///     cdprep::Workspace workspace(cdprep::cells());
 ///     pair.options.through = cdprep::Structure::octree;

@@ -21,60 +21,59 @@ namespace cdprep {
 using format::SectionId;
 using format::SectionSet;
 
-/// Where the bytes of an opened file are.
+/// The place of the bytes of an opened file.
 enum class OpenMode : std::uint8_t {
     /// In the file, mapped: nothing is copied, and processes share the memory. Needs a file that
     /// nobody truncates or rewrites while the Model lives; see Model.
     map,
-    /// In memory that the Model owns, aligned to pages. Costs reading the whole file at opening,
-    /// and its size in memory. Whatever happens to the file then, the answers stay the same. For
-    /// network shares, removable media, and files that others truncate.
+    /// In memory that the Model owns, aligned to pages. Opening reads the whole file and takes as
+    /// much memory. Later changes to the file never change an answer. Use it for network shares,
+    /// removable media, and files that others truncate.
     copy,
 };
 
-/// How a model is opened. Only the sections that are opened are checked and read.
+/// The options for opening a model. Only the sections that are opened are checked and read.
 struct OpenOptions {
-    /// What will be asked. Opening fails when the file was baked without something that this
-    /// needs. Nothing: whatever the file has can be asked.
+    /// The queries to open the model for. Opening fails if the file was baked without something
+    /// that they need. With Ask::nothing, the model serves whatever the file contains.
     Ask asks = Ask::nothing;
-    /// The sections to open where the file has them, beside those of `asks`. Unset: those of
-    /// `asks` alone, or every section when `asks` is nothing.
+    /// The sections to open, if the file has them, in addition to those of `asks`. Unset: those of
+    /// `asks` only, or every section if `asks` is Ask::nothing.
     std::optional<SectionSet> sections = std::nullopt;
-    /// Stands for the file in messages about bytes in memory.
+    /// The name of bytes in memory, for messages. A path names itself.
     std::string_view name = "memory";
-    /// Of a path; bytes in memory are used where they are.
+    /// For a path. Bytes in memory are used in place.
     OpenMode mode = OpenMode::map;
 };
 
-/// Why a model does not serve a question.
+/// The reason why a model does not serve a query.
 struct Refusal {
     enum class Reason : std::uint8_t {
         not_baked,   ///< the file lacks sections: bake it again
-        not_opened,  ///< the file has them, but they were not asked for at opening
+        not_opened,  ///< the file has them, but they were not opened
     };
     Reason reason;
-    std::string message;  ///< a sentence: file, question, missing sections, what to do
+    std::string message;  ///< a sentence: file, query, missing sections, remedy
 };
 
 /// A baked model, open for queries.
 ///
-/// Opening maps the file and checks it once; nothing is decoded, and nothing copied unless
-/// OpenMode::copy asks for it. Every span and every answer that refers to geometry is valid as long
-/// as the Model is alive. Move-only. All const members and all queries may run on any number of
-/// threads at once.
+/// Opening maps the file and checks it once. Nothing is decoded; only OpenMode::copy copies. Spans,
+/// and answers that refer to geometry, are valid as long as the Model is alive. Move-only. All
+/// const members and all queries may run on any number of threads at once.
 ///
-/// A mapped file must stay as it is while the Model lives:
-/// - Replacing it by rename is safe: the Model keeps the old file, also when that has no name any
+/// A mapped file must not change while the Model lives:
+/// - Replacing it by a rename is safe: the Model keeps the old file, even if that has no name any
 ///   more. `cdprep bake` writes in this way.
-/// - When it is truncated, or a network share or disk fails, touching a page that is not there
-///   stops the program with SIGBUS on POSIX. Nothing can be checked beforehand.
-/// - When it is rewritten in place, queries may see the new bytes, which nobody has checked:
-///   answers may be wrong, and a query may read outside the file or not end.
-/// Open with OpenMode::copy where others may do so.
+/// - If it is truncated, or a network share or disk fails, access to a missing page stops the
+///   program with SIGBUS on POSIX. No check beforehand can prevent this.
+/// - If it is rewritten in place, queries may see the new, unchecked bytes. Answers may then be
+///   wrong, and a query may read outside the file or not end.
+/// Open with OpenMode::copy if others may do so.
 ///
 /// No answer depends on the caller's floating-point environment: rounding mode, flushing of
-/// subnormal numbers, unmasked exceptions. Each call computes in the default one and restores the
-/// caller's (cdprep/format/float_environment.h).
+/// subnormal numbers, unmasked exceptions. Each call computes in the default environment and
+/// restores the caller's (cdprep/format/float_environment.h).
 ///
 ///     auto opened = cdprep::Model::open("bracket.cdp.h5");
 ///     if (!opened) {
@@ -85,11 +84,12 @@ struct Refusal {
 ///     std::cout << model.triangle_count() << " triangles\n";
 class Model {
 public:
-    /// Maps or copies `path` and checks completely the sections that `options` names; the others
-    /// are not touched and give empty spans. Fails with `unreadable` when the file cannot be read,
-    /// is not a finished bake, was written by an incompatible version, was rewritten by another
-    /// tool, or is damaged; with `bad_argument` when it lacks sections that options.asks needs.
-    /// O(bytes of the sections), at memory speed.
+    /// Maps or copies `path` and checks completely the sections that `options` names. The others
+    /// are not touched and give empty spans. Takes O(bytes of the sections) time, at memory speed.
+    ///
+    /// Fails with `unreadable` if the file cannot be read, is not a finished bake, or is damaged.
+    /// The same holds if an incompatible version wrote it, or another tool rewrote it. Fails with
+    /// `bad_argument` if it lacks sections that options.asks needs.
     [[nodiscard]] static Result<Model> open(const std::filesystem::path& path,
                                             const OpenOptions& options = {});
 
@@ -98,17 +98,18 @@ public:
     ///     auto arm = cdprep::Model::open("arm.cdp.h5", cdprep::Ask::collide);
     [[nodiscard]] static Result<Model> open(const std::filesystem::path& path, Ask asks);
 
-    /// The same with those of `wanted` that are present; whatever they serve can be asked.
+    /// The same with the sections of `wanted` that are present. The model serves whatever these
+    /// allow.
     [[nodiscard]] static Result<Model> open(const std::filesystem::path& path, SectionSet wanted);
 
-    /// The same for bytes that the caller keeps: an archive, a network buffer. They must start at
-    /// a multiple of format::kSectionAlignment and stay as they are while the Model lives.
+    /// The same for bytes that the caller keeps, such as an archive or a network buffer. They must
+    /// start at a multiple of format::kSectionAlignment and stay unchanged while the Model lives.
     [[nodiscard]] static Result<Model> open(std::span<const std::byte> bytes,
                                             const OpenOptions& options = {});
     [[nodiscard]] static Result<Model> open(std::span<const std::byte> bytes, SectionSet wanted);
 
-    /// Maps `path` and checks its first 4,144 bytes alone, whatever its size. For files whose hash
-    /// the caller has verified by other means: a damaged one may crash a query.
+    /// Maps `path` and checks its first 4,144 bytes only, whatever its size. Use it for files whose
+    /// hash was verified by other means: a damaged file may crash a query.
     [[nodiscard]] static Result<Model> open_trusted(const std::filesystem::path& path);
 
     Model(Model&&) noexcept;
@@ -120,27 +121,28 @@ public:
 
     [[nodiscard]] const format::FileHeader& header() const noexcept;
 
-    /// The bytes of the file: mapped, copied or the caller's. find_deep_damage() and the functions
-    /// of find_falsehood.h read them.
+    /// Returns the bytes of the file: mapped, copied or the caller's. find_deep_damage() and the
+    /// functions of find_falsehood.h read them.
     [[nodiscard]] std::span<const std::byte> bytes() const noexcept;
 
-    /// Sections that were asked for and are present.
+    /// Returns the sections that were requested and are present.
     [[nodiscard]] SectionSet sections() const noexcept;
 
-    /// What can be asked of this model, computed once at opening. A question that is not served
-    /// stops the program with a sentence (precondition.h).
+    /// Returns the features that this model serves, computed once at opening. A query that it does
+    /// not serve stops the program with a sentence (precondition.h).
     [[nodiscard]] Ask asks() const noexcept {
         return served_;
     }
-    /// True when all of `asks` can be asked.
+    /// Returns whether the model serves all of `asks`.
     [[nodiscard]] bool serves(Ask asks) const noexcept {
         return contains(served_, asks);
     }
-    /// Returns why not all of `asks` can be asked, or nothing when serves() is true. Allocates.
+    /// Returns why the model does not serve all of `asks`, or nothing if serves() is true.
+    /// Allocates.
     [[nodiscard]] std::optional<Refusal> refusal(Ask asks) const;
 
-    /// Views of the sections (advanced/model_views.h): for tools, and for questions that the
-    /// library does not answer. O(1).
+    /// Views of the sections (advanced/model_views.h), for tools and for queries that the library
+    /// lacks. O(1).
     [[nodiscard]] const MeshView& mesh() const noexcept;
     [[nodiscard]] const SourceView& source() const noexcept;
     [[nodiscard]] const BvhView& bvh() const noexcept;
@@ -151,14 +153,14 @@ public:
     [[nodiscard]] const PieceView& pieces() const noexcept;
     [[nodiscard]] const RecordView& record() const noexcept;
 
-    /// Name number `index` of instance_names, group_names or material_names;
-    /// empty when there is none. O(index).
+    /// Returns name number `index` of instance_names, group_names or material_names, or an empty
+    /// text if there is none. Takes O(index) time.
     [[nodiscard]] std::string_view name(SectionId names, std::uint32_t index) const noexcept;
 
-    /// True when bvh().leaves is not empty and holds model coordinates without loss.
+    /// Returns whether bvh().leaves is not empty and holds model coordinates without loss.
     [[nodiscard]] bool has_exact_leaves() const noexcept;
-    /// True when the directed uses of every edge cancel. Winding numbers then exist, and questions
-    /// about solids have exact answers.
+    /// Returns whether the directed uses of every edge cancel. Winding numbers then exist, and
+    /// queries about solids have exact answers.
     [[nodiscard]] bool is_balanced() const noexcept;
 
 private:

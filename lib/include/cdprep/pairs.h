@@ -20,16 +20,16 @@ namespace cdprep {
 
 struct PairFront;
 
-/// An answer that may not be known: of an open mesh, for example, no inside is defined.
+/// An answer that may be unknown: an open mesh, for example, has no defined inside.
 enum class Answer : std::uint8_t { no, yes, unknown };
 
-/// The point set that a model is.
+/// The point set that represents a model.
 enum class Body : std::uint8_t {
-    surface,  ///< its triangles alone
+    surface,  ///< its triangles only
     solid,    ///< its triangles and what they enclose
 };
 
-/// The kind of common points that make two triangles overlap.
+/// The kind of common points that makes two triangles overlap.
 enum class Overlap : std::uint8_t {
     closed,  ///< any common point: touching counts
     proper,  ///< the triangles cross, or share area in one plane
@@ -37,21 +37,21 @@ enum class Overlap : std::uint8_t {
 
 /// The treatment of triangles with collinear corners.
 enum class Degenerate : std::uint8_t {
-    keep,  ///< they answer as the segment or point that they are
-    skip,  ///< they never answer
+    keep,  ///< they count as the segment or point that they are
+    skip,  ///< they are ignored
 };
 
-/// Options of a question about two models. Each question says which it reads.
+/// The options of a query about two models. Each query states which of them it reads.
 struct PairOptions {
     Body body = Body::surface;
     Overlap overlap = Overlap::closed;
     Degenerate degenerate = Degenerate::keep;
-    /// The structure of both files that finds the answer. It changes speed only. A question that
-    /// has no search through it uses the BVH.
+    /// The structure of both files through which the query is computed. It changes speed only. A
+    /// query without a search through it uses the BVH.
     Structure through = Structure::bvh;
 };
 
-/// Two models, which outlive it, and their placement: the subject of a question.
+/// Two models and their placement: the subject of a query. The models must outlive it.
 ///
 ///     cdprep::Workspace workspace;
 ///     cdprep::Pair pair{*arm, *part, cdprep::Placement::b_moves(*pose)};
@@ -61,33 +61,33 @@ struct Pair {
     std::reference_wrapper<const Model> b;
     Placement placement;
     PairOptions options = {};
-    PairCache* cache = nullptr;  ///< results of earlier questions about this pair, or null
-    /// The same, for distances through Structure::pieces (pair_front.h); or null.
+    PairCache* cache = nullptr;  ///< results of earlier queries on this pair, or null
+    /// The same, for distances through Structure::pieces (pair_front.h), or null.
     PairFront* front = nullptr;
 };
 
-/// The containment of a part of one model in the other.
+/// The containment of a component of one model in the other.
 struct Containment {
     Answer answer = Answer::no;
-    /// The deciding winding number: an integer when exact; the generalised one
-    /// (solid angle / 4 pi) when `answer` is unknown; 0 when `answer` is no.
+    /// The winding number that decided. It is an integer if exact, the generalised one
+    /// (solid angle / 4 pi) if `answer` is unknown, and 0 if `answer` is no.
     double winding = 0;
-    bool a_inside_b = false;  ///< which way, when `answer` is not no
+    bool a_inside_b = false;  ///< unless `answer` is no: true for A in B, false for B in A
 };
 
-/// The answer of collide().
+/// The result of collide().
 struct Collision {
-    /// yes: the surfaces touch or, with Body::solid, one model is proved inside the other.
+    /// yes: the surfaces touch or, with Body::solid, one model is proven inside the other.
     /// unknown: the surfaces do not touch, and `containment` is unknown.
     Answer hit = Answer::no;
-    /// Set with Body::solid when the surfaces do not touch; otherwise its answer is no.
+    /// Set with Body::solid if the surfaces do not touch; otherwise its answer is no.
     Containment containment;
 };
 
 /// Returns whether two models collide. Stops at the first pair of triangles found.
 ///
-/// With Body::surface, nested surfaces that do not touch do not collide. With Body::solid they
-/// do when a nonzero winding number proves it; see containment() for open models. As exact as
+/// With Body::surface, nested surfaces that do not touch do not collide. With Body::solid they do
+/// if a nonzero winding number proves it; see containment() for open models. As exact as
 /// overlaps().
 ///
 /// Reads all options. Needs Ask::collide of both models; Body::solid also Ask::solid, and
@@ -95,157 +95,163 @@ struct Collision {
 /// or a motion below the proven gap takes O(1). Never allocates.
 [[nodiscard]] Collision collide(const Pair& pair, Workspace& workspace) noexcept;
 
-/// Returns whether some component of one model lies inside the other, for two models whose
-/// surfaces do not touch.
+/// Returns whether some component of one model lies inside the other. The surfaces of the two
+/// models must not touch.
 ///
-/// Inside means a winding number other than 0: nested shells of opposite orientation cancel, an
+/// Inside means a winding number other than 0. Nested shells of opposite orientation cancel, and an
 /// inverted component counts as solid. A component inside the other model's open surface gives
-/// `unknown` with the generalised winding number, unless another component answers `yes`. The
-/// answer about an open model is `unknown` whatever that number is.
+/// `unknown` with the generalised winding number, unless another component answers `yes`. For an
+/// open model, the answer is `unknown` whatever that number is.
 ///
-/// Boxes decide most cases: a component whose vertex lies outside the other model's box is
-/// outside, open or not. Exact for balanced models: a ray with symbolic perturbation (Feito and
-/// Torres 1997). Reads no options. Needs Ask::solid of both models. Takes O(components (log n +
-/// hits)) time; O(n) per component against an open model. Never allocates.
+/// Boxes decide most cases: a component with a vertex outside the other model's box is outside,
+/// even if that model is open. Exact for balanced models, by a ray with symbolic perturbation
+/// (Feito and Torres 1997). Reads no options. Needs Ask::solid of both models. Takes O(components
+/// (log n + hits)) time, or O(n) per component against an open model. Never allocates.
 [[nodiscard]] Containment containment(const Pair& pair, Workspace& workspace) noexcept;
 
-/// One triangle of each model, in the numbering of the imported files.
+/// One triangle of each model, in source numbers.
 struct TrianglePair {
     std::uint32_t a;
     std::uint32_t b;
     friend auto operator<=>(const TrianglePair&, const TrianglePair&) = default;
 };
 
-/// Finds every pair of triangles of the two models that have a point in common.
+/// Finds every pair of triangles of the two models with a common point.
 ///
-/// Returns the number of pairs and stores the first of them, in the order of (a, b), in `room`.
-/// If `room` is too short, it holds the smallest pairs, and the result is still the true number;
-/// an empty span counts. The order costs a sort of the stored pairs.
+/// Returns the number of pairs. Stores the first of them in `room`, in the order of (a, b). If
+/// `room` is too short, it holds the smallest pairs, and the result is still the true number. With
+/// an empty span it only counts. The order costs a sort of the stored pairs.
 ///
-/// Exact: the answer is that of exact arithmetic on the vertices as transform_point() moves them,
-/// the same on every machine and in every floating-point environment of the caller. An empty
+/// Exact: the answer is that of exact arithmetic on the vertices as transform_point() moves them.
+/// It is the same on every machine and in every floating-point environment of the caller. An empty
 /// model overlaps nothing.
 ///
 /// Reads options.overlap, degenerate and through. Needs Ask::overlap of both models, and
 /// options.through its ask_of(). Takes O(log n + pairs) time for compact surfaces, O(n m) in the
-/// worst case; with a cache, a pose in which nothing touches costs as much as collide(). Through
-/// octrees and tetra-trees it takes some 20 KiB of stack. Never allocates.
+/// worst case. With a cache, a pose without contact takes as long as collide(). Through octrees and
+/// tetra-trees, it uses about 20 KiB of stack. Never allocates.
 [[nodiscard]] std::size_t overlaps(const Pair& pair, Workspace& workspace,
                                    std::span<TrianglePair> room) noexcept;
 
 using PairVisitor = Visitor<TrianglePair>;
 
-/// Calls `visit` with every pair that overlaps() finds, each once, as it is found. Stores and
-/// sorts nothing. The order is the same for equal input on equal processors, otherwise
-/// unspecified. Returns false if `visit` ended the search. Reads options.overlap and degenerate.
-/// Needs Ask::overlap of both models.
+/// Calls `visit` with every pair that overlaps() finds, each once, as it is found. Stores and sorts
+/// nothing. The order is the same for equal input on equal processors, otherwise unspecified.
+/// Returns false if `visit` ended the search. Reads options.overlap and degenerate. Needs
+/// Ask::overlap of both models.
 ///
 ///     std::size_t count = 0;
 ///     const auto visit = [&](const cdprep::TrianglePair&) { return ++count < 1000; };
 ///     cdprep::visit_overlaps(pair, workspace, visit);
 bool visit_overlaps(const Pair& pair, Workspace& workspace, PairVisitor visit) noexcept;
 
-/// Marks the triangles of either model that overlap any triangle of the other: bit i % 64 of
-/// element i / 64 for source triangle i. Clears `bits_a` and `bits_b` first. Each must have an
-/// element for every 64 triangles of its model; otherwise nothing is marked in it. Returns the
-/// number of pairs. Faster than overlaps() where many pairs share few triangles. Reads
-/// options.overlap and degenerate. Needs Ask::overlap of both models.
+/// Marks the triangles of each model that overlap any triangle of the other, and returns the number
+/// of pairs. The mark of source triangle i is bit i % 64 of element i / 64. Clears `bits_a` and
+/// `bits_b` first. Each must have an element for every 64 triangles of its model; otherwise nothing
+/// is marked in it. Faster than overlaps() if many pairs share few triangles. Reads options.overlap
+/// and degenerate. Needs Ask::overlap of both models.
 std::size_t mark_overlaps(const Pair& pair, Workspace& workspace, std::span<std::uint64_t> bits_a,
                           std::span<std::uint64_t> bits_b) noexcept;
 
-/// Two triangles that overlap, and the segment in which they meet.
+/// Two triangles that overlap, and their common segment.
 struct Crossing {
     TrianglePair pair;
-    /// The triangles lie in one plane, or one has no area: they may share an area, and no
-    /// segment is given.
+    /// The triangles lie in one plane, or one has no area. They may share an area, and no segment
+    /// is given.
     bool is_flat;
-    Double3 from;  ///< an end of the common segment; 0 when `is_flat`
-    Double3 to;    ///< the other end; equal to `from` where the triangles touch in a point
+    Double3 from;  ///< an end of the common segment; 0 if `is_flat`
+    Double3 to;    ///< the other end; equal to `from` if the triangles touch in a point
 };
 
-/// Finds every pair that overlaps() finds, and the segment in which its two triangles meet.
-/// Returns the number of pairs and stores the first of them in `room`, as overlaps() does.
+/// Finds every pair that overlaps() finds, with the common segment of its two triangles. Returns
+/// the number of pairs and stores the first of them in `room`, as overlaps() does.
 ///
-/// Coordinates are those of the placement: A's frame where B moves. The edges that end a segment
-/// are chosen exactly, for the vertices as transform_point() moves them. Each coordinate is then
-/// rounded once: to the nearest double, unless it lies within 2^-45 units in the last place of
-/// the middle between two (crossing_segments_laws_test). Neighbours that share an edge therefore
-/// share the end on it, bit for bit, except for those ties. Subnormal coordinates may be off by
-/// one unit.
+/// Coordinates are those of the placement: A's frame if B moves. The edges that end a segment are
+/// chosen exactly, for the vertices as transform_point() moves them. Each coordinate is then
+/// rounded once. The result is the nearest double, unless the coordinate lies within 2^-45 units in
+/// the last place of the midpoint between two (crossing_segments_laws_test). Except for those ties,
+/// neighbours that share an edge share the end on it, bit for bit. Subnormal coordinates may be off
+/// by one unit.
 ///
-/// Reads options.overlap and degenerate. Needs Ask::overlap of both models. Costs some
-/// microseconds more per pair than overlaps(). Never allocates; takes some 20 KiB of stack.
+/// Reads options.overlap and degenerate. Needs Ask::overlap of both models. Takes some microseconds
+/// more per pair than overlaps(), and about 20 KiB of stack. Never allocates.
 [[nodiscard]] std::size_t crossings(const Pair& pair, Workspace& workspace,
                                     std::span<Crossing> room) noexcept;
 
-/// Calls `visit` with everything that crossings() finds, each once, as it is found, in the order
-/// of visit_overlaps(). Returns false if `visit` ended the search. Reads options.overlap and
+/// Calls `visit` with every crossing that crossings() finds, each once, as it is found, in the
+/// order of visit_overlaps(). Returns false if `visit` ended the search. Reads options.overlap and
 /// degenerate. Needs Ask::overlap of both models.
 bool visit_crossings(const Pair& pair, Workspace& workspace, Visitor<Crossing> visit) noexcept;
 
-/// Limits of a distance. Either permitted error ends the search; 0 asks for all that double can
-/// tell.
+/// The limits of a distance query. The search ends at either permitted error. With both 0, the
+/// result is as exact as double allows.
 struct DistanceOptions {
     double relative_error = 0;  ///< upper may exceed lower by this share of lower
     double absolute_error = 0;  ///< or by this, model units
-    /// Nothing farther is found; inclusive.
+    /// Larger distances are not found; inclusive.
     double max_distance = std::numeric_limits<double>::infinity();
 };
 
-/// The distance of two surfaces, and the points where it is attained.
+/// The distance of two surfaces, and points where it is attained.
 struct Distance {
     double lower;              ///< the distance is at least this, model units
-    double upper;              ///< and at most this: [lower, upper] holds the exact one
+    double upper;              ///< and at most this: [lower, upper] contains the exact distance
     Double3 witness_a;         ///< on A as moved, up to rounding; nearest to B
     Double3 witness_b;         ///< on B as moved, up to rounding; `upper` from witness_a
-    std::uint32_t triangle_a;  ///< that witness_a lies on; source numbering
-    std::uint32_t triangle_b;  ///< that witness_b lies on; source numbering
+    std::uint32_t triangle_a;  ///< the triangle with witness_a; source number
+    std::uint32_t triangle_b;  ///< the triangle with witness_b; source number
 };
 
-/// Returns the distance of two surfaces, or nothing when it exceeds options.max_distance or a
+/// Returns the distance of two surfaces. Returns nothing if it exceeds options.max_distance or a
 /// model is empty.
 ///
-/// The distance is 0 exactly if the surfaces touch or, with Body::solid, one model is proved
-/// inside the other. Witnesses of touching surfaces are a common point; those of contained
-/// solids are the surfaces' nearest points. Of pairs of triangles with equal `upper` the one with
-/// the lowest numbers answers. Of pairs that are equally near in exact numbers, whose `upper` may
-/// differ in the last bits, any may answer, and always the same. Through Structure::pieces,
-/// another pair of touching triangles may answer.
+/// The distance is 0 exactly if the surfaces touch or, with Body::solid, one model is proven inside
+/// the other. Witnesses of touching surfaces are a common point; those of contained solids are the
+/// surfaces' nearest points.
 ///
-/// The interval holds the distance between the vertices as transform_point() moves them. Without
-/// permitted errors its width is at most 1e-12 of the distance plus 1e-15 of the largest
-/// coordinate (triangle_distance_laws_test); with them at most that or as permitted.
+/// Among pairs of triangles with equal `upper`, the result has the lowest numbers. Pairs that are
+/// equally near in exact arithmetic may differ in the last bits of `upper`. Any of them may be the
+/// result, but always the same one. Through Structure::pieces, the result may be another pair of
+/// touching triangles.
 ///
-/// Reads pair.options.body and, of options.through, Structure::pieces. Needs Ask::distance of
-/// both models; Body::solid also Ask::solid, and options.through its ask_of(). Takes O(log n)
-/// time for compact surfaces; visits every triangle in the worst case, such as concentric
-/// spheres. Never allocates.
+/// The interval contains the distance between the vertices as transform_point() moves them. Without
+/// permitted errors its width is at most 1e-12 of the distance plus 1e-15 of the largest coordinate
+/// (triangle_distance_laws_test). With them it is at most that, or as permitted.
+///
+/// Reads pair.options.body and through; the only structure beside the BVH is Structure::pieces.
+/// Needs Ask::distance of both models; Body::solid also Ask::solid, and options.through its
+/// ask_of(). Takes O(log n) time for compact surfaces. Visits every triangle in the worst case,
+/// such as concentric spheres. Never allocates.
 [[nodiscard]] std::optional<Distance> distance(const Pair& pair, Workspace& workspace,
                                                const DistanceOptions& options = {}) noexcept;
 
-/// Returns whether two surfaces are at most `tolerance` apart, model units; inclusive, and 0 asks
-/// whether they touch. False for a negative tolerance or NaN, and when a model is empty.
+/// Returns whether two surfaces are at most `tolerance` apart, in model units; inclusive. A
+/// tolerance of 0 tests whether they touch. Returns false for a negative tolerance or NaN, and if a
+/// model is empty.
 ///
-/// Exact for the vertices as transform_point() moves them: a distance equal to the tolerance to
-/// the last bit is within it, and one step less is not. Stops at the first pair of triangles that
+/// Exact for the vertices as transform_point() moves them: a tolerance equal to the exact distance
+/// gives true, and the next smaller double gives false. Stops at the first pair of triangles that
 /// is near enough.
 ///
-/// Reads, of options.through, Structure::pieces. Needs Ask::within of both models, and
-/// options.through its ask_of(). Costs as distance(), less where the answer is clear.
+/// Reads options.through; the only structure beside the BVH is Structure::pieces. Needs Ask::within
+/// of both models, and options.through its ask_of(). Takes as long as distance(), or less if the
+/// answer is clear.
 [[nodiscard]] bool within(const Pair& pair, double tolerance, Workspace& workspace) noexcept;
 
-/// Finds every pair of triangles that are at most `tolerance` apart, model units; inclusive.
+/// Finds every pair of triangles that are at most `tolerance` apart, in model units; inclusive.
 ///
-/// Returns the number of pairs and stores the first of them in `room`, in the order and with the
-/// meaning of overlaps(). A tolerance of 0 gives the pairs of overlaps() with Overlap::closed, an
-/// infinite one all pairs; a negative one or NaN gives none, and an empty model has none.
+/// Returns the number of pairs. Stores the first of them in `room`, in the order and with the
+/// meaning of overlaps(). A tolerance of 0 gives the pairs of overlaps() with Overlap::closed; an
+/// infinite one gives all pairs. A negative tolerance or NaN gives none, and an empty model has
+/// none.
 ///
-/// Exact for the vertices as transform_point() moves them. Degenerate triangles are as far away
-/// as the segment or point that they are, unless they are skipped.
+/// Exact for the vertices as transform_point() moves them. The distance of a degenerate triangle is
+/// that of its segment or point, unless it is skipped.
 ///
-/// Reads options.degenerate and, of options.through, Structure::pieces. Needs Ask::within of both
-/// models, and options.through its ask_of(). Takes O(log n + pairs) time for compact surfaces and
-/// tolerances that are small against them, O(n m) in the worst case. Never allocates.
+/// Reads options.degenerate and through; the only structure beside the BVH is Structure::pieces.
+/// Needs Ask::within of both models, and options.through its ask_of(). Takes O(log n + pairs) time
+/// for compact surfaces and tolerances that are small compared with them, O(n m) in the worst case.
+/// Never allocates.
 [[nodiscard]] std::size_t pairs_within(const Pair& pair, double tolerance, Workspace& workspace,
                                        std::span<TrianglePair> room) noexcept;
 

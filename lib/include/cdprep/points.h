@@ -17,29 +17,30 @@
 
 namespace cdprep {
 
-// Questions about one model and a point, a ray or a shape.
+// Queries about one model and a point, a ray or a shape.
 
-/// The point of a surface that is nearest to a given one.
+/// The point of a surface nearest to a given point.
 struct ClosestPoint {
     Double3 point;           ///< on the surface up to rounding, model units
     double lower;            ///< the distance is at least this, model units
-    double upper;            ///< and at most this: [lower, upper] holds the exact one
-    std::uint32_t triangle;  ///< the imported file's number
+    double upper;            ///< and at most this: [lower, upper] contains the exact distance
+    std::uint32_t triangle;  ///< source number
 };
 
-/// Returns the point of `model`'s surface nearest to `query`, or nothing when
-/// no part of it is within `max_distance`.
+/// Returns the point of `model`'s surface nearest to `query`, or nothing if no part of it is within
+/// `max_distance`.
 ///
-/// Distance is to the surface, not to the solid: a point deep inside a closed
-/// model is far away. When several triangles are equally near as far as double
-/// can tell, the one with the smallest number answers.
+/// The distance is to the surface, not to the solid: a point deep inside a closed model is far
+/// away. If several triangles are equally near in double, the result is on the one with the lowest
+/// number.
 ///
 /// `query` must be finite. `max_distance` may be infinite and is inclusive: no nearer point is
-/// missed, and the point found has a `lower` of at most `max_distance`. The interval always holds
-/// the exact distance (closest_point_laws_test). Its width is a few ulp of the triangle's farthest
-/// corner, more for slivers.
-/// Needs Ask::closest. Never allocates. Visits every node in the worst case, such as a point at
-/// the centre of a sphere.
+/// missed, and the point found has a `lower` of at most `max_distance`. The interval always
+/// contains the exact distance (closest_point_laws_test). Its width is a few ulp of the distance to
+/// the triangle's farthest corner, more for slivers.
+///
+/// Needs Ask::closest. Never allocates. Visits every node in the worst case, such as a point at the
+/// centre of a sphere.
 ///
 ///     if (auto near = cdprep::closest_point(model, {0, 0, 2}, workspace)) {
 ///         std::cout << "triangle " << near->triangle << " at " << near->upper << '\n';
@@ -50,72 +51,74 @@ struct ClosestPoint {
 
 /// The position of a point with respect to a solid.
 struct Inclusion {
-    Answer answer = Answer::no;  ///< unknown when the model is open and p is not on it
+    Answer answer = Answer::no;  ///< unknown if the model is open and p is not on it
     bool on_surface = false;     ///< p lies on a triangle; then `answer` is yes
     double winding = 0;          ///< as in Containment; 0 on the surface
 };
 
-/// Returns whether the point `p` (model units, finite) is inside `model`, by its winding number, as
-/// in containment().
+/// Returns whether the point `p` is inside `model`, by its winding number, as in containment(). `p`
+/// is in model units and must be finite.
 ///
-/// `through` chooses the structure that finds the answer, which is the same through each, bit for
-/// bit: the tetra-tree reads the triangles of one cone, the octrees those of the cells along a
-/// ray; Structure::pieces answers as bvh. An open model is always answered through the BVH.
+/// `through` chooses the structure. The result is the same through each, bit for bit. The
+/// tetra-tree reads the triangles of one cone; octrees read those of the cells along a ray.
+/// Structure::pieces is treated as Structure::bvh. A query on an open model always uses the BVH.
 ///
 /// Exact for balanced models. Needs Ask::inside and ask_of() the structure. Takes O(log n + hits)
 /// time; through cells O(level + triangles in one cone) or O(cells along the ray + their
-/// triangles), counted in QueryCounts::ray_triangles. Never allocates.
+/// triangles). QueryCounts::ray_triangles counts these triangles. Never allocates.
 [[nodiscard]] Inclusion points_inside(const Model& model, const Double3& p, Workspace& workspace,
                                       Structure through = Structure::bvh) noexcept;
 
-/// A half-line: origin + t * direction, t >= 0. Model coordinates: where the model
-/// moves, turn the ray back into its frame.
+/// A half-line: origin + t * direction, t >= 0, in model coordinates. If the model moves, transform
+/// the ray back into its frame.
 struct Ray {
     Double3 origin;     ///< model units, finite
     Double3 direction;  ///< finite, not zero; any length
 };
 
-/// Where a ray meets a surface.
+/// A point where a ray meets a surface.
 struct RayHit {
     double t;                ///< in lengths of the direction
     Double3 point;           ///< origin + t * direction, rounded
-    std::uint32_t triangle;  ///< the imported file's number
+    std::uint32_t triangle;  ///< source number
 
-    /// By t, then by triangle.
+    /// Compares by t, then by triangle.
     friend bool operator<(const RayHit& a, const RayHit& b) noexcept;
 };
 
 struct RayOptions {
-    /// Inclusive. Compared with the rounded t; for a segment whose ends decide exactly,
-    /// ask touches() with a Capsule of radius 0.
+    /// Inclusive. Compared with the rounded t. For a segment with exactly decided ends, use
+    /// touches() with a Capsule of radius 0.
     double max_t = std::numeric_limits<double>::infinity();
 };
 
 /// Returns the first point where `ray` meets the surface, or nothing.
 ///
 /// Each hit is decided exactly, by the signs of the volumes that origin and direction, as given,
-/// span with the edges. A ray along an edge or through a vertex hits, so that none slips between
+/// span with the edges. A ray along an edge or through a vertex hits, so that none passes between
 /// neighbours. Both sides of a triangle count. A ray in the plane of a triangle hits where it
-/// enters. `t` and `point` are rounded. They decide which hit is first and what max_t excludes;
-/// of hits with equal t the lowest source triangle answers. A model without triangles is never
-/// hit, and a direction of zero hits nothing.
+/// enters.
+///
+/// `t` and `point` are rounded. They decide which hit is first and what max_t excludes; of hits
+/// with equal t the first has the lowest source triangle. A model without triangles is never hit,
+/// and a direction of zero hits nothing.
 ///
 /// Needs Ask::ray. Takes O(log n) time for compact surfaces. Never allocates.
 [[nodiscard]] std::optional<RayHit> cast_ray(const Model& model, const Ray& ray,
                                              Workspace& workspace,
                                              const RayOptions& options = {}) noexcept;
 
-/// Returns whether `ray` hits any triangle: cast_ray() would answer. Exact while max_t
-/// is infinite. Stops at the first found: it costs less than cast_ray(), and is enough for shadows
-/// and lines of sight. Needs Ask::ray.
+/// Returns whether `ray` hits any triangle, that is, whether cast_ray() would return a hit. Exact
+/// if max_t is infinite. Stops at the first hit found: it is faster than cast_ray(), and sufficient
+/// for shadows and lines of sight. Needs Ask::ray.
 [[nodiscard]] bool ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                             const RayOptions& options = {}) noexcept;
 
-/// Finds every triangle that `ray` hits, each once, where it hits it first.
+/// Finds every triangle that `ray` hits, each once, at its first point on the ray.
 ///
-/// Returns how many there are and stores the first of them, in the order of t and then
-/// of triangles, in `hits`; an empty span counts. Which triangles are hit is as exact
-/// as cast_ray(). A ray through an edge or vertex hits all triangles there. Needs Ask::ray.
+/// Returns the number of hits. Stores the first of them in `hits`, in the order of t and then of
+/// triangles. With an empty span it only counts. Which triangles are hit is as exact as cast_ray().
+/// A ray through an edge or vertex hits all triangles there. Needs Ask::ray.
 [[nodiscard]] std::size_t all_ray_hits(const Model& model, const Ray& ray, Workspace& workspace,
                                        std::span<RayHit> hits,
                                        const RayOptions& options = {}) noexcept;
@@ -127,9 +130,8 @@ using RayVisitor = Visitor<RayHit>;
 bool visit_ray_hits(const Model& model, const Ray& ray, Workspace& workspace, RayVisitor visit,
                     const RayOptions& options = {}) noexcept;
 
-/// A solid box along the axes of the world. Limits may be infinite; lower > upper on
-/// any axis is no box and touches nothing, nor does one with a NaN. Equal limits make
-/// it flat, a segment or a point.
+/// A solid box along the world axes. Limits may be infinite. With lower > upper on any axis, or a
+/// NaN, it is no box and touches nothing. Equal limits make it flat, a segment or a point.
 struct Box {
     Double3 lower;  ///< model units
     Double3 upper;  ///< inclusive
@@ -148,35 +150,34 @@ struct Capsule {
     double radius;  ///< model units; negative or NaN touches nothing, 0 is the segment
 };
 
-/// One triangle by its corners; model units, finite. Collinear or equal corners make it
-/// the segment or point that they span.
+/// One triangle by its corners, in model units, finite. Collinear or equal corners give the segment
+/// or point that they span.
 struct TriangleShape {
     std::array<Double3, 3> corner;
 };
 
-/// A shape of the world, closed and solid: touching counts, and so does a triangle inside it.
+/// A shape in the world, closed and solid: touching counts, and a triangle inside it touches it.
 using Shape = std::variant<Box, Sphere, Capsule, TriangleShape>;
 
 struct ShapeOptions {
     /// The placement of the model; shapes are in world coordinates. transform_point() moves each
-    /// vertex once, and the answer is exact for the resulting doubles; the identity moves
-    /// nothing. For an answer that is exact for the stored vertices, give the shape in model
-    /// coordinates.
+    /// vertex once, and the answer is exact for the resulting doubles. The identity moves nothing.
+    /// For an answer that is exact for the stored vertices, give the shape in model coordinates.
     Pose world_from_model = {};
-    Degenerate degenerate = Degenerate::keep;  ///< read by all but shape_distance()
-    /// Read by shape_distance(): nothing farther is found; inclusive.
+    Degenerate degenerate = Degenerate::keep;  ///< all but shape_distance() read it
+    /// Read by shape_distance(): larger distances are not found; inclusive.
     double max_distance = std::numeric_limits<double>::infinity();
 };
 
-/// Returns whether `shape` has a point in common with a triangle of `model`; stops at the first
+/// Returns whether `shape` has a point in common with a triangle of `model`. Stops at the first one
 /// found. The model is its surface: a shape deep inside a closed model touches nothing.
 ///
-/// Exact, tangent spheres and capsules included: signs of determinants and comparisons in integers
+/// Exact, also for tangent spheres and capsules: signs of determinants and comparisons in integers
 /// decide where double cannot. A triangle in the plane of a box face touches, and so does a
 /// degenerate one.
 ///
-/// A box along other axes is an axis-aligned one in a frame of its own: pass box_from_model as
-/// options.world_from_model, from two world poses relative_pose(world_from_box,
+/// For a box along other axes, use an axis-aligned box in its own frame. Pass box_from_model as
+/// options.world_from_model: from two world poses, it is relative_pose(world_from_box,
 /// world_from_model).
 ///
 /// Needs Ask::touch. Takes O(log n) time for most hits and misses. Never allocates.
@@ -185,13 +186,13 @@ struct ShapeOptions {
 
 /// Finds every triangle of `model` that has a point in common with `shape`.
 ///
-/// Returns the number of triangles and stores the smallest of their source numbers, sorted, in
-/// `room`; an empty span counts. As exact as touches(). Needs Ask::touch.
+/// Returns the number of triangles. Stores the smallest of their source numbers, sorted, in `room`.
+/// With an empty span it only counts. As exact as touches(). Needs Ask::touch.
 [[nodiscard]] std::size_t touching_triangles(const Model& model, const Shape& shape,
                                              Workspace& workspace, std::span<std::uint32_t> room,
                                              const ShapeOptions& options = {}) noexcept;
 
-/// Called with the source number of a triangle.
+/// Receives the source number of a triangle.
 using TriangleVisitor = Visitor<std::uint32_t>;
 
 /// Calls `visit` with every triangle that touching_triangles() finds, each once, as it is found, in
@@ -199,28 +200,28 @@ using TriangleVisitor = Visitor<std::uint32_t>;
 bool visit_touching_triangles(const Model& model, const Shape& shape, Workspace& workspace,
                               TriangleVisitor visit, const ShapeOptions& options = {}) noexcept;
 
-/// The distance of a shape from a surface, and the points where it is attained.
+/// The distance of a shape from a surface, and points where it is attained.
 struct ShapeDistance {
     double lower;            ///< the distance is at least this, model units
-    double upper;            ///< and at most this: [lower, upper] holds the exact one
-    Double3 on_model;        ///< of the surface as moved, up to rounding; nearest to the shape
-    Double3 on_shape;        ///< of the box or triangle; for a sphere or capsule, its axis
-    std::uint32_t triangle;  ///< that on_model lies on; the imported file's number
+    double upper;            ///< and at most this: [lower, upper] contains the exact distance
+    Double3 on_model;        ///< on the surface as moved, up to rounding; nearest to the shape
+    Double3 on_shape;        ///< on the box or triangle; for a sphere or capsule, on its axis
+    std::uint32_t triangle;  ///< the triangle with on_model; source number
 };
 
-/// Returns the distance of `shape` from the surface of `model`: 0, exactly, when they touch; for a
-/// sphere or capsule the distance of its centre or segment less its radius. Nothing when that
-/// exceeds options.max_distance, the shape is one that touches nothing, or the model has no
-/// triangles.
+/// Returns the distance of `shape` from the surface of `model`. It is 0, exactly, if they touch.
+/// For a sphere or capsule, it is the distance of the centre or segment minus the radius. Returns
+/// nothing if the distance exceeds options.max_distance, the shape is one that can touch nothing,
+/// or the model has no triangles.
 ///
-/// The interval holds the distance to the vertices as transform_point() moves them. Its width is at
-/// most 1e-12 of the distance plus 1e-15 of the largest coordinate; for spheres and capsules that
-/// of centre or segment, and 4 ulp for the radius. Of triangles with equal `upper` the one with the
-/// lowest number answers; of those that are equally near in exact numbers any may, and always the
-/// same.
+/// The interval contains the distance to the vertices as transform_point() moves them. Its width is
+/// at most 1e-12 of the distance plus 1e-15 of the largest coordinate. For spheres and capsules, it
+/// is that of the centre or segment, plus 4 ulp for the radius. Among triangles with equal `upper`,
+/// the result has the lowest number. Among those that are equally near in exact arithmetic, any may
+/// be the result, but always the same one.
 ///
-/// Needs Ask::touch. Visits every triangle in the worst case; a box is twelve questions about
-/// triangles, each within the answers before it. Never allocates.
+/// Needs Ask::touch. Visits every triangle in the worst case. A box takes twelve triangle queries,
+/// each limited by the results before it. Never allocates.
 [[nodiscard]] std::optional<ShapeDistance> shape_distance(
     const Model& model, const Shape& shape, Workspace& workspace,
     const ShapeOptions& options = {}) noexcept;

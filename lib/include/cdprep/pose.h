@@ -11,38 +11,36 @@ namespace cdprep {
 
 using format::Double3;
 
-/// A rigid motion, checked when it is made: it maps a point p to rotation * p + translation. A
-/// pose `world_from_arm` maps points of the arm into the world.
+/// A rigid motion, checked on construction. It maps a point p to rotation * p + translation. A pose
+/// `world_from_arm` maps points of the arm into the world.
 class Pose {
 public:
     /// The identity.
     constexpr Pose() noexcept = default;
 
-    /// Takes R row by row, then T, in model units. Fails with bad_argument, and
-    /// says which number is wrong, when one is not finite or beyond
-    /// format::kMaxCoordinate, when an entry of |R^T R - I| exceeds
-    /// kRotationTolerance, or when R mirrors.
+    /// Makes a pose from R row by row, then T, in model units. Fails with bad_argument, and names
+    /// the wrong number, if one is not finite or beyond format::kMaxCoordinate. Also fails if an
+    /// entry of |R^T R - I| exceeds kRotationTolerance, or R mirrors.
     [[nodiscard]] static Result<Pose> from_rows(const std::array<double, 12>& rows);
 
-    /// Takes any quaternion w + xi + yj + zk but zero; its length does not
-    /// matter. Fails with bad_argument when a number is not finite, all four are
-    /// zero, or the translation is beyond format::kMaxCoordinate. Each entry of R
-    /// is within kQuaternionError of the exact one.
+    /// Makes a pose from any quaternion w + xi + yj + zk except zero; its length does not matter.
+    /// Fails with bad_argument if a number is not finite, all four are zero, or the translation is
+    /// beyond format::kMaxCoordinate. Each entry of R is within kQuaternionError of the exact one.
     [[nodiscard]] static Result<Pose> from_quaternion(double w, double x, double y, double z,
                                                       const Double3& translation);
 
-    /// R row by row.
+    /// Returns R row by row.
     [[nodiscard]] constexpr const std::array<double, 9>& rotation() const noexcept {
         return rotation_;
     }
-    /// Model units.
+    /// Returns T in model units.
     [[nodiscard]] constexpr const Double3& translation() const noexcept {
         return translation_;
     }
 
-    /// Largest permitted entry of |R^T R - I|.
+    /// The largest permitted entry of |R^T R - I|.
     static constexpr double kRotationTolerance = 1e-12;
-    /// Largest error of an entry of R made from a quaternion (pose_test).
+    /// The largest error of an entry of R made from a quaternion (pose_test).
     static constexpr double kQuaternionError = 8 * 0x1p-53;
 
 private:
@@ -55,60 +53,60 @@ private:
     friend Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept;
 };
 
-/// Returns a_from_b = world_from_a^-1 world_from_b by one fixed formula, in
-/// double: R = Ra^T Rb, T = Ra^T (Tb - Ta), each sum from left to right. It
-/// carries rounding of about 1e-16 relative; where parts of one turned assembly
-/// must still touch, use Placement::world.
+/// Returns a_from_b = world_from_a^-1 world_from_b, computed in double by one fixed formula:
+/// R = Ra^T Rb and T = Ra^T (Tb - Ta), each sum from left to right. The relative rounding error is
+/// about 1e-16. If parts of one turned assembly must still touch, use Placement::world.
 [[nodiscard]] Pose relative_pose(const Pose& world_from_a, const Pose& world_from_b) noexcept;
 
 /// Returns the pose that moves by `b_from_c` first and then by `a_from_b`, by one fixed formula in
-/// double. A rotation that has drifted by more than 1e-13 is replaced by the nearest one, so that
-/// chains of any length stay rigid. Fails with bad_argument when the translation exceeds
+/// double. A rotation that has drifted by more than 1e-13 is replaced by the nearest one. So chains
+/// of any length stay rigid. Fails with bad_argument if the translation exceeds
 /// format::kMaxCoordinate.
 [[nodiscard]] Result<Pose> composed_pose(const Pose& a_from_b, const Pose& b_from_c);
 
-/// Returns the pose that moves back, likewise: R^T and -(R^T T).
+/// Returns the inverse pose, computed likewise: R^T and -(R^T T).
 [[nodiscard]] Result<Pose> inverse_pose(const Pose& a_from_b);
 
-/// How the sixteen numbers of a matrix follow each other.
+/// The order of the sixteen numbers of a matrix.
 enum class MatrixLayout : std::uint8_t {
     rows,     ///< row by row: the translation is in elements 3, 7 and 11
     columns,  ///< column by column: in elements 12, 13 and 14
 };
 
-/// Largest tolerance of nearest_pose(): beyond, the nearest rotation means little.
+/// The largest tolerance of nearest_pose(). Beyond it, the nearest rotation means little.
 inline constexpr double kGreatestPoseTolerance = 0.25;
 
-/// Returns the pose that is nearest to a 4 x 4 matrix, such as one of an engine: the rotation R for
-/// which the sum of squares of M - R is least, with |R^T R - I| at most 1e-15 (pose_test).
+/// Returns the pose nearest to a 4 x 4 matrix, such as one of an engine. Its R minimises the sum of
+/// squares of M - R, with |R^T R - I| at most 1e-15 (pose_test).
 ///
-/// The matrix may differ from a rigid motion by `tolerance`, 0 to kGreatestPoseTolerance, in every
-/// entry of |M^T M - I| and of its last row 0 0 0 1; for matrices of floats 1e-5 is a good value.
-/// Fails with bad_argument, and says which, when it scales, shears, mirrors or projects by more
-/// than that, when a number is not finite or beyond format::kMaxCoordinate, or when the tolerance
-/// is not in its range.
+/// The matrix may differ from a rigid motion by `tolerance`, which is 0 to kGreatestPoseTolerance.
+/// The limit holds for every entry of |M^T M - I| and for the deviation of the last row from
+/// 0 0 0 1. For matrices of floats, 1e-5 is a good value.
+///
+/// Fails with bad_argument, and states the reason, if the matrix scales, shears, mirrors or
+/// projects by more than that. Also fails if a number is not finite or beyond
+/// format::kMaxCoordinate, or the tolerance is out of range.
 [[nodiscard]] Result<Pose> nearest_pose(const std::array<double, 16>& matrix, double tolerance,
                                         MatrixLayout layout = MatrixLayout::rows);
 
 /// Returns the point p moved by `pose`: ((R00 x + R01 y) + R02 z) + T0 and so on, in double without
 /// contraction. Queries are exact for the points that this function returns (level E1 of
-/// GLOSSARY.md). Neither compiler options nor the floating-point environment of the caller change
-/// them.
+/// GLOSSARY.md). Neither compiler options nor the caller's floating-point environment change them.
 [[nodiscard]] Double3 transform_point(const Pose& pose, const Double3& p) noexcept;
 
 /// The poses of two models, and which of the models moves.
 ///
 /// A query moves each vertex of a moved model once, by transform_point(), and answers exactly for
-/// the resulting doubles. The choice matters: rounding shifts moved vertices by up to
-/// 5 u (|R||v| + |t|) per axis, u = 2^-53.
+/// the resulting doubles. The choice of the moving model matters: rounding shifts moved vertices by
+/// up to 5 u (|R||v| + |t|) per axis, u = 2^-53.
 class Placement {
 public:
-    /// B moves into A's frame, A stays as it is.
+    /// B moves into A's frame. A does not move.
     [[nodiscard]] static Placement b_moves(const Pose& a_from_b) noexcept {
         return {Pose(), a_from_b, false, true};
     }
-    /// A moves into B's frame. A query of (b, a) by b_moves(p) and one of (a, b)
-    /// by a_moves(p) give the same pairs, swapped, bit for bit.
+    /// A moves into B's frame. A query of (b, a) by b_moves(p) and one of (a, b) by a_moves(p) give
+    /// the same pairs, swapped, bit for bit.
     [[nodiscard]] static Placement a_moves(const Pose& b_from_a) noexcept {
         return {b_from_a, Pose(), true, false};
     }

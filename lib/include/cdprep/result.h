@@ -9,25 +9,25 @@
 
 namespace cdprep {
 
-/// What kind of failure, for programs: the program's exit codes and those of the C API. Numbers are
-/// never reused.
+/// The kind of a failure, for programs. The values are the exit codes of the program and the codes
+/// of the C API. Numbers are never reused.
 enum class ErrorCode : std::uint32_t {
-    bad_argument = 2,   ///< a mistake of the caller: an option, a pose, an effect that is not baked
+    bad_argument = 2,   ///< an invalid argument: an option, a pose, an effect that is not baked
     unreadable = 3,     ///< input that cannot be read: missing, malformed, damaged
     unwritable = 4,     ///< output that cannot be written
-    over_budget = 5,    ///< an honest input that needs more time or memory than allowed
-    internal = 6,       ///< our own mistake
-    interrupted = 130,  ///< the person stopped it
+    over_budget = 5,    ///< a valid input that needs more time or memory than allowed
+    internal = 6,       ///< an internal error: a bug of cdprep
+    interrupted = 130,  ///< interrupted by the user
 };
 
-/// Why something could not be done. `message` is a whole sentence, made to be
-/// shown to a person as it is; programs switch on `code`.
+/// The reason why an operation failed. `message` is a whole sentence that can be shown to a person
+/// unchanged; programs switch on `code`.
 struct Error {
     ErrorCode code;
     std::string message;
 };
 
-/// Either a value or an Error, never both, never neither.
+/// Either a value or an Error: never both, never neither.
 ///
 ///     auto opened = cdprep::Model::open("bracket.cdp.h5");
 ///     if (!opened) return fail(opened.error().message);
@@ -94,7 +94,7 @@ private:
     std::variant<T, Error> state_;
 };
 
-/// The Result of something that returns nothing.
+/// The value of a Result of an operation that returns nothing.
 struct Done {};
 
 }  // namespace cdprep

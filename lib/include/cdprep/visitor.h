@@ -5,10 +5,9 @@
 
 namespace cdprep {
 
-/// Something to be called with each answer; false ends the search. Refers to the
-/// callable and copies nothing, which must outlive the call it is handed to. It may
-/// not throw and may not use the workspace of the question. Runs in the floating-point
-/// environment of the caller.
+/// A reference to a callable that receives each answer; returning false ends the search. It copies
+/// nothing: the callable must outlive the call that it is passed to. The callable must not throw
+/// and must not use the workspace of the query. It runs in the caller's floating-point environment.
 template <class Answer>
 class Visitor {
 public:

@@ -13,21 +13,22 @@ struct QueryCounts;
 
 /// Scratch memory for queries, owned by the caller: queries never allocate.
 ///
-/// One workspace serves any number of models and questions, one at a time; each thread needs its
-/// own. It allocates about SIZE KiB once, when it is made.
+/// One workspace serves any number of models and queries, one at a time; each thread needs its own.
+/// It allocates about SIZE KiB once, on construction.
 class Workspace {
 public:
-    /// Serves every question but those through octrees and tetra-trees.
+    /// Makes a workspace for every query except those through octrees and tetra-trees.
     Workspace();
 
-    /// Serves those too, and takes CELLS KiB more. `cells` is cells() of <cdprep/cells.h>.
+    /// Makes a workspace for these too; it takes CELLS KiB more. `cells` is cells() of
+    /// <cdprep/cells.h>.
     ///
     ///     cdprep::Workspace workspace(cdprep::cells());
     explicit Workspace(const CellSearches& cells);
 
-    /// Makes a workspace in the caller's memory, which outlives it. Allocates nothing. Returns
-    /// nothing if the memory is smaller than size() or not aligned to alignment(). Null cells:
-    /// as Workspace().
+    /// Makes a workspace in the caller's memory, which must outlive it. Allocates nothing. Returns
+    /// nothing if the memory is smaller than size() or not aligned to alignment(). With null cells,
+    /// it serves the same queries as Workspace().
     [[nodiscard]] static std::optional<Workspace> in_memory(
         std::span<std::byte> memory, const CellSearches* cells = nullptr) noexcept;
     [[nodiscard]] static std::size_t size(const CellSearches* cells = nullptr) noexcept;  ///< bytes
@@ -38,7 +39,7 @@ public:
     ~Workspace();
 
     /// Adds the work of the following queries with this workspace to `*counts` (query_counts.h);
-    /// null stops that. Costs 0.2 % of the instructions of a query when it is off.
+    /// null stops that. Counting that is off costs 0.2 % of the instructions of a query.
     void count_into(QueryCounts* counts) noexcept;
 
     struct Storage;  ///< private to the library
@@ -47,7 +48,7 @@ public:
     }
 
 private:
-    /// Frees what was allocated and leaves the caller's memory alone.
+    /// Frees memory that was allocated, and does not touch the caller's.
     struct Release {
         bool owns;
         void operator()(Storage* storage) const noexcept;

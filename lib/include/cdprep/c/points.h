@@ -4,18 +4,18 @@
 
 #include "cdprep/c/pairs.h"
 
-/* Questions about one model: points, rays and shapes. Many points or rays are shared out over the
- * lanes of the workspace; the answers are the same, in the same order. */
+/* Queries about one model: points, rays and shapes. The lanes of the workspace share the work on
+ * many points or rays; the answers are the same, in the same order. */
 
 /* --- Points --------------------------------------------------------------------------------- */
 
 typedef struct cdprep_point_query {
     cdprep_head head;
     const cdprep_model* model;
-    const double* points; /* 3 numbers each, in the model's coordinates */
+    const double* points; /* null: 3 numbers per point, model coordinates */
     size_t count;         /* 1 */
-    double max_distance;  /* infinity; cdprep_points_closest() alone uses it */
-    uint32_t through;     /* CDPREP_THROUGH_BVH; cdprep_points_inside() alone uses it */
+    double max_distance;  /* infinity; only cdprep_points_closest() uses it */
+    uint32_t through;     /* CDPREP_THROUGH_BVH; only cdprep_points_inside() uses it */
     uint32_t reserved;    /* 0 */
 } cdprep_point_query;
 
@@ -23,13 +23,14 @@ CDPREP_API void cdprep_point_query_init(cdprep_point_query* query, size_t size);
 
 typedef struct cdprep_closest_point {
     uint32_t found;      /* CDPREP_NO: nothing within max_distance; then the rest is 0 */
-    uint32_t triangle;   /* that the point lies on; of equally near ones the lowest number */
+    uint32_t triangle;   /* with the point; among equally near ones the lowest number */
     double point[3];     /* up to rounding */
-    double lower, upper; /* the exact distance lies between, model units */
+    double lower, upper; /* bounds of the exact distance, model units */
 } cdprep_closest_point;
 
-/* The points of a model's surface that are nearest to `count` points; `answers` has room for as
- * many. A point inside a solid is as far away as its walls. Costs O(log n) each, for most.
+/* Stores the points of a model's surface that are nearest to `count` points. `answers` has room for
+ * `count` results. A point inside a solid is as far away as its walls. Takes O(log n) time for most
+ * points.
  * Needs: CDPREP_ASK_CLOSEST */
 CDPREP_API int cdprep_points_closest(const cdprep_point_query* query, cdprep_workspace* workspace,
                                      cdprep_closest_point* answers, cdprep_error* error);
@@ -40,8 +41,9 @@ typedef struct cdprep_point_state {
     double winding;      /* the winding number; 0 on the surface */
 } cdprep_point_state;
 
-/* Whether `count` points are inside a model: their winding number is not 0. Exact for closed
- * models; `through` may be any but CDPREP_THROUGH_PIECES. Costs O(log n + hits) each.
+/* Stores whether `count` points are inside a model, that is, whether their winding numbers are not
+ * 0. Exact for closed models (cdprep_model_info.closed). `through` may be any but
+ * CDPREP_THROUGH_PIECES. Takes O(log n + hits) time per point.
  * Needs: CDPREP_ASK_INSIDE */
 CDPREP_API int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* workspace,
                                     cdprep_point_state* answers, cdprep_error* error);
@@ -50,8 +52,8 @@ CDPREP_API int cdprep_points_inside(const cdprep_point_query* query, cdprep_work
 
 typedef struct cdprep_ray {
     double origin[3];    /* model coordinates */
-    double direction[3]; /* of any length but 0; so short that t overflows is refused */
-    double max_t;        /* 0 or more, in lengths of the direction; INFINITY for all of it */
+    double direction[3]; /* any length but 0; one so short that t overflows is refused */
+    double max_t;        /* 0 or more, in lengths of the direction; INFINITY for the whole ray */
 } cdprep_ray;
 
 typedef struct cdprep_ray_query {
@@ -65,7 +67,7 @@ CDPREP_API void cdprep_ray_query_init(cdprep_ray_query* query, size_t size);
 
 typedef struct cdprep_ray_hit {
     uint32_t found;    /* CDPREP_NO: then the rest is 0 */
-    uint32_t triangle; /* of hits with equal t the lowest number */
+    uint32_t triangle; /* among hits with equal t the lowest number */
     double t;          /* in lengths of the direction, rounded */
     double point[3];   /* origin + t * direction, rounded */
 } cdprep_ray_hit;
@@ -77,27 +79,28 @@ typedef struct cdprep_ray_hit_list {
 
 typedef int (*cdprep_ray_visitor)(void* context, const cdprep_ray_hit* hit);
 
-/* The first hit of each ray; `hits` has room for `count`. Whether a ray hits a triangle is exact,
- * edges and vertices included: a ray cannot pass between two triangles that share an edge. Both
- * sides count. A ray in the plane of a triangle hits where it enters. t is rounded. Two hits with
- * nearly equal t may be reported in either order, and a hit near max_t may be accepted or
- * rejected. Costs O(log n) each, for most.
+/* Stores the first hit of each ray; `hits` has room for `count` results. Whether a ray hits a
+ * triangle is exact, edges and vertices included: a ray cannot pass between two triangles that
+ * share an edge. Both sides count. A ray in the plane of a triangle hits where it enters. t is
+ * rounded. Two hits with nearly equal t may be reported in either order, and a hit near max_t may
+ * be accepted or rejected. Takes O(log n) time for most rays.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_cast(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                 cdprep_ray_hit* hits, cdprep_error* error);
 
-/* Whether each ray hits anything: CDPREP_YES or CDPREP_NO. It stops at the first triangle.
+/* Stores whether each ray hits anything: CDPREP_YES or CDPREP_NO. Stops at the first triangle.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_any(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                uint32_t* hits, cdprep_error* error);
 
-/* All hits of each ray, sorted by t, then triangle, each triangle once; a list for each ray.
+/* Lists all hits of each ray, sorted by t, then by triangle, each triangle once. Each ray has its
+ * own list.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_all(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                cdprep_ray_hit_list* lists, cdprep_error* error);
 
 /* Calls `visit` with each hit of one ray, in no particular order. A `count` other than 1 has no
- * meaning, because a hit does not say of which ray it is.
+ * meaning, because a hit does not name its ray.
  * Needs: CDPREP_ASK_RAY */
 CDPREP_API int cdprep_rays_visit(const cdprep_ray_query* query, cdprep_workspace* workspace,
                                  cdprep_ray_visitor visit, void* context, cdprep_error* error);
@@ -111,7 +114,7 @@ enum {
     CDPREP_TRIANGLE = 4 /* corners a, b, c */
 };
 
-/* A closed, solid shape, and where the model is. Fields that the shape does not use are
+/* A closed, solid shape, and the placement of the model. Fields that the shape does not use are
  * ignored. */
 typedef struct cdprep_shape_query {
     cdprep_head head;
@@ -119,7 +122,7 @@ typedef struct cdprep_shape_query {
     uint32_t shape;                  /* 0, which is refused: choose one */
     uint32_t degenerate;             /* CDPREP_KEEP_DEGENERATE */
     double a[3], b[3], c[3], radius; /* 0 */
-    double max_distance;             /* infinity; cdprep_shape_distance() alone uses it */
+    double max_distance;             /* infinity; only cdprep_shape_distance() uses it */
     cdprep_pose world_from_model;    /* identity: shapes are in the model's coordinates */
 } cdprep_shape_query;
 
@@ -132,13 +135,15 @@ typedef struct cdprep_triangle_list {
 
 typedef int (*cdprep_triangle_visitor)(void* context, uint32_t triangle);
 
-/* Whether a shape has a point in common with a triangle of the model. Exact, tangent shapes
- * included. A model is its surface: a shape deep inside touches nothing. Costs O(log n) for most.
+/* Stores whether a shape has a point in common with a triangle of the model. Exact, also for
+ * tangent shapes. A model is its surface: a shape deep inside touches nothing. Takes O(log n) time
+ * for most shapes.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_touch(const cdprep_shape_query* query, cdprep_workspace* workspace,
                             uint32_t* touches, cdprep_error* error);
 
-/* All triangles that the shape touches, sorted; too little room keeps the smallest numbers.
+/* Lists all triangles that the shape touches, sorted. If there is too little room, it keeps the
+ * smallest numbers.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_touch_list(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                  cdprep_triangle_list* list, cdprep_error* error);
@@ -149,9 +154,9 @@ CDPREP_API int cdprep_touch_visit(const cdprep_shape_query* query, cdprep_worksp
                                   cdprep_triangle_visitor visit, void* context,
                                   cdprep_error* error);
 
-/* The distance of a shape from the surface. `degenerate` has no meaning. `a` of the answer is the
- * model and `b` the shape; on_b of a sphere or capsule is a point of its centre or segment;
- * triangle_b is CDPREP_NONE.
+/* Stores the distance of a shape from the surface. `degenerate` has no meaning. In the answer, `a`
+ * is the model and `b` is the shape. For a sphere or capsule, on_b is a point of its centre or
+ * segment. triangle_b is CDPREP_NONE.
  * Needs: CDPREP_ASK_TOUCH */
 CDPREP_API int cdprep_shape_distance(const cdprep_shape_query* query, cdprep_workspace* workspace,
                                      cdprep_nearest* nearest, cdprep_error* error);
