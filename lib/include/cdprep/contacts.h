@@ -29,8 +29,9 @@ struct ManifoldPoint {
 
 /// Bits of Contact::flags.
 enum ContactFlags : std::uint32_t {
-    /// The hulls of the two pieces have a common point. The distance is 0 or negative: minus the
-    /// length of the shortest translation that separates them.
+    /// The pieces overlap: their hulls have a common point, and both are contained or their
+    /// triangles touch (format/pieces.h). The distance is 0 or negative: minus the length of the
+    /// shortest translation that separates the hulls.
     contact_overlap = 1,
     /// The direction between the nearest points, or the shortest separating translation, would lean
     /// over a flat or reflex edge, where the surface continues. The normal is that of the face

@@ -46,8 +46,8 @@ struct PairOptions {
     Body body = Body::surface;
     Overlap overlap = Overlap::closed;
     Degenerate degenerate = Degenerate::keep;
-    /// The structure of both files through which the query is computed. It changes speed only. A
-    /// query without a search through it uses the BVH.
+    /// The structure of both files through which the query is computed. It changes speed only, but
+    /// for the triangles that distance() names. A query without a search through it uses the BVH.
     Structure through = Structure::bvh;
 };
 

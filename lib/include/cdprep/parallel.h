@@ -15,10 +15,10 @@ namespace cdprep {
 /// one). The pairs, their order and their number do not depend on the threads.
 ///
 /// Use it for one query that takes a millisecond or more, such as two large models that overlap
-/// deeply. Calls `parallel_for` at most twice, each time for one task per workspace. A task that
-/// starts late finds less work or none. If `room` is not empty but too short for all pairs, the
-/// query runs once more on one thread, which keeps the smallest. Reads options.overlap and
-/// degenerate. Needs Ask::overlap of both models. Never allocates.
+/// deeply. Calls `parallel_for` at most twice, each time for at most one task per workspace.
+/// A task that starts late finds less work or none. If `room` is not empty but too short for all
+/// pairs, the query runs once more on one thread, which keeps the smallest. Reads options.overlap
+/// and degenerate. Needs Ask::overlap of both models. Never allocates.
 [[nodiscard]] std::size_t split_overlaps(const Pair& pair, std::span<Workspace> workspaces,
                                          ParallelFor parallel_for,
                                          std::span<TrianglePair> room) noexcept;
@@ -28,9 +28,9 @@ namespace cdprep {
 /// many poses of one pair, or many pairs. No two pairs of a batch may share a cache.
 ///
 /// One thread works for each workspace, of which there must be at least one. Calls `parallel_for`
-/// once. Processes min(pairs.size(), answers.size()) pairs. Never allocates. Starting a batch takes
-/// a few microseconds, which pays from about ten pairs. The same holds for the batches below. Needs
-/// Ask::collide of both models of a pair; Body::solid also Ask::solid.
+/// at most once. Processes min(pairs.size(), answers.size()) pairs. Never allocates. Starting a
+/// batch takes a few microseconds, which pays from about ten pairs. The same holds for the batches
+/// below. Needs Ask::collide of both models of a pair; Body::solid also Ask::solid.
 ///
 ///     std::vector<cdprep::Workspace> workspaces(4);
 ///     std::vector<cdprep::Collision> answers(pairs.size());

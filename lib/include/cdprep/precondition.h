@@ -3,9 +3,9 @@
 
 namespace cdprep {
 
-/// Receives one sentence when a C++ query is called that its model cannot serve. This is an error
-/// of the caller that no answer could report. The handler may log the sentence, write a dump or end
-/// the program. If it returns, the program is aborted.
+/// Receives one sentence when a C++ query is called that its model or its workspace cannot serve.
+/// This is an error of the caller that no answer could report. The handler may log the sentence,
+/// write a dump or end the program. If it returns, the program is aborted.
 using PreconditionHandler = void (*)(const char* sentence);
 
 /// Sets the handler of the whole program and returns the previous one. Null sets the default, which

@@ -30,6 +30,6 @@ struct PieceBoxes {
 /// build_bvh() would put triangles with their boxes. The same for any parallel_for. Nothing when
 /// there would be more than format::kMaxPieceLeaves leaves.
 [[nodiscard]] PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame,
-                                          ParallelFor parallel_for);
+                                           ParallelFor parallel_for);
 
 }  // namespace cdprep::build

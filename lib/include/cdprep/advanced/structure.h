@@ -7,7 +7,8 @@
 
 namespace cdprep {
 
-/// A structure of a file that finds answers. The answer is the same through each, bit for bit.
+/// A structure of a file that finds answers. The answer is the same through each, but
+/// distance() through pieces may name other triangles that touch.
 enum class Structure : std::uint8_t {
     bvh,              ///< the hierarchy of boxes: the fastest for two models
     octree,           ///< both models' octrees, side by side

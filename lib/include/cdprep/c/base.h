@@ -17,10 +17,10 @@
  *   default. Any other content, even zeros, is refused with CDPREP_WHY_NOT_INITIALISED. For a
  *   parameter named `options`, null gives the defaults. The options of a build are an exception,
  *   because they hold the mesh.
- * - Arguments are checked before anything is computed, in this order: null pointers; size and tag;
- *   enumerators; numbers; poses; fields without meaning for the query; what the model was baked and
- *   opened for; whether the workspace is in use. The first error is reported. In a batch, one
- *   invalid entry refuses the whole batch.
+ * - Arguments are checked before anything is computed. The fields of a struct are checked in this
+ *   order: size and tag; enumerators; numbers; poses; fields without meaning for the query. Then
+ *   follow the queries that the model serves, and whether the workspace is in use. Of several
+ *   errors one is reported. In a batch, one invalid entry refuses the whole batch.
  * - Numbers are finite and at most 2^1000 in magnitude. NaN is always refused. Infinity is allowed
  *   only for max_distance, max_t and the limits of boxes. No answer holds NaN or infinity.
  * - On failure, answers are unknown: counts and `found` are 0; `hit`, `inside` and similar fields
@@ -37,7 +37,8 @@
  * - Callbacks return; they must not throw or call longjmp(). A visitor may run queries with another
  *   workspace. It runs in the caller's floating-point environment. No environment changes an
  *   answer.
- * - Only a null, closed or foreign pointer can crash a call; of these, null is refused. */
+ * - Null is refused. A closed or foreign pointer can crash a call, and so can a damaged file with
+ *   CDPREP_MAP_TRUSTED or a mapped file that is truncated while open. Nothing else can. */
 
 #ifndef CDPREP_EXPORT /* predefine it to reuse another library's scheme */
 #if defined(_WIN32) && defined(CDPREP_BUILDING)
@@ -90,7 +91,7 @@ enum {
     CDPREP_WHY_NOT_BAKED = 8,       /* the model lacks what the query needs */
     CDPREP_WHY_NOT_OPENED = 9,      /* the file has it, but it was not opened */
     CDPREP_WHY_TOO_SMALL = 10,      /* memory */
-    CDPREP_WHY_STALE = 11,          /* an object that no longer exists */
+    CDPREP_WHY_STALE = 11,          /* an object that no longer exists; not used yet */
     CDPREP_WHY_BUSY = 12            /* a workspace in use by another call */
 };
 
@@ -151,7 +152,7 @@ typedef struct cdprep_workspace_options {
      * did not run. */
     void (*run)(void* context, size_t count, cdprep_task task, const void* work);
     void* context;                     /* passed to `run` */
-    const cdprep_allocator* allocator; /* null: malloc(); read once */
+    const cdprep_allocator* allocator; /* null: the heap; read once */
     /* Null. cdprep_cells() for queries through octrees and tetra-trees. */
     const cdprep_cell_searches* cells;
 } cdprep_workspace_options;

@@ -26,7 +26,7 @@ typedef struct cdprep_build_options {
     const uint32_t* triangles;  /* null: 3 vertices per triangle, counter-clockwise from outside */
     size_t vertex_count;        /* 0: a mesh without vertices needs no positions */
     size_t triangle_count;      /* 0: a mesh without triangles needs no `triangles` */
-    const cdprep_allocator* allocator; /* null: malloc(); copied */
+    const cdprep_allocator* allocator; /* null: the heap; copied */
 } cdprep_build_options;
 
 /* Makes default options: an empty mesh. Writes `size` bytes, which must be
@@ -50,7 +50,7 @@ CDPREP_API int cdprep_model_build_size(const cdprep_build_options* options, size
  * bytes. The model lives there: do not touch it before cdprep_model_close(). Afterwards it is free
  * for any use. After a failure it may hold anything. With null memory of size 0, the allocator
  * makes one allocation of the size that this mesh takes. A closed mesh takes about 85 bytes per
- * triangle. In addition, malloc() gives about 1 KiB until cdprep_model_close(), and about 120 bytes
+ * triangle. In addition, the heap gives about 1 KiB until cdprep_model_close(), and about 120 bytes
  * per triangle during the call.
  *
  * The lanes of `workspace` share the work. The model is the same, byte for byte, on any number of

@@ -23,7 +23,8 @@ typedef struct cdprep_contact_point {
 
 /* Bits of cdprep_contact.flags. */
 enum {
-    CDPREP_CONTACT_OVERLAP = 1,       /* the hulls of the pieces have a common point */
+    /* the hulls have a common point, and both pieces are contained or their triangles touch */
+    CDPREP_CONTACT_OVERLAP = 1,
     CDPREP_CONTACT_INTERNAL_EDGE = 2, /* near an edge inside a surface: the normal is a face's */
     /* the contact is on the inner side of a surface; ignore it for contact response */
     CDPREP_CONTACT_FROM_BEHIND = 4

@@ -46,15 +46,16 @@ typedef struct cdprep_open_options {
     uint32_t ask;     /* 0: whatever the file has; else all of these bits, or opening fails */
     uint32_t mode;    /* CDPREP_MAP */
     const char* name; /* null: the name of bytes in memory, for messages; UTF-8, read once */
-    const cdprep_allocator* allocator; /* null: malloc(); copied */
+    const cdprep_allocator* allocator; /* null: the heap; copied */
 } cdprep_open_options;
 
 /* Makes default options. Writes `size` bytes, which must be sizeof(cdprep_open_options). */
 CDPREP_API void cdprep_open_options_init(cdprep_open_options* options, size_t size);
 
 /* Opens a baked file and checks everything that is requested. `options` may be null. On failure
- * *model is null. Takes O(bytes of the sections) time, at memory speed. CDPREP_ASK_CORNERS also
- * takes 4 bytes of memory per triangle and, if there are several components, 4 per vertex.
+ * *model is null. Takes O(bytes of the sections) time, at memory speed. If the
+ * model serves CDPREP_ASK_CORNERS, also takes 4 bytes of memory per triangle and, if there are
+ * several components, 4 per vertex.
  * A mapped file must not be changed in place or truncated while it is open. Replacing it by
  * renaming another file is safe.
  * Errors: CDPREP_UNREADABLE; CDPREP_WHY_NOT_BAKED if the file lacks what `ask` requires, with the

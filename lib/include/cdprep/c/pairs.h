@@ -33,8 +33,9 @@ enum {
     CDPREP_KEEP_DEGENERATE = 0, /* they count as the segment or point that they are */
     CDPREP_SKIP_DEGENERATE = 1  /* they are ignored */
 };
-/* The structure through which a query is computed. It changes the time, not the answer. For a
- * structure other than the BVH, a model must also serve its CDPREP_ASK_ bit. */
+/* The structure through which a query is computed. It changes the time, not the answer, but
+ * cdprep_distance() through pieces may name other triangles that touch. For a structure other than
+ * the BVH, a model must also serve its CDPREP_ASK_ bit. */
 enum {
     CDPREP_THROUGH_BVH = 0,
     CDPREP_THROUGH_OCTREE = 1,
@@ -57,7 +58,7 @@ typedef struct cdprep_pair {
     cdprep_head head;
     const cdprep_model* a;
     const cdprep_model* b;
-    cdprep_cache* cache;        /* null */
+    cdprep_cache* cache;        /* null; read and written only through CDPREP_THROUGH_BVH */
     uint32_t moving;            /* CDPREP_MOVE_B */
     uint32_t body;              /* CDPREP_SURFACE */
     uint32_t overlap;           /* CDPREP_CLOSED */
@@ -100,7 +101,8 @@ CDPREP_API int cdprep_containment(const cdprep_pair* pair, cdprep_workspace* wor
 
 /* Stores whether two solids collide, as far as one level of their tetra-trees proves it. CDPREP_NO
  * and CDPREP_YES are proven. CDPREP_UNKNOWN means that this level is too coarse
- * (cdprep_model_level_error()). Takes O(pairs of cones that meet) time.
+ * (cdprep_model_level_error()). The workspace must have `cells`. Takes O(pairs of cones that meet)
+ * time.
  * Needs: CDPREP_ASK_TETRA_TREE */
 CDPREP_API int cdprep_collide_at_level(const cdprep_pair* pair, uint32_t level,
                                        cdprep_workspace* workspace, uint32_t* hit,
@@ -175,7 +177,8 @@ typedef int (*cdprep_crossing_visitor)(void* context, const cdprep_crossing* cro
 /* Both find all pairs of cdprep_overlaps() with their common segments, in the frame into which the
  * models move. The list is in the order of (a, b); if there is too little room, it keeps the
  * smallest. Visits are in no particular order. The ends are chosen exactly and then rounded once
- * (at most half a unit in the last place, plus 2^-45). Neighbours share them bit for bit.
+ * (at most half a unit in the last place, plus 2^-45). Neighbours share them bit for bit, except
+ * where that 2^-45 decides the rounding.
  * Uses overlap, degenerate. Takes some microseconds more per pair than cdprep_overlaps().
  * Needs: CDPREP_ASK_OVERLAP */
 CDPREP_API int cdprep_crossings(const cdprep_pair* pair, cdprep_workspace* workspace,
@@ -206,8 +209,8 @@ typedef struct cdprep_nearest {
 /* Stores the distance of two models. It is 0, exactly, for surfaces that touch. It is also 0 for
  * solids of which one is proven inside the other, with the nearest points of the surfaces. Without
  * permitted errors the interval is at most 1e-12 of the distance plus 1e-15 of the largest
- * coordinate wide. Among equally near triangles, the result has the lowest numbers. `options` may
- * be null.
+ * coordinate wide. Among pairs of triangles with equal `upper`, the result has the lowest numbers,
+ * except through pieces. `options` may be null.
  * Uses body; through: CDPREP_THROUGH_BVH, CDPREP_THROUGH_PIECES.
  * Takes O(log n) time for compact surfaces; visits every triangle in the worst case.
  * Needs: CDPREP_ASK_DISTANCE; CDPREP_SOLID: also CDPREP_ASK_SOLID */
