@@ -73,16 +73,15 @@ std::optional<Error> find_fault(const Model& base) {
          {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
           SectionId::bvh_nodes, SectionId::bvh_leaves}) {
         if (base.sections().contains(id)) continue;
-        return bad(std::string("A run-time model cannot be made of a model without the section ") +
-                   format::section_name(id) +
+        return bad(std::string("A run-time model needs the section ") + format::section_name(id) +
                    ": bake it with --effects overlap, and open it "
                    "with that section.");
     }
     if (!base.sections().contains(SectionId::positions_f32) &&
         !base.sections().contains(SectionId::positions_f64)) {
         return bad(
-            "A run-time model cannot be made of a model without positions: bake it with "
-            "--effects overlap, and open it with them.");
+            "A run-time model needs positions: bake the mesh with --effects overlap, and open the "
+            "model for overlap.");
     }
     const auto source = base.source().vertex;
     const auto made = std::ranges::find(source, format::kMadeByRepair);
@@ -252,8 +251,8 @@ Result<double> RuntimeModel::refit_to(std::span<const Position> positions,
     const std::span<const Position> used = positions.first(position_count_);
     if (shares_memory(std::as_bytes(used), image_)) {
         return bad(
-            "The positions given are in the memory of the run-time model itself, whose order "
-            "is another: give a copy of them.");
+            "The positions point into the run-time model itself, which stores them in another "
+            "order: give a copy.");
     }
     if (const auto fault = find_bad_position(used)) return *fault;
     const std::span<const std::uint32_t> source = model_.source().vertex;

@@ -103,7 +103,7 @@ int read_hulls(Call& call, const cdprep_hull_pair* given, std::optional<Ask> nee
     if (needs && !are_pieces) {
         return call.refuse(CDPREP_WHY_NO_MEANING,
                            name.of(pair.a.scope != CDPREP_HULL_PIECE ? "a.scope" : "b.scope"),
-                           "is not CDPREP_HULL_PIECE: hulls of pieces alone have features.");
+                           "is not CDPREP_HULL_PIECE: only hulls of pieces have features.");
     }
     const Ask needs_a = needs.value_or(needs_of_scope(pair.a.scope));
     const Ask needs_b = needs.value_or(needs_of_scope(pair.b.scope));
@@ -395,7 +395,7 @@ int cdprep_hulls_penetration(const cdprep_hull_pair* pair, const cdprep_distance
             }
             if (cdprep::c::is_infinite(given.max_distance)) return CDPREP_OK;
             return call.refuse(CDPREP_WHY_NO_MEANING, Name{"options"}.of("max_distance"),
-                               "is %.17g, which this question cannot use; leave it at its default.",
+                               "is %.17g, which this query does not use; leave it at its default.",
                                given.max_distance);
         },
         [&](const ConvexPoints& a, const ConvexPoints& b, const Placement& placement,

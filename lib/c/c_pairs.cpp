@@ -38,7 +38,7 @@ constexpr std::array kDistanceFields = {
 
 int refuse_meaning(Call& call, const Name& name, std::uint32_t value) noexcept {
     return call.refuse(CDPREP_WHY_NO_MEANING, name,
-                       "is %u, which this question cannot use; leave it at its default.", value);
+                       "is %u, which this query does not use; leave it at its default.", value);
 }
 
 int check_meaning(Call& call, const Name& name, const PairQuestion& question,

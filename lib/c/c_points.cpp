@@ -282,8 +282,7 @@ int cdprep_points_closest(const cdprep_point_query* query, cdprep_workspace* wor
             if (const int code = cdprep::c::check_points(call, asked)) return code;
             if (asked.through != CDPREP_THROUGH_BVH) {
                 return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of("through"),
-                                   "is %u, which this question cannot use; leave it at its "
-                                   "default.",
+                                   "is %u, which this query does not use; leave it at its default.",
                                    asked.through);
             }
             return check_serves(call, kQuery.of("model"), *asked.model, Ask::closest);
@@ -303,15 +302,14 @@ int cdprep_points_inside(const cdprep_point_query* query, cdprep_workspace* work
         [&](Call& call, const cdprep_point_query& asked) -> int {
             if (const int code = cdprep::c::check_points(call, asked)) return code;
             if (!cdprep::c::is_infinite(asked.max_distance)) {
-                return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of("max_distance"),
-                                   "is %.17g, which this question cannot use; leave it at its "
-                                   "default.",
-                                   asked.max_distance);
+                return call.refuse(
+                    CDPREP_WHY_NO_MEANING, kQuery.of("max_distance"),
+                    "is %.17g, which this query does not use; leave it at its default.",
+                    asked.max_distance);
             }
             if ((cdprep::c::kAnyButPieces >> asked.through & 1) == 0) {
                 return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of("through"),
-                                   "is CDPREP_THROUGH_PIECES, through which this question cannot "
-                                   "go.");
+                                   "is CDPREP_THROUGH_PIECES, which this query does not support.");
             }
             const Ask needs = Ask::inside | cdprep::c::needs_of(asked.through);
             if (const int code = check_serves(call, kQuery.of("model"), *asked.model, needs)) {
@@ -374,10 +372,10 @@ int cdprep_rays_visit(const cdprep_ray_query* query, cdprep_workspace* workspace
         cdprep_ray_query asked;
         if (const int code = read_input(call, kQuery, query, asked)) return code;
         if (asked.count != 1) {
-            return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of("count"),
-                               "is %zu, but a visitor is not told of which ray a hit is; it must "
-                               "be 1.",
-                               asked.count);
+            return call.refuse(
+                CDPREP_WHY_NO_MEANING, kQuery.of("count"),
+                "is %zu, but a visitor does not receive the number of the ray; it must be 1.",
+                asked.count);
         }
         if (const int code = check_ray_query(call, asked)) return code;
         cdprep::c::InUse use;

@@ -96,7 +96,7 @@ int check_shape(Call& call, const cdprep_shape_query& query) noexcept {
 
 int refuse_meaning(Call& call, const char* field) noexcept {
     return call.refuse(CDPREP_WHY_NO_MEANING, kQuery.of(field),
-                       "is set, but this question cannot use it; leave it at its default.");
+                       "is set, but this query does not use it; leave it at its default.");
 }
 
 Double3 point_of(const double* numbers) noexcept {

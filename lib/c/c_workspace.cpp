@@ -66,7 +66,7 @@ int read(Call& call, const cdprep_workspace_options* given, Asked& asked) noexce
     }
     if (options.lanes > 1 && options.run == nullptr) {
         return call.refuse(CDPREP_WHY_NO_MEANING, name.of("lanes"),
-                           "is %u, but options.run is null: nobody runs them.", options.lanes);
+                           "is %u, but options.run is null, so nothing runs them.", options.lanes);
     }
     asked.size = Layout(options.lanes, cells_of(options)).size;
     return read_allocator(call, name.of("allocator"), options.allocator, asked.allocator);
@@ -141,7 +141,7 @@ int check_cells(Call& call, const cdprep_workspace& workspace, Ask needs) noexce
         Ask::octree | Ask::adaptive_octree | Ask::hashed_octree | Ask::tetra_tree;
     if (workspace.has_cells || (needs & kCells) == Ask::nothing) return CDPREP_OK;
     return call.refuse(CDPREP_WHY_NO_MEANING, {"workspace"},
-                       "asks no octrees and tetra-trees: set cells in its options to "
+                       "cannot search octrees and tetra-trees: set cells in its options to "
                        "cdprep_cells().");
 }
 

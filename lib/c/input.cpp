@@ -103,10 +103,10 @@ int check_head(Call& call, const Name& name, const InputType& type, const void* 
                            "is not initialised: call %s_init() with its sizeof first.", type.name);
     }
     if (head.size > type.size && !is_zero(at(from, type.size), head.size - type.size)) {
-        return call.refuse(CDPREP_WHY_NEWER_FIELD, name,
-                           "has %u bytes of a newer version, and not all that this version does "
-                           "not know are 0.",
-                           head.size);
+        return call.refuse(
+            CDPREP_WHY_NEWER_FIELD, name,
+            "has %u bytes of a newer version, and some that this version does not know are not 0.",
+            head.size);
     }
     return CDPREP_OK;
 }

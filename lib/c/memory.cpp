@@ -42,7 +42,7 @@ int allocate(Call& call, const cdprep_allocator& allocator, std::size_t size,
     if (size == 0) return CDPREP_OK;
     memory.start = allocator.allocate(allocator.context, size, CDPREP_ALIGNMENT);
     if (memory.start == nullptr) {
-        return call.fail(CDPREP_OVER_BUDGET, "The allocator has not enough memory.");
+        return call.fail(CDPREP_OVER_BUDGET, "The allocator is out of memory.");
     }
     if (is_aligned(memory.start)) return CDPREP_OK;
     release(memory);

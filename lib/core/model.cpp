@@ -194,7 +194,7 @@ std::optional<Refusal> Model::refusal(Ask asks) const {
     if (serves(asks)) return std::nullopt;
     using Reason = Refusal::Reason;
     if (state_ == nullptr) {
-        return Refusal{Reason::not_opened, "The model was moved away: it can be asked nothing."};
+        return Refusal{Reason::not_opened, "The model was moved from: it answers no query."};
     }
     const bool exact_leaves = state_->is_exact();
     const Ask refused = without(asks, served_);

@@ -29,7 +29,7 @@ std::string names_of(SectionSet sections) {
 }
 
 std::string way_out(const Needs& row, const Contents& contents, Refusal::Reason reason) {
-    if (reason == Refusal::Reason::not_opened) return "Open the model for this question.";
+    if (reason == Refusal::Reason::not_opened) return "Open the model for this query.";
     if (row.ask == Ask::response && !contents.is_closed) {
         return "Only closed meshes have mass properties: bake it again with --repair closed "
                "--effects response.";
@@ -56,7 +56,7 @@ std::string refusal_sentence(std::string_view file, Ask asks, const Contents& co
                     : std::string(is_one ? ", which is missing. " : ", which are missing. ")) +
                way_out(row, contents, reason);
     }
-    return begin + "this version does not know the question. Update cdprep.";
+    return begin + "this version does not know the query. Update cdprep.";
 }
 
 }  // namespace cdprep

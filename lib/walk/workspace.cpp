@@ -76,8 +76,8 @@ const CellSearches& require_cells(Workspace& workspace) noexcept {
     const CellSearches* cells = workspace.storage().cells;
     if (cells == nullptr) [[unlikely]] {
         stop_with(
-            "The workspace serves no question through octrees and tetra-trees: link "
-            "cdprep::cells and make it as Workspace(cells()).");
+            "The workspace cannot search octrees and tetra-trees: link cdprep::cells and create it "
+            "as Workspace(cells()).");
     }
     return *cells;
 }

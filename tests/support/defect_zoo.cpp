@@ -169,7 +169,7 @@ std::vector<ZooAnimal> defect_zoo() {
     const auto corner = static_cast<std::uint32_t>(sound.positions.size());
     std::vector<ZooAnimal> zoo;
     zoo.push_back({"sound cube", sound, {}});
-    zoo.push_back({"coordinate is no number",
+    zoo.push_back({"coordinate is not a number",
                    with_triangle(with_vertex(sound, {kNaN, 0, 0}), 0, 1, corner),
                    {{101, 1}}});
     zoo.push_back({"index out of range", with_triangle(sound, 0, 1, kNoVertex), {{102, 1}}});

@@ -190,8 +190,8 @@ private:
         if (must_stop()) return stopped();
         if (study_.set.poses.empty()) {
             return Error{ErrorCode::bad_argument,
-                         "No poses were found in which the models come near each other; do they "
-                         "have any extent?"};
+                         "No poses were found at which the models come near each other. Check that "
+                         "they have an extent."};
         }
         study_.rigid = static_cast<std::size_t>(
             std::ranges::count_if(study_.set.poses, [](const StudyPose& p) { return p.is_rigid; }));
@@ -233,7 +233,7 @@ Result<AccuracyStudy> study_accuracy(const mesh::Mesh& a, const mesh::Mesh& b,
     if (a.triangles.empty() || b.triangles.empty()) {
         return Error{ErrorCode::bad_argument,
                      std::string(a.triangles.empty() ? "The first" : "The second") +
-                         " model has no triangles; there is nothing to ask."};
+                         " model has no triangles, so no query makes sense."};
     }
     return AccuracyRun(a, b, options).run();
 }

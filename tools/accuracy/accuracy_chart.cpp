@@ -196,7 +196,7 @@ private:
         text += line(kLeft, kBottom, kChartWidth - kRight, kBottom, "axis");
         text += line(kLeft, kTop, kLeft, kBottom, "axis");
         text += words((kLeft + kChartWidth - kRight) / 2, kBottom + 42, "middle", "name",
-                      "time of a question, the median of the cases");
+                      "time of a query, median of the cases");
         text += "<text transform=\"translate(16 " + units((kTop + kBottom) / 2) +
                 ") rotate(-90)\" text-anchor=\"middle\" class=\"name\">" + escaped(y_name_) +
                 "</text>\n";
@@ -441,7 +441,7 @@ std::string bars_body(std::size_t ladder, const std::vector<Rung>& rungs) {
                       "label", in_time(rung.time.median_s));
     }
     text += words((kNames + kChartWidth) / 2, bottom + 42, "middle", "name",
-                  "time of a question: the median of the frames, and to where 95 % of them end");
+                  "time of a query: median of the frames, and 95th percentile");
     return text;
 }
 
@@ -490,7 +490,7 @@ constexpr int kParetoHeight = static_cast<int>(kTop + kPlotHeight + kBelow);
 std::string explanation_of(const Ladder& ladder) {
     const bool has_distances = std::ranges::any_of(
         ladder.rungs, [](const Rung& rung) { return rung.distance.has_value(); });
-    return "Error: " + ladder.error + ". Hollow: another rung beats it. Bars: 95 % confidence" +
+    return "Error: " + ladder.error + ". Hollow: not on the Pareto front. Bars: 95 % confidence" +
            (has_distances ? " in time; in error from the median to the greatest." : ".");
 }
 
@@ -508,13 +508,13 @@ void add_charts(std::size_t number, const Ladder& ladder, std::vector<Chart>& ch
     const std::vector<Point> shapes = points_by_shape(ladder);
     if (shapes.size() > 1) {
         charts.push_back({ladder.name + ": time against how far shapes stick out",
-                          "No point of a shape is farther from the solid than this share of the "
-                          "diagonal, proved.",
+                          "Proved: no point of a shape is farther from the solid than this share "
+                          "of the diagonal.",
                           kParetoHeight, Pareto(number, "sticks out", shapes).body()});
     }
     if (!ladder.cases.starts_with("pose")) return;
     charts.push_back({ladder.name + ": time against gap",
-                      "The rungs that none beats, and the exact one; medians of each stratum.",
+                      "The Pareto front and the exact rung; medians of each stratum.",
                       kParetoHeight,
                       StrataChart(number, ladder.rungs, rungs_of_front(ladder)).body()});
 }

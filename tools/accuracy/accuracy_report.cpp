@@ -199,7 +199,7 @@ std::string aligned(const std::vector<std::vector<std::string>>& rows) {
 std::string ladder_text(const Ladder& ladder) {
     std::string text =
         "\n" + ladder.name + ": " + ladder.question + "?\n  error: " + ladder.error + "\n";
-    text += ladder.rungs.empty() ? "  no rung was climbed\n" : aligned(ladder_table(ladder));
+    text += ladder.rungs.empty() ? "  no rung was measured\n" : aligned(ladder_table(ladder));
     for (const std::string& sentence : ladder.left_out) text += "  left out: " + sentence + "\n";
     return text;
 }
@@ -400,7 +400,7 @@ std::vector<std::vector<std::string>> next_digit_table(const std::vector<Ladder>
 
 std::vector<std::vector<std::string>> study_facts(const study::AccuracyStudy& study) {
     const study::Machine& machine = study.machine;
-    std::string clock = "a question against itself takes " + fixed(study.self.ratio, 3) +
+    std::string clock = "the exact query against itself takes " + fixed(study.self.ratio, 3) +
                         " times as long (" + fixed(study.self.low, 3) + ".." +
                         fixed(study.self.high, 3) + ")";
     if (!study.self.holds_one()) clock += ": this machine is too busy to trust its times";
@@ -430,7 +430,7 @@ std::vector<std::vector<std::string>> study_facts(const study::AccuracyStudy& st
 std::string recommendation(const study::AccuracyStudy& study) {
     const auto geometry = std::ranges::find(study.ladders, "geometry", &Ladder::name);
     if (geometry == study.ladders.end() || geometry->rungs.empty()) {
-        return "In short: climb the ladder 'geometry' to see what exact answers cost.";
+        return "In short: run the ladder 'geometry' to see what exact answers cost.";
     }
     constexpr double kNearlyRight = 0.01;
     const Rung& exact = geometry->rungs.back();
@@ -442,7 +442,7 @@ std::string recommendation(const study::AccuracyStudy& study) {
     }
     const std::string cost = "In short: exact answers take " + in_time(exact.time.median_s);
     if (cheaper == nullptr) {
-        return cost + "; ask exactly, for nothing cheaper errs at less than 1 % of the poses.";
+        return cost + "; nothing cheaper errs at less than 1 % of the poses, so ask exactly.";
     }
     return cost + "; " + cheaper->name + " takes " + in_time(cheaper->time.median_s) +
            " and errs at " + in_three_digits(100 * *cheaper->error) + " % of the poses.";
@@ -456,7 +456,7 @@ std::string accuracy_text(const AccuracyReport& report) {
         text += "  " + fact[0] + ": " + fact[1] + "\n";
     }
     for (const Ladder& ladder : report.study.ladders) text += ladder_text(ladder);
-    text += "\nwhat the next digit costs, along the rungs that no other beats\n" +
+    text += "\nwhat the next digit costs, along the Pareto front\n" +
             aligned(next_digit_table(report.study.ladders));
     text += "\n" + recommendation(report.study) + "\n";
     text += "\n" + in_time(report.study.seconds) + " in all\n";

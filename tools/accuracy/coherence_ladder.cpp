@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "cdprep/pairs.h"
 #include "accuracy/bytes_read.h"
+#include "cdprep/pairs.h"
 #include "study/seeded_random.h"
 
 namespace cdprep::study {
@@ -80,9 +80,9 @@ private:
 
 enum class Way : std::uint8_t { cold, warm, coherent };
 constexpr std::array<const char*, 3> kWays = {"cold", "warm", "coherent"};
-constexpr std::array<const char*, 3> kHow = {"nothing of the models in the processor's caches",
-                                             "asked again at once",
-                                             "asked frame after frame with a PairCache"};
+constexpr std::array<const char*, 3> kHow = {"the models are not in the processor's caches",
+                                             "the same query again at once",
+                                             "frame after frame with a PairCache"};
 
 /// What was answered in a frame.
 struct Said {
@@ -160,13 +160,13 @@ bool agree(const Said& one, const Said& other) {
 Ladder climb_coherence(const Climb& climb, std::uint64_t last_cache, Broken& broken) {
     Ladder ladder;
     ladder.name = "coherence";
-    ladder.question = "the exact questions along walks, cold, warm and with what was found before";
+    ladder.question = "exact queries along motions: cold, warm and with a PairCache";
     ladder.error = "answers that differ from the warm ones";
     ladder.cases = "frame";
     climb.begins("coherence: asking");
     const std::vector<Walk> walks = all_walks(climb);
     if (walks.empty()) {
-        ladder.left_out.push_back("All: there are no poses to walk from.");
+        ladder.left_out.push_back("All: there are no poses to start from.");
         return ladder;
     }
     Eviction eviction(last_cache);

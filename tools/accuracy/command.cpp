@@ -10,18 +10,18 @@
 #include <utility>
 #include <vector>
 
+#include "accuracy/accuracy.h"
+#include "accuracy/accuracy_chart.h"
+#include "accuracy/accuracy_report.h"
+#include "accuracy/study_input.h"
 #include "cli/command.h"
 #include "cli/import_arguments.h"
-#include "cli/signals.h"
 #include "cli/load_mesh.h"
 #include "cli/output_path.h"
 #include "cli/program_threads.h"
 #include "cli/progress.h"
-#include "accuracy/accuracy_chart.h"
-#include "accuracy/accuracy_report.h"
 #include "cli/report_output.h"
-#include "accuracy/accuracy.h"
-#include "accuracy/study_input.h"
+#include "cli/signals.h"
 #include "cli/usage.h"
 #include "manuals/command_page.h"
 
@@ -82,9 +82,8 @@ Result<std::string> format_of(const fs::path& path) {
     if (!end.empty()) end.erase(0, 1);
     if (end == "txt") return std::string("text");
     if (end != "text" && std::ranges::count(kFormats, end) > 0) return end;
-    return Error{ErrorCode::bad_argument, path.string() +
-                                              ": what to save must end in .txt, .json, .csv, .svg "
-                                              "or .html, which says how."};
+    return Error{ErrorCode::bad_argument,
+                 path.string() + ": the extension must be .txt, .json, .csv, .svg or .html."};
 }
 
 /// Begins the file, so that a place where none can be is said before the work.
@@ -193,14 +192,15 @@ Exit run(const Arguments& arguments) {
 void add_accuracy(CLI::App& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     CLI::App* command = app.add_subcommand("accuracy", "Measure what accuracy costs in time");
-    set_notes(*command,
-              "Answers the same queries about A and B in several ways, from coarse to exact, at "
-              "seeded poses whose exact answers are known. Reports the time, the size and the errors "
-              "of each. The exit code is 6 when a promise breaks: an enclosing shape misses a "
-              "contact, or an interval does not contain the distance. Queries run on one thread; "
-              "--jobs applies to the structures built before.",
-              {"cdprep accuracy arm.obj part.obj --quick",
-               "cdprep accuracy arm.obj part.obj --format html -o cost.html"});
+    set_notes(
+        *command,
+        "Answers the same queries about A and B in several ways, from coarse to exact, at "
+        "seeded poses whose exact answers are known. Reports the time, the size and the errors "
+        "of each. The exit code is 6 when a promise breaks: an enclosing shape misses a "
+        "contact, or an interval does not contain the distance. Queries run on one thread; "
+        "--jobs applies to the structures built before.",
+        {"cdprep accuracy arm.obj part.obj --quick",
+         "cdprep accuracy arm.obj part.obj --format html -o cost.html"});
     command->add_option("A", arguments->a, "The model that stays: a mesh or a baked file")
         ->required();
     command->add_option("B", arguments->b, "The model that moves: a mesh or a baked file")
@@ -226,8 +226,7 @@ void add_accuracy(CLI::App& app, Exit& exit) {
     command->add_option("--seed", arguments->seed, "Seed of the poses")
         ->capture_default_str()
         ->group("Study");
-    command
-        ->add_option("--ladder", arguments->ladders, "Comma-separated ladders. Default: all")
+    command->add_option("--ladder", arguments->ladders, "Comma-separated ladders. Default: all")
         ->type_name("LIST")
         ->delimiter(',')
         ->check(one_of(

@@ -7,10 +7,10 @@
 #include <limits>
 #include <sstream>
 
+#include "accuracy/bytes_read.h"
 #include "cdprep/advanced/convex_distance.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
-#include "accuracy/bytes_read.h"
 
 namespace cdprep::study {
 namespace {
@@ -68,7 +68,7 @@ void judge(const Climb& climb, const std::vector<std::size_t>& poses, Contender&
             ++held;
         } else {
             broken.push_back("distance, " + rung.name +
-                             ": the interval does not hold the truth in " +
+                             ": the interval does not contain the truth in " +
                              pose_name(climb.set, i) + ".");
         }
     }
@@ -95,11 +95,10 @@ public:
         if (!number_a || !number_b) return;
         hull_a_ = convex_points(climb_.a.model, *number_a);
         hull_b_ = convex_points(climb_.b.model, *number_b);
-        add("hull", "the distance of the hulls: the models are at least as far apart",
-            [this](std::size_t i) {
-                const auto found = convex_distance(hull_a_, hull_b_, placement(i));
-                return Interval{found->lower, kInfinite};
-            });
+        add("hull", "the distance of the hulls, a lower bound", [this](std::size_t i) {
+            const auto found = convex_distance(hull_a_, hull_b_, placement(i));
+            return Interval{found->lower, kInfinite};
+        });
         contenders_.back().is_bound = true;
     }
 
@@ -110,14 +109,14 @@ public:
             DistanceOptions options;
             options.absolute_error = share * climb_.set.diagonal;
             add("within " + number(share) + " diagonals",
-                "the greater end may be more than the lesser by this", ask(options));
+                "largest ratio of the upper to the lower bound", ask(options));
         }
         for (const double share : kRelative) {
             DistanceOptions options;
             options.relative_error = share;
             add(share > 0 ? "within " + number(100 * share) + " %" : "exact",
-                share > 0 ? "the greater end may be more than the lesser by this"
-                          : "all that double can tell",
+                share > 0 ? "largest ratio of the upper to the lower bound"
+                          : "the tightest bounds in double",
                 ask(options));
         }
     }
@@ -177,11 +176,12 @@ void keep_time_of(const Climb& climb, const std::vector<std::size_t>& poses, con
 Ladder climb_distance(const Climb& climb, Broken& broken) {
     Ladder ladder;
     ladder.name = "distance";
-    ladder.question = "how far apart are the surfaces, in the poses that do not touch";
+    ladder.question = "how far apart are the surfaces, at poses where they do not touch";
     ladder.error = "greatest error, as a share of the distance";
     ladder.cases = "pose that does not touch";
     ladder.left_out.emplace_back(
-        "Bytes that the hull's rung reads: which corners its search passes is not counted.");
+        "Bytes read by the hull's rung are missing: the vertices that its search visits are not "
+        "counted.");
     climb.begins("distance: asking");
     Contenders contenders(climb);
     contenders.add_hull();

@@ -10,19 +10,19 @@
 #include <iterator>
 #include <utility>
 
+#include "accuracy/bounding_shapes.h"
+#include "accuracy/bytes_read.h"
+#include "accuracy/octree_level.h"
+#include "accuracy/piece_set.h"
 #include "cdprep/advanced/convex_distance.h"
+#include "cdprep/advanced/float_contacts.h"
 #include "cdprep/cells.h"
 #include "cdprep/cells/level_of_detail.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
-#include "hull/convex_hull.h"
 #include "decompose/enclose/hull_error.h"
 #include "decompose/enclose/solid.h"
-#include "accuracy/bounding_shapes.h"
-#include "accuracy/bytes_read.h"
-#include "cdprep/advanced/float_contacts.h"
-#include "accuracy/octree_level.h"
-#include "accuracy/piece_set.h"
+#include "hull/convex_hull.h"
 
 namespace cdprep::study {
 namespace {
@@ -257,7 +257,7 @@ private:
             climb_.begins(std::to_string(count) + " pieces");
             if (spent + 2 * last > share) {
                 ladder_.left_out.push_back(std::to_string(count) +
-                                           " pieces: finding fewer took the time allowed.");
+                                           " pieces: the time limit ended the search for fewer.");
                 continue;
             }
             const double begun = processor_seconds();
@@ -276,8 +276,8 @@ private:
         const PieceSet& in_a = pair.first;
         const PieceSet& in_b = pair.second;
         Rung& rung = add(std::to_string(count) + " pieces",
-                         "convex pieces that enclose, at most so many of each", Promise::no_misses,
-                         [this, &in_a, &in_b](std::size_t i) {
+                         "enclosing convex pieces, at most this number for each model",
+                         Promise::no_misses, [this, &in_a, &in_b](std::size_t i) {
                              return hit_or_no(pieces_touch(in_a, in_b, pose(i), centres_));
                          });
         rung.build_s = in_a.seconds + in_b.seconds;
@@ -369,13 +369,12 @@ private:
             rung.touched = tree_read([&](std::size_t i) { float_hit(i, doubt_hits); });
             count_float_pairs(doubt_hits, rung);
         };
-        add_float("float, doubt hits",
-                  "the hierarchy of boxes in float; what float cannot decide is a hit",
+        add_float("float, doubt hits", "the BVH in float; undecided pairs count as hits",
                   Promise::no_misses, true);
-        add_float("float, doubt misses", "the same; what float cannot decide is apart",
+        add_float("float, doubt misses", "the BVH in float; undecided pairs count as apart",
                   Promise::no_false_hits, false);
         Rung& exact =
-            add("exact", "the hierarchy of boxes, float, then double, then exact", Promise::exact,
+            add("exact", "the BVH in float, then double, then exact", Promise::exact,
                 [this](std::size_t i) {
                     return hit_or_no(
                         collide({climb_.a.model, climb_.b.model, placement(i)}, workspace_).hit ==
@@ -495,10 +494,11 @@ Ladder climb_geometry(const Climb& climb, Broken& broken) {
         "wrong answers, of all poses";
     ladder.cases = "pose";
     ladder.left_out.emplace_back(
-        "Bytes that the hull's rung reads: which corners its search passes is not counted.");
+        "Bytes read by the hull's rung are missing: the vertices that its search visits are not "
+        "counted.");
     ladder.left_out.emplace_back(
-        "Level E3 as a rung: questions are answered at E1; columns tell of the poses at which the "
-        "same is proved of E3.");
+        "Level E3 is not a rung: queries answer at E1; columns count the poses at which the answer "
+        "is proved at E3.");
     Contenders contenders(climb, ladder);
     contenders.add_all();
     if (climb.must_stop()) return ladder;

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "cdprep/pairs.h"
-#include "cdprep/exact/triangles.h"
 #include "accuracy/naive_contact.h"
+#include "cdprep/exact/triangles.h"
+#include "cdprep/pairs.h"
 #include "study/seeded_random.h"
 #include "study/source_triangles.h"
 
@@ -45,8 +45,8 @@ std::vector<Candidate> find_candidates(const Climb& climb) {
             }
             return true;
         };
-        visit_pairs_within({climb.a.model, climb.b.model, Placement::b_moves(pose)}, kNearby * climb.set.diagonal,
-                           workspace, keep);
+        visit_pairs_within({climb.a.model, climb.b.model, Placement::b_moves(pose)},
+                           kNearby * climb.set.diagonal, workspace, keep);
         std::ranges::sort(pairs);
         for (const TrianglePair& pair : pairs) {
             const Corners a = in_a.corners(pair.a);
@@ -91,8 +91,8 @@ std::vector<Contender> all_contenders(bool has_float) {
     add("double, 1e-12", "signs in double; what is below 1e-12 counts as 0", Promise::none,
         naive<double>(1e-12));
     add("double", "signs in double as they come out", Promise::none, naive<double>(0));
-    add("filter, then exact", "signs in double where they are certain, integers elsewhere",
-        Promise::exact, [](const Candidate& pair) { return exact::triangles_touch(pair.a, pair.b); });
+    add("filter, then exact", "signs in double if certain, else integers", Promise::exact,
+        [](const Candidate& pair) { return exact::triangles_touch(pair.a, pair.b); });
     add("always exact", "integers or expansions for every pair", Promise::exact,
         [](const Candidate& pair) {
             return exact::contact_without_filter(pair.a, pair.b) != TriangleContact::disjoint;
@@ -148,9 +148,9 @@ void judge(const Climb& climb, const std::vector<Candidate>& pairs, Contender& c
 Ladder climb_predicates(const Climb& climb, Broken& broken) {
     Ladder ladder;
     ladder.name = "predicates";
-    ladder.question = "do two triangles touch that are at most 1e-4 diagonals apart";
+    ladder.question = "do two triangles touch, for pairs at most 1e-4 diagonals apart";
     ladder.error = "wrong answers, as a share of the pairs";
-    ladder.cases = "64 pairs of triangles; seconds are of one pair";
+    ladder.cases = "64 pairs of triangles; seconds per pair";
     climb.begins("predicates: asking");
     const std::vector<Candidate> pairs = find_candidates(climb);
     const std::size_t cases = std::min<std::size_t>(400, pairs.size() / kPairsACase);

@@ -8,10 +8,10 @@
 #include <deque>
 #include <numeric>
 
-#include "cdprep/pairs.h"
-#include "mesh/degenerate.h"
 #include "accuracy/bounding_shapes.h"
 #include "accuracy/bytes_read.h"
+#include "cdprep/pairs.h"
+#include "mesh/degenerate.h"
 
 namespace cdprep::study {
 namespace {
@@ -189,7 +189,7 @@ Ladder climb_storage(const Climb& climb, Broken& broken) {
     Ladder ladder;
     ladder.name = "storage";
     ladder.question = "which triangles touch, when vertices are stored with fewer bits";
-    ladder.error = "pairs that are missing or too many, as a share of the pairs in either set";
+    ladder.error = "missing and extra pairs, as a share of the pairs in either set";
     ladder.cases = "pose";
     Ways ways(climb);
     for (const Way& way : kWays) {

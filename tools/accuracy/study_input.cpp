@@ -25,8 +25,8 @@ Result<mesh::Mesh> load_for_study(const std::filesystem::path& input, const Load
     if (options.normalize || options.weld_distance > 0) {
         return Error{ErrorCode::bad_argument,
                      input.string() +
-                         ": is baked already; --normalize and --weld are for mesh files. Leave "
-                         "them out, or give the mesh file."};
+                         ": is a baked file; --normalize and --weld apply to mesh files. Remove "
+                         "them, or give the mesh file."};
     }
     const Result<Model> model = open_for(input, Ask::corners);
     if (!model) return model.error();

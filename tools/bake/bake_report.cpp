@@ -64,7 +64,7 @@ std::string bake_text(const BakeReport& report, Timings timings) {
         text += "  " + std::to_string(report.parts->count) +
                 " convex parts enclose it and stick out by at most " +
                 in_six_digits(report.parts->outer_error) +
-                (report.parts->is_as_asked ? "\n" : ", not as tight, or not as few, as asked\n");
+                (report.parts->is_as_asked ? "\n" : ", so the request is not met\n");
     }
     if (timings == Timings::hide) return text;
     for (const StageTime& stage : report.stages) {

@@ -61,7 +61,7 @@ std::uint64_t count_warnings(const report::ValidationReport& found) {
 
 std::string strict_refusal(const report::ValidationReport& found) {
     if (count_warnings(found) == 0) {
-        return found.remarks.front() + " --strict allows no mesh that was not examined.";
+        return found.remarks.front() + " --strict refuses a mesh that was not fully examined.";
     }
     const auto first = static_cast<std::size_t>(
         std::find_if(found.judgements.begin(), found.judgements.end(), is_refused) -

@@ -92,7 +92,7 @@ Result<report::BakeReport> bake_one(const fs::path& input, const fs::path& outpu
         return bake(input, output, arguments.options, threads, begins);
     } catch (const std::bad_alloc&) {
         return Error{ErrorCode::over_budget,
-                     input.string() + ": needs more memory than the machine gives."};
+                     input.string() + ": needs more memory than the machine has."};
     } catch (const std::exception& error) {
         return Error{ErrorCode::internal,
                      input.string() + ": internal error: " + error.what() + ". Please report it."};
@@ -178,9 +178,9 @@ Exit run(Arguments& arguments) {
         std::error_code error;
         fs::create_directories(arguments.output_folder, error);
         if (error) {
-            return fail("bake",
-                        {ErrorCode::unwritable, arguments.output_folder.string() +
-                                                    ": cannot be made: " + error.message() + "."});
+            return fail("bake", {ErrorCode::unwritable,
+                                 arguments.output_folder.string() +
+                                     ": cannot be created: " + error.message() + "."});
         }
     }
     arguments.options.effects = effects.value();

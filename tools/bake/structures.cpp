@@ -87,9 +87,9 @@ std::optional<Error> find_idle_option(const StructureArguments& arguments,
     }};
     for (const Use& use : uses) {
         if (!use.is_given || use.is_used) continue;
-        return Error{ErrorCode::bad_argument, std::string(use.option) +
-                                                  " says how to build what is not built: add " +
-                                                  use.user + " to --structures, or leave it out."};
+        return Error{ErrorCode::bad_argument, std::string(use.option) + " has no effect: add " +
+                                                  use.user +
+                                                  " to --structures, or remove the option."};
     }
     return std::nullopt;
 }

@@ -45,7 +45,7 @@ void add_path(std::vector<Input>& inputs, const fs::path& path) {
     std::vector<Input> found;
     search(path, found);
     if (found.empty()) {
-        found.push_back(missing(path, "this folder has no mesh file, by the endings of names."));
+        found.push_back(missing(path, "this folder has no file with the extension of a mesh."));
     }
     std::sort(found.begin(), found.end(),
               [](const Input& a, const Input& b) { return a.path < b.path; });

@@ -5,8 +5,8 @@
 
 #include "cdprep/format/float_environment.h"
 #include "cli/command.h"
-#include "cli/signals.h"
 #include "cli/quiet.h"
+#include "cli/signals.h"
 #include "cli/usage.h"
 #include "manuals/help_text.h"
 #include "manuals/write_manuals.h"
@@ -34,9 +34,10 @@ void add_general_options(CLI::App& app) {
         }
     };
     describe(describe, app);
-    set_notes(app, "", {"cdprep bake arm.glb part.ply --output-dir baked",
-                        "cdprep query overlap baked/arm.cdp.h5 baked/part.cdp.h5 --poses poses.txt",
-                        "cdprep validate assets --format sarif -o meshes.sarif"});
+    set_notes(app, "",
+              {"cdprep bake arm.glb part.ply --output-dir baked",
+               "cdprep query overlap baked/arm.cdp.h5 baked/part.cdp.h5 --poses poses.txt",
+               "cdprep validate assets --format sarif -o meshes.sarif"});
 }
 
 Exit run(int argc, char** argv) {
@@ -58,9 +59,12 @@ Exit run(int argc, char** argv) {
     add_general_options(app);
     const auto write = [&](const std::string& folder) {
         const auto failed = write_manuals(folder, pages_of(app), CDPREP_VERSION);
-        throw CLI::RuntimeError(static_cast<int>(failed ? fail("--write-manuals", *failed) : Exit::success));
+        throw CLI::RuntimeError(
+            static_cast<int>(failed ? fail("--write-manuals", *failed) : Exit::success));
     };
-    app.add_option_function<std::string>("--write-manuals", write, "")->group("")->trigger_on_parse();
+    app.add_option_function<std::string>("--write-manuals", write, "")
+        ->group("")
+        ->trigger_on_parse();
     watch_for_interrupts();
     watch_for_lost_pages();
     try {
@@ -81,7 +85,7 @@ Exit run(int argc, char** argv) {
     const bool is_written = static_cast<bool>(std::cout.flush());
     if (is_output_closed()) return Exit::interrupted;
     if (exit == Exit::success && !is_written) {
-        std::cerr << "cdprep: standard output takes no more; the result is not complete.\n";
+        std::cerr << "cdprep: standard output cannot be written; the result is incomplete.\n";
         exit = Exit::unwritable;
     }
     return exit;
@@ -97,7 +101,7 @@ int main(int argc, char** argv) {
     try {
         return static_cast<int>(cdprep::cli::run(argc, argv));
     } catch (const std::bad_alloc&) {
-        std::cerr << "cdprep: this needs more memory than the machine gives.\n";
+        std::cerr << "cdprep: this needs more memory than the machine has.\n";
         return static_cast<int>(Exit::over_budget);
     } catch (const std::exception& error) {
         std::cerr << "cdprep: internal error: " << error.what() << ". Please report it.\n";

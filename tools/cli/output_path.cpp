@@ -33,7 +33,8 @@ Result<Done> write_mesh(const std::filesystem::path& output, write::MeshFormat f
     const std::string bytes = write::bytes_of(format, mesh);
     const bool is_whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
     if (is_whole && std::fflush(stdout) == 0) return Done{};
-    return Error{ErrorCode::unwritable, "standard output takes no more; the mesh is not complete."};
+    return Error{ErrorCode::unwritable,
+                 "standard output cannot be written; the mesh is incomplete."};
 }
 
 std::ostream& report_stream(const std::filesystem::path& mesh_output) {

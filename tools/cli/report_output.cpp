@@ -11,7 +11,7 @@ namespace {
 Result<Done> checked(const std::ostream& out) {
     if (out) return Done{};
     return Error{ErrorCode::unwritable,
-                 "standard output takes no more; the result is not complete."};
+                 "standard output cannot be written; the result is incomplete."};
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 #include "cli/number_rows.h"
 #include "cli/poses_file.h"
-#include "text/printable.h"
 #include "cli/report_output.h"
 #include "study/cells.h"
+#include "text/printable.h"
 
 namespace cdprep::cli {
 namespace {
@@ -91,7 +91,7 @@ Result<Done> write_pair_poses(const fs::path& folder, const study::Comparison& c
     fs::create_directories(folder, failed);
     if (failed) {
         return Error{ErrorCode::unwritable,
-                     folder.string() + ": cannot be made: " + failed.message() + "."};
+                     folder.string() + ": cannot be created: " + failed.message() + "."};
     }
     for (const study::ComparedPair& pair : comparison.pairs) {
         Result<Done> written =

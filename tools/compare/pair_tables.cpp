@@ -403,8 +403,8 @@ Table pair_details(const std::vector<StudyMesh>& meshes, const PairStudy& study)
     }
     table.notes.push_back(poses_note(study));
     table.notes.emplace_back(
-        "Cold: everything that both models hold in the form that is asked was "
-        "dropped from the caches before each question.");
+        "Cold: all structures that the query reads, of both models, were "
+        "dropped from the caches before each query.");
     const std::string reason = no_figures(meshes, study);
     if (!reason.empty()) table.notes.push_back("No published figures: " + reason + ".");
     return table;

@@ -84,7 +84,7 @@ std::string assign_role(PlyElement& element) {
     const PlyProperty& list = element.properties[*indices];
     if (!is_integer(list.count_type) || !is_integer(list.type)) {
         return "the vertex numbers of element '" + std::string(element.name) +
-               "' are no list of whole numbers";
+               "' are not a list of whole numbers";
     }
     element.indices = *indices;
     if (element.name == "face") element.role = PlyRole::faces;
@@ -120,7 +120,8 @@ private:
         if (words[0] == "format" && words.size() >= 2) return set_format(words[1]);
         if (words[0] == "element" && words.size() == 3) return add_element(words[1], words[2]);
         if (words[0] == "property" && words.size() >= 3) return add_property(words);
-        return quoted_word(line.data(), line.data() + line.size()) + " begins no PLY header line";
+        return quoted_word(line.data(), line.data() + line.size()) +
+               " does not begin a line of a PLY header";
     }
 
     std::string set_format(std::string_view name) {
@@ -135,7 +136,7 @@ private:
     std::string add_element(std::string_view name, std::string_view count) {
         const WholeNumber number = parse_whole_number(count.data(), count.data() + count.size());
         if (!number.next || number.value < 0) {
-            return quoted_word(count.data(), count.data() + count.size()) + " is no count";
+            return quoted_word(count.data(), count.data() + count.size()) + " is not a count";
         }
         header_.elements.push_back({});
         header_.elements.back().name = name;
@@ -144,7 +145,7 @@ private:
     }
 
     std::string add_property(const std::vector<std::string_view>& words) {
-        if (header_.elements.empty()) return "a property stands before any element";
+        if (header_.elements.empty()) return "a property comes before the first element";
         const bool is_list = words[1] == "list";
         if (words.size() != (is_list ? 5 : 3)) return "a property has too many or too few words";
         const PlyProperty property{words.back(), type_named(words[words.size() - 2]),

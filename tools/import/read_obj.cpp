@@ -116,7 +116,7 @@ private:
     }
 
     bool fail_vertex(std::size_t axis) {
-        if (!ends_statement(at_, end_)) return fail(quoted_word(at_, end_) + " is no number");
+        if (!ends_statement(at_, end_)) return fail(quoted_word(at_, end_) + " is not a number");
         return fail("a vertex has " + std::to_string(axis) + " coordinates; 3 are needed");
     }
 
@@ -151,7 +151,7 @@ private:
         for (;;) {
             at_ = skip_to_word(at_, end_);
             if (ends_statement(at_, end_)) break;
-            if (!read_corner()) return fail(quoted_word(at_, end_) + " is no corner of a face");
+            if (!read_corner()) return fail(quoted_word(at_, end_) + " is not a corner of a face");
         }
         chunk_.end_face(chunk_.corners.size() - first);
         return true;
@@ -221,7 +221,7 @@ Result<mesh::TriangleSoup> read_obj(const SourceFile& file, const ImportOptions&
     if (const std::size_t zero = file.bytes().substr(0, kLookedAt).find('\0');
         zero != std::string_view::npos) {
         return file.unreadable("byte " + std::to_string(zero) +
-                               " is zero: the file is no OBJ text");
+                               " is zero: the file is not OBJ text");
     }
     const std::vector<std::string_view> texts =
         split_lines(file.bytes(),

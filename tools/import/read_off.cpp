@@ -45,7 +45,7 @@ std::optional<Fault> read_header(std::string_view text, Header& header) {
         at = next_row(at + length, end);
     }
     if (header.prefix.find_first_of("4n") != std::string_view::npos) {
-        return Fault{at, "the OFF file has another dimension than 3"};
+        return Fault{at, "the dimension of the OFF file is not 3"};
     }
     if (std::string_view(at, static_cast<std::size_t>(end - at)).starts_with("BINARY")) {
         return Fault{at, "binary OFF files are not read. Save it as text"};
@@ -55,7 +55,7 @@ std::optional<Fault> read_header(std::string_view text, Header& header) {
         const WholeNumber number = parse_whole_number(at, end);
         if (!number.next || number.value < 0) {
             return Fault{at, at == end ? "the file ends inside the OFF header"
-                                       : quoted_word(at, end) + " is no count of an OFF header"};
+                                       : quoted_word(at, end) + " is not a count of an OFF header"};
         }
         *count = static_cast<std::uint64_t>(number.value);
         at = number.next;

@@ -144,7 +144,7 @@ private:
             const Number number = parse_number(at_, end_);
             if (!number.next) {
                 return at_ == end_ ? fail(at_, "the file ends inside a vertex")
-                                   : fail(at_, quoted_word(at_, end_) + " is no number");
+                                   : fail(at_, quoted_word(at_, end_) + " is not a number");
             }
             value = number.value;
             chunk_.single_precision = chunk_.single_precision && number.single;

@@ -91,15 +91,14 @@ std::string info_text(const std::string& file, const Model& model,
                        counted(model.record().components.size(), "component", "components") + "\n";
     text += "unit: " + unit_name(model.header().metres_per_unit) +
             ", up axis: " + axis_name(model.header().up_axis) + "\n";
-    text += std::string("surface questions: exact; positions ") + precision(model) + "\n";
+    text += std::string("surface queries: exact; positions ") + precision(model) + "\n";
     if (model.triangle_count() == 0) {
-        text += "solid questions: nothing is inside, there are no triangles\n";
+        text += "solid queries: nothing is inside, there are no triangles\n";
     } else {
-        text += model.is_balanced() ? "solid questions: exact, the mesh is closed\n"
-                                    : "solid questions: unknown, the mesh is open\n";
+        text += model.is_balanced() ? "solid queries: exact, the mesh is closed\n"
+                                    : "solid queries: unknown, the mesh is open\n";
     }
-    text +=
-        std::string("questions about pairs: bounded by ") + bounds_name(bounds_of(model)) + "\n";
+    text += std::string("pair queries: bounded by ") + bounds_name(bounds_of(model)) + "\n";
     text += served_text(model);
     text += mesh_text(model);
     if (const std::string others = structures_text(structure_reports(model)); !others.empty()) {

@@ -182,8 +182,8 @@ RepairMesh joined(RepairMesh mesh) {
     mesh = weld_vertices(std::move(mesh), 0).mesh;
     std::vector<bool> kept(mesh.triangles.size());
     for (std::uint32_t t = 0; t < kept.size(); ++t) {
-        kept[t] =
-            !repeats_corner(mesh.triangles[t]) && !exact::is_degenerate(CutTriangle::corners_of(mesh, t));
+        kept[t] = !repeats_corner(mesh.triangles[t]) &&
+                  !exact::is_degenerate(CutTriangle::corners_of(mesh, t));
     }
     keep_triangles(mesh, kept);
     return mesh;
@@ -244,7 +244,7 @@ CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search, const StopCh
         for (int round = 0; round <= kMostRounds; ++round) {
             const auto [meetings, is_complete] = find_meetings(mesh, search);
             if (!is_complete) {
-                cut.failed = "finding what their cuts cross was ended by a limit";
+                cut.failed = "a limit ended the search for what their cuts cross";
                 return cut;
             }
             const auto worst = std::find_if_not(meetings.begin(), meetings.end(), is_allowed);
@@ -256,7 +256,7 @@ CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search, const StopCh
             before = meetings.size();
             std::optional<RepairMesh> pieces = cut_once(std::move(mesh), meetings, stop);
             if (!pieces) {
-                cut.failed = "cutting them took longer than was allowed";
+                cut.failed = "cutting them took longer than the time limit";
                 return cut;
             }
             mesh = joined(std::move(*pieces));

@@ -83,7 +83,7 @@ std::string step_line(const mesh::StepReport& step) {
     add(step.cut.size(), "triangles cut");
     add(step.added_triangles, "triangles added");
     add(step.merged.size(), "vertices merged");
-    add(step.unused.size(), "unused vertices left out");
+    add(step.unused.size(), "unused vertices removed");
     add(step.parted.size(), "vertices copied");
     add(step.added_vertices, "vertices added");
     add(step.refused.size(), "refused");

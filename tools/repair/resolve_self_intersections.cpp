@@ -327,7 +327,7 @@ Stepped resolve_self_intersections(RepairMesh mesh, const SearchOptions& search,
     const TriangleMeeting& first = meetings.pairs.front();
     if (count_unpaired_uses(mesh.positions, mesh.triangles) > 0) {
         return refused_pair(mesh, mesh, first.a, first.b,
-                            " meet, and the mesh is open: it has no inside to keep.");
+                            " meet, and the mesh is open, so it has no inside.");
     }
     CutMesh cut = cut_crossings(mesh, search, stop);
     if (!cut.failed.empty()) {
@@ -342,7 +342,7 @@ Stepped resolve_self_intersections(RepairMesh mesh, const SearchOptions& search,
     const bool add_up = windings.find(stop);
     if (is_stopped(stop)) {
         return refused_pair(mesh, mesh, first.a, first.b,
-                            " meet, and finding the inside took longer than was allowed.");
+                            " meet, and finding the inside took longer than the time limit.");
     }
     if (!add_up) {
         return refused_pair(mesh, mesh, first.a, first.b,

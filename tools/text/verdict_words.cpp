@@ -92,18 +92,18 @@ std::string verdict_text(const format::Verdict& verdict) {
 std::string promises_text(const format::Verdict& verdict) {
     const std::uint32_t promises = verdict.promises;
     std::string text = (promises & format::promise_surface) != 0
-                           ? "questions about the surface are exact"
-                           : "nothing can be asked of it";
+                           ? "queries of the surface are exact"
+                           : "it answers no query";
     if ((promises & format::promise_simple_solid) != 0) {
-        text += "; inside is exact, and the volume is what is enclosed";
+        text += "; inside is exact, and the volume is the enclosed volume";
     } else if ((promises & format::promise_inside_exact) != 0) {
-        text += "; inside is exact, by a winding number that may be other than 0 and 1";
+        text += "; inside is exact, but winding numbers may differ from 0 and 1";
     } else {
-        text += "; inside is unknown, questions about the solid are about the surface only";
+        text += "; inside is unknown, so queries of the solid see the surface only";
     }
     text += (promises & format::promise_contained_pieces) != 0
                 ? "; convex pieces can lie within it"
-                : "; no convex piece can be said to lie within it";
+                : "; no convex piece is known to lie within it";
     return text;
 }
 

@@ -145,7 +145,7 @@ Result<OutputFile> OutputFile::create(const std::filesystem::path& wanted, Tempo
         if (descriptor >= 0) {
             remove_abandoned(temporary_name(target, number + 1));
             OutputFile file(target, temporary, descriptor);
-            if (::ftruncate(descriptor, 0) != 0) return file.failed("cannot be emptied");
+            if (::ftruncate(descriptor, 0) != 0) return file.failed("cannot be truncated");
             return file;
         }
         if (errno != EWOULDBLOCK) {
@@ -191,7 +191,7 @@ Result<Done> OutputFile::write_at(std::uint64_t offset, std::span<const std::byt
 }
 
 Result<Done> OutputFile::commit() {
-    if (::fsync(descriptor_) != 0) return failed("cannot be forced to disk");
+    if (::fsync(descriptor_) != 0) return failed("cannot be synced to disk");
     if (temporary_.empty() && !give_name()) return failed("cannot be named");
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) return failed("cannot be renamed");
     ::close(std::exchange(descriptor_, -1));

@@ -91,7 +91,7 @@ Result<Done> commit_checked(OutputFile& file, const std::filesystem::path& path,
     const Result<Model> opened = Model::open(file.readable_path());
     if (!opened) {
         return Error{blame, path.string() +
-                                ": what was written does not read back: " + opened.error().message};
+                                ": the written file does not read back: " + opened.error().message};
     }
     return file.commit();
 }

@@ -73,15 +73,17 @@ std::string approximate_text(const ApproximateReport& report) {
     text += " by at most " + in_six_digits(result.outer_error) + " (" + in_six_digits(share) +
             " % of the diagonal; at least " + in_six_digits(result.outer_lower) + ")\n";
     text += "  enclosed: " + std::to_string(result.proof.fragments) + " fragments, " +
-            std::to_string(result.proof.outside) + " corners outside of their hull\n";
+            std::to_string(result.proof.outside) + " corners outside their hulls\n";
     text += "  at most " + counted(most_vertices(result), "vertex", "vertices") + " a piece\n";
     if (!report.to_surface && report.open_components > 0) {
         text += "  " + counted(report.open_components, "component", "components") +
-                " are not closed and were taken as surfaces; close them first with "
-                "repair --preset closed where they are meant to be solid\n";
+                " are not closed and count as surfaces; if they are meant to be solid, close them "
+                "first with repair --preset closed\n";
     }
-    if (result.ran_out_of_work) text += "  the work allowed did not suffice: looser than asked\n";
-    if (!result.is_as_asked) text += "  not as tight, or not as few, as asked\n";
+    if (result.ran_out_of_work)
+        text += "  the search budget ended early: a larger --work can give a tighter result\n";
+    if (!result.is_as_asked)
+        text += "  the request is not met: it needs more pieces or a larger error\n";
     if (report.left_out > 0) {
         text += "  " + std::to_string(report.left_out) + " flat pieces were not written\n";
     }
@@ -91,7 +93,7 @@ std::string approximate_text(const ApproximateReport& report) {
     }
     if (report.mass) {
         text += "  mass " + in_six_digits(*report.mass) + " kg, of ";
-        text += report.is_mass_of_pieces ? "the pieces, twice where they overlap\n" : "the solid\n";
+        text += report.is_mass_of_pieces ? "the pieces; overlaps count twice\n" : "the solid\n";
     }
     if (!report.output.empty()) text += "  written to " + printable(report.output) + "\n";
     if (!report.has_table) return text;

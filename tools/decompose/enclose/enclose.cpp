@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "decompose/enclose/body_mass.h"
 #include "cli/command.h"
+#include "cli/output_path.h"
 #include "cli/signals.h"
+#include "decompose/enclose/body_mass.h"
+#include "decompose/enclose/mesh_nodes.h"
 #include "mesh/topology.h"
 #include "mesh/weld.h"
-#include "decompose/enclose/mesh_nodes.h"
-#include "cli/output_path.h"
 #include "write/hulls_file.h"
 
 namespace cdprep::cli {
@@ -33,8 +33,8 @@ std::optional<Error> find_bad_output(const fs::path& input, const fs::path& outp
     }
     if (write::may_replace(output, *format, input)) {
         return Error{ErrorCode::bad_argument,
-                     input.string() + ": is named as a mesh beside " + output.string() +
-                         " would be, and could be replaced. Choose another output."};
+                     input.string() + ": has the name of a mesh file that " + output.string() +
+                         " would write. Choose another output."};
     }
     return std::nullopt;
 }

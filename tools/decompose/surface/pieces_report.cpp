@@ -92,8 +92,7 @@ std::string pieces_text(const SurfacePiecesReport& report) {
                        counted(pieces.triangles.size(), "triangle", "triangles") + " (" +
                        name_of(report.order) + ", " + number(report.seconds, "%.3f") + " s)\n";
     text += "  largest " + counted(largest(pieces), "triangle", "triangles") + "; hulls of " +
-            std::to_string(contained(pieces)) + " stay inside the solid, of the others nothing " +
-            "is known\n";
+            std::to_string(contained(pieces)) + " lie inside the solid; the others may not\n";
     text += report.tolerance == 0
                 ? std::string("  exact: every triangle lies on its hull\n")
                 : "  triangles lie at most " + number(outer_error(pieces), "%.6g") +

@@ -46,7 +46,7 @@ std::uint64_t JsonValue::count(std::string_view name, std::uint64_t otherwise) c
     if (!exists()) return otherwise;
     const double value = number(-1);
     if (!(value >= 0) || value > kMost || value != std::floor(value)) {
-        throw std::runtime_error("'" + std::string(name) + "' is no whole number");
+        throw std::runtime_error("'" + std::string(name) + "' is not a whole number");
     }
     return static_cast<std::uint64_t>(value);
 }

@@ -54,7 +54,7 @@ std::uint32_t index_of(const pugi::xml_node& triangle, const char* name) {
     const WholeNumber number = parse_whole_number(text.data(), text.data() + text.size());
     if (!number.next || number.value < 0) {
         fail("a triangle has " + std::string(name) + "=\"" + std::string(text) +
-             "\", which is no number of a vertex");
+             "\", which is not a vertex number");
     }
     return static_cast<std::uint32_t>(std::min(number.value, kNone));
 }
@@ -83,7 +83,7 @@ double metres_of(std::string_view unit) {
         {"", 1e-3},       {"micron", 1e-6}, {"millimeter", 1e-3}, {"centimeter", 1e-2},
         {"inch", 0.0254}, {"foot", 0.3048}, {"meter", 1}};
     const auto found = kUnits.find(unit);
-    if (found == kUnits.end()) fail("its unit is \"" + std::string(unit) + "\", none of 3MF");
+    if (found == kUnits.end()) fail("its unit is \"" + std::string(unit) + "\", not a unit of 3MF");
     return found->second;
 }
 
@@ -144,8 +144,8 @@ private:
         const pugi::xml_parse_result result =
             kept->second.load_buffer(bytes.data(), bytes.size(), pugi::parse_default);
         if (!result) {
-            fail("its part " + name + " is no XML at byte " + std::to_string(result.offset) + ": " +
-                 result.description());
+            fail("its part " + name + " is not XML at byte " + std::to_string(result.offset) +
+                 ": " + result.description());
         }
         return kept->second;
     }
@@ -235,7 +235,7 @@ private:
             const Number number = parse_number(text.data(), text.data() + text.size());
             if (!number.next) {
                 fail("a vertex has " + std::string(kAxes[axis]) + "=\"" + std::string(text) +
-                     "\", which is no number");
+                     "\", which is not a number");
             }
             p[axis] = number.value;
             mesh.is_single &= number.single;

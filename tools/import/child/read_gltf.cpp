@@ -66,7 +66,7 @@ std::uint64_t size_of(std::uint64_t component) {
         case f32:
             return 4;
         default:
-            fail("component type " + std::to_string(component) + " is none of glTF");
+            fail("component type " + std::to_string(component) + " is not a type of glTF");
     }
 }
 
@@ -333,7 +333,7 @@ private:
         const JsonValue accessor = root_["accessors"][number];
         const std::string name = "accessor " + std::to_string(number);
         if (!accessor.exists()) fail(name + " does not exist");
-        if (accessor["type"].text() != "VEC3") fail(name + " is no VEC3");
+        if (accessor["type"].text() != "VEC3") fail(name + " is not a VEC3");
         const std::uint64_t component = accessor["componentType"].count("componentType", 0);
         const std::uint64_t count = accessor["count"].count("count", 0);
         const JsonValue sparse = accessor["sparse"];
@@ -393,8 +393,9 @@ private:
         const JsonValue accessor = root_["accessors"][number];
         const std::string name = "accessor " + std::to_string(number);
         if (!accessor.exists()) fail(name + " does not exist");
-        if (accessor["type"].text() != "SCALAR") fail(name + " is no SCALAR");
-        if (accessor["sparse"].exists()) fail(name + " of indices is sparse, which is not read");
+        if (accessor["type"].text() != "SCALAR") fail(name + " is not a SCALAR");
+        if (accessor["sparse"].exists())
+            fail(name + " of indices is sparse, which is not supported");
         const Accessor list =
             find(name, accessor, accessor["componentType"].count("componentType", 0),
                  accessor["count"].count("count", 0), 1);

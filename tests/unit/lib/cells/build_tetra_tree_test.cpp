@@ -341,7 +341,7 @@ void expect_in_box(const ExactPoint& p, const format::BvhNode& boxes, std::size_
     }
 }
 
-/// A number of the frame, but for 2^-52. Of long fractions approximation() is no number.
+/// A number of the frame, but for 2^-52. Of long fractions approximation() is not a number.
 double rounded_frame(const ExactRational& x) {
     const auto near = static_cast<double>(x.approximation());
     if (std::isfinite(near)) return near;

@@ -130,7 +130,7 @@ TEST(Refusal, TellsWhatWasNotOpenedFromWhatWasNotBaked) {
     EXPECT_EQ(not_opened->reason, Refusal::Reason::not_opened);
     EXPECT_EQ(not_opened->message,
               "memory: collide needs section bvh_leaves, which was not opened. Open the model for "
-              "this question.");
+              "this query.");
     const auto not_baked = opened.value().refusal(Ask::collide | Ask::solid);
     ASSERT_TRUE(not_baked);
     EXPECT_EQ(not_baked->reason, Refusal::Reason::not_baked);

@@ -164,8 +164,7 @@ TEST(ChooseStructures, UnknownNamesAreRefusedWithThoseThatAreKnown) {
 
 TEST(ChooseStructures, OptionsOfWhatIsNotBuiltAreRefused) {
     EXPECT_EQ(fault({.octree_level = 3}),
-              "--octree-level says how to build what is not built: add octree to --structures, "
-              "or leave it out.");
+              "--octree-level has no effect: add octree to --structures, or remove the option.");
     const auto names = [](const std::string& message, const std::string& option,
                           const std::string& structure) {
         return message.starts_with(option + " ") &&

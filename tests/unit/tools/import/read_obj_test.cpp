@@ -195,13 +195,14 @@ TEST(ReadObj, NamesBecomeUtf8) {
 TEST(ReadObj, SaysWhichLineIsBroken) {
     EXPECT_EQ(sentence("v 0 0 0\nv 1 2\n"),
               "t.obj: line 2: a vertex has 2 coordinates; 3 are needed.");
-    EXPECT_EQ(sentence("v 0 0 0\r\n\r\nv 1 x 2\n"), "t.obj: line 3: 'x' is no number.");
-    EXPECT_EQ(sentence(kFour + "f 1 2 three\n"), "t.obj: line 5: 'three' is no corner of a face.");
-    EXPECT_EQ(sentence(kFour + "f 1 2 3.5\n"), "t.obj: line 5: '3.5' is no corner of a face.");
-    EXPECT_EQ(sentence(kFour + "f 1 2 /3\n"), "t.obj: line 5: '/3' is no corner of a face.");
+    EXPECT_EQ(sentence("v 0 0 0\r\n\r\nv 1 x 2\n"), "t.obj: line 3: 'x' is not a number.");
+    EXPECT_EQ(sentence(kFour + "f 1 2 three\n"),
+              "t.obj: line 5: 'three' is not a corner of a face.");
+    EXPECT_EQ(sentence(kFour + "f 1 2 3.5\n"), "t.obj: line 5: '3.5' is not a corner of a face.");
+    EXPECT_EQ(sentence(kFour + "f 1 2 /3\n"), "t.obj: line 5: '/3' is not a corner of a face.");
     EXPECT_EQ(sentence("f 1 2 3\n"), "t.obj: has 1 triangles but no vertices.");
     EXPECT_EQ(sentence(std::string("v 0 0 0\n\0\0", 10)),
-              "t.obj: byte 8 is zero: the file is no OBJ text.");
+              "t.obj: byte 8 is zero: the file is not OBJ text.");
 }
 
 TEST(ReadObj, AFileWithoutTrianglesIsAnEmptySoup) {

@@ -89,8 +89,8 @@ TEST(ReadOff, CountsThatTheFileIsTooShortForAreUnreadable) {
 }
 
 TEST(ReadOff, SaysWhatIsWrongAndWhere) {
-    EXPECT_EQ(sentence("OFF\n4 x 0\n"), "t.off: line 2: 'x' is no count of an OFF header.");
-    EXPECT_EQ(sentence("OFF\n4 -2 0\n"), "t.off: line 2: '-2' is no count of an OFF header.");
+    EXPECT_EQ(sentence("OFF\n4 x 0\n"), "t.off: line 2: 'x' is not a count of an OFF header.");
+    EXPECT_EQ(sentence("OFF\n4 -2 0\n"), "t.off: line 2: '-2' is not a count of an OFF header.");
     EXPECT_EQ(sentence("OFF\n"), "t.off: line 2: the file ends inside the OFF header.");
     EXPECT_EQ(sentence("OFF\n2 0 0\n0 0 0\n1 0\n"),
               "t.off: line 4: the line ends where a coordinate of a vertex is needed.");
@@ -100,8 +100,7 @@ TEST(ReadOff, SaysWhatIsWrongAndWhere) {
               "t.off: line 4: the line ends where corner 3 of 3 of a face is needed.");
     EXPECT_EQ(sentence("OFF\n1 1 0\n0 0 0\n-3 0 0\n"),
               "t.off: line 4: '-3' stands where the number of corners of a face is needed.");
-    EXPECT_EQ(sentence("4OFF\n1 1 0\n"),
-              "t.off: line 2: the OFF file has another dimension than 3.");
+    EXPECT_EQ(sentence("4OFF\n1 1 0\n"), "t.off: line 2: the dimension of the OFF file is not 3.");
     EXPECT_EQ(sentence("OFF BINARY\n"),
               "t.off: line 1: binary OFF files are not read. Save it as text.");
 }

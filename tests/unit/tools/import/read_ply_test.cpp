@@ -246,18 +246,20 @@ TEST(ReadPly, SaysWhatIsWrongWithTheHeader) {
     EXPECT_EQ(sentence("ply\nformat ascii 1.0\nelement vertex x\n"),
               "t.ply: line 3: 'x' is no count.");
     EXPECT_EQ(sentence("ply\nproperty float x\n"),
-              "t.ply: line 2: a property stands before any element.");
+              "t.ply: line 2: a property comes before the first element.");
     EXPECT_EQ(sentence("ply\nelement vertex 1\nproperty quad x\n"),
               "t.ply: line 3: a property has an unknown type.");
-    EXPECT_EQ(sentence("ply\nelephant\n"), "t.ply: line 2: 'elephant' begins no PLY header line.");
+    EXPECT_EQ(sentence("ply\nelephant\n"),
+              "t.ply: line 2: 'elephant' does not begin a line of a PLY header.");
     EXPECT_EQ(sentence(header("ascii", "element vertex 1\nproperty float x\nproperty float y\n")),
               "t.ply: line 7: the vertices have no x, y and z.");
     EXPECT_EQ(sentence(header("ascii", "")),
               "t.ply: line 4: the PLY header has 0 elements 'vertex'; 1 is needed.");
-    EXPECT_EQ(sentence(header("ascii", "element vertex 0\n" + kFloats +
-                                           "element face 0\nproperty list uchar float "
-                                           "vertex_indices\n")),
-              "t.ply: line 10: the vertex numbers of element 'face' are no list of whole numbers.");
+    EXPECT_EQ(
+        sentence(header("ascii", "element vertex 0\n" + kFloats +
+                                     "element face 0\nproperty list uchar float "
+                                     "vertex_indices\n")),
+        "t.ply: line 10: the vertex numbers of element 'face' are not a list of whole numbers.");
 }
 
 TEST(ReadPly, SaysWhichRowIsBroken) {

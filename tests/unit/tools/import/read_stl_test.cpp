@@ -151,7 +151,7 @@ TEST(ReadStl, SaysWhichFacetIsBroken) {
                                "endsolid\n"),
               "t.stl: line 9: a facet has 1 vertices; 3 are needed.");
     EXPECT_EQ(sentence(start + "facet normal 0 0 1\nouter loop\nvertex 0 0\nendloop\nendfacet\n"),
-              "t.stl: line 12: 'endloop' is no number.");
+              "t.stl: line 12: 'endloop' is not a number.");
     EXPECT_EQ(sentence(start), "t.stl: line 9: the file ends without endsolid: it is cut off.");
     EXPECT_EQ(sentence(start + "vertex 1 2 3\nendsolid\n"),
               "t.stl: line 11: a vertex that belongs to no facet.");
