@@ -7,7 +7,6 @@
 
 #include "c/c_mesh.h"
 #include "c/c_model.h"
-#include "cdprep/cells/level_of_detail.h"
 #include "cdprep/format/float_environment.h"
 #include "cdprep/format/sections.h"
 
@@ -376,16 +375,4 @@ int cdprep_model_verdict(const cdprep_model* model, uint32_t number, cdprep_verd
     }
     std::memcpy(verdict, &verdicts[number], sizeof *verdict);
     return CDPREP_OK;
-}
-
-int cdprep_model_level_error(const cdprep_model* model, uint32_t level, double* bound,
-                             cdprep_error* error) {
-    return guarded(error, [&](Call& call) -> int {
-        if (bound != nullptr) *bound = 0;
-        if (const int code = call.need(model, {"model"})) return code;
-        if (const int code = call.need(bound, {"bound"})) return code;
-        if (const int code = check_serves(call, {"model"}, *model, Ask::tetra_tree)) return code;
-        *bound = cdprep::level_error(model->model, level);
-        return CDPREP_OK;
-    });
 }

@@ -46,16 +46,16 @@ Exit run(int argc, char** argv) {
     app.require_subcommand(1);
     Exit exit = Exit::success;
     add_bake(app, exit);
-    add_validate(app, exit);
-    add_compare(app, exit);
-    add_decompose(app, exit);
-    add_explain(app, exit);
-    add_hull(app, exit);
     add_info(app, exit);
     add_query(app, exit);
-    add_reindex(app, exit);
+    add_validate(app, exit);
+    add_explain(app, exit);
     add_repair(app, exit);
+    add_hull(app, exit);
+    add_decompose(app, exit);
     add_accuracy(app, exit);
+    add_compare(app, exit);
+    add_reindex(app, exit);
     add_general_options(app);
     const auto write = [&](const std::string& folder) {
         const auto failed = write_manuals(folder, pages_of(app), CDPREP_VERSION);

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <initializer_list>
+#include <string_view>
 
 #include "manuals/write_manuals.h"
 
@@ -55,6 +57,12 @@ std::string function_name(const std::string& name) {
     return out;
 }
 
+std::string concat(std::initializer_list<std::string_view> parts) {
+    std::string text;
+    for (const std::string_view part : parts) text += part;
+    return text;
+}
+
 }  // namespace
 
 std::string bash_completion(const std::vector<CommandPage>& pages) {
@@ -67,7 +75,8 @@ std::string bash_completion(const std::vector<CommandPage>& pages) {
         "        case \"$path ${COMP_WORDS[i]}\" in\n";
     for (const CommandPage& page : pages) {
         if (page.name.find(' ') != std::string::npos) {
-            text += "            " + shell_quoted(page.name) + ") path=" + shell_quoted(page.name) + " ;;\n";
+            const std::string path = shell_quoted(page.name);
+            text += concat({"            ", path, ") path=", path, " ;;\n"});
         }
     }
     text +=
@@ -82,8 +91,8 @@ std::string bash_completion(const std::vector<CommandPage>& pages) {
             for (const std::string& name : option->names) {
                 names += (names.empty() ? "" : "|") + shell_quoted(page.name + " " + name);
             }
-            text += "        " + names + ")\n            COMPREPLY=($(compgen -W " +
-                    shell_quoted(joined(option->words)) + " -- \"$word\")); return ;;\n";
+            text += concat({"        ", names, ")\n            COMPREPLY=($(compgen -W ",
+                            shell_quoted(joined(option->words)), " -- \"$word\")); return ;;\n"});
         }
     }
     text +=
@@ -94,8 +103,8 @@ std::string bash_completion(const std::vector<CommandPage>& pages) {
         for (const OptionEntry* option : options_of(page)) {
             words.insert(words.end(), option->names.begin(), option->names.end());
         }
-        text += "        " + shell_quoted(page.name) + ") COMPREPLY=($(compgen -W " +
-                shell_quoted(joined(words)) + " -- \"$word\")) ;;\n";
+        text += concat({"        ", shell_quoted(page.name), ") COMPREPLY=($(compgen -W ",
+                        shell_quoted(joined(words)), " -- \"$word\")) ;;\n"});
     }
     text +=
         "    esac\n"
@@ -112,7 +121,7 @@ std::string zsh_completion(const std::vector<CommandPage>& pages) {
         if (!page.commands.empty()) {
             text += "    local -a commands=(\n";
             for (const auto& [name, summary] : page.commands) {
-                text += "        " + shell_quoted(name + ":" + for_zsh(summary)) + "\n";
+                text += concat({"        ", shell_quoted(name + ":" + for_zsh(summary)), "\n"});
             }
             text += "    )\n    local curcontext=\"$curcontext\" state line\n";
         }
@@ -128,17 +137,18 @@ std::string zsh_completion(const std::vector<CommandPage>& pages) {
                 } else if (!option->value.empty()) {
                     spec += ":" + option->value + ":";
                 }
-                text += "        " + shell_quoted(spec) + " \\\n";
+                text += concat({"        ", shell_quoted(spec), " \\\n"});
             }
         }
         if (page.commands.empty()) {
             text += "        '*:file:_files'\n";
         } else {
-            text += "        '1:command:->command' '*::argument:->argument'\n"
-                    "    case $state in\n"
-                    "        command) _describe command commands ;;\n"
-                    "        argument) " +
-                    function_name(page.name) + "_$line[1] ;;\n    esac\n";
+            text +=
+                "        '1:command:->command' '*::argument:->argument'\n"
+                "    case $state in\n"
+                "        command) _describe command commands ;;\n"
+                "        argument) " +
+                function_name(page.name) + "_$line[1] ;;\n    esac\n";
         }
         text += "}\n\n";
     }
@@ -163,7 +173,8 @@ std::string fish_completion(const std::vector<CommandPage>& pages) {
         if (!names.empty()) {
             when += (when.empty() ? "" : "; and ") + ("not __fish_seen_subcommand_from " + names);
         }
-        const std::string start = "complete -c cdprep" + (when.empty() ? "" : " -n " + shell_quoted(when));
+        const std::string start =
+            "complete -c cdprep" + (when.empty() ? "" : " -n " + shell_quoted(when));
         for (const auto& [name, summary] : page.commands) {
             text += start + " -f -a " + name + " -d " + shell_quoted(summary) + "\n";
         }

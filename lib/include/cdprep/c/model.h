@@ -215,7 +215,7 @@ CDPREP_API int cdprep_model_verdict(const cdprep_model* model, uint32_t number,
 
 /* Stores the maximum distance between the outer and inner facets of a level of the tetra-tree, in
  * model units. It is the error of cdprep_collide_at_level(). Levels beyond the deepest give its
- * error. On failure *bound is 0. Takes O(cones of the level) time.
+ * error. On failure *bound is 0. Takes O(cones of the level) time. In the library cdprep_cells.
  * Needs: CDPREP_ASK_TETRA_TREE */
 CDPREP_API int cdprep_model_level_error(const cdprep_model* model, uint32_t level, double* bound,
                                         cdprep_error* error);
