@@ -55,6 +55,22 @@ OptionEntry entry_of(const CLI::Option& option) {
     return entry;
 }
 
+/// Whether the description has a clause "word: meaning" for each allowed word.
+bool explains_all(const OptionEntry& option) {
+    return std::ranges::all_of(option.words, [&](const std::string& word) {
+        return option.text.find(word + ": ") != std::string::npos;
+    });
+}
+
+/// "a, b or c".
+std::string listed(const std::vector<std::string>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string CommandPage::usage() const {
@@ -103,7 +119,8 @@ CommandPage page_of(const CLI::App& command, const std::string& name) {
 
 std::vector<CommandPage> pages_of(const CLI::App& program) {
     std::vector<CommandPage> pages;
-    const auto add = [&](const auto& again, const CLI::App& command, const std::string& name) -> void {
+    const auto add = [&](const auto& again, const CLI::App& command,
+                         const std::string& name) -> void {
         pages.push_back(page_of(command, name));
         for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; })) {
             again(again, *each, name + " " + each->get_name());
@@ -138,20 +155,17 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
 
 std::string full_text(const OptionEntry& option) {
     std::string text = option.text;
-    if (!option.words.empty()) {
-        text += ": ";
-        for (std::size_t i = 0; i < option.words.size(); ++i) {
-            const bool is_last = i + 1 == option.words.size();
-            text += (i == 0 ? "" : is_last ? " or " : ", ") + option.words[i];
-        }
-    }
     if (!text.empty() && !text.ends_with('.')) text += '.';
-    std::string limits;
-    if (!option.range.empty()) limits = option.range;
-    if (!option.preset.empty()) limits += (limits.empty() ? "" : "; ") + ("default " + option.preset);
-    if (option.is_required && !option.names.front().starts_with('-')) return text;
-    if (option.is_required) limits += (limits.empty() ? "" : "; ") + std::string("required");
-    return limits.empty() ? text : text + " [" + limits + "]";
+    const bool is_input = !option.names.front().starts_with('-');
+    std::vector<std::string> limits;
+    if (!explains_all(option)) limits.push_back(listed(option.words));
+    if (!option.range.empty()) limits.push_back(option.range);
+    if (!option.preset.empty()) limits.push_back("default " + option.preset);
+    if (option.is_required && !is_input) limits.emplace_back("required");
+    if (limits.empty()) return text;
+    text += " [";
+    for (const std::string& limit : limits) text += (text.ends_with('[') ? "" : "; ") + limit;
+    return text + "]";
 }
 
 }  // namespace cdprep::cli

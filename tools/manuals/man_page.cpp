@@ -80,7 +80,8 @@ std::string man_page(const CommandPage& page, const std::string& version) {
         }
     }
     text += ".SH OPTIONS\n" + options_section("Inputs", page.inputs);
-    for (const OptionGroup& group : page.groups) text += options_section(group.title, group.options);
+    for (const OptionGroup& group : page.groups)
+        text += options_section(group.title, group.options);
     if (!page.examples.empty()) {
         text += ".SH EXAMPLES\n.nf\n";
         for (const std::string& example : page.examples) text += plain(example) + "\n";

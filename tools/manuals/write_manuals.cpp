@@ -47,7 +47,8 @@ std::string command_tables(const std::vector<CommandPage>& pages) {
         text += "| " + std::to_string(static_cast<int>(each.code)) + " | " + each.text + " |\n";
     }
     for (const CommandPage& page : pages) {
-        text += "\n## " + page.name + "\n\n" + page.summary + ".\n\n```\n" + page.usage() + "\n```\n";
+        text +=
+            "\n## " + page.name + "\n\n" + page.summary + ".\n\n```\n" + page.usage() + "\n```\n";
         if (!page.commands.empty()) {
             text += "\n| Command | |\n| --- | --- |\n";
             for (const auto& [name, summary] : page.commands) {
