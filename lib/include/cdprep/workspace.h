@@ -14,13 +14,13 @@ struct QueryCounts;
 /// Scratch memory for queries, owned by the caller: queries never allocate.
 ///
 /// One workspace serves any number of models and queries, one at a time; each thread needs its own.
-/// It allocates about SIZE KiB once, on construction.
+/// It allocates about 520 KiB once, on construction.
 class Workspace {
 public:
     /// Makes a workspace for every query except those through octrees and tetra-trees.
     Workspace();
 
-    /// Makes a workspace for these too; it takes CELLS KiB more. `cells` is cells() of
+    /// Makes a workspace for these too; it takes 360 KiB more. `cells` is cells() of
     /// <cdprep/cells.h>.
     ///
     ///     cdprep::Workspace workspace(cdprep::cells());
