@@ -7,8 +7,8 @@
 #include <cstring>
 #include <new>
 
-// Counts what a program allocates. For the only source of a program: it replaces its
-// operators new and delete.
+// Counts what a program allocates. For a test that cdprep_add_tests() lists under ALONE: it replaces the
+// operators new and delete of the program.
 
 namespace cdprep::test {
 
