@@ -7,8 +7,8 @@
 #include <cstring>
 #include <new>
 
-// Counts what a program allocates. For a test that cdprep_add_tests() lists under ALONE: it replaces the
-// operators new and delete of the program.
+// Counts what a program allocates. It replaces the operators new and delete of the program, so
+// cdprep_add_tests() must list the test under ALONE.
 
 namespace cdprep::test {
 
