@@ -12,13 +12,13 @@ set(lib_rooms
     "core: exact"
     "build: core exact"
     "walk: core exact kernels"
-    "hull: core exact kernels manuals"
+    "hull: core exact kernels"
     "pieces: core exact hull walk"
-    "query: core exact manuals pieces walk"
+    "query: core exact pieces walk"
     "cells: build core exact kernels walk"
     "c: core kernels pieces walk")
 set(tools_rooms
-    "manuals:"
+    "command_line: text"
     "mesh:"
     "page:"
     "text:"
@@ -26,23 +26,23 @@ set(tools_rooms
     "import: mesh"
     "import/child: import"
     "crossings: mesh"
-    "cli: import manuals mesh text write"
+    "cli: import command_line mesh text write"
     "validate/defects: crossings mesh"
-    "validate: cli import manuals mesh page text validate/defects"
-    "hull: cli manuals mesh text write"
-    "repair: cli crossings import manuals mesh text validate/defects write"
+    "validate: cli import command_line mesh page text validate/defects"
+    "hull: cli command_line mesh text write"
+    "repair: cli crossings import command_line mesh text validate/defects write"
     "decompose/surface: hull mesh text"
     "decompose/enclose: cli decompose/surface hull mesh text write"
-    "decompose: cli decompose/enclose decompose/surface hull manuals text write"
-    "bake: cli crossings decompose/enclose decompose/surface hull import manuals mesh repair\
+    "decompose: cli decompose/enclose decompose/surface hull command_line text write"
+    "bake: cli crossings decompose/enclose decompose/surface hull import command_line mesh repair\
  text validate validate/defects write"
-    "info: bake cli decompose/surface hull manuals mesh study text validate/defects"
+    "info: bake cli decompose/surface hull command_line mesh study text validate/defects"
     "study: bake decompose/enclose decompose/surface mesh"
-    "accuracy: cli decompose/enclose hull manuals mesh page study text"
+    "accuracy: cli decompose/enclose hull command_line mesh page study text"
     "compare/cells: mesh study"
-    "compare: cli compare/cells decompose/surface hull import manuals mesh page query study\
+    "compare: cli compare/cells decompose/surface hull import command_line mesh page query study\
  text"
-    "query: bake cli compare/cells manuals mesh text write")
+    "query: bake cli compare/cells command_line mesh text write")
 
 # A library of others: the pattern of its headers, then the folders that may know it.
 set(libraries
@@ -52,7 +52,7 @@ set(libraries
     "H5|hdf5:tools/write"
     "CGAL/:tools/decompose/enclose tools/info tools/query tools/repair"
     "Eigen/:tools/mesh"
-    "CLI/:tools/cli tools/manuals"
+    "CLI/:tools/command_line"
     "tbb/|oneapi/:tools/cli/program_threads.cpp"
     "nlohmann/:tools/accuracy tools/bake tools/compare tools/decompose tools/hull\
  tools/import/child tools/info tools/page tools/repair tools/text tools/validate tools/write")
@@ -68,7 +68,7 @@ function(check_rooms base rooms)
     foreach(row IN LISTS rooms)
         string(REGEX MATCH "^([^:]*):(.*)$" row "${row}")
         set(room ${CMAKE_MATCH_1})
-        string(REGEX MATCHALL "[a-z/]+" known "${CMAKE_MATCH_2}")
+        string(REGEX MATCHALL "[a-z_/]+" known "${CMAKE_MATCH_2}")
         file(GLOB files ${ROOT}/${base}/${room}/*.h ${ROOT}/${base}/${room}/*.cpp)
         foreach(file IN LISTS files)
             file(STRINGS ${file} hits REGEX "^ *# *include *\"[^\"]*/")

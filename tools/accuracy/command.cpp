@@ -22,8 +22,8 @@
 #include "cli/progress.h"
 #include "cli/report_output.h"
 #include "cli/signals.h"
-#include "cli/usage.h"
-#include "manuals/command_page.h"
+#include "command_line/command_line.h"
+#include "command_line/command_page.h"
 
 namespace cdprep::cli {
 namespace {
@@ -189,11 +189,10 @@ Exit run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_accuracy(CLI::App& app, Exit& exit) {
+void add_accuracy(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("accuracy", "Measure what accuracy costs in time");
-    set_notes(
-        *command,
+    const Command command = app.add_command("accuracy", "Measure what accuracy costs in time");
+    command.set_notes(
         "Answers the same queries about A and B in several ways, from coarse to exact, at "
         "seeded poses whose exact answers are known. Reports the time, the size and the errors "
         "of each. The exit code is 6 when a promise breaks: an enclosing shape misses a "
@@ -201,43 +200,43 @@ void add_accuracy(CLI::App& app, Exit& exit) {
         "--jobs applies to the structures built before.",
         {"cdprep accuracy arm.obj part.obj --quick",
          "cdprep accuracy arm.obj part.obj --format html -o cost.html"});
-    command->add_option("A", arguments->a, "The model that stays: a mesh or a baked file")
-        ->required();
-    command->add_option("B", arguments->b, "The model that moves: a mesh or a baked file")
-        ->required();
-    command->add_option("-o,--output", arguments->output, "The report. Default: standard output")
-        ->type_name("FILE")
-        ->group("Report");
+    command.add_option("A", arguments->a, "The model that stays: a mesh or a baked file")
+        .required();
+    command.add_option("B", arguments->b, "The model that moves: a mesh or a baked file")
+        .required();
+    command.add_option("-o,--output", arguments->output, "The report. Default: standard output")
+        .type_name("FILE")
+        .group("Report");
     command
-        ->add_option("--save", arguments->saves,
-                     "Also write this file: .txt, .json, .csv, .svg or .html. May be repeated")
-        ->type_name("FILE")
-        ->allow_extra_args(false)
-        ->group("Report");
-    command->add_option("--format", arguments->format, "Format of the report")
-        ->type_name("FORMAT")
-        ->check(one_of(std::vector<std::string>(kFormats.begin(), kFormats.end())))
-        ->capture_default_str()
-        ->group("Report");
+        .add_option("--save", arguments->saves,
+                    "Also write this file: .txt, .json, .csv, .svg or .html. May be repeated")
+        .type_name("FILE")
+        .one_value_each()
+        .group("Report");
+    command.add_option("--format", arguments->format, "Format of the report")
+        .type_name("FORMAT")
+        .check(one_of(std::vector<std::string>(kFormats.begin(), kFormats.end())))
+        .show_default()
+        .group("Report");
     command
-        ->add_flag("--quick", arguments->is_quick,
-                   "Use fewer poses, rounds and rungs: seconds instead of one or two minutes")
-        ->group("Study");
-    command->add_option("--seed", arguments->seed, "Seed of the poses")
-        ->capture_default_str()
-        ->group("Study");
-    command->add_option("--ladder", arguments->ladders, "Comma-separated ladders. Default: all")
-        ->type_name("LIST")
-        ->delimiter(',')
-        ->check(one_of(
+        .add_flag("--quick", arguments->is_quick,
+                  "Use fewer poses, rounds and rungs: seconds instead of one or two minutes")
+        .group("Study");
+    command.add_option("--seed", arguments->seed, "Seed of the poses")
+        .show_default()
+        .group("Study");
+    command.add_option("--ladder", arguments->ladders, "Comma-separated ladders. Default: all")
+        .type_name("LIST")
+        .delimiter(',')
+        .check(one_of(
             std::vector<std::string>(study::kLadderNames.begin(), study::kLadderNames.end())))
-        ->group("Study");
-    add_normalize(*command, arguments->load.normalize);
-    add_weld(*command, arguments->load.weld_distance);
-    add_jobs(*command, arguments->threads);
-    add_progress(*command, arguments->progress);
-    add_import_arguments(*command, arguments->import);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+        .group("Study");
+    add_normalize(command, arguments->load.normalize);
+    add_weld(command, arguments->load.weld_distance);
+    add_jobs(command, arguments->threads);
+    add_progress(command, arguments->progress);
+    add_import_arguments(command, arguments->import);
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace cdprep::cli

@@ -12,8 +12,8 @@
 #include "cli/import_arguments.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
-#include "cli/usage.h"
-#include "manuals/command_page.h"
+#include "command_line/command_line.h"
+#include "command_line/command_page.h"
 #include "text/bounds_name.h"
 #include "text/printable.h"
 
@@ -191,83 +191,83 @@ Exit run(Arguments& arguments) {
 }
 
 /// What goes into the baked file, and where that is written.
-void add_output_options(CLI::App& command, Arguments& arguments) {
-    CLI::Option* output = command
+void add_output_options(const Command& command, Arguments& arguments) {
+    const Option output = command
                               .add_option("-o,--output", arguments.output,
                                           "The baked file. Default: the input's name with .cdp.h5")
-                              ->type_name("FILE")
-                              ->group("Output");
+                              .type_name("FILE")
+                              .group("Output");
     command.add_option("--output-dir", arguments.output_folder, "The folder of the baked files")
-        ->type_name("FOLDER")
-        ->excludes(output)
-        ->group("Output");
+        .type_name("FOLDER")
+        .excludes(output)
+        .group("Output");
     command
         .add_option("--effects", arguments.effects,
                     "Comma-separated queries to bake for, or all, which adds every structure. "
                     "Default: collide,overlap,distance,within,ray,closest")
-        ->type_name("LIST")
-        ->group("Output");
+        .type_name("LIST")
+        .group("Output");
     command
         .add_flag("--strict", arguments.options.strict,
                   "Refuse a mesh with warnings or errors of 'cdprep validate' (exit 1)")
-        ->group("Output");
+        .group("Output");
     command.add_flag("--dry-run", arguments.dry_run, "Print the names of outputs and exit")
-        ->group("Output");
+        .group("Output");
 }
 
-void add_mesh_options(CLI::App& command, BakeOptions& options) {
+void add_mesh_options(const Command& command, BakeOptions& options) {
     add_normalize(command, options.normalize);
     add_weld(command, options.weld_distance);
     command
         .add_option("--repair", options.repair,
                     "Repair first, as 'cdprep repair --preset' does. Source numbers are then those "
                     "of the repaired mesh; the file maps them to the input's")
-        ->type_name("PRESET")
-        ->check(one_of({"safe", "closed", "solid"}))
-        ->group("Mesh");
+        .type_name("PRESET")
+        .check(one_of({"safe", "closed", "solid"}))
+        .group("Mesh");
     command
         .add_option("--piece-tolerance", options.piece_tolerance,
                     "For --effects pieces: the largest height of a vertex above the triangles of "
                     "its convex piece, in model units; 0: exact")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->capture_default_str()
-        ->group("Mesh");
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .show_default()
+        .group("Mesh");
     add_max_pairs(command, options.max_pairs);
 }
 
 }  // namespace
 
-void add_bake(CLI::App& app, Exit& exit) {
+void add_bake(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("bake", "Convert mesh files to baked files");
-    set_notes(*command,
-              "The same input, options and version give the same sections, byte for byte. Answers "
-              "never depend on --bounds, --structures or their options: those change speed alone.",
-              {"cdprep bake arm.glb", "cdprep bake *.obj --output-dir baked --effects all",
-               "cdprep bake scan.ply --repair solid --unit mm"});
+    const Command command = app.add_command("bake", "Convert mesh files to baked files");
+    command.set_notes(
+        "The same input, options and version give the same sections, byte for byte. Answers "
+        "never depend on --bounds, --structures or their options: those change speed alone.",
+        {"cdprep bake arm.glb", "cdprep bake *.obj --output-dir baked --effects all",
+         "cdprep bake scan.ply --repair solid --unit mm"});
     command
-        ->add_option("input", arguments->inputs,
-                     "Mesh files: OBJ, STL, PLY, OFF, glTF, 3MF and others")
-        ->required();
-    add_output_options(*command, *arguments);
-    add_mesh_options(*command, arguments->options);
+        .add_option("input", arguments->inputs,
+                    "Mesh files: OBJ, STL, PLY, OFF, glTF, 3MF and others")
+        .required();
+    add_output_options(command, *arguments);
+    add_mesh_options(command, arguments->options);
     command
-        ->add_option("--bounds", arguments->bounds,
-                     "Bounds of triangles besides aligned boxes. aabb: none; obb: oriented boxes; "
-                     "pss, lss, rss: spheres swept over a point, a line, a rectangle; auto: "
-                     "obb+rss with the effects distance and within, else obb")
-        ->type_name("BOUNDS")
-        ->check(one_of({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
-        ->capture_default_str()
-        ->group("Structures");
-    add_structure_options(*command, arguments->structures);
-    add_report_format(*command, arguments->format);
-    add_timings(*command, arguments->timings);
-    add_jobs(*command, arguments->threads);
-    add_progress(*command, arguments->progress);
-    add_import_arguments(*command, arguments->import);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+        .add_option("--bounds", arguments->bounds,
+                    "Bounds of triangles besides aligned boxes. aabb: none; obb: oriented boxes; "
+                    "pss, lss, rss: spheres swept over a point, a line, a rectangle; auto: "
+                    "obb+rss with the effects distance and within, else obb")
+        .type_name("BOUNDS")
+        .check(one_of({"aabb", "obb", "pss", "lss", "rss", "obb+rss", "auto"}))
+        .show_default()
+        .group("Structures");
+    add_structure_options(command, arguments->structures);
+    add_report_format(command, arguments->format);
+    add_timings(command, arguments->timings);
+    add_jobs(command, arguments->threads);
+    add_progress(command, arguments->progress);
+    add_import_arguments(command, arguments->import);
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace cdprep::cli

@@ -7,12 +7,12 @@
 
 namespace cdprep::cli {
 
-void add_reindex(CLI::App& app, Exit& exit) {
+void add_reindex(const Command& app, Exit& exit) {
     auto file = std::make_shared<std::filesystem::path>();
-    CLI::App* command = app.add_subcommand(
+    const Command command = app.add_command(
         "reindex", "Rebuild the section table of a file that another HDF5 tool rewrote");
-    command->add_option("file", *file, "A baked file (.cdp.h5)")->required();
-    command->callback([file, &exit] {
+    command.add_option("file", *file, "A baked file (.cdp.h5)").required();
+    command.callback([file, &exit] {
         const Result<Done> done = write::reindex_file(*file);
         exit = done ? Exit::success : fail("reindex", done.error());
     });

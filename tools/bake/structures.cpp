@@ -7,7 +7,7 @@
 
 #include "cdprep/cells/structure_presets.h"
 #include "cdprep/format/limits.h"
-#include "cli/usage.h"
+#include "command_line/command_line.h"
 #include "hull/enclosing_hull.h"
 #include "text/nearest_word.h"
 #include "text/structure_name.h"
@@ -196,70 +196,70 @@ namespace {
 constexpr const char* kGroup = "Structures";
 
 /// How cells are split and bounded.
-void add_cell_rules(CLI::App& command, StructureArguments& arguments) {
+void add_cell_rules(const Command& command, StructureArguments& arguments) {
     command
         .add_option("--split", arguments.split,
                     "Split planes of octree-adaptive. median: of the triangles' centres; area: "
                     "least area times triangles. Default: by the preset")
-        ->type_name("RULE")
-        ->check(one_of({"median", "area"}))
-        ->group(kGroup);
+        .type_name("RULE")
+        .check(one_of({"median", "area"}))
+        .group(kGroup);
     command
         .add_option("--octree-bounding", arguments.octree_bounding,
                     "Bounds of an octree cell's triangles. boxes: their bounding box; cells: the "
                     "cell itself. Default: by the preset")
-        ->type_name("BOUNDS")
-        ->check(one_of({"boxes", "cells"}))
-        ->group(kGroup);
+        .type_name("BOUNDS")
+        .check(one_of({"boxes", "cells"}))
+        .group(kGroup);
     command
         .add_option(
             "--bounding", arguments.bounding,
             "Bounds of a tetra-tree cone's triangles. boxes: fastest; caps: from the nearest "
             "to the farthest point; tetra: from the centre. Default: by the preset")
-        ->type_name("BOUNDS")
-        ->check(one_of({"boxes", "caps", "tetra"}))
-        ->group(kGroup);
+        .type_name("BOUNDS")
+        .check(one_of({"boxes", "caps", "tetra"}))
+        .group(kGroup);
 }
 
-void add_hull_options(CLI::App& command, HullChoice& hulls) {
+void add_hull_options(const Command& command, HullChoice& hulls) {
     command
         .add_option("--hull-vertices", hulls.max_vertices,
                     "Maximum number of vertices of a convex hull; it then encloses the exact one")
-        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
-        ->group(kGroup);
+        .check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
+        .group(kGroup);
     command
         .add_option("--parts", hulls.parts,
                     "Maximum number of convex parts that enclose the mesh, baked with the hulls")
-        ->check(whole_from(1))
-        ->group(kGroup);
+        .check(whole_from(1))
+        .group(kGroup);
     command
         .add_option("--max-error", hulls.max_error,
                     "Maximum distance by which these parts stick out, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->group(kGroup);
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .group(kGroup);
 }
 
 }  // namespace
 
-void add_structure_options(CLI::App& command, StructureArguments& arguments) {
+void add_structure_options(const Command& command, StructureArguments& arguments) {
     command
         .add_option("--structures", arguments.list,
                     "Comma-separated structures for 'cdprep query --structure': octree, "
                     "octree-adaptive, hashed-octree, tetra-tree, hull; or all, or none. Default: "
                     "all with --effects all, else none")
-        ->type_name("LIST")
-        ->group(kGroup);
+        .type_name("LIST")
+        .group(kGroup);
     command
         .add_option("--structure-preset", arguments.preset,
                     "Fineness of octrees and tetra-trees. tuned: for speed; paper: 512 cells")
-        ->type_name("PRESET")
-        ->check(one_of({"tuned", "paper"}))
-        ->capture_default_str()
-        ->group(kGroup);
+        .type_name("PRESET")
+        .check(one_of({"tuned", "paper"}))
+        .show_default()
+        .group(kGroup);
     const auto number = [&](const char* name, std::optional<std::uint32_t>& value,
                             std::uint32_t least, std::uint32_t most, const char* description) {
-        command.add_option(name, value, description)->check(whole_from(least, most))->group(kGroup);
+        command.add_option(name, value, description).check(whole_from(least, most)).group(kGroup);
     };
     number("--octree-level", arguments.octree_level, 0, format::kOctreeBits,
            "Maximum depth of octrees. Default: by the preset");

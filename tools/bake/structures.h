@@ -44,7 +44,7 @@ struct StructureArguments {
 };
 
 /// Adds --structures and the options that say how they are built.
-void add_structure_options(CLI::App& command, StructureArguments& arguments);
+void add_structure_options(const Command& command, StructureArguments& arguments);
 
 /// The structures that a bake builds, and how.
 struct StructureChoice {

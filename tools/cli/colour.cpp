@@ -5,7 +5,7 @@
 
 #include <cstdlib>
 
-#include "cli/usage.h"
+#include "command_line/command_line.h"
 
 namespace cdprep::cli {
 
@@ -14,14 +14,14 @@ bool colours_allowed() {
     return no_color == nullptr || *no_color == '\0';
 }
 
-void add_colour(CLI::App& command, std::string& choice) {
+void add_colour(const Command& command, std::string& choice) {
     command
         .add_option("--color,--colour", choice,
                     "Colours of text; auto: on a terminal, unless NO_COLOR is set")
-        ->type_name("WHEN")
-        ->check(one_of({"auto", "always", "never"}))
-        ->capture_default_str()
-        ->group("General");
+        .type_name("WHEN")
+        .check(one_of({"auto", "always", "never"}))
+        .show_default()
+        .group("General");
 }
 
 bool is_coloured(const std::string& choice) {

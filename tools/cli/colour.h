@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+#include "command_line/command_line.h"
 
 namespace cdprep::cli {
 
@@ -10,7 +11,7 @@ namespace cdprep::cli {
 [[nodiscard]] bool colours_allowed();
 
 /// Adds --color.
-void add_colour(CLI::App& command, std::string& choice);
+void add_colour(const Command& command, std::string& choice);
 
 /// What --color comes to for standard output: "auto" colours terminals where colours_allowed().
 [[nodiscard]] bool is_coloured(const std::string& choice);

@@ -5,8 +5,8 @@
 #include <iostream>
 
 #include "cli/signals.h"
+#include "command_line/command_line.h"
 #include "text/printable.h"
-#include "cli/usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -40,57 +40,57 @@ Exit fail(const char* command, const Error& error) {
     return exit_for(error.code);
 }
 
-void add_input(CLI::App& command, std::filesystem::path& input) {
+void add_input(const Command& command, std::filesystem::path& input) {
     command.add_option("input", input, "A mesh file: OBJ, STL, PLY, OFF, glTF, 3MF and others")
-        ->required();
+        .required();
 }
 
-void add_normalize(CLI::App& command, bool& normalize) {
+void add_normalize(const Command& command, bool& normalize) {
     command.add_flag("--normalize", normalize, "Scale to a box of diagonal 1, centred at 0")
-        ->group("Mesh");
+        .group("Mesh");
 }
 
-void add_weld(CLI::App& command, double& distance) {
+void add_weld(const Command& command, double& distance) {
     command.add_option("--weld", distance, "Merge vertices within this distance, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->capture_default_str()
-        ->group("Mesh");
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .show_default()
+        .group("Mesh");
 }
 
-void add_max_pairs(CLI::App& command, std::uint64_t& pairs) {
+void add_max_pairs(const Command& command, std::uint64_t& pairs) {
     command
         .add_option("--max-pairs", pairs,
                     "Stop the search for crossing triangles after N pairs. The report then gives "
                     "lower bounds and says so. A million pairs take about 0.6 s")
-        ->check(whole_from(1, kMostPairs))
-        ->capture_default_str()
-        ->group("Limits");
+        .check(whole_from(1, kMostPairs))
+        .show_default()
+        .group("Limits");
 }
 
-void add_jobs(CLI::App& command, std::size_t& threads) {
+void add_jobs(const Command& command, std::size_t& threads) {
     command.add_option("-j,--jobs", threads, "Number of threads; 0: one per processor")
-        ->check(whole_from(0, kMostThreads))
-        ->group("General");
+        .check(whole_from(0, kMostThreads))
+        .group("General");
 }
 
-void add_report_format(CLI::App& command, std::string& format) {
+void add_report_format(const Command& command, std::string& format) {
     command.add_option("--format", format, "Format of the report")
-        ->type_name("FORMAT")
-        ->check(one_of({"text", "json"}))
-        ->capture_default_str()
-        ->group("Report");
+        .type_name("FORMAT")
+        .check(one_of({"text", "json"}))
+        .show_default()
+        .group("Report");
 }
 
-void add_timings(CLI::App& command, bool& timings) {
-    command.add_flag("--timings", timings, "Report the time of each stage")->group("Report");
+void add_timings(const Command& command, bool& timings) {
+    command.add_flag("--timings", timings, "Report the time of each stage").group("Report");
 }
 
-void add_progress(CLI::App& command, std::string& progress) {
+void add_progress(const Command& command, std::string& progress) {
     command.add_option("--progress", progress, "Progress on stderr: auto, bar, plain or none")
-        ->type_name("STYLE")
-        ->capture_default_str()
-        ->group("General");
+        .type_name("STYLE")
+        .show_default()
+        .group("General");
 }
 
 }  // namespace cdprep::cli

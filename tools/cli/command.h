@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 
 #include "cdprep/result.h"
-#include "manuals/exit_codes.h"
+#include "command_line/exit_codes.h"
+
+#include "command_line/command_line.h"
 
 namespace cdprep::cli {
 
@@ -27,26 +28,26 @@ template <class Report>
 
 /// Options that commands share, each in one wording. What they store into lives as long as
 /// the command.
-void add_input(CLI::App& command, std::filesystem::path& input);
-void add_normalize(CLI::App& command, bool& normalize);
-void add_weld(CLI::App& command, double& distance);
-void add_max_pairs(CLI::App& command, std::uint64_t& pairs);
-void add_jobs(CLI::App& command, std::size_t& threads);
-void add_report_format(CLI::App& command, std::string& format);  ///< text or json
-void add_timings(CLI::App& command, bool& timings);
-void add_progress(CLI::App& command, std::string& progress);
+void add_input(const Command& command, std::filesystem::path& input);
+void add_normalize(const Command& command, bool& normalize);
+void add_weld(const Command& command, double& distance);
+void add_max_pairs(const Command& command, std::uint64_t& pairs);
+void add_jobs(const Command& command, std::size_t& threads);
+void add_report_format(const Command& command, std::string& format);  ///< text or json
+void add_timings(const Command& command, bool& timings);
+void add_progress(const Command& command, std::string& progress);
 
 /// Each adds its subcommand; its callback stores how it went in `exit`.
-void add_accuracy(CLI::App& app, Exit& exit);
-void add_bake(CLI::App& app, Exit& exit);
-void add_compare(CLI::App& app, Exit& exit);
-void add_decompose(CLI::App& app, Exit& exit);
-void add_explain(CLI::App& app, Exit& exit);
-void add_hull(CLI::App& app, Exit& exit);
-void add_info(CLI::App& app, Exit& exit);
-void add_query(CLI::App& app, Exit& exit);
-void add_reindex(CLI::App& app, Exit& exit);
-void add_repair(CLI::App& app, Exit& exit);
-void add_validate(CLI::App& app, Exit& exit);
+void add_accuracy(const Command& app, Exit& exit);
+void add_bake(const Command& app, Exit& exit);
+void add_compare(const Command& app, Exit& exit);
+void add_decompose(const Command& app, Exit& exit);
+void add_explain(const Command& app, Exit& exit);
+void add_hull(const Command& app, Exit& exit);
+void add_info(const Command& app, Exit& exit);
+void add_query(const Command& app, Exit& exit);
+void add_reindex(const Command& app, Exit& exit);
+void add_repair(const Command& app, Exit& exit);
+void add_validate(const Command& app, Exit& exit);
 
 }  // namespace cdprep::cli

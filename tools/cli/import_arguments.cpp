@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/import_arguments.h"
-#include "cli/usage.h"
+#include "command_line/command_line.h"
 
 #include <chrono>
 #include <map>
@@ -27,39 +27,38 @@ cdprep::import::ImportOptions ImportArguments::options() const {
     return options;
 }
 
-void add_import_arguments(CLI::App& command, ImportArguments& arguments) {
+void add_import_arguments(const Command& command, ImportArguments& arguments) {
     const char* const group = "Import";
     command
         .add_option("--unit", arguments.unit,
                     "Length unit of the mesh, instead of the one that the file states")
-        ->type_name("UNIT")
-        ->check(one_of({"mm", "cm", "m", "in", "ft"}))
-        ->group(group);
+        .type_name("UNIT")
+        .check(one_of({"mm", "cm", "m", "in", "ft"}))
+        .group(group);
     command
         .add_option("--up-axis", arguments.up_axis,
                     "Axis that points up, instead of the one that the file states")
-        ->type_name("AXIS")
-        ->check(one_of({"y", "z"}))
-        ->group(group);
-    command
-        .add_flag("--allow-empty", arguments.allow_empty, "Accept a file without triangles")
-        ->group(group);
+        .type_name("AXIS")
+        .check(one_of({"y", "z"}))
+        .group(group);
+    command.add_flag("--allow-empty", arguments.allow_empty, "Accept a file without triangles")
+        .group(group);
     command
         .add_option("--import-memory", arguments.memory_bytes,
                     "Memory limit of an import, such as 2GB")
-        ->type_name("SIZE")
-        ->transform(size_to_petabyte())
-        ->group(group);
+        .type_name("SIZE")
+        .check(size_to_petabyte())
+        .group(group);
     command
         .add_option("--import-file-size", arguments.file_bytes,
                     "Size limit of an imported file, such as 4GB")
-        ->type_name("SIZE")
-        ->transform(size_to_petabyte())
-        ->group(group);
+        .type_name("SIZE")
+        .check(size_to_petabyte())
+        .group(group);
     command.add_option("--import-time", arguments.seconds, "Time limit of an import")
-        ->type_name("SECONDS")
-        ->check(whole_from(1, kMostSeconds))
-        ->group(group);
+        .type_name("SECONDS")
+        .check(whole_from(1, kMostSeconds))
+        .group(group);
 }
 
 }  // namespace cdprep::cli

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <string>
 
 #include "import/import_file.h"
+
+#include "command_line/command_line.h"
 
 namespace cdprep::cli {
 
@@ -23,6 +24,6 @@ struct ImportArguments {
 };
 
 /// Adds the options to a command; `arguments` lives as long as it.
-void add_import_arguments(CLI::App& command, ImportArguments& arguments);
+void add_import_arguments(const Command& command, ImportArguments& arguments);
 
 }  // namespace cdprep::cli

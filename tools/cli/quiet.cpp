@@ -21,14 +21,13 @@ class Nowhere : public std::streambuf {
 
 }  // namespace
 
-void add_quiet(CLI::App& command) {
+void add_quiet(const Command& command) {
     const auto be_quiet = [] {
         was_asked = true;
         static Nowhere& nowhere = *new Nowhere;  // outlives the stream, which is flushed last
         std::cout.rdbuf(&nowhere);
     };
-    command.add_flag_callback("-q,--quiet", be_quiet, "Print no report and no progress")
-        ->group("General");
+    command.add_flag("-q,--quiet", be_quiet, "Print no report and no progress").group("General");
 }
 
 bool is_quiet() {

@@ -13,12 +13,12 @@
 #include "cli/output_path.h"
 #include "cli/report_output.h"
 #include "cli/signals.h"
-#include "cli/usage.h"
+#include "command_line/command_line.h"
+#include "command_line/command_page.h"
 #include "compare/comparison_page.h"
 #include "compare/comparison_report.h"
 #include "compare/pair_poses.h"
 #include "compare/run_comparison.h"
-#include "manuals/command_page.h"
 
 namespace cdprep::cli {
 namespace {
@@ -117,68 +117,67 @@ Exit run(Arguments& arguments) {
     return exit;
 }
 
-void add_study_options(CLI::App& command, Arguments& arguments) {
+void add_study_options(const Command& command, Arguments& arguments) {
     ComparisonOptions& options = arguments.options;
     command
         .add_option("--pairs", arguments.pairs,
                     "Pairs of Table 4. paper: the published ones; all: every two models; fitting: "
                     "paper when every model is a published one, else all")
-        ->type_name("PAIRS")
-        ->check(one_of({"fitting", "paper", "all"}))
-        ->capture_default_str()
-        ->group("Study");
+        .type_name("PAIRS")
+        .check(one_of({"fitting", "paper", "all"}))
+        .show_default()
+        .group("Study");
     command
         .add_flag("--quick", options.quick,
                   "Use few poses, one round, and each model in one pair unless --pairs says paper "
                   "or all. Skip the literal hashed octree in Table 4")
-        ->group("Study");
+        .group("Study");
     command
         .add_option("--rounds", options.rounds,
                     "Rounds of each measurement. Default: 5; with --quick: 1")
-        ->check(whole_from(1, kMostRounds))
-        ->group("Study");
+        .check(whole_from(1, kMostRounds))
+        .group("Study");
     command
         .add_option("--peers", options.peers,
                     "A program that answers with other libraries (tests/bench/peers)")
-        ->type_name("FILE")
-        ->group("Study");
+        .type_name("FILE")
+        .group("Study");
 }
 
-void add_pose_options(CLI::App& command, Arguments& arguments) {
+void add_pose_options(const Command& command, Arguments& arguments) {
     ComparisonOptions& options = arguments.options;
-    CLI::Option* const drawn =
+    const Option drawn =
         command
             .add_option("--per-stratum", options.per_stratum,
                         "Poses of a pair in each of five strata, from deep to far. Default: 20; "
                         "with --quick: 3")
-            ->check(whole_from(1, kMostPoses))
-            ->group("Poses");
-    CLI::Option* const seed = command.add_option("--seed", options.seed, "Seed of the poses")
-                                  ->capture_default_str()
-                                  ->group("Poses");
+            .check(whole_from(1, kMostPoses))
+            .group("Poses");
+    const Option seed = command.add_option("--seed", options.seed, "Seed of the poses")
+                            .show_default()
+                            .group("Poses");
     command
         .add_option("--poses", options.poses,
                     "Read the poses of each pair from A-B.pose in this folder")
-        ->type_name("FOLDER")
-        ->check(CLI::ExistingDirectory)
-        ->excludes(drawn)
-        ->excludes(seed)
-        ->group("Poses");
+        .type_name("FOLDER")
+        .check(existing_folder())
+        .excludes(drawn)
+        .excludes(seed)
+        .group("Poses");
     command
         .add_option("--save-poses", arguments.poses,
                     "Write the poses into this folder, for other programs")
-        ->type_name("FOLDER")
-        ->group("Poses");
+        .type_name("FOLDER")
+        .group("Poses");
 }
 
 }  // namespace
 
-void add_compare(CLI::App& app, Exit& exit) {
+void add_compare(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand(
+    const Command command = app.add_command(
         "compare", "Reproduce the tables of two published studies with these models");
-    set_notes(
-        *command,
+    command.set_notes(
         "Tables 1 to 4: what each strategy can answer; the cost of spatial decompositions; "
         "the cost of hulls, hierarchies and convex pieces; times of collisions and overlapping "
         "triangles for each pair. Published figures stand beside ours where a model has the "
@@ -187,28 +186,28 @@ void add_compare(CLI::App& app, Exit& exit) {
         {"cdprep compare bunny.ply horse.ply --quick",
          "cdprep compare scans/*.ply --format html -o tables.html"});
     command
-        ->add_option("model", arguments->inputs,
-                     "Mesh files: OBJ, STL, PLY, OFF, glTF, 3MF and others")
-        ->required();
-    command->add_option("-o,--output", arguments->output, "The tables. Default: standard output")
-        ->type_name("FILE")
-        ->group("Report");
-    command->add_option("--format", arguments->format, "Format of the tables")
-        ->type_name("FORMAT")
-        ->check(one_of({"text", "json", "csv", "html"}))
-        ->capture_default_str()
-        ->group("Report");
-    command->add_option("--tables", arguments->tables, "Comma-separated tables. Default: all")
-        ->type_name("LIST")
-        ->delimiter(',')
-        ->check(one_of({"1", "2", "3", "4", "talk"}))
-        ->group("Report");
-    add_study_options(*command, *arguments);
-    add_pose_options(*command, *arguments);
-    add_jobs(*command, arguments->options.threads);
-    add_progress(*command, arguments->progress);
-    add_import_arguments(*command, arguments->import);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+        .add_option("model", arguments->inputs,
+                    "Mesh files: OBJ, STL, PLY, OFF, glTF, 3MF and others")
+        .required();
+    command.add_option("-o,--output", arguments->output, "The tables. Default: standard output")
+        .type_name("FILE")
+        .group("Report");
+    command.add_option("--format", arguments->format, "Format of the tables")
+        .type_name("FORMAT")
+        .check(one_of({"text", "json", "csv", "html"}))
+        .show_default()
+        .group("Report");
+    command.add_option("--tables", arguments->tables, "Comma-separated tables. Default: all")
+        .type_name("LIST")
+        .delimiter(',')
+        .check(one_of({"1", "2", "3", "4", "talk"}))
+        .group("Report");
+    add_study_options(command, *arguments);
+    add_pose_options(command, *arguments);
+    add_jobs(command, arguments->options.threads);
+    add_progress(command, arguments->progress);
+    add_import_arguments(command, arguments->import);
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace cdprep::cli

@@ -14,12 +14,12 @@
 #include "cli/program_threads.h"
 #include "cli/progress.h"
 #include "cli/signals.h"
-#include "cli/usage.h"
+#include "command_line/command_line.h"
+#include "command_line/command_page.h"
 #include "decompose/enclose/enclose.h"
 #include "decompose/surface/pieces_report.h"
 #include "decompose/surface/surface_pieces.h"
 #include "hull/enclosing_hull.h"
-#include "manuals/command_page.h"
 #include "text/printable.h"
 #include "write/pieces_file.h"
 
@@ -139,7 +139,7 @@ bool is_enclosing(const Arguments& arguments) {
 }
 
 /// An option that would change nothing was meant for something.
-std::optional<Error> find_idle_option(const CLI::App& command, const Arguments& arguments) {
+std::optional<Error> find_idle_option(const Command& command, const Arguments& arguments) {
     constexpr std::array<const char*, 2> kOfSurface = {"--tolerance", "--order"};
     constexpr std::array<const char*, 7> kOfEnclosing = {
         "--max-vertices", "--work",      "--to-surface", "--merge-components",
@@ -160,7 +160,7 @@ std::optional<Error> find_idle_option(const CLI::App& command, const Arguments& 
                                       "--max-error, --parts or --max-parts.")};
 }
 
-Exit run(const CLI::App& command, const Arguments& arguments) {
+Exit run(const Command& command, const Arguments& arguments) {
     if (const auto error = find_idle_option(command, arguments)) return fail("decompose", *error);
     const Result<ProgressStyle> style = parse_progress(arguments.progress);
     if (!style) return fail("decompose", style.error());
@@ -182,96 +182,95 @@ Exit run(const CLI::App& command, const Arguments& arguments) {
 }
 
 /// Returns --exact, which excludes the enclosing pieces.
-CLI::Option* add_surface_options(CLI::App& command, Arguments& arguments) {
+const Option add_surface_options(const Command& command, Arguments& arguments) {
     const char* const surface = "Pieces of the surface";
-    CLI::Option* exact =
+    const Option exact =
         command
             .add_flag("--exact", arguments.exact,
                       "Pieces that lie on their hulls exactly. This is the default")
-            ->group(surface);
+            .group(surface);
     command
         .add_option("--tolerance", arguments.tolerance,
                     "Largest height of a vertex above the triangles of its piece, in model units; "
                     "the height used is proved and reported")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->excludes(exact)
-        ->group(surface);
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .excludes(exact)
+        .group(surface);
     command
         .add_option("--order", arguments.order,
                     "Algorithm. greedy merges patches and gives the fewest pieces; the others grow "
                     "patches")
-        ->type_name("ORDER")
-        ->check(one_of({"greedy", "depth-first", "breadth-first", "cresting"}))
-        ->capture_default_str()
-        ->group(surface);
+        .type_name("ORDER")
+        .check(one_of({"greedy", "depth-first", "breadth-first", "cresting"}))
+        .show_default()
+        .group(surface);
     return exact;
 }
 
-void add_enclosing_options(CLI::App& command, EncloseOptions& enclosed, CLI::Option* exact) {
+void add_enclosing_options(const Command& command, EncloseOptions& enclosed, const Option exact) {
     const char* const enclosing = "Enclosing pieces";
     command
         .add_option("--max-error", enclosed.max_error,
                     "As few pieces as stick out by at most this distance, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->excludes(exact)
-        ->group(enclosing);
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .excludes(exact)
+        .group(enclosing);
     command
         .add_option("--parts", enclosed.parts,
                     "At most N pieces that stick out as little as the search finds")
-        ->check(whole_from(1))
-        ->excludes(exact)
-        ->group(enclosing);
+        .check(whole_from(1))
+        .excludes(exact)
+        .group(enclosing);
     command
         .add_option("--max-parts", enclosed.max_parts,
                     "An engine's limit of pieces; it wins over --max-error")
-        ->check(whole_from(1))
-        ->excludes(exact)
-        ->group(enclosing);
+        .check(whole_from(1))
+        .excludes(exact)
+        .group(enclosing);
     command
         .add_option("--max-vertices", enclosed.max_vertices,
                     "An engine's limit of vertices per piece")
-        ->check(whole_from(convex::kFewestEnclosingVertices, 1U << 30U))
-        ->group(enclosing);
+        .check(whole_from(convex::kFewestEnclosingVertices, 1U << 30U))
+        .group(enclosing);
     command
         .add_option("--work", enclosed.work,
                     "Search budget, in steps of about 10 ns; a smaller one gives a looser result")
-        ->capture_default_str()
-        ->group(enclosing);
+        .show_default()
+        .group(enclosing);
     command
         .add_flag("--to-surface", enclosed.to_surface,
                   "Measure from the surface, not the solid: for sheets and hollow bodies")
-        ->group(enclosing);
+        .group(enclosing);
     command
         .add_flag("--merge-components", enclosed.merge_components,
                   "Let a piece enclose several components and nodes")
-        ->group(enclosing);
+        .group(enclosing);
 }
 
-void add_physics_options(CLI::App& command, EncloseOptions& enclosed) {
+void add_physics_options(const Command& command, EncloseOptions& enclosed) {
     const char* const physics = "Robot and physics files";
     command.add_option("--density", enclosed.density, "Density for masses, in kg per cubic metre")
-        ->check(above_zero())
-        ->capture_default_str()
-        ->group(physics);
+        .check(above_zero())
+        .show_default()
+        .group(physics);
     command
         .add_flag("!--no-visual", enclosed.has_visual,
                   "Leave the visual mesh out of .urdf and .sdf")
-        ->group(physics);
+        .group(physics);
     command
         .add_flag("--strict", enclosed.strict,
                   "Refuse .urdf, .sdf and .mjcf of a mesh without a unit (exit 1)")
-        ->group(physics);
+        .group(physics);
 }
 
 }  // namespace
 
-void add_decompose(CLI::App& app, Exit& exit) {
+void add_decompose(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("decompose", "Decompose a mesh into convex pieces");
-    set_notes(
-        *command,
+    const Command command = app.add_command("decompose", "Decompose a mesh into convex pieces");
+    command.set_notes(
         "By default, cuts the surface into pieces that lie on their own convex hulls: exactly, "
         "or within --tolerance. Works for every mesh; no piece crosses a boundary, a "
         "non-manifold edge or an edge with opposite windings. Names of nodes do not matter.\n\n"
@@ -282,27 +281,26 @@ void add_decompose(CLI::App& app, Exit& exit) {
         {"cdprep decompose part.obj -o pieces.ply",
          "cdprep decompose robot.obj -o robot.urdf --max-error 0.5 --unit mm",
          "cdprep decompose chair.glb -o parts.glb --parts 16 --max-vertices 64"});
-    add_input(*command, arguments->input);
+    add_input(command, arguments->input);
     command
-        ->add_option(
-            "-o,--output", arguments->output,
-            "The pieces: .obj with a group for each, or .ply with colours. Enclosing "
-            "pieces: .obj, .glb, .urdf or .sdf with a mesh beside it for each piece, .mjcf "
-            "or .xml")
-        ->type_name("FILE")
-        ->group("Output");
-    CLI::Option* const exact = add_surface_options(*command, *arguments);
-    add_enclosing_options(*command, arguments->enclose, exact);
-    add_physics_options(*command, arguments->enclose);
-    command->add_flag("--table", arguments->table, "Report every piece and its node")
-        ->group("Report");
-    add_report_format(*command, arguments->format);
-    add_normalize(*command, arguments->load.normalize);
-    add_weld(*command, arguments->load.weld_distance);
-    add_jobs(*command, arguments->threads);
-    add_progress(*command, arguments->progress);
-    add_import_arguments(*command, arguments->import);
-    command->callback([command, arguments, &exit] { exit = run(*command, *arguments); });
+        .add_option("-o,--output", arguments->output,
+                    "The pieces: .obj with a group for each, or .ply with colours. Enclosing "
+                    "pieces: .obj, .glb, .urdf or .sdf with a mesh beside it for each piece, .mjcf "
+                    "or .xml")
+        .type_name("FILE")
+        .group("Output");
+    const Option exact = add_surface_options(command, *arguments);
+    add_enclosing_options(command, arguments->enclose, exact);
+    add_physics_options(command, arguments->enclose);
+    command.add_flag("--table", arguments->table, "Report every piece and its node")
+        .group("Report");
+    add_report_format(command, arguments->format);
+    add_normalize(command, arguments->load.normalize);
+    add_weld(command, arguments->load.weld_distance);
+    add_jobs(command, arguments->threads);
+    add_progress(command, arguments->progress);
+    add_import_arguments(command, arguments->import);
+    command.callback([command, arguments, &exit] { exit = run(command, *arguments); });
 }
 
 }  // namespace cdprep::cli

@@ -6,17 +6,17 @@
 #include <memory>
 
 #include "cli/command.h"
-#include "hull/enclosing_hull.h"
-#include "hull/mesh_hulls.h"
 #include "cli/import_arguments.h"
-#include "cli/signals.h"
 #include "cli/load_mesh.h"
-#include "manuals/command_page.h"
-#include "mesh/weld.h"
 #include "cli/output_path.h"
 #include "cli/program_threads.h"
+#include "cli/signals.h"
+#include "command_line/command_line.h"
+#include "command_line/command_page.h"
+#include "hull/enclosing_hull.h"
 #include "hull/hull_report.h"
-#include "cli/usage.h"
+#include "hull/mesh_hulls.h"
+#include "mesh/weld.h"
 #include "write/mesh_file.h"
 
 namespace cdprep::cli {
@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kLinesShown = 20;  ///< of hulls, in text
+constexpr std::size_t kLinesShown = 20;  ///< lines for hulls, in text
 
 const std::map<std::string, convex::HullScope> kScopes = {
     {"whole", convex::HullScope::whole},
@@ -43,7 +43,7 @@ struct Arguments {
     ImportArguments import;
 };
 
-/// What a hull is called: in an OBJ file a name is one word.
+/// Returns the name of a hull. In an OBJ file a name is one word.
 std::string name_of(const mesh::TriangleSoup& soup, convex::HullScope scope, std::size_t number) {
     if (scope == convex::HullScope::component) return "component_" + std::to_string(number);
     if (scope == convex::HullScope::whole || soup.instances.empty()) return "hull";
@@ -137,39 +137,39 @@ Exit run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_hull(CLI::App& app, Exit& exit) {
+void add_hull(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("hull", "Compute the convex hull of a mesh");
-    set_notes(*command,
-              "The hull is exact: its points are vertices of the mesh, and no vertex lies outside. "
-              "With --max-vertices, the hull encloses the exact one; its largest distance from that "
-              "is proved and reported. Points, segments and polygons have hulls too.",
-              {"cdprep hull scan.ply -o hull.obj",
-               "cdprep hull robot.glb -o hulls.obj --per node --max-vertices 64"});
-    add_input(*command, arguments->input);
+    const Command command = app.add_command("hull", "Compute the convex hull of a mesh");
+    command.set_notes(
+        "The hull is exact: its points are vertices of the mesh, and no vertex lies outside. "
+        "With --max-vertices, the hull encloses the exact one; its largest distance from that "
+        "is proved and reported. Points, segments and polygons have hulls too.",
+        {"cdprep hull scan.ply -o hull.obj",
+         "cdprep hull robot.glb -o hulls.obj --per node --max-vertices 64"});
+    add_input(command, arguments->input);
     command
-        ->add_option("-o,--output", arguments->output,
-                     "The hulls: .obj with a group for each, or .ply, .stl or .off")
-        ->type_name("FILE")
-        ->required()
-        ->group("Output");
+        .add_option("-o,--output", arguments->output,
+                    "The hulls: .obj with a group for each, or .ply, .stl or .off")
+        .type_name("FILE")
+        .required()
+        .group("Output");
     command
-        ->add_option("--max-vertices", arguments->max_vertices,
-                     "Maximum number of vertices; the hull then encloses the exact one")
-        ->check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
-        ->group("Hull");
+        .add_option("--max-vertices", arguments->max_vertices,
+                    "Maximum number of vertices; the hull then encloses the exact one")
+        .check(whole_from(convex::kFewestEnclosingVertices, format::kMaxTriangles))
+        .group("Hull");
     command
-        ->add_option("--per", arguments->scope,
-                     "One hull for the whole mesh, for each component of triangles that share "
-                     "vertices, or for each node of the file")
-        ->type_name("SCOPE")
-        ->check(one_of({"whole", "component", "node"}))
-        ->capture_default_str()
-        ->group("Hull");
-    add_report_format(*command, arguments->format);
-    add_jobs(*command, arguments->threads);
-    add_import_arguments(*command, arguments->import);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+        .add_option("--per", arguments->scope,
+                    "One hull for the whole mesh, for each component of triangles that share "
+                    "vertices, or for each node of the file")
+        .type_name("SCOPE")
+        .check(one_of({"whole", "component", "node"}))
+        .show_default()
+        .group("Hull");
+    add_report_format(command, arguments->format);
+    add_jobs(command, arguments->threads);
+    add_import_arguments(command, arguments->import);
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace cdprep::cli

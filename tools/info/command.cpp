@@ -10,13 +10,13 @@
 #include "cdprep/format/find_damage.h"
 #include "cdprep/model.h"
 #include "cli/command.h"
-#include "decompose/surface/contact_arrays.h"
-#include "info/find_cover_falsehood.h"
-#include "info/false_fact.h"
 #include "cli/open_for.h"
 #include "cli/program_threads.h"
+#include "command_line/command_page.h"
+#include "decompose/surface/contact_arrays.h"
+#include "info/false_fact.h"
+#include "info/find_cover_falsehood.h"
 #include "info/info_report.h"
-#include "manuals/command_page.h"
 
 namespace cdprep::cli {
 namespace {
@@ -69,17 +69,17 @@ Exit run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_info(CLI::App& app, Exit& exit) {
+void add_info(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("info", "Show the content of a baked file");
-    set_notes(*command, "", {"cdprep info arm.cdp.h5", "cdprep info arm.cdp.h5 --deep"});
-    command->add_option("file", arguments->file, "A baked file (.cdp.h5)")->required();
+    const Command command = app.add_command("info", "Show the content of a baked file");
+    command.set_notes("", {"cdprep info arm.cdp.h5", "cdprep info arm.cdp.h5 --deep"});
+    command.add_option("file", arguments->file, "A baked file (.cdp.h5)").required();
     command
-        ->add_flag("--deep", arguments->deep,
-                   "Prove that the content is correct; opening proves only that it is safe")
-        ->group("Report");
-    add_report_format(*command, arguments->format);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+        .add_flag("--deep", arguments->deep,
+                  "Prove that the content is correct; opening proves only that it is safe")
+        .group("Report");
+    add_report_format(command, arguments->format);
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace cdprep::cli

@@ -2,7 +2,7 @@
 #include "query/command.h"
 
 #include "cli/command.h"
-#include "cli/usage.h"
+#include "command_line/command_line.h"
 
 namespace cdprep::cli {
 
@@ -11,21 +11,21 @@ report::AnswerFormat parse_answer_format(const std::string& word) {
     return word == "ndjson" ? report::AnswerFormat::ndjson : report::AnswerFormat::text;
 }
 
-void add_answer_format(CLI::App& command, std::string& word) {
+void add_answer_format(const Command& command, std::string& word) {
     command.add_option("--format", word, "Format of the answers")
-        ->type_name("FORMAT")
-        ->check(one_of({"text", "json", "ndjson"}))
-        ->capture_default_str()
-        ->group("Report");
+        .type_name("FORMAT")
+        .check(one_of({"text", "json", "ndjson"}))
+        .show_default()
+        .group("Report");
 }
 
-void add_query(CLI::App& app, Exit& exit) {
-    CLI::App* query = app.add_subcommand("query", "Query baked files");
-    query->require_subcommand(1);
-    add_pair_questions(*query, exit);
-    add_contacts(*query, exit);
-    add_point_questions(*query, exit);
-    add_inaccessible(*query, exit);
+void add_query(const Command& app, Exit& exit) {
+    const Command query = app.add_command("query", "Query baked files");
+    query.require_command();
+    add_pair_questions(query, exit);
+    add_contacts(query, exit);
+    add_point_questions(query, exit);
+    add_inaccessible(query, exit);
 }
 
 }  // namespace cdprep::cli

@@ -9,19 +9,19 @@
 namespace cdprep::cli {
 
 /// Adds the questions about two models: collide, overlap, distance, within.
-void add_pair_questions(CLI::App& query, Exit& exit);
+void add_pair_questions(const Command& query, Exit& exit);
 
 /// Adds the question how two models touch: contacts.
-void add_contacts(CLI::App& query, Exit& exit);
+void add_contacts(const Command& query, Exit& exit);
 
 /// Adds the questions about one model: inside, closest, ray.
-void add_point_questions(CLI::App& query, Exit& exit);
+void add_point_questions(const Command& query, Exit& exit);
 
 /// Adds the question which triangles of a model are inaccessible.
-void add_inaccessible(CLI::App& query, Exit& exit);
+void add_inaccessible(const Command& query, Exit& exit);
 
 /// Adds --format, which every question has.
-void add_answer_format(CLI::App& command, std::string& word);
+void add_answer_format(const Command& command, std::string& word);
 [[nodiscard]] report::AnswerFormat parse_answer_format(const std::string& word);
 
 }  // namespace cdprep::cli

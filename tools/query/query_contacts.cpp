@@ -7,13 +7,13 @@
 
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/contacts.h"
-#include "cli/signals.h"
 #include "cli/open_for.h"
-#include "manuals/command_page.h"
+#include "cli/signals.h"
+#include "command_line/command_line.h"
+#include "command_line/command_page.h"
 #include "query/command.h"
 #include "query/query_placements.h"
 #include "query/query_structure.h"
-#include "cli/usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -71,34 +71,34 @@ Exit run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_contacts(CLI::App& query, Exit& exit) {
+void add_contacts(const Command& query, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command =
-        query.add_subcommand("contacts", "Compute contact points, normals and depths of two models");
-    set_notes(*command, "",
-              {"cdprep query contacts arm.cdp.h5 part.cdp.h5 --poses poses.txt --tolerance 0.01"});
-    command->add_option("a", arguments->a, "A file baked with --effects contacts")->required();
-    command->add_option("b", arguments->b, "A file baked with --effects contacts")->required();
-    add_placements(*command, arguments->placement);
+    const Command command =
+        query.add_command("contacts", "Compute contact points, normals and depths of two models");
+    command.set_notes(
+        "", {"cdprep query contacts arm.cdp.h5 part.cdp.h5 --poses poses.txt --tolerance 0.01"});
+    command.add_option("a", arguments->a, "A file baked with --effects contacts").required();
+    command.add_option("b", arguments->b, "A file baked with --effects contacts").required();
+    add_placements(command, arguments->placement);
     command
-        ->add_option("--tolerance", arguments->tolerance,
-                     "Largest distance of two pieces that counts, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->required()
-        ->group("Query");
+        .add_option("--tolerance", arguments->tolerance,
+                    "Largest distance of two pieces that counts, in model units")
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .required()
+        .group("Query");
+    command.add_flag("--manifold", arguments->manifold, "List up to four points per pair of pieces")
+        .group("Query");
     command
-        ->add_flag("--manifold", arguments->manifold, "List up to four points per pair of pieces")
-        ->group("Query");
-    command
-        ->add_flag("--skip-degenerate", arguments->skip_degenerate,
-                   "Ignore triangles with collinear corners")
-        ->group("Query");
-    add_structure(*command, arguments->structure,
-                  "Structure that finds near pieces: bvh, which is faster, or pieces. Both give the "
-                  "same answers");
-    add_answer_format(*command, arguments->format);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+        .add_flag("--skip-degenerate", arguments->skip_degenerate,
+                  "Ignore triangles with collinear corners")
+        .group("Query");
+    add_structure(
+        command, arguments->structure,
+        "Structure that finds near pieces: bvh, which is faster, or pieces. Both give the "
+        "same answers");
+    add_answer_format(command, arguments->format);
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace cdprep::cli

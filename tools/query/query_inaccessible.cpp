@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "query/inaccessible.h"
 #include "cli/open_for.h"
 #include "cli/program_threads.h"
-#include "manuals/command_page.h"
+#include "command_line/command_page.h"
 #include "query/command.h"
+#include "query/inaccessible.h"
 #include "query/inaccessible_report.h"
 #include "write/coloured_file.h"
 
@@ -73,23 +73,23 @@ Exit run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_inaccessible(CLI::App& query, Exit& exit) {
+void add_inaccessible(const Command& query, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = query.add_subcommand(
+    const Command command = query.add_command(
         "inaccessible", "List triangles occluded along every ray to the tetra-tree's centre");
-    set_notes(*command, "", {"cdprep query inaccessible arm.cdp.h5 --export occluded.ply"});
-    command->add_option("model", arguments->model, "A file baked with --structures tetra-tree")
-        ->required();
+    command.set_notes("", {"cdprep query inaccessible arm.cdp.h5 --export occluded.ply"});
+    command.add_option("model", arguments->model, "A file baked with --structures tetra-tree")
+        .required();
     command
-        ->add_option("--export", arguments->coloured,
-                     "Also write the model with these triangles in colour: .ply or .obj")
-        ->type_name("FILE")
-        ->group("Report");
-    command->add_flag("--count", arguments->count, "Count the triangles, do not list them")
-        ->group("Query");
-    add_jobs(*command, arguments->threads);
-    add_answer_format(*command, arguments->format);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+        .add_option("--export", arguments->coloured,
+                    "Also write the model with these triangles in colour: .ply or .obj")
+        .type_name("FILE")
+        .group("Report");
+    command.add_flag("--count", arguments->count, "Count the triangles, do not list them")
+        .group("Query");
+    add_jobs(command, arguments->threads);
+    add_answer_format(command, arguments->format);
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace cdprep::cli

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "bake/structures.h"
 #include "cdprep/advanced/convex_distance.h"
 #include "cdprep/advanced/pair_front.h"
 #include "cdprep/advanced/query_counts.h"
@@ -21,16 +22,15 @@
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/hulls.h"
 #include "cdprep/pairs.h"
-#include "cli/signals.h"
 #include "cli/open_for.h"
-#include "manuals/command_page.h"
+#include "cli/signals.h"
+#include "command_line/command_line.h"
+#include "command_line/command_page.h"
+#include "compare/cells/literal_octree.h"
 #include "query/command.h"
 #include "query/query_placements.h"
 #include "query/query_structure.h"
 #include "text/structure_name.h"
-#include "compare/cells/literal_octree.h"
-#include "bake/structures.h"
-#include "cli/usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -415,8 +415,9 @@ const char* name_of(Question question) {
 /// Through what a question can be asked.
 std::span<const Structure> structures_serving(Question question) {
     static constexpr std::array<Structure, 6> kAll = {
-        Structure::bvh,           Structure::pieces,        Structure::octree,
-        Structure::adaptive_octree, Structure::hashed_octree, Structure::tetra_tree};
+        Structure::bvh,           Structure::pieces,
+        Structure::octree,        Structure::adaptive_octree,
+        Structure::hashed_octree, Structure::tetra_tree};
     const std::span<const Structure> all = kAll;
     const bool finds_pairs = question == Question::overlap || question == Question::collide;
     return finds_pairs ? all : all.first(2);
@@ -481,68 +482,69 @@ Exit run(const Arguments& arguments) {
     return Exit::success;
 }
 
-void add_as(CLI::App& command, Arguments& arguments) {
-    command.add_option("--as", arguments.as, "Meaning of a model: its triangles, or also the inside")
-        ->type_name("BODY")
-        ->check(one_of({"surface", "solid"}))
-        ->capture_default_str()
-        ->group("Query");
+void add_as(const Command& command, Arguments& arguments) {
+    command
+        .add_option("--as", arguments.as, "Meaning of a model: its triangles, or also the inside")
+        .type_name("BODY")
+        .check(one_of({"surface", "solid"}))
+        .show_default()
+        .group("Query");
 }
 
-void add_contact_options(CLI::App& command, Arguments& arguments) {
+void add_contact_options(const Command& command, Arguments& arguments) {
     add_as(command, arguments);
     command
         .add_option("--contact", arguments.contact,
                     "Meaning of overlap. closed: touching counts; proper: crossing or shared area")
-        ->type_name("CONTACT")
-        ->check(one_of({"closed", "proper"}))
-        ->capture_default_str()
-        ->group("Query");
+        .type_name("CONTACT")
+        .check(one_of({"closed", "proper"}))
+        .show_default()
+        .group("Query");
     command
         .add_flag("--skip-degenerate", arguments.skip_degenerate,
                   "Ignore triangles with collinear corners")
-        ->group("Query");
+        .group("Query");
 }
 
-void add_distance_options(CLI::App& command, Arguments& arguments) {
+void add_distance_options(const Command& command, Arguments& arguments) {
     if (arguments.question == Question::within) {
         command
             .add_option("--tolerance", arguments.tolerance,
                         "Largest distance that counts, in model units")
-            ->type_name("DISTANCE")
-            ->check(zero_or_more())
-            ->required()
-            ->group("Query");
-        CLI::Option* pairs = command
+            .type_name("DISTANCE")
+            .check(zero_or_more())
+            .required()
+            .group("Query");
+        const Option pairs = command
                                  .add_flag("--pairs", arguments.pairs,
                                            "List all triangle pairs within the tolerance")
-                                 ->group("Query");
+                                 .group("Query");
         command.add_flag("--count", arguments.count, "Count these pairs")
-            ->excludes(pairs)
-            ->group("Query");
+            .excludes(pairs)
+            .group("Query");
         return;
     }
     command
         .add_option("--relative-error", arguments.errors.relative_error,
                     "Largest width of the interval, as a share of its lower bound")
-        ->type_name("SHARE")
-        ->check(zero_or_more())
-        ->capture_default_str()
-        ->group("Query");
+        .type_name("SHARE")
+        .check(zero_or_more())
+        .show_default()
+        .group("Query");
     command
         .add_option("--absolute-error", arguments.errors.absolute_error,
                     "Largest width of the interval, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->capture_default_str()
-        ->group("Query");
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .show_default()
+        .group("Query");
     add_as(command, arguments);
     command
         .add_option("--max-distance", arguments.errors.max_distance,
                     "Stop at this distance, in model units; larger ones are not reported")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->group("Query");
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .group("Query");
 }
 
 /// The structures that serve a question, for help.
@@ -557,77 +559,78 @@ const char* structure_text(Question question) {
                    "or tetra-tree (bake --structures); or pieces (bake --effects pieces). All give "
                    "the same answers. hashed-octree-literal: a published search that misses pairs";
         case Question::distance:
-            return "Structure of both files to search: bvh, or pieces (bake --effects pieces). Both "
+            return "Structure of both files to search: bvh, or pieces (bake --effects pieces). "
+                   "Both "
                    "give the same answers. hull: distance of the convex hulls (bake --structures "
                    "hull)";
         default:
-            return "Structure of both files to search: bvh, or pieces (bake --effects pieces). Both "
+            return "Structure of both files to search: bvh, or pieces (bake --effects pieces). "
+                   "Both "
                    "give the same answers";
     }
 }
 
-void add_question(CLI::App& query, Question question, const char* name, const char* description,
-                  Exit& exit) {
+void add_question(const Command& query, Question question, const char* name,
+                  const char* description, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     arguments->question = question;
-    CLI::App* command = query.add_subcommand(name, description);
-    set_notes(*command, "",
-              {"cdprep query " + std::string(name) + " arm.cdp.h5 part.cdp.h5 --pose " +
-               "'1 0 0 0 1 0 0 0 1 0.1 0 0'" +
-               (question == Question::within ? " --tolerance 0.5" : "")});
-    command->add_option("a", arguments->a, "The first baked model")->required();
-    command->add_option("b", arguments->b, "The second baked model")->required();
-    add_placements(*command, arguments->placement);
-    add_structure(*command, arguments->structure, structure_text(question));
+    const Command command = query.add_command(name, description);
+    command.set_notes("", {"cdprep query " + std::string(name) + " arm.cdp.h5 part.cdp.h5 --pose " +
+                           "'1 0 0 0 1 0 0 0 1 0.1 0 0'" +
+                           (question == Question::within ? " --tolerance 0.5" : "")});
+    command.add_option("a", arguments->a, "The first baked model").required();
+    command.add_option("b", arguments->b, "The second baked model").required();
+    add_placements(command, arguments->placement);
+    add_structure(command, arguments->structure, structure_text(question));
     if (question == Question::collide || question == Question::overlap) {
-        add_structure_steps(*command, arguments->structure);
+        add_structure_steps(command, arguments->structure);
     }
-    add_answer_format(*command, arguments->format);
+    add_answer_format(command, arguments->format);
+    command.add_option("--repeat", arguments->repeat, "Repeat each query N times, for --timings")
+        .check(whole_from(1, 1'000'000'000))
+        .show_default()
+        .group("Report");
+    command.add_flag("--timings", arguments->timings, "Print times of the queries to stderr")
+        .group("Report");
     command
-        ->add_option("--repeat", arguments->repeat, "Repeat each query N times, for --timings")
-        ->check(whole_from(1, 1'000'000'000))
-        ->capture_default_str()
-        ->group("Report");
-    command->add_flag("--timings", arguments->timings, "Print times of the queries to stderr")
-        ->group("Report");
-    command
-        ->add_flag("--counts", arguments->counts,
-                   "Print to stderr how many boxes, triangles and hulls were tested, and which stage "
-                   "decided")
-        ->group("Report");
+        .add_flag(
+            "--counts", arguments->counts,
+            "Print to stderr how many boxes, triangles and hulls were tested, and which stage "
+            "decided")
+        .group("Report");
     if (question == Question::collide || question == Question::overlap) {
-        add_contact_options(*command, *arguments);
+        add_contact_options(command, *arguments);
     } else {
-        add_distance_options(*command, *arguments);
+        add_distance_options(command, *arguments);
     }
     if (question == Question::collide) {
         command
-            ->add_option("--level-of-detail", arguments->level_of_detail,
-                         "Test the facets of this level of both tetra-trees instead. The answer is "
-                         "yes, no or unknown, with the distance of the facets from the surfaces")
-            ->type_name("LEVEL")
-            ->check(whole_from(0U, format::kMaxTetraLevel))
-            ->group("Structure");
+            .add_option("--level-of-detail", arguments->level_of_detail,
+                        "Test the facets of this level of both tetra-trees instead. The answer is "
+                        "yes, no or unknown, with the distance of the facets from the surfaces")
+            .type_name("LEVEL")
+            .check(whole_from(0U, format::kMaxTetraLevel))
+            .group("Structure");
     }
     if (question == Question::overlap) {
-        CLI::Option* count =
-            command->add_flag("--count", arguments->count, "Count the pairs, do not list them")
-                ->group("Query");
+        const Option count =
+            command.add_flag("--count", arguments->count, "Count the pairs, do not list them")
+                .group("Query");
         command
-            ->add_flag("--segments", arguments->segments,
-                       "Also list the segment in which each pair of triangles meets")
-            ->excludes(count)
-            ->group("Query");
+            .add_flag("--segments", arguments->segments,
+                      "Also list the segment in which each pair of triangles meets")
+            .excludes(count)
+            .group("Query");
     }
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace
 
-void add_pair_questions(CLI::App& query, Exit& exit) {
+void add_pair_questions(const Command& query, Exit& exit) {
     add_question(query, Question::collide, "collide", "Test whether two models collide", exit);
-    add_question(query, Question::overlap, "overlap", "List the overlapping triangles of two models",
-                 exit);
+    add_question(query, Question::overlap, "overlap",
+                 "List the overlapping triangles of two models", exit);
     add_question(query, Question::distance, "distance", "Compute the distance of two models", exit);
     add_question(query, Question::within, "within", "Test whether two models are within a distance",
                  exit);

@@ -2,7 +2,7 @@
 #include "query/query_placements.h"
 
 #include "cli/poses_file.h"
-#include "cli/usage.h"
+#include "command_line/command_line.h"
 
 namespace cdprep::cli {
 namespace {
@@ -38,32 +38,32 @@ Result<std::vector<Placement>> placements_of(const PlacementWords& words) {
     return placements;
 }
 
-void add_placements(CLI::App& command, PlacementWords& words) {
+void add_placements(const Command& command, PlacementWords& words) {
     const char* const group = "Placement";
-    CLI::Option* poses =
+    const Option poses =
         command
-            .add_option("--poses", words.poses,
-                        "A file with poses of B in A's frame: 12 numbers per line, R by rows, then T")
-            ->type_name("FILE")
-            ->group(group);
-    CLI::Option* pose = command.add_option("--pose", words.pose, "One such pose")
-                            ->type_name("POSE")
-                            ->group(group);
-    poses->excludes(pose);
-    for (CLI::Option* world :
+            .add_option(
+                "--poses", words.poses,
+                "A file with poses of B in A's frame: 12 numbers per line, R by rows, then T")
+            .type_name("FILE")
+            .group(group);
+    const Option pose =
+        command.add_option("--pose", words.pose, "One such pose").type_name("POSE").group(group);
+    poses.excludes(pose);
+    for (const Option world :
          {command.add_option("--pose-a", words.pose_a, "Pose of A in the world"),
           command.add_option("--pose-b", words.pose_b, "Pose of B in the world")}) {
-        world->type_name("POSE")->group(group);
-        world->excludes(poses);
-        world->excludes(pose);
+        world.type_name("POSE").group(group);
+        world.excludes(poses);
+        world.excludes(pose);
     }
     command
         .add_option("--placement", words.placement,
                     "With two world poses. relative: move B by the relative pose; world: move both")
-        ->type_name("KIND")
-        ->check(one_of({"relative", "world"}))
-        ->capture_default_str()
-        ->group(group);
+        .type_name("KIND")
+        .check(one_of({"relative", "world"}))
+        .show_default()
+        .group(group);
 }
 
 }  // namespace cdprep::cli

@@ -20,7 +20,7 @@ struct PlacementWords {
 };
 
 /// Adds --pose, --poses, --pose-a, --pose-b and --placement. `words` lives as long as the command.
-void add_placements(CLI::App& command, PlacementWords& words);
+void add_placements(const Command& command, PlacementWords& words);
 
 /// All placements that are asked about: one pose of B a line, one pose, two
 /// world poses, or none for B as it stands.

@@ -10,11 +10,11 @@
 #include "cdprep/cells.h"
 #include "cdprep/cells/overlap_through.h"
 #include "cdprep/points.h"
-#include "cli/signals.h"
 #include "cli/open_for.h"
-#include "manuals/command_page.h"
-#include "query/points_file.h"
+#include "cli/signals.h"
+#include "command_line/command_page.h"
 #include "query/command.h"
+#include "query/points_file.h"
 #include "query/query_structure.h"
 #include "write/coloured_file.h"
 
@@ -159,31 +159,31 @@ Exit run(const Arguments& arguments, const Question<Place>& question) {
 }
 
 template <class Place>
-void add_question(CLI::App& query, const Question<Place>& question, Exit& exit) {
+void add_question(const Command& query, const Question<Place>& question, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = query.add_subcommand(question.name, question.description);
-    command->add_option("model", arguments->model, "A baked model")->required();
-    set_notes(*command, "", {question.example});
-    command->add_option(question.option, arguments->places, question.option_description)
-        ->type_name("FILE")
-        ->required()
-        ->group("Query");
+    const Command command = query.add_command(question.name, question.description);
+    command.add_option("model", arguments->model, "A baked model").required();
+    command.set_notes("", {question.example});
+    command.add_option(question.option, arguments->places, question.option_description)
+        .type_name("FILE")
+        .required()
+        .group("Query");
     if (question.can_export) {
         command
-            ->add_option("--export", arguments->coloured,
-                         "Also write the points in colours: .ply or .obj. Inside: red; outside: "
-                         "grey; on the surface: yellow; unknown: blue")
-            ->type_name("FILE")
-            ->group("Report");
+            .add_option("--export", arguments->coloured,
+                        "Also write the points in colours: .ply or .obj. Inside: red; outside: "
+                        "grey; on the surface: yellow; unknown: blue")
+            .type_name("FILE")
+            .group("Report");
     }
-    add_structure(*command, arguments->structure, question.structure_description);
-    add_answer_format(*command, arguments->format);
-    command->callback([arguments, &question, &exit] { exit = run(*arguments, question); });
+    add_structure(command, arguments->structure, question.structure_description);
+    add_answer_format(command, arguments->format);
+    command.callback([arguments, &question, &exit] { exit = run(*arguments, question); });
 }
 
 }  // namespace
 
-void add_point_questions(CLI::App& query, Exit& exit) {
+void add_point_questions(const Command& query, Exit& exit) {
     add_question(query, kInside, exit);
     add_question(query, kClosest, exit);
     add_question(query, kRay, exit);

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "cdprep/cells/overlap_through.h"
+#include "command_line/command_line.h"
 #include "text/structure_name.h"
-#include "cli/usage.h"
 
 namespace cdprep::cli {
 namespace {
@@ -62,35 +62,35 @@ Result<StructureOptions> parse_structure(const StructureWords& words, const char
     return options;
 }
 
-void add_structure(CLI::App& command, StructureWords& words, const char* description) {
+void add_structure(const Command& command, StructureWords& words, const char* description) {
     command.add_option("--structure", words.structure, description)
-        ->type_name("STRUCTURE")
-        ->capture_default_str()
-        ->group("Structure");
+        .type_name("STRUCTURE")
+        .show_default()
+        .group("Structure");
 }
 
-void add_structure_steps(CLI::App& command, StructureWords& words) {
+void add_structure_steps(const Command& command, StructureWords& words) {
     command
         .add_option("--leaf-test", words.leaf_test,
                     "Exact test of two triangles, not for bvh and pieces. guigue-devillers: signs "
                     "of planes (default); feito: six edges against triangles. Both always agree")
-        ->type_name("TEST")
-        ->check(one_of({"guigue-devillers", "feito"}))
-        ->group("Structure");
+        .type_name("TEST")
+        .check(one_of({"guigue-devillers", "feito"}))
+        .group("Structure");
     command
         .add_option("--descent", words.descent,
                     "Order of descent in octree, octree-adaptive and tetra-tree: into the larger "
                     "cell, A's first, B's first, or both (default). Answers do not change")
-        ->type_name("ORDER")
-        ->check(one_of({"larger", "a-first", "b-first", "both"}))
-        ->group("Structure");
+        .type_name("ORDER")
+        .check(one_of({"larger", "a-first", "b-first", "both"}))
+        .group("Structure");
     command
         .add_option("--search", words.search,
                     "Cell search of hashed-octree: sorted leaves with a top table, a hash table by "
                     "the key's modulus, or by a mixed key (default). Answers do not change")
-        ->type_name("SEARCH")
-        ->check(one_of({"sorted", "modulus", "mixed"}))
-        ->group("Structure");
+        .type_name("SEARCH")
+        .check(one_of({"sorted", "modulus", "mixed"}))
+        .group("Structure");
 }
 
 }  // namespace cdprep::cli

@@ -22,8 +22,8 @@ struct StructureWords {
 
 /// Adds --structure; add_structure_steps() adds --leaf-test, --descent and --search, for
 /// questions about two models.
-void add_structure(CLI::App& command, StructureWords& words, const char* description);
-void add_structure_steps(CLI::App& command, StructureWords& words);
+void add_structure(const Command& command, StructureWords& words, const char* description);
+void add_structure_steps(const Command& command, StructureWords& words);
 
 /// Fails with bad_argument when the structure is none of those that serve the question,
 /// and when an option says how to do what the structure does not do. `question` stands

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "manuals/command_page.h"
+#include "command_line/command_page.h"
 #include "repair/repair.h"
 
 #include <chrono>
@@ -16,7 +16,7 @@
 #include "cli/output_path.h"
 #include "cli/program_threads.h"
 #include "cli/signals.h"
-#include "cli/usage.h"
+#include "command_line/command_line.h"
 #include "import/import_file.h"
 #include "repair/repair_goal.h"
 #include "repair/repair_report.h"
@@ -29,8 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMostSeconds = 300;       ///< unless --time says otherwise
-constexpr std::size_t kRefusalsShown = 5;  ///< of each step, in text
+constexpr double kMostSeconds = 300;       ///< default of --time
+constexpr std::size_t kRefusalsShown = 5;  ///< per step, in text
 
 struct Arguments {
     fs::path input;
@@ -43,18 +43,7 @@ struct Arguments {
     mesh::RepairOptions options;
 };
 
-Error unknown_step(const std::string& name) {
-    std::vector<std::string> known;
-    std::string all;
-    for (std::size_t i = 0; i < mesh::kRepairStepCount; ++i) {
-        known.emplace_back(mesh::name_of(static_cast<mesh::RepairStep>(i)));
-        all += (i == 0 ? "" : ", ") + known.back();
-    }
-    return {ErrorCode::bad_argument, "--steps: there is no step '" + name + "'; there are " + all +
-                                         "." + report::suggestion(name, known)};
-}
-
-/// "weld,orient": those steps and no others.
+/// Parses a list such as "weld,orient" into exactly those steps.
 Result<mesh::RepairSteps> parse_steps(const std::string& list) {
     mesh::RepairSteps steps;
     std::istringstream names(list);
@@ -66,7 +55,7 @@ Result<mesh::RepairSteps> parse_steps(const std::string& list) {
     return steps;
 }
 
-/// What the arguments ask for, or why they make no sense.
+/// Returns the options for the arguments, or an error for invalid arguments.
 Result<mesh::RepairOptions> options_of(const Arguments& arguments) {
     mesh::RepairOptions options = arguments.options;
     if (arguments.steps.empty()) {
@@ -82,8 +71,8 @@ Result<mesh::RepairOptions> options_of(const Arguments& arguments) {
     return options;
 }
 
-/// Takes over the report of the repair, and says whether the preset reached its goal, and
-/// nothing crosses that did not cross before.
+/// Copies the report of the repair. Judges whether the preset reached its goal, and whether the
+/// output has new crossings.
 void judge(const Arguments& arguments, const mesh::TriangleSoup& input,
            const mesh::Repaired& repaired, const mesh::SearchOptions& search,
            report::RepairFileReport& report) {
@@ -166,75 +155,73 @@ Exit run(const Arguments& arguments) {
     return Exit::findings;
 }
 
-/// The goal or the steps, and their limits.
-void add_goal_options(CLI::App& command, Arguments& arguments) {
+/// Adds the options for the goal or the steps, and for their limits.
+void add_goal_options(const Command& command, Arguments& arguments) {
     const char* const group = "Repair";
-    CLI::Option* preset =
+    const Option preset =
         command
             .add_option("--preset", arguments.preset,
                         "Goal. safe: 2-manifold and oriented, no vertex moves; closed: also "
                         "without holes; solid: also without crossings")
-            ->type_name("PRESET")
-            ->check(one_of({"safe", "closed", "solid"}))
-            ->capture_default_str()
-            ->group(group);
+            .type_name("PRESET")
+            .check(one_of({"safe", "closed", "solid"}))
+            .show_default()
+            .group(group);
     command.add_option("--steps", arguments.steps, "Comma-separated steps, instead of a preset")
-        ->type_name("LIST")
-        ->excludes(preset)
-        ->group(group);
+        .type_name("LIST")
+        .excludes(preset)
+        .group(group);
     command
         .add_option("--seam-width,--seam", arguments.options.seam_width,
                     "Join boundaries within this distance, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->group(group);
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .group(group);
     command
         .add_option("--hole-size", arguments.options.hole_size,
                     "Close holes whose bounding box has at most this diagonal, in model units")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->group(group);
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .group(group);
     command
         .add_option("--drop-components", arguments.options.least_triangles,
                     "Drop components with fewer than N triangles")
-        ->group(group);
+        .group(group);
     command
         .add_option("--time", arguments.options.seconds,
                     "Time limit for removing crossings; the report names those that remain")
-        ->type_name("SECONDS")
-        ->check(zero_or_more("seconds"))
-        ->capture_default_str()
-        ->group("Limits");
+        .type_name("SECONDS")
+        .check(zero_or_more("seconds"))
+        .show_default()
+        .group("Limits");
 }
 
 }  // namespace
 
-void add_repair(CLI::App& app, Exit& exit) {
+void add_repair(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
     arguments->options.seconds = kMostSeconds;
-    CLI::App* command = app.add_subcommand("repair", "Repair a mesh and account for every change");
-    set_notes(
-        *command,
+    const Command command = app.add_command("repair", "Repair a mesh and account for every change");
+    command.set_notes(
         "The exit code is 1 when the output does not reach the preset's goal, has no triangle "
         "or has more crossings than the input. The output is written in each case. 2-manifold "
         "refers to vertex numbers, as the output stores them; validate first merges vertices "
         "with equal positions, and may report what repair separated.",
         {"cdprep repair scan.ply -o fixed.ply --preset solid",
          "cdprep repair part.obj -o part.stl --seam-width 0.01"});
-    add_input(*command, arguments->input);
+    add_input(command, arguments->input);
     command
-        ->add_option("-o,--output", arguments->output,
-                     "The repaired mesh: .obj, .ply, .stl or .off")
-        ->type_name("FILE")
-        ->required()
-        ->group("Output");
-    add_goal_options(*command, *arguments);
-    add_weld(*command, arguments->options.weld_distance);
-    add_max_pairs(*command, arguments->options.max_pairs);
-    add_report_format(*command, arguments->format);
-    add_jobs(*command, arguments->threads);
-    add_import_arguments(*command, arguments->import);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+        .add_option("-o,--output", arguments->output, "The repaired mesh: .obj, .ply, .stl or .off")
+        .type_name("FILE")
+        .required()
+        .group("Output");
+    add_goal_options(command, *arguments);
+    add_weld(command, arguments->options.weld_distance);
+    add_max_pairs(command, arguments->options.max_pairs);
+    add_report_format(command, arguments->format);
+    add_jobs(command, arguments->threads);
+    add_import_arguments(command, arguments->import);
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace cdprep::cli

@@ -17,15 +17,15 @@
 #include "cli/command.h"
 #include "cli/import_arguments.h"
 #include "cli/input_list.h"
-#include "cli/signals.h"
 #include "cli/progress.h"
-#include "manuals/command_page.h"
-#include "text/printable.h"
-#include "validate/validation_writer.h"
 #include "cli/report_output.h"
-#include "cli/usage.h"
+#include "cli/signals.h"
+#include "command_line/command_line.h"
+#include "command_line/command_page.h"
+#include "text/printable.h"
 #include "validate/validation.h"
 #include "validate/validation_page.h"
+#include "validate/validation_writer.h"
 
 namespace cdprep::cli {
 namespace {
@@ -33,7 +33,7 @@ namespace {
 namespace fs = std::filesystem;
 using report::ValidationFormat;
 
-constexpr std::size_t kTextPlaces = 3;       ///< a person reads the first
+constexpr std::size_t kTextPlaces = 3;       ///< a person reads the first ones
 constexpr std::size_t kServicePlaces = 100;  ///< services that show SARIF or JUnit cut long lists
 constexpr std::uint64_t kMostPlaces = 100'000'000;
 
@@ -80,7 +80,7 @@ Result<std::vector<Input>> inputs_for(const Arguments& arguments) {
     return inputs;
 }
 
-/// Fails when a report would replace what it is made from, or the other one.
+/// Fails if an output would replace an input, the baseline or another output.
 Result<Done> check_output(const Arguments& arguments, const std::vector<Input>& inputs) {
     std::set<fs::path> taken;
     for (const Input& input : inputs) taken.insert(spelled_out(input.path));
@@ -98,14 +98,14 @@ Result<Done> check_output(const Arguments& arguments, const std::vector<Input>& 
 Result<report::Baseline> read_baseline(const fs::path& path) {
     std::ifstream file(path, std::ios::binary);
     std::string text;
-    std::getline(file, text, '\0');  // no JSON has one; unlike an iterator, it never throws
+    std::getline(file, text, '\0');  // JSON has no zero byte; unlike an iterator, it never throws
     if (!file.is_open() || file.bad()) {
         return Error{ErrorCode::unreadable, path.string() + ": the baseline cannot be read."};
     }
     return report::Baseline::parse(text, path.string());
 }
 
-/// One run: files side by side, their reports in the order of the files.
+/// One run: validates files in parallel and reports them in their order.
 class Run {
 public:
     Run(const ValidationOptions& options, ValidationFormat format, ReportOutput output,
@@ -120,7 +120,7 @@ public:
 
     Exit all(const std::vector<Input>& inputs, const Threads& threads) {
         deliver(writer_.head());
-        // A report on standard output is a whole document also when work is given up.
+        // A report on standard output is a whole document even if the work is abandoned.
         const LastWords words([this] { give_up(); });
         threads.run_in_order(inputs.size(), [&](std::size_t i) -> std::function<void()> {
             if (is_over()) return [] {};
@@ -167,7 +167,7 @@ private:
         is_stuck_ = true;
     }
 
-    /// Ends the report that is written as work goes on.
+    /// Ends a report that is written during the run.
     void give_up() {
         const std::unique_lock lock(progress_mutex_, std::try_to_lock);
         if (!lock || is_ended_ || output_.is_file()) return;
@@ -196,14 +196,14 @@ private:
 
     const ValidationOptions& options_;
     report::ValidationWriter writer_;
-    bool shows_errors_;  ///< the report does, to who would read them on stderr too
+    bool shows_errors_;  ///< the report shows errors on the terminal; stderr would repeat them
     ReportOutput output_;
     std::optional<ValidationPage> page_;
     Progress& progress_;
     std::mutex progress_mutex_;
     std::size_t done_ = 0;
     bool is_ended_ = false;
-    std::atomic<bool> is_stuck_ = false;  ///< the output takes no more
+    std::atomic<bool> is_stuck_ = false;  ///< the output accepts no more text
     Exit stuck_ = Exit::success;
 };
 
@@ -219,7 +219,7 @@ std::size_t default_places(ValidationFormat format) {
     }
 }
 
-/// What the arguments say, checked, without what has to be read.
+/// Checks the arguments and fills the options, without reading any file.
 Result<Done> settle(Arguments& arguments) {
     const auto rules = report::RuleSettings::parse(arguments.rules, arguments.fail_on);
     if (!rules) return rules.error();
@@ -231,7 +231,7 @@ Result<Done> settle(Arguments& arguments) {
     run.baseline = arguments.baseline.string();
     run.folder = fs::current_path();
     run.max_places = arguments.max_issues.value_or(default_places(kFormats.at(arguments.format)));
-    // A page marks places in the mesh, however few the report lists.
+    // A page marks places in the mesh, even if the report lists only a few.
     arguments.options.kept_places =
         arguments.html.empty() || arguments.max_issues
             ? run.max_places
@@ -276,100 +276,100 @@ Exit run(Arguments& arguments) {
         .all(inputs.value(), threads);
 }
 
-void add_judging_options(CLI::App& command, Arguments& arguments) {
+void add_judging_options(const Command& command, Arguments& arguments) {
     const char* const group = "Rules";
     command
         .add_option("--fail-on", arguments.fail_on,
                     "Exit with 1 for findings of this severity (error, warning or note) or this "
                     "rule. May be repeated. Default: error")
-        ->type_name("SEVERITY")
-        ->allow_extra_args(false)
-        ->group(group);
+        .type_name("SEVERITY")
+        .one_value_each()
+        .group(group);
     command
         .add_option("--rule", arguments.rules,
                     "RULE=SEVERITY: report a rule, by id or name, as off, note, warn, warning or "
                     "error. May be repeated. 'cdprep explain' lists the rules")
-        ->type_name("SETTING")
-        ->allow_extra_args(false)
-        ->group(group);
+        .type_name("SETTING")
+        .one_value_each()
+        .group(group);
     command
-        .add_option("--baseline", arguments.baseline,
-                    "An earlier report of --format json: only findings that it lacks are listed and "
-                    "count for --fail-on")
-        ->type_name("FILE")
-        ->group(group);
+        .add_option(
+            "--baseline", arguments.baseline,
+            "An earlier report of --format json: only findings that it lacks are listed and "
+            "count for --fail-on")
+        .type_name("FILE")
+        .group(group);
     command
         .add_option("--max-issues", arguments.max_issues,
                     "Maximum number of listed places per rule and file; counts are not limited. "
                     "Default: 3 for text, 100 for sarif and junit, else 1000")
-        ->check(whole_from(0, kMostPlaces))
-        ->group("Report");
+        .check(whole_from(0, kMostPlaces))
+        .group("Report");
     command
         .add_option("--weld", arguments.options.defects.weld_distance,
                     "Report distinct vertices within this distance, in model units; 0: do not look")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->capture_default_str()
-        ->group(group);
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .show_default()
+        .group(group);
     command
         .add_option("--seam-width,--seam", arguments.options.defects.seam_width,
                     "Report boundaries within this distance, in model units; 0: do not look")
-        ->type_name("DISTANCE")
-        ->check(zero_or_more())
-        ->capture_default_str()
-        ->group(group);
+        .type_name("DISTANCE")
+        .check(zero_or_more())
+        .show_default()
+        .group(group);
     add_max_pairs(command, arguments.options.defects.max_pairs);
     command
         .add_flag("--no-crossings", arguments.no_crossings,
                   "Skip rules CDP0403 and CDP0501 to CDP0503; the verdict says so")
-        ->group(group);
+        .group(group);
 }
 
 }  // namespace
 
-void add_validate(CLI::App& app, Exit& exit) {
+void add_validate(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("validate", "Report defects of meshes");
-    set_notes(*command,
-              "Triangles and vertices are numbered from 0, as in the file. Without --fail-on the "
-              "exit code is 1 when an error was found.",
-              {"cdprep validate model.obj", "cdprep validate assets --format sarif -o meshes.sarif",
-               "git diff --name-only -z main | cdprep validate --files-from - -0",
-               "cdprep validate scan.ply --html scan.html"});
+    const Command command = app.add_command("validate", "Report defects of meshes");
+    command.set_notes(
+        "Triangles and vertices are numbered from 0, as in the file. Without --fail-on the "
+        "exit code is 1 when an error was found.",
+        {"cdprep validate model.obj", "cdprep validate assets --format sarif -o meshes.sarif",
+         "git diff --name-only -z main | cdprep validate --files-from - -0",
+         "cdprep validate scan.ply --html scan.html"});
     command
-        ->add_option("input", arguments->inputs,
-                     "Mesh files, folders, or patterns such as 'assets/**/*.obj'")
-        ->type_name("PATTERN");
-    CLI::Option* list =
-        command
-            ->add_option("--files-from", arguments->files_from,
-                         "Read inputs from a file, one per line; -: standard input")
-            ->type_name("FILE")
-            ->group("Inputs from a list");
-    command->add_flag("-0,--null", arguments->null, "Inputs of the list end with NUL, not newline")
-        ->needs(list)
-        ->group("Inputs from a list");
-    command->add_option("--format", arguments->format, "Format of the report")
-        ->type_name("FORMAT")
-        ->check(one_of({"text", "json", "ndjson", "sarif", "junit"}))
-        ->capture_default_str()
-        ->group("Report");
-    command->add_option("-o,--output", arguments->output, "The report. Default: standard output")
-        ->type_name("FILE")
-        ->group("Report");
+        .add_option("input", arguments->inputs,
+                    "Mesh files, folders, or patterns such as 'assets/**/*.obj'")
+        .type_name("PATTERN");
+    const Option list = command
+                            .add_option("--files-from", arguments->files_from,
+                                        "Read inputs from a file, one per line; -: standard input")
+                            .type_name("FILE")
+                            .group("Inputs from a list");
+    command.add_flag("-0,--null", arguments->null, "Inputs of the list end with NUL, not newline")
+        .needs(list)
+        .group("Inputs from a list");
+    command.add_option("--format", arguments->format, "Format of the report")
+        .type_name("FORMAT")
+        .check(one_of({"text", "json", "ndjson", "sarif", "junit"}))
+        .show_default()
+        .group("Report");
+    command.add_option("-o,--output", arguments->output, "The report. Default: standard output")
+        .type_name("FILE")
+        .group("Report");
     command
-        ->add_option("--html", arguments->html,
-                     "Also write one HTML page that draws the meshes and their defects; this keeps "
-                     "all meshes in memory")
-        ->type_name("FILE")
-        ->group("Report");
-    add_judging_options(*command, *arguments);
-    add_timings(*command, arguments->options.run.timings);
-    add_jobs(*command, arguments->threads);
-    add_progress(*command, arguments->progress);
-    add_colour(*command, arguments->colour);
-    add_import_arguments(*command, arguments->import);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+        .add_option("--html", arguments->html,
+                    "Also write one HTML page that draws the meshes and their defects; this keeps "
+                    "all meshes in memory")
+        .type_name("FILE")
+        .group("Report");
+    add_judging_options(command, *arguments);
+    add_timings(command, arguments->options.run.timings);
+    add_jobs(command, arguments->threads);
+    add_progress(command, arguments->progress);
+    add_colour(command, arguments->colour);
+    add_import_arguments(command, arguments->import);
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace cdprep::cli

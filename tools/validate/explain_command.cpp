@@ -4,7 +4,7 @@
 #include <string>
 
 #include "cli/command.h"
-#include "manuals/command_page.h"
+#include "command_line/command_page.h"
 #include "validate/explain.h"
 #include "validate/rule_settings.h"
 
@@ -34,14 +34,14 @@ Exit run(const Arguments& arguments) {
 
 }  // namespace
 
-void add_explain(CLI::App& app, Exit& exit) {
+void add_explain(const Command& app, Exit& exit) {
     auto arguments = std::make_shared<Arguments>();
-    CLI::App* command = app.add_subcommand("explain", "Explain a rule of validate");
-    set_notes(*command, "", {"cdprep explain", "cdprep explain CDP0203"});
-    command->add_option("rule", arguments->rule,
-                        "An id such as CDP0203, or a name such as sliver. Default: list all rules");
-    add_report_format(*command, arguments->format);
-    command->callback([arguments, &exit] { exit = run(*arguments); });
+    const Command command = app.add_command("explain", "Explain a rule of validate");
+    command.set_notes("", {"cdprep explain", "cdprep explain CDP0203"});
+    command.add_option("rule", arguments->rule,
+                       "An id such as CDP0203, or a name such as sliver. Default: list all rules");
+    add_report_format(command, arguments->format);
+    command.callback([arguments, &exit] { exit = run(*arguments); });
 }
 
 }  // namespace cdprep::cli

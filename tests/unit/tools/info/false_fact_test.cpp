@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -10,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "cli/command.h"
-#include "cdprep/format/find_damage.h"
 #include "bake/pipeline.h"
+#include "cdprep/format/find_damage.h"
+#include "cli/command.h"
 #include "support/changed_sections.h"
 #include "support/defect_zoo.h"
 #include "support/meshes.h"
@@ -331,15 +332,17 @@ TEST(FalseFact, IsToldByInfoInOneSentence) {
     const AlignedBytes sheet = baked(test::grid_sheet(3, 2));
     const AlignedBytes forged = with_flags(sheet, format::model_balanced);
     const std::string path = folder.write("sheet.cdp.h5", forged.span()).string();
-    CLI::App app;
+    const Program program("cdprep", "1", "");
     Exit exit = Exit::success;
-    add_info(app, exit);
+    add_info(program.root(), exit);
+    const std::array plain = {"cdprep", "info", path.c_str()};
+    const std::array deep = {"cdprep", "info", "--deep", path.c_str()};
     testing::internal::CaptureStdout();
-    app.parse("info " + path);
+    EXPECT_FALSE(program.parse(static_cast<int>(plain.size()), plain.data()));
     EXPECT_EQ(exit, Exit::success);  // safe to query
     static_cast<void>(testing::internal::GetCapturedStdout());
     testing::internal::CaptureStderr();
-    app.parse("info --deep " + path);
+    EXPECT_FALSE(program.parse(static_cast<int>(deep.size()), deep.data()));
     EXPECT_EQ(exit, Exit::unreadable);
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
               "cdprep info: " + path +

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "manuals/command_page.h"
+#include "command_line/command_page.h"
 
 namespace cdprep::cli {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cdprep/result.h"
-#include "manuals/command_page.h"
+#include "command_line/command_page.h"
 
 namespace cdprep::cli {
 

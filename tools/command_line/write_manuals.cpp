@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "manuals/write_manuals.h"
+#include "command_line/write_manuals.h"
 
 #include <algorithm>
 #include <fstream>
 #include <system_error>
 
-#include "manuals/exit_codes.h"
+#include "command_line/exit_codes.h"
 
 namespace cdprep::cli {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "manuals/help_text.h"
+#include "command_line/help_text.h"
 
+#include <CLI/CLI.hpp>
 #include <memory>
 
 namespace cdprep::cli {
@@ -58,7 +59,7 @@ public:
     std::string make_help(const CLI::App* command, std::string name,
                           CLI::AppFormatMode /*mode*/) const override {
         const std::string full = name.empty() ? command->get_name() : name;
-        return help_text(page_of(*command, full));
+        return help_text(page_of(Command(*const_cast<CLI::App*>(command)), full));
     }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 
-#include "manuals/exit_codes.h"
-#include "manuals/write_manuals.h"
+#include "command_line/exit_codes.h"
+#include "command_line/write_manuals.h"
 
 namespace cdprep::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <initializer_list>
 #include <string_view>
 
-#include "manuals/write_manuals.h"
+#include "command_line/write_manuals.h"
 
 namespace cdprep::cli {
 namespace {

@@ -1,46 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cli/usage.h"
+#include "command_line/usage.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 
 #include "text/nearest_word.h"
 #include "text/printable.h"
 
 namespace cdprep::cli {
 namespace {
-
-std::string in_quotes(const std::string& word) {
-    return "'" + report::printable(word) + "'";
-}
-
-/// "a, b or c", with that conjunction.
-std::string listed(const std::vector<std::string>& words, const char* conjunction) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        const bool is_last = i + 1 == words.size();
-        if (i > 0) text += is_last ? " " + std::string(conjunction) + " " : ", ";
-        text += words[i];
-    }
-    return text;
-}
-
-std::string joined(const std::vector<std::string>& words, const char* separator) {
-    std::string text;
-    for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-    return text;
-}
-
-CLI::Validator number_above(double limit, bool may_be_equal, const std::string& wanted) {
-    return {[=](std::string& word) -> std::string {
-                double number = 0;
-                const bool is_number =
-                    CLI::detail::lexical_cast(word, number) && std::isfinite(number);
-                if (is_number && (number > limit || (may_be_equal && number == limit))) return "";
-                return in_quotes(word) + " is not " + wanted + ".";
-            },
-            may_be_equal ? "0 or more" : "above 0"};
-}
 
 /// The command that the arguments came to, "cdprep query collide" with all above it.
 struct Reached {
@@ -147,57 +115,18 @@ std::string as_sentence(const Reached& at, std::string text) {
 
 }  // namespace
 
-CLI::Validator one_of(std::vector<std::string> words) {
-    const std::string all = listed(words, "or");
-    return {[words, all](std::string& word) -> std::string {
-                if (std::find(words.begin(), words.end(), word) != words.end()) return "";
-                return in_quotes(word) + " is not " + all + "." + report::suggestion(word, words);
-            },
-            "{" + joined(words, "|") + "}"};
+std::string in_quotes(const std::string& word) {
+    return "'" + report::printable(word) + "'";
 }
 
-CLI::Validator whole_from(std::uint64_t least, std::uint64_t most) {
-    const bool is_open = most == std::numeric_limits<std::uint64_t>::max();
-    const std::string wanted =
-        is_open ? "a whole number of " + std::to_string(least) + " or more"
-                : "a whole number from " + std::to_string(least) + " to " + std::to_string(most);
-    return {[=](std::string& word) -> std::string {
-                std::uint64_t number = 0;
-                const bool is_number =
-                    !word.empty() && word[0] != '-' && CLI::detail::lexical_cast(word, number);
-                if (is_number && number >= least && number <= most) return "";
-                return in_quotes(word) + " is not " + wanted + ".";
-            },
-            is_open ? std::to_string(least) + " or more"
-                    : std::to_string(least) + " to " + std::to_string(most)};
-}
-
-CLI::Validator zero_or_more(const char* unit) {
-    const std::string wanted = unit == nullptr
-                                   ? "a finite number of 0 or more"
-                                   : "a finite number of " + std::string(unit) + ", 0 or more";
-    return number_above(0, true, wanted);
-}
-
-CLI::Validator size_to_petabyte() {
-    return {[](std::string& word) -> std::string {
-                constexpr std::uint64_t kPetabyte = std::uint64_t{1} << 50;
-                const std::string typed = word;
-                std::uint64_t bytes = 0;
-                try {
-                    CLI::AsSizeValue(false)(word);
-                    CLI::detail::lexical_cast(word, bytes);
-                } catch (const CLI::ValidationError&) {
-                    bytes = 0;
-                }
-                if (typed[0] != '-' && bytes > 0 && bytes <= kPetabyte) return "";
-                return in_quotes(typed) + " is not a size from 1B to 1PB, such as 500MB or 2GB.";
-            },
-            "1B to 1PB"};
-}
-
-CLI::Validator above_zero() {
-    return number_above(0, false, "a finite number above 0");
+std::string listed(const std::vector<std::string>& words, const char* conjunction) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const bool is_last = i + 1 == words.size();
+        if (i > 0) text += is_last ? " " + std::string(conjunction) + " " : ", ";
+        text += words[i];
+    }
+    return text;
 }
 
 std::string usage_sentence(const CLI::App& app, const CLI::ParseError& error) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
+
+#include "command_line/command_line.h"
 
 namespace cdprep::cli {
 
@@ -26,8 +27,8 @@ struct OptionGroup {
 
 /// All that is said of a command in words. The option tree of the program is its only source.
 struct CommandPage {
-    std::string name;                                          ///< "cdprep query collide"
-    std::string summary;                                       ///< a phrase: "Query baked files"
+    std::string name;                                           ///< "cdprep query collide"
+    std::string summary;                                        ///< a phrase: "Query baked files"
     std::vector<std::pair<std::string, std::string>> commands;  ///< names and summaries
     std::vector<OptionEntry> inputs;
     std::vector<OptionGroup> groups;
@@ -39,14 +40,10 @@ struct CommandPage {
 };
 
 /// Returns the page of a command whose full name is `name`.
-[[nodiscard]] CommandPage page_of(const CLI::App& command, const std::string& name);
+[[nodiscard]] CommandPage page_of(const Command& command, const std::string& name);
 
 /// Returns the pages of a program and all its commands; a command follows the one that has it.
-[[nodiscard]] std::vector<CommandPage> pages_of(const CLI::App& program);
-
-/// Sets what page_of() returns as notes and examples.
-void set_notes(CLI::App& command, const std::string& notes,
-               const std::vector<std::string>& examples);
+[[nodiscard]] std::vector<CommandPage> pages_of(const Command& program);
 
 /// Returns `text` in lines of at most `width` columns; words are not cut.
 [[nodiscard]] std::vector<std::string> wrapped(const std::string& text, std::size_t width);

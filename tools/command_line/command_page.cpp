@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "manuals/command_page.h"
+#include "command_line/command_page.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <sstream>
 
@@ -84,7 +85,8 @@ std::string CommandPage::usage() const {
     return text;
 }
 
-CommandPage page_of(const CLI::App& command, const std::string& name) {
+CommandPage page_of(const Command& described, const std::string& name) {
+    const CLI::App& command = described.app();
     CommandPage page;
     page.name = name;
     page.summary = command.get_description();
@@ -117,25 +119,22 @@ CommandPage page_of(const CLI::App& command, const std::string& name) {
     return page;
 }
 
-std::vector<CommandPage> pages_of(const CLI::App& program) {
+std::vector<CommandPage> pages_of(const Command& program) {
     std::vector<CommandPage> pages;
-    const auto add = [&](const auto& again, const CLI::App& command,
+    const auto add = [&](const auto& again, const Command& command,
                          const std::string& name) -> void {
         pages.push_back(page_of(command, name));
-        for (const CLI::App* each : command.get_subcommands([](const CLI::App*) { return true; })) {
-            again(again, *each, name + " " + each->get_name());
-        }
+        for (const Command& each : command.commands()) again(again, each, name + " " + each.name());
     };
-    add(add, program, program.get_name());
+    add(add, program, program.name());
     return pages;
 }
 
-void set_notes(CLI::App& command, const std::string& notes,
-               const std::vector<std::string>& examples) {
+void Command::set_notes(const std::string& notes, const std::vector<std::string>& examples) const {
     std::string footer = notes;
     if (!examples.empty()) footer += (notes.empty() ? "" : "\n\n") + std::string(kExamples);
     for (const std::string& example : examples) footer += "\n  " + example;
-    command.footer(footer);
+    app_->footer(footer);
 }
 
 std::vector<std::string> wrapped(const std::string& text, std::size_t width) {

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "command_line/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "command_line/help_text.h"
+#include "command_line/usage.h"
+
+namespace cdprep::cli {
+namespace {
+
+CLI::Validator validator_of(const Check& check) {
+    return {[test = check.test](std::string& word) { return test(word); }, check.words};
+}
+
+bool any(const CLI::App* /*command*/) {
+    return true;
+}
+
+/// Adds what every command has; the texts of help are ours.
+void add_general_options(CLI::App& command) {
+    command.allow_config_extras(CLI::config_extras_mode::error);
+    command.get_help_ptr()->description("Print this help and exit")->group("General");
+    for (CLI::App* each : command.get_subcommands(any)) add_general_options(*each);
+}
+
+}  // namespace
+
+Option Option::type_name(const std::string& name) const {
+    option_->type_name(name);
+    return *this;
+}
+
+Option Option::group(const std::string& title) const {
+    option_->group(title);
+    return *this;
+}
+
+Option Option::check(const Check& check) const {
+    option_->transform(validator_of(check));
+    return *this;
+}
+
+Option Option::required() const {
+    option_->required();
+    return *this;
+}
+
+Option Option::show_default() const {
+    option_->capture_default_str();
+    return *this;
+}
+
+Option Option::delimiter(char separator) const {
+    option_->delimiter(separator);
+    return *this;
+}
+
+Option Option::one_value_each() const {
+    option_->allow_extra_args(false);
+    return *this;
+}
+
+Option Option::excludes(const Option& other) const {
+    option_->excludes(other.option_);
+    return *this;
+}
+
+Option Option::needs(const Option& other) const {
+    option_->needs(other.option_);
+    return *this;
+}
+
+Command Command::add_command(const std::string& name, const std::string& summary) const {
+    return Command(*app_->add_subcommand(name, summary));
+}
+
+std::string Command::name() const {
+    return app_->get_name();
+}
+
+std::vector<Command> Command::commands() const {
+    std::vector<Command> commands;
+    for (CLI::App* each : app_->get_subcommands(any)) commands.emplace_back(*each);
+    return commands;
+}
+
+void Command::require_command() const {
+    app_->require_subcommand(1);
+}
+
+Option Command::add_option(const std::string& names, std::string& value,
+                           const std::string& text) const {
+    return Option(*app_->add_option(names, value, text));
+}
+Option Command::add_option(const std::string& names, double& value, const std::string& text) const {
+    return Option(*app_->add_option(names, value, text));
+}
+Option Command::add_option(const std::string& names, std::uint32_t& value,
+                           const std::string& text) const {
+    return Option(*app_->add_option(names, value, text));
+}
+Option Command::add_option(const std::string& names, std::uint64_t& value,
+                           const std::string& text) const {
+    return Option(*app_->add_option(names, value, text));
+}
+Option Command::add_option(const std::string& names, std::filesystem::path& value,
+                           const std::string& text) const {
+    return Option(*app_->add_option(names, value, text));
+}
+Option Command::add_option(const std::string& names, std::vector<std::string>& values,
+                           const std::string& text) const {
+    return Option(*app_->add_option(names, values, text));
+}
+Option Command::add_option(const std::string& names, std::vector<std::filesystem::path>& values,
+                           const std::string& text) const {
+    return Option(*app_->add_option(names, values, text));
+}
+Option Command::add_option(const std::string& names, std::optional<double>& value,
+                           const std::string& text) const {
+    return Option(*app_->add_option(names, value, text));
+}
+Option Command::add_option(const std::string& names, std::optional<std::uint32_t>& value,
+                           const std::string& text) const {
+    return Option(*app_->add_option(names, value, text));
+}
+Option Command::add_option(const std::string& names, std::optional<std::uint64_t>& value,
+                           const std::string& text) const {
+    return Option(*app_->add_option(names, value, text));
+}
+Option Command::add_flag(const std::string& names, bool& value, const std::string& text) const {
+    return Option(*app_->add_flag(names, value, text));
+}
+Option Command::add_flag(const std::string& names, const std::function<void()>& call,
+                         const std::string& text) const {
+    return Option(*app_->add_flag_callback(names, call, text));
+}
+
+std::size_t Command::count(const std::string& option) const {
+    return app_->count(option);
+}
+
+void Command::callback(const std::function<void()>& run) const {
+    app_->callback(run);
+}
+
+Program::Program(const std::string& name, const std::string& version, const std::string& summary)
+    : app_(std::make_unique<CLI::App>(summary, name)) {
+    app_->set_version_flag("--version", version)
+        ->description("Print the version and exit")
+        ->group("General");
+    app_->set_config("--config", "",
+                     "Read options from a TOML file: bake.jobs=2 means --jobs=2 of bake")
+        ->type_name("FILE")
+        ->group("General");
+    app_->require_subcommand(1);
+}
+
+Program::~Program() = default;
+
+Command Program::root() const noexcept {
+    return Command(*app_);
+}
+
+void Program::add_hidden(const std::string& name,
+                         const std::function<Exit(const std::string& value)>& run) const {
+    const auto call = [run](const std::string& value) {
+        throw CLI::RuntimeError(static_cast<int>(run(value)));
+    };
+    app_->add_option_function<std::string>(name, call, "")->group("")->trigger_on_parse();
+}
+
+std::optional<Exit> Program::parse(int count, const char* const* arguments) const {
+    add_general_options(*app_);
+    use_help_text(*app_);
+    try {
+        app_->parse(count, arguments);
+    } catch (const CLI::RuntimeError& ended) {
+        return static_cast<Exit>(ended.get_exit_code());
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() != 0) {
+            std::cerr << usage_sentence(*app_, error) << '\n';
+            return Exit::usage;
+        }
+        app_->exit(error, std::cout, std::cerr);  // --help, --version
+        return Exit::success;
+    }
+    return std::nullopt;
+}
+
+}  // namespace cdprep::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace cdprep::cli {
+
+/// Returns why the arguments were not understood, and what helps: "cdprep query: 'colide' is not a
+/// command. Did you mean 'collide'? ...".
+[[nodiscard]] std::string usage_sentence(const CLI::App& app, const CLI::ParseError& error);
+
+/// Returns a printable word in quotes.
+[[nodiscard]] std::string in_quotes(const std::string& word);
+
+/// Returns "a, b or c", with that conjunction.
+[[nodiscard]] std::string listed(const std::vector<std::string>& words, const char* conjunction);
+
+}  // namespace cdprep::cli
