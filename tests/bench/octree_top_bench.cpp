@@ -22,6 +22,7 @@
 #include <cstdlib>
 
 #include "cells/octree_cells.h"
+#include "kernels/curve.h"
 #include "cdprep/cells/overlap_through.h"
 #include "core/prefetch.h"
 #include "octree_meshes.h"
