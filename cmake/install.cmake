@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Install rules, exported targets (find_package(cdprep)) and pkg-config.
 include(CMakePackageConfigHelpers)
 

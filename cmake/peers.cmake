@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Other libraries, which benchmarks and studies are set beside. None is linked into the product.
 
 function(cdprep_define_peer name)

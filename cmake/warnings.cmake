@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # The options of every target of ours. They follow CMAKE_CXX_FLAGS, and must undo what changes
 # answers there: a fused a * b + c, sums in another order, NaN and infinity taken for impossible.
 set(CMAKE_CXX_EXTENSIONS OFF)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: MIT
 # Fails when a file includes something that its room may not know about.
 # Run by ctest as: cmake -D ROOT=<source dir> -P check_includes.cmake
 

@@ -13,7 +13,7 @@ namespace cdprep::import {
 struct Number {
     double value = 0;            ///< correctly rounded; NaN for spellings of no finite number
     const char* next = nullptr;  ///< just past it; null when there is no number
-    /// The nearest float stands for it without loss (PRODUCT 3): that float is
+    /// The nearest float stands for it without loss: that float is
     /// `value` itself, or the text has at most 9 significant digits and the float
     /// printed with as many digits reads the same. static_cast<float>(value) is
     /// that float.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Writes a source file that holds a text file as the string_view
 # cdprep::report::page::NAME. Run as
 #   cmake -D NAME=... -D INPUT=... -D OUTPUT=... [-D SCRIPT=ON] -P embed_text.cmake

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 # Makes the text of a file the string_view cdprep::report::page::NAME of a room's library. SCRIPT: it
 # goes into a script element.
 function(cdprep_embed_text room name input script)
