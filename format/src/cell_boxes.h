@@ -6,8 +6,8 @@
 
 namespace cdprep::format {
 
-/// Boxes of a tree's nodes, where a file has them and they are wanted: one each, in the frame,
-/// none ends before it begins.
+/// Finds damage in the boxes of a tree's nodes, if the file has them and they are wanted. There
+/// must be one for each node, in the frame, and none may end before it begins.
 inline std::optional<Damage> find_bad_cell_box(std::span<const std::byte> file, SectionId id,
                                                SectionSet wanted, std::uint64_t nodes) noexcept {
     if (!wanted.contains(id) || !find_section(file, id)) return std::nullopt;

@@ -11,13 +11,12 @@ std::string number(std::uint64_t value) {
     return std::to_string(value);
 }
 
-/// What is wrong, without the file and without the way out.
+/// Returns the damage in words, without the file and without the remedy.
 std::string fault(const Damage& damage) {
     using Kind = DamageKind;
-    const std::string section =
-        damage.section == SectionId{0}
-            ? "the user block"
-            : "section " + std::string(section_name(damage.section));
+    const std::string section = damage.section == SectionId{0}
+                                    ? "the user block"
+                                    : "section " + std::string(section_name(damage.section));
     const std::string at = " at byte " + number(damage.at);
     const std::string found = number(damage.found);
     const std::string limit = number(damage.limit);
@@ -55,8 +54,8 @@ std::string fault(const Damage& damage) {
         case Kind::bad_box:
             return section + at + ": box " + found + " does not contain what lies below it";
         case Kind::bad_fact:
-            return section + at + " states what the geometry does not bear out: found " + found +
-                   ", expected " + limit;
+            return section + at + " contradicts the geometry: found " + found + ", expected " +
+                   limit;
     }
     return section + at + " is damaged";
 }

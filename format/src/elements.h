@@ -228,7 +228,7 @@ constexpr Element compound(const char* name, const std::array<Field, N>& fields)
 template <class T>
 constexpr Element no_layout() noexcept = delete;
 
-/// The layout of an element type of the section table. A type without one does not compile.
+/// The layout of an element type of the section table. A type without a layout does not compile.
 template <class T>
 inline constexpr Element element_of = no_layout<T>();
 

@@ -11,9 +11,9 @@
 #include "cell_boxes.h"
 #include "reference_lists.h"
 
-// Nodes stand level by level, siblings side by side, and leaves' lists in the order of the
-// nodes: one pass with a counter for either proves that every node and every reference is
-// reached once. Then the tree can be walked, and each split compared with its box.
+// Nodes are stored level by level, siblings side by side, and leaves' lists in the order of the
+// nodes. So one pass with a counter for each proves that every node and every reference is reached
+// once. Then the tree can be walked, and each split compared with its box.
 
 namespace cdprep::format {
 namespace {
@@ -25,7 +25,7 @@ using Point = std::array<double, 3>;
 constexpr std::array kIds = {SectionId::adaptive_octree, SectionId::adaptive_octree_nodes,
                              SectionId::adaptive_octree_references};
 
-/// An adaptive octree's sections, as far as they are wanted.
+/// The wanted sections of an adaptive octree.
 struct Parts {
     SectionView<AdaptiveOctree> tree;
     SectionView<AdaptiveOctreeNode> nodes;
@@ -43,7 +43,7 @@ bool is_coordinate(double x) noexcept {
     return std::fabs(x) <= kMaxCoordinate;  // false for NaN
 }
 
-/// The children of a node, as a set; of a leaf none.
+/// Returns the children of a node as a set, which is empty for a leaf.
 std::uint32_t children_of(const AdaptiveOctreeNode& node) noexcept {
     return (node.count & kInnerNode) != 0 ? node.count & 0xff : 0;
 }
@@ -68,7 +68,7 @@ Found find_bad_facts(const Parts& parts) noexcept {
     return std::nullopt;
 }
 
-/// Where the next node's children and references begin, and the level it is of.
+/// The places where the next node's children and references begin, and its level.
 struct Next {
     std::uint64_t child = 1;
     std::uint64_t reference = 0;
@@ -112,7 +112,7 @@ Found find_bad_tree(const Parts& parts) noexcept {
     }
     Next next;
     for (std::uint64_t i = 0; i < count; ++i) {
-        // Nobody's child.
+        // Node i is not the child of any node.
         if (i >= next.child) return parts.nodes.damage(DamageKind::bad_order, i, i, next.child - 1);
         if (i == next.level_end) {
             next.level_end = next.child;
@@ -137,11 +137,11 @@ struct Box {
     Point upper;
 };
 
-/// Children above the middle plane of each axis.
+/// The children above the split plane of each axis, as a set.
 constexpr std::array<std::uint32_t, 3> kUpperChildren = {0xaa, 0xcc, 0xf0};
 
-/// Along each axis inside the box, or at its upper bound and no child above; inside along
-/// one at least.
+/// Returns whether a split is good. Along each axis it must be inside the box, or at its upper
+/// bound with no child above. It must be inside along at least one axis.
 bool is_good_split(const Box& box, const Point& split, std::uint32_t children) noexcept {
     bool divides = false;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -163,7 +163,7 @@ Box child_box(const Box& box, const Point& split, std::uint32_t child) noexcept 
     return part;
 }
 
-/// A node on the way from the root, and those of its children that are still to come.
+/// A node on the way from the root, and those of its children that are not visited yet.
 struct Step {
     Box box;
     Point split;
@@ -171,8 +171,8 @@ struct Step {
     std::uint32_t rest;
 };
 
-/// Walks the tree, which is one and no deeper than kOctreeBits, from the root down: a node's
-/// box follows from the splits above it.
+/// Walks the tree from the root down. It is proven to be a tree and no deeper than kOctreeBits. A
+/// node's box follows from the splits above it.
 class SplitCheck {
 public:
     explicit SplitCheck(const Parts& parts) noexcept : parts_(parts) {}

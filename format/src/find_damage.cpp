@@ -15,9 +15,9 @@
 #include "cdprep/format/verdict.h"
 #include "section_checks.h"
 
-// Every read is a copy of a few bytes at an offset that was proved to lie inside
-// the file, so the bytes may have any alignment. No sum or product of untrusted
-// numbers is formed before it is known not to wrap.
+// Every read copies a few bytes at an offset that was proven to lie inside the file, so the bytes
+// may have any alignment. No sum or product of untrusted numbers is formed before it is known not
+// to wrap.
 
 namespace cdprep::format {
 namespace {
@@ -27,7 +27,7 @@ using Bytes = std::span<const std::byte>;
 
 constexpr SectionId kUserBlock{0};
 constexpr std::uint32_t kKnownFeatures = 0;
-/// The frame brings extents of 2^-1074 to 2^1001 to about 1.
+/// The frame scales extents of 2^-1074 to 2^1001 to about 1.
 constexpr std::int32_t kMaxFrameExponent = 1100;
 
 template <class T>
@@ -50,7 +50,7 @@ std::uint64_t bits_of(double value) noexcept {
 
 // --- The user block ------------------------------------------------------------
 
-/// What tells another format, version or machine from ours.
+/// Finds a sign of another format, version or machine.
 Found find_foreign(Bytes file, const FileHeader& header) {
     if (header.magic != kMagic) return in_header(DamageKind::bad_magic, 0, 0, 0);
     if (header.endian_mark != kEndianMark || bits_of(header.ieee_check) != bits_of(kIeeeCheck)) {
@@ -73,7 +73,7 @@ Found find_foreign(Bytes file, const FileHeader& header) {
     return std::nullopt;
 }
 
-/// Whether the section table still belongs to the rest of the file.
+/// Finds a mismatch between the section table and the rest of the file.
 Found find_stale(Bytes file, const FileHeader& header) {
     if (std::memcmp(header.superblock.data(), file.data() + kSuperblockOffset,
                     header.superblock.size()) != 0) {
@@ -98,7 +98,7 @@ bool is_coordinate(const Double3& p) noexcept {
     return is_coordinate(p.x) && is_coordinate(p.y) && is_coordinate(p.z);
 }
 
-/// Numbers outside the range that queries rely on.
+/// Finds a number outside the range that queries rely on.
 Found find_bad_field(const FileHeader& header) {
     const auto above = [](std::uint64_t at, std::uint64_t found, std::uint64_t limit) -> Found {
         if (found <= limit) return std::nullopt;
@@ -138,7 +138,7 @@ SectionEntry table_entry(Bytes file, std::uint32_t index) noexcept {
     return read<SectionEntry>(file, table_place(index));
 }
 
-/// One entry alone. A division, so that a hostile count cannot wrap around.
+/// Finds damage in one entry. A division is used, so that a hostile count cannot wrap around.
 Found find_bad_entry(Bytes file, const SectionEntry& entry, std::uint64_t place) {
     const auto bad = [&](std::uint64_t at, std::uint64_t found, std::uint64_t limit) {
         return Damage{DamageKind::bad_section, entry.id, place + at, found, limit};
@@ -166,7 +166,8 @@ std::uint64_t end_of(const SectionEntry& entry) noexcept {
     return entry.offset + entry.count * entry.element_size;
 }
 
-/// All entries: each by itself, ids rising, no two sharing a byte.
+/// Finds damage in the table. Each entry must be correct, ids must rise, and no two entries may
+/// share a byte.
 Found find_bad_table(Bytes file, const FileHeader& header) {
     for (std::uint32_t i = 0; i < header.section_count; ++i) {
         const SectionEntry entry = table_entry(file, i);
@@ -224,7 +225,7 @@ Found find_bad_number(const Content& content, Good good) {
     return std::nullopt;
 }
 
-/// All floats of a section finite; a loop without branches, then a search.
+/// Finds a float of a section that is not finite: a loop without branches, then a search.
 Found find_bad_float(const Content& content) {
     constexpr std::uint32_t kExponent = 0x7f800000;
     const std::uint64_t count = content.entry.count * content.entry.element_size / sizeof(float);
@@ -243,7 +244,7 @@ Found find_bad_float(const Content& content) {
     return std::nullopt;
 }
 
-/// All uint32 of a section at most `limit`.
+/// Finds a uint32 of a section above `limit`.
 Found find_bad_index(const Content& content, std::uint64_t limit) {
     const std::uint64_t count =
         content.entry.count * content.entry.element_size / sizeof(std::uint32_t);
@@ -263,7 +264,7 @@ Found find_bad_index(const Content& content, std::uint64_t limit) {
     return std::nullopt;
 }
 
-/// Runs that follow each other from 0 to the triangle count.
+/// Finds a run out of sequence. Runs must follow each other from 0 to the triangle count.
 template <class Run>
 Found find_bad_runs(const Content& content) {
     std::uint64_t next = 0;
@@ -286,7 +287,7 @@ Found find_bad_names(const Content& content) {
     return content.damage(DamageKind::bad_order, last, end, 0);
 }
 
-/// Two bits for each of three edges.
+/// Finds a byte with more than two bits for each of three edges.
 Found find_bad_convexity(const Content& content) {
     constexpr std::uint8_t kMost = (1U << 6) - 1;
     for (std::uint64_t i = 0; i < content.entry.count; ++i) {
@@ -313,7 +314,8 @@ Found find_bad_component(const Content& content) {
     return content.damage(DamageKind::bad_count, 0, triangles, content.header.triangle_count);
 }
 
-/// One of the whole mesh in front, whose triangles those of the components are.
+/// Finds damage in the verdicts. The first is that of the whole mesh, whose triangles are those of
+/// the components.
 Found find_bad_verdict(const Content& content) {
     const std::uint64_t limit = content.header.triangle_count;
     if (content.entry.count == 0) return content.damage(DamageKind::bad_count, 0, 0, 1);
@@ -352,7 +354,7 @@ bool all_finite(const Instance& instance) noexcept {
                        [](double x) { return std::isfinite(x); });
 }
 
-/// Leaves hold the count that the triangle count gives them, and finite numbers.
+/// Finds a leaf that lacks finite numbers, or the count that follows from the triangle count.
 Found find_bad_leaf(const Content& content) {
     for (std::uint64_t i = 0; i < content.entry.count; ++i) {
         const auto leaf = content.element<BvhLeaf>(i);
@@ -363,8 +365,8 @@ Found find_bad_leaf(const Content& content) {
     return find_bad_float(content);
 }
 
-/// Whether sphere `box` may be walked: an axis near unit length, nothing negative, and
-/// no side that its kind does not have.
+/// Returns whether sphere `box` may be walked. Each axis must be near unit length. Radius and
+/// halves must not be negative, and only the sides of its kind may be used.
 bool is_swept_sphere(const SweptNode& node, std::uint32_t box, SweptKind kind) noexcept {
     assert(box < kBvhWidth);
     constexpr float kUnitTolerance = 0x1p-10F;
@@ -392,7 +394,7 @@ Found find_bad_swept(const Content& content, SweptKind kind) {
     return std::nullopt;
 }
 
-/// The least index that is out of range: one past the last, or 0 when none fits.
+/// Finds an index of a vertex that does not exist. Without vertices, every index is damage.
 Found find_bad_vertex_index(const Content& content) {
     const std::uint64_t vertices = content.header.vertex_count;
     if (vertices == 0 && content.entry.count > 0) {
@@ -473,7 +475,7 @@ Found find_bad_content(const Content& content) {
             return find_bad_verdict(content);
         case SectionId::provenance:
         case SectionId::findings:
-        // Sections that only make sense together are checked together, at the end.
+        // Sections that depend on each other are checked together, at the end.
         case SectionId::octree_grid:
         case SectionId::octree_nodes:
         case SectionId::octree_references:
@@ -515,7 +517,7 @@ Found find_bad_content(const Content& content) {
     return nothing_more();
 }
 
-/// Sections that need each other.
+/// Finds a section that another one depends on and that is missing.
 Found find_missing(Bytes file) {
     const auto missing = [](SectionId id) {
         return Damage{DamageKind::missing_section, id, kSectionTableOffset, 0, 1};

@@ -19,7 +19,7 @@ namespace {
 using Found = std::optional<Damage>;
 using Bytes = std::span<const std::byte>;
 
-/// A section's elements, copied: the file's bytes may have any alignment.
+/// Returns a copy of a section's elements, because the file's bytes may have any alignment.
 template <class T>
 std::vector<T> copy_of(Bytes file, SectionId id) {
     const std::optional<SectionEntry> entry = find_section(file, id);
@@ -44,9 +44,9 @@ std::vector<Double3> positions_of(Bytes file) {
     return positions;
 }
 
-/// Sign of (x - origin) * 2^exponent - bound in exact arithmetic. The difference
-/// is kept with its rounding error; the scaling is exact unless it underflows,
-/// and then only a bound of 0 can compare equal.
+/// Returns the sign of (x - origin) * 2^exponent - bound in exact arithmetic. The difference is
+/// kept with its rounding error. The scaling is exact unless it underflows; then only a bound of 0
+/// can compare equal.
 int compare(double x, double origin, int exponent, float bound) {
     const double difference = x - origin;
     const double virtual_origin = x - difference;
@@ -63,7 +63,7 @@ double coordinate(const Double3& p, std::size_t axis) {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-/// What the checks of the tree look at.
+/// The data that the checks of the tree read.
 struct Tree {
     FileHeader header;
     BvhShape shape;
@@ -128,7 +128,7 @@ Found find_loose_box(Bytes file, SectionId id, const Tree& tree) {
     return std::nullopt;
 }
 
-/// A position in the coordinates that leaves keep.
+/// Returns a coordinate of a position in the coordinates that leaves keep.
 double stored_in_leaf(const Tree& tree, const Double3& p, std::size_t axis) {
     const double x = coordinate(p, axis);
     if ((tree.header.flags & model_exact_leaves) != 0) return x;
@@ -149,7 +149,7 @@ bool leaf_matches(const Tree& tree, const BvhLeaf& leaf, std::uint64_t first) {
                 if (std::fabs(local * scale) > reach) return false;
                 const float kept = static_cast<float>(exact ? x : local);
                 if (leaf.corner[i][axis][lane] != kept) return false;
-                if (exact && double{kept} != x) return false;  // the flag says: without loss
+                if (exact && double{kept} != x) return false;  // the flag means: without loss
             }
         }
     }
@@ -195,7 +195,7 @@ OrientedBox oriented_box(const OrientedNode& node, std::uint32_t box) {
 
 constexpr double kAxisTolerance = 8 * 0x1p-24;
 
-/// Unit length and at right angles, as float allows.
+/// Returns whether axes have unit length and are orthogonal, up to the rounding of float.
 bool are_orthonormal(std::span<const Vector> axes) {
     for (std::size_t i = 0; i < axes.size(); ++i) {
         for (std::size_t k = 0; k < axes.size(); ++k) {
@@ -206,7 +206,7 @@ bool are_orthonormal(std::span<const Vector> axes) {
     return true;
 }
 
-/// A vertex in frame coordinates, from `centre` on.
+/// Returns a vertex in frame coordinates, relative to `centre`.
 Vector vertex_from(const Tree& tree, std::uint32_t vertex, const Vector& centre) {
     Vector at{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -217,7 +217,7 @@ Vector vertex_from(const Tree& tree, std::uint32_t vertex, const Vector& centre)
     return at;
 }
 
-/// Unit axes at right angles, and every vertex of the triangles inside.
+/// Returns whether a box has orthonormal axes and contains every vertex of the triangles.
 bool oriented_box_holds(const Tree& tree, const OrientedBox& box, std::uint64_t first,
                         std::uint64_t last) {
     if (!are_orthonormal(box.axis)) return false;
@@ -253,8 +253,8 @@ SweptSphere swept_sphere(const SweptNode& node, std::uint32_t box) {
     return result;
 }
 
-/// Unit axes at right angles, and every vertex within the radius of a point of the
-/// middle: the nearest as far as the axes are at right angles.
+/// Returns whether a swept sphere has orthonormal axes and every vertex is within the radius of a
+/// point of the middle. That point is the nearest, as far as the axes are orthogonal.
 bool swept_sphere_holds(const Tree& tree, const SweptSphere& sphere, std::uint64_t first,
                         std::uint64_t last) {
     if (!are_orthonormal(sphere.axis)) return false;
@@ -272,8 +272,8 @@ bool swept_sphere_holds(const Tree& tree, const SweptSphere& sphere, std::uint64
     return true;
 }
 
-/// The first of the bounds of one section, box by box, for which
-/// `holds(node, box, first, last)` is false; the last two are triangles.
+/// Finds the first bound of a section, box by box, for which `holds(node, box, first, last)` is
+/// false. The last two arguments are triangles.
 template <class Node, class Holds>
 Found find_loose_bound(Bytes file, SectionId id, const Tree& tree, Holds holds) {
     const auto nodes = copy_of<Node>(file, id);
@@ -312,7 +312,7 @@ Found find_loose_swept(Bytes file, SectionId id, const Tree& tree) {
         });
 }
 
-/// A list of numbers below its own length, of which one is there twice.
+/// Finds a number that occurs twice in a list of numbers below its length.
 Found find_repeated(Bytes file, SectionId id) {
     const auto list = copy_of<std::uint32_t>(file, id);
     std::vector<bool> seen(list.size(), false);
@@ -326,7 +326,8 @@ Found find_repeated(Bytes file, SectionId id) {
     return std::nullopt;
 }
 
-/// A triangle that is in two leaves of pieces: as many are in leaves as there are.
+/// Finds a triangle in two leaves of pieces. If there is none, each is in one leaf: the leaves
+/// contain as many triangles as there are.
 Found find_twice_held(Bytes file) {
     const auto leaves = copy_of<PieceLeaf>(file, SectionId::piece_leaves);
     std::vector<bool> seen(copy_of<std::uint32_t>(file, SectionId::piece_triangles).size(), false);
@@ -344,7 +345,7 @@ Found find_twice_held(Bytes file) {
     return std::nullopt;
 }
 
-/// The hierarchy over pieces as one over triangles: eight a leaf, the last as often as it takes.
+/// Returns the BVH over pieces as one over triangles: eight per leaf, the last triangle repeated.
 Tree piece_tree(Bytes file, const Tree& tree) {
     const auto leaves = copy_of<PieceLeaf>(file, SectionId::piece_leaves);
     const auto listed = copy_of<std::uint32_t>(file, SectionId::piece_triangles);
@@ -392,7 +393,7 @@ Found find_outside_bounds(Bytes file, const Tree& tree) {
     return std::nullopt;
 }
 
-/// The header's hash against the table's entries.
+/// Compares the header's hash with the table's entries.
 Found find_wrong_hash(Bytes file) {
     const FileHeader header = read_header(file);
     std::vector<SectionEntry> entries(header.section_count);

@@ -10,8 +10,8 @@
 #include "cdprep/format/limits.h"
 #include "reference_lists.h"
 
-// Parts follow each other in the order of the hulls: a counter per section proves that all
-// lie in it and none is two hulls'.
+// Parts follow each other in the order of the hulls. A counter per section proves that all lie in
+// it and that no two hulls share any.
 
 namespace cdprep::format {
 namespace {
@@ -24,7 +24,7 @@ constexpr std::array<SectionId, 7> kIds = {SectionId::hulls,         SectionId::
                                            SectionId::hull_groups,   SectionId::hull_neighbours,
                                            SectionId::hull_starts};
 
-/// Enclosing hulls may reach a little farther than what they enclose.
+/// Enclosing hulls may reach a little farther than their contents.
 constexpr double kMostReach = 4 * kMaxCoordinate;
 
 struct Parts {
@@ -46,7 +46,7 @@ struct Parts {
           starts(file, SectionId::hull_starts, wanted) {}
 };
 
-/// By which hulls are sorted.
+/// Returns the key by which hulls are sorted.
 std::uint64_t place_of(const Hull& hull) noexcept {
     return std::uint64_t{static_cast<std::uint32_t>(hull.scope)} << 32 | hull.number;
 }
@@ -60,12 +60,12 @@ std::uint64_t neighbour_words(const Hull& hull) noexcept {
     return std::uint64_t{hull.point_count} + 1 + hull.neighbour_count;
 }
 
-/// Where the next hull's parts begin.
+/// The places where the next hull's parts begin.
 struct Next {
     std::uint64_t block = 0, facet = 0, group = 0, neighbour = 0, start = 0;
 };
 
-/// Parts that begin where they should, and end inside their section.
+/// Finds damage in a run of parts. It must begin at `next` and end inside its section.
 Found find_bad_run(const Parts& parts, std::uint64_t i, std::uint64_t first, std::uint64_t count,
                    std::uint64_t& next, std::uint64_t room) noexcept {
     assert(next <= room);
@@ -105,7 +105,7 @@ bool is_reach(double x) noexcept {
     return x >= 0 && x <= kMostReach;  // false for NaN
 }
 
-/// Counts that the dimension asks for, and numbers in range.
+/// Finds a count that contradicts the dimension, or a number out of range.
 Found find_bad_facts(const Parts& parts, std::uint64_t i, const Hull& hull) noexcept {
     const auto bad = [&](DamageKind kind, std::uint64_t found, std::uint64_t limit) {
         return parts.hulls.damage(kind, i, found, limit);
@@ -134,7 +134,7 @@ Found find_bad_facts(const Parts& parts, std::uint64_t i, const Hull& hull) noex
     return has_reach ? Found{} : bad(DamageKind::bad_number, 0, 0);
 }
 
-/// Every lane within reach; those past the last point repeat it.
+/// Finds a lane that is not within reach, or one past the last point that does not repeat it.
 Found find_bad_point(const Parts& parts, const Hull& hull) noexcept {
     const std::array<double, 3> reach = {hull.reach.x, hull.reach.y, hull.reach.z};
     for (std::uint64_t b = 0; b < blocks_of(hull); ++b) {
@@ -156,13 +156,13 @@ Found find_bad_point(const Parts& parts, const Hull& hull) noexcept {
     return std::nullopt;
 }
 
-/// The place of the edge from `from` in a facet, or 3.
+/// Returns the place of the edge from `from` in a facet, or 3.
 std::size_t edge_from(const HullFacet& facet, std::uint32_t from) noexcept {
     return static_cast<std::size_t>(std::find(facet.point.begin(), facet.point.end(), from) -
                                     facet.point.begin());
 }
 
-/// Each facet's neighbours know it across the same edges.
+/// Finds a facet whose neighbour does not name it across the same edge.
 Found find_bad_facet(const Parts& parts, const Hull& hull) noexcept {
     for (std::uint32_t f = 0; f < hull.facet_count; ++f) {
         const std::uint64_t at = std::uint64_t{hull.first_facet} + f;
@@ -189,7 +189,8 @@ Found find_bad_facet(const Parts& parts, const Hull& hull) noexcept {
     return std::nullopt;
 }
 
-/// Groups follow each other, cover all facets, and their facets say so.
+/// Finds damage in the groups. They must follow each other and cover all facets, and their facets
+/// must name them.
 Found find_bad_group(const Parts& parts, const Hull& hull) noexcept {
     std::uint64_t next = 0;
     for (std::uint32_t g = 0; g < hull.group_count; ++g) {
@@ -212,7 +213,7 @@ Found find_bad_group(const Parts& parts, const Hull& hull) noexcept {
     return parts.groups.damage(DamageKind::bad_count, hull.first_group, next, hull.facet_count);
 }
 
-/// Numbers of points from place `first` on.
+/// Finds a number that is not that of a point, from place `first` on.
 Found find_bad_points(const SectionView<std::uint32_t>& section, std::uint64_t first,
                       std::uint64_t count, const Hull& hull) noexcept {
     for (std::uint64_t i = first; i < first + count; ++i) {
@@ -252,7 +253,7 @@ Found find_bad_hull(const Parts& parts, std::uint64_t i, const Hull& hull, Next&
     return find_bad_neighbour(parts, hull);
 }
 
-/// Nothing in a section that is no hull's.
+/// Finds an element of a section that belongs to no hull.
 template <class T>
 Found find_rest(const SectionView<T>& section, std::uint64_t used) noexcept {
     if (section.count() == used) return std::nullopt;

@@ -11,9 +11,9 @@
 #include "cell_boxes.h"
 #include "reference_lists.h"
 
-// Nodes stand level by level, so the children of each follow those of the one before: one
-// pass with one counter proves that every node is reached once. The same holds for the
-// references of leaves, and keys that continue their parents' end at level 21 by themselves.
+// Nodes are stored level by level, so the children of each follow those of the one before. So one
+// pass with one counter proves that every node is reached once. The same holds for the references
+// of leaves. Keys that continue their parents' keys end at level 21 by themselves.
 
 namespace cdprep::format {
 namespace {
@@ -31,7 +31,7 @@ bool is_leaf(const OctreeNode& node) noexcept {
     return (node.count & kInnerNode) == 0;
 }
 
-/// An octree's sections, as far as they are wanted.
+/// The wanted sections of an octree.
 struct Parts {
     SectionView<OctreeGrid> grid;
     SectionView<OctreeNode> nodes;
@@ -52,7 +52,7 @@ struct Parts {
           triangle_count(read_header(file).triangle_count) {}
 };
 
-/// Planes that are finite and rise strictly: a step of two ulp of the farthest.
+/// Returns whether planes are finite and rise strictly: a step is at least two ulp of the farthest.
 bool has_planes(const OctreeGrid& grid) noexcept {
     constexpr double kSteps = 1U << kOctreeBits;
     constexpr double kFarthest = 4 * kMaxCoordinate;
@@ -84,7 +84,7 @@ Found find_bad_grid(const Parts& parts) noexcept {
     return limited(grid.slot_bits, kMostSlotBits);
 }
 
-/// Where the next node's children and references begin.
+/// The places where the next node's children and references begin.
 struct Next {
     std::uint64_t child = 1;
     std::uint64_t reference = 0;
@@ -137,7 +137,7 @@ Found find_bad_tree(Parts& parts) noexcept {
     }
     Next next;
     for (std::uint64_t i = 0; i < count; ++i) {
-        // Nobody's child: the keys below were not compared with a parent's.
+        // Node i is not the child of any node: its key was not compared with a parent's.
         if (i >= next.child) return parts.nodes.damage(DamageKind::bad_order, i, i, next.child - 1);
         const OctreeNode node = parts.nodes[i];
         const Found damage = is_leaf(node) ? find_bad_leaf(parts, i, node, next)
@@ -150,8 +150,8 @@ Found find_bad_tree(Parts& parts) noexcept {
                                    next.reference);
 }
 
-/// Every leaf once, along the z curve: as many as there are, all of them leaves, each with
-/// its code, codes rising.
+/// Finds damage in the sorted leaves. They must be all leaves, each once, along the z curve. Each
+/// has its code, and codes rise.
 Found find_bad_sorted_leaf(const Parts& parts) noexcept {
     for (const auto* entry : {&parts.leaf_codes.entry, &parts.leaf_nodes.entry}) {
         if (entry->count != parts.leaf_count) {
@@ -177,7 +177,7 @@ Found find_bad_sorted_leaf(const Parts& parts) noexcept {
     return std::nullopt;
 }
 
-/// The numbers of leaves before each cell, which the codes on either side prove.
+/// Finds a wrong number of leaves before a cell. The codes on either side prove the number.
 Found find_bad_top(const Parts& parts) noexcept {
     const std::uint32_t level = parts.grid[0].top_level;
     assert(level <= kOctreeBits);
@@ -199,8 +199,8 @@ Found find_bad_top(const Parts& parts) noexcept {
     return std::nullopt;
 }
 
-/// Chains of rising numbers, so that they end, each of its own slot's nodes, and as many
-/// links as there are nodes.
+/// Finds damage in a chained table. Chains must rise, so that they end, and contain only nodes of
+/// their own slot. There must be as many links as nodes.
 Found find_bad_table(const Parts& parts, const SectionView<std::uint32_t>& table,
                      std::uint64_t (*slot_of)(std::uint64_t, std::uint32_t) noexcept) noexcept {
     const std::uint32_t bits = parts.grid[0].slot_bits;

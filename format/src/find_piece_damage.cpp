@@ -32,7 +32,7 @@ struct Parts {
           vertex_count(read_header(file).vertex_count) {}
 };
 
-/// Where the lists of a piece begin, or those of the last one end.
+/// The places where the lists of a piece begin, or where those of the last piece end.
 struct Begins {
     std::uint64_t triangle;
     std::uint64_t vertex;
@@ -47,7 +47,8 @@ Begins begins_of(const Parts& parts, std::uint64_t piece) noexcept {
     return {at.first_triangle, at.first_vertex, at.first_facet};
 }
 
-/// Numbers below `limit`, rising. The run lies in the section.
+/// Finds a number in a run that is not below `limit` or does not rise. The run must lie in the
+/// section.
 Found find_bad_run(const SectionView<std::uint32_t>& list, std::uint64_t first, std::uint64_t last,
                    std::uint64_t limit) noexcept {
     std::uint64_t least = 0;
@@ -80,8 +81,8 @@ Found find_bad_facet(const Parts& parts, std::uint64_t i, std::uint64_t corners,
     return std::nullopt;
 }
 
-/// A hull of dimension d has d + 1 corners at least; facets are those of a closed surface
-/// over all of them, a point or segment has none.
+/// Returns whether the counts match the dimension. A hull of dimension d has at least d + 1
+/// corners. Its facets form a closed surface over all corners; a point or segment has none.
 bool has_right_counts(std::uint32_t dimension, std::uint64_t corners,
                       std::uint64_t facets) noexcept {
     if (dimension < 2) return corners == std::uint64_t{dimension} + 1 && facets == 0;
@@ -129,8 +130,8 @@ Found find_bad_piece(const Parts& parts, std::uint64_t i) noexcept {
     return std::nullopt;
 }
 
-/// Whether the facet `other` has the edge from `to` to `from`, and `facet` beyond it. Both are
-/// numbered within the piece whose facets begin at `first`.
+/// Returns whether the facet `other` has the edge from `to` to `from`, with `facet` beyond it. Both
+/// are numbered within the piece whose facets begin at `first`.
 bool leads_back(const Parts& parts, const SectionView<PieceAdjacency>& adjacency,
                 std::uint64_t first, std::uint32_t other, std::uint64_t facet, std::uint32_t from,
                 std::uint32_t to) noexcept {
@@ -143,7 +144,8 @@ bool leads_back(const Parts& parts, const SectionView<PieceAdjacency>& adjacency
     return false;
 }
 
-/// Pairs the edges of all facets, so that every walk around a corner or a face ends.
+/// Finds an edge of a facet that is not paired. Pairs ensure that every walk around a corner or a
+/// face ends.
 Found find_bad_adjacency(const Parts& parts,
                          const SectionView<PieceAdjacency>& adjacency) noexcept {
     if (adjacency.count() != parts.facets.count()) {
@@ -169,7 +171,7 @@ Found find_bad_adjacency(const Parts& parts,
     return std::nullopt;
 }
 
-/// The piece of each triangle that a piece lists.
+/// Finds a triangle whose stored piece is not the one that lists it.
 Found find_bad_owner(const Parts& parts, const SectionView<std::uint32_t>& piece_of) noexcept {
     if (piece_of.count() != parts.triangle_count) {
         return piece_of.damage(DamageKind::bad_count, 0, piece_of.count(), parts.triangle_count);

@@ -17,10 +17,10 @@ using Found = std::optional<Damage>;
 
 constexpr std::array kIds = {SectionId::piece_nodes, SectionId::piece_leaves,
                              SectionId::piece_node_hulls, SectionId::piece_swept};
-/// What the hierarchy speaks of.
+/// The sections that the BVH refers to.
 constexpr std::array kBelow = {SectionId::pieces, SectionId::piece_triangles};
 
-/// A leaf whose run is not among its piece's triangles.
+/// Finds a leaf whose run is not among its piece's triangles.
 Found find_bad_leaf(const SectionView<Piece>& pieces, const SectionView<PieceLeaf>& leaves,
                     std::uint64_t triangles, std::uint64_t i) noexcept {
     const PieceLeaf leaf = leaves[i];

@@ -12,9 +12,9 @@
 #include "cdprep/format/tetra_tree.h"
 #include "reference_lists.h"
 
-// Nodes stand level by level, the octants first, so the children of each follow those of
-// the one before, and so do lists: one pass with two counters proves that every node and
-// every reference is reached once. Keys that continue their parents' end by themselves.
+// Nodes are stored level by level, the octants first. So the children and lists of each follow
+// those of the one before. One pass with two counters proves that every node and every reference is
+// reached once. Keys that continue their parents' keys end by themselves.
 
 namespace cdprep::format {
 namespace {
@@ -22,12 +22,12 @@ namespace {
 using Found = std::optional<Damage>;
 using Bytes = std::span<const std::byte>;
 
-/// BvhNode and OrientedNode alike: numbers of eight boxes side by side.
+/// The common form of BvhNode and OrientedNode: rows of numbers of eight boxes side by side.
 template <std::size_t kRows>
 using Rows = std::array<std::array<float, kBvhWidth>, kRows>;
 static_assert(sizeof(Rows<6>) == sizeof(BvhNode) && sizeof(Rows<12>) == sizeof(OrientedNode));
 
-/// A tetra-tree's sections, as far as they are wanted.
+/// The wanted sections of a tetra-tree.
 struct Parts {
     SectionView<TetraTree> tree;
     SectionView<TetraNode> nodes;
@@ -76,7 +76,7 @@ Found find_bad_facts(const Parts& parts) noexcept {
     return limited(tree.centre_count, parts.references.count());
 }
 
-/// Where the next node's children and references begin.
+/// The places where the next node's children and references begin.
 struct Next {
     std::uint64_t child;
     std::uint64_t reference;
@@ -126,8 +126,8 @@ Found find_bad_leaf(const Parts& parts, std::uint64_t i, const TetraNode& node,
     return find_bad_list(parts.references, node.first, node.count, parts.triangle_count);
 }
 
-/// The number of octants that come first, their keys rising; the rest are somebody's
-/// children or damage.
+/// Returns the number of octants at the beginning, with rising keys. The other nodes are children
+/// or damage.
 std::uint64_t count_octants(const Parts& parts) noexcept {
     std::uint64_t count = 0;
     std::uint32_t least = 8;
@@ -147,7 +147,7 @@ Found find_bad_tree(const Parts& parts) noexcept {
     }
     Next next{count_octants(parts), centre};
     for (std::uint64_t i = 0; i < parts.nodes.count(); ++i) {
-        // Nobody's child: its key was not compared with a parent's.
+        // Node i is not the child of any node: its key was not compared with a parent's.
         if (i >= next.child) return parts.nodes.damage(DamageKind::bad_order, i, i, next.child);
         const TetraNode node = parts.nodes[i];
         if (!has_radii(node)) return parts.nodes.damage(DamageKind::bad_number, i, 0, 0);
@@ -160,8 +160,8 @@ Found find_bad_tree(const Parts& parts) noexcept {
                                    next.reference);
 }
 
-/// The cones of top_level below a node of that level, or a leaf above it, name it; those
-/// that no such node holds are 0.
+/// Finds damage in the top table. A node of top_level, or a leaf above it, must be named by the
+/// cones of top_level below it. Cones without such a node are 0.
 Found find_bad_top(const Parts& parts) noexcept {
     const std::uint32_t level = parts.tree[0].top_level;
     const std::uint32_t cones = tetra_cones(level);
@@ -186,7 +186,8 @@ Found find_bad_top(const Parts& parts) noexcept {
     return parts.top.damage(DamageKind::bad_count, 0, 0 - named, 0);
 }
 
-/// Of a node that there is: numbers of the frame, in order. Rows are those of BvhNode.
+/// Returns whether the box of a node lies in the frame, with ordered bounds. Rows are those of
+/// BvhNode.
 bool is_box(const Rows<6>& rows, std::uint32_t lane) noexcept {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const float lower = rows[axis][lane];
@@ -196,7 +197,7 @@ bool is_box(const Rows<6>& rows, std::uint32_t lane) noexcept {
     return true;
 }
 
-/// The same of an oriented one. Rows are those of OrientedNode.
+/// Returns whether an oriented box of a node has valid numbers. Rows are those of OrientedNode.
 bool is_box(const Rows<12>& rows, std::uint32_t lane) noexcept {
     for (std::size_t row = 0; row < rows.size(); ++row) {
         const float x = rows[row][lane];
@@ -206,7 +207,7 @@ bool is_box(const Rows<12>& rows, std::uint32_t lane) noexcept {
     return true;
 }
 
-/// One column of `a` and one of `b`.
+/// Returns whether a column of `a` equals one of `b`.
 template <std::size_t kRows>
 bool same_lane(const Rows<kRows>& a, std::uint32_t lane_a, const Rows<kRows>& b,
                std::uint32_t lane_b) noexcept {
@@ -216,7 +217,8 @@ bool same_lane(const Rows<kRows>& a, std::uint32_t lane_a, const Rows<kRows>& b,
     return true;
 }
 
-/// Boxes that two elements have in common are the same; `unused` are those of no node.
+/// Finds a box that is invalid, or that differs between the two elements that store it. `unused` is
+/// the box of no node.
 template <std::size_t kRows>
 Found find_bad_boxes(const SectionView<Rows<kRows>>& section, std::uint64_t nodes,
                      const std::array<float, kRows>& unused) noexcept {
@@ -254,7 +256,7 @@ Found find_bad_boxes(const Parts& parts, SectionSet wanted) noexcept {
     return find_bad_boxes<12>(parts.oriented, nodes, {1, 0, 0, 0, 1, 0, 0, 0, 0, -1, -1, -1});
 }
 
-/// A tree has boxes exactly when its facts say so.
+/// Finds boxes that contradict the tree's facts: missing, or present without reason.
 Found find_missing_boxes(Bytes file, TetraBounding bounding) noexcept {
     const bool wants_boxes = bounding == TetraBounding::boxes;
     for (const SectionId id : {SectionId::tetra_boxes, SectionId::tetra_oriented}) {

@@ -26,7 +26,7 @@ struct HashedFacts {
 };
 static_assert(sizeof(HashedFacts) == 6 * 4 + 9 * 8);
 
-/// A section without its place.
+/// A section without its offset.
 struct HashedSection {
     SectionId id;
     std::uint32_t element_size;

@@ -12,7 +12,7 @@ inline Damage missing_section(SectionId id) noexcept {
     return {DamageKind::missing_section, id, kSectionTableOffset, 0, 1};
 }
 
-/// Of sections that a file has all of or none: the first that is missing beside others.
+/// Finds the first missing section of a group of which a file must have all or none.
 inline std::optional<Damage> find_gap(std::span<const std::byte> file,
                                       std::span<const SectionId> sections) noexcept {
     std::optional<Damage> gap;
@@ -27,7 +27,8 @@ inline std::optional<Damage> find_gap(std::span<const std::byte> file,
     return has_some ? gap : std::nullopt;
 }
 
-/// A leaf's references, which lie in the section: of triangles that there are, rising.
+/// Finds damage in a leaf's references, which must lie in the section. They must name existing
+/// triangles and rise.
 inline std::optional<Damage> find_bad_list(const SectionView<std::uint32_t>& references,
                                            std::uint64_t first, std::uint64_t count,
                                            std::uint64_t triangle_count) noexcept {

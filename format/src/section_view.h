@@ -12,14 +12,14 @@
 
 namespace cdprep::format {
 
-/// The elements of one section of a file, which is proved to lie inside it. Every read is a
-/// copy: the file's bytes may have any alignment.
+/// The elements of one section, which is proven to lie inside the file. Every read is a copy,
+/// because the file's bytes may have any alignment.
 template <class T>
 struct SectionView {
     std::span<const std::byte> file;
     SectionEntry entry{};
 
-    /// Of a section that is not there, or not wanted: empty.
+    /// Makes a view of a section. It is empty if the section is missing or not wanted.
     SectionView(std::span<const std::byte> of, SectionId id, SectionSet wanted) noexcept
         : file(of) {
         entry.id = id;

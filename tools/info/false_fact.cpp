@@ -130,7 +130,7 @@ private:
     /// The other flags say how sections are to be read, and are checked with those.
     [[nodiscard]] Found find_false_flag() const {
         const std::uint32_t flags = model_.header().flags;
-        if (Found found = differ(flag_field("closed"), (flags & format::model_balanced) != 0,
+        if (Found found = differ(flag_field("balanced"), (flags & format::model_balanced) != 0,
                                  topology_.closed)) {
             return found;
         }

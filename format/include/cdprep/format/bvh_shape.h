@@ -8,18 +8,18 @@
 
 namespace cdprep::format {
 
-/// Where the nodes of each level lie, from the triangle count alone.
+/// The places of the nodes of each level, which follow from the triangle count alone.
 ///
-/// Level 0 is the lowest: its boxes hold leaves. The root is level
-/// `levels - 1`, node 0 of the array. No triangles, no nodes.
+/// Level 0 is the lowest: its boxes contain leaves. The root is level `levels - 1` and node 0 of
+/// the array. Without triangles there are no nodes.
 struct BvhShape {
-    std::uint32_t levels = 0;                          ///< 0 only when there are no triangles
+    std::uint32_t levels = 0;                          ///< 0 only if there are no triangles
     std::uint32_t leaf_count = 0;                      ///< ceil(triangles / 8)
     std::uint32_t node_count = 0;                      ///< of all levels
     std::array<std::uint32_t, kMaxBvhLevels> first{};  ///< index of the level's first node
     std::array<std::uint32_t, kMaxBvhLevels> count{};  ///< nodes of the level
 
-    /// Returns how many boxes of node `node` of level `level` are used: 1 to 8.
+    /// Returns the number of used boxes of node `node` of level `level`: 1 to 8.
     [[nodiscard]] constexpr std::uint32_t used_boxes(std::uint32_t level,
                                                      std::uint32_t node) const noexcept {
         const std::uint32_t below = level == 0 ? leaf_count : count[level - 1];
@@ -28,8 +28,7 @@ struct BvhShape {
     }
 };
 
-/// Returns the shape of the hierarchy over `triangle_count` triangles, which is
-/// at most kMaxTriangles.
+/// Returns the shape of the BVH over `triangle_count` triangles, at most kMaxTriangles.
 [[nodiscard]] constexpr BvhShape bvh_shape(std::uint32_t triangle_count) noexcept {
     BvhShape shape;
     if (triangle_count == 0) return shape;

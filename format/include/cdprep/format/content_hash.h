@@ -9,15 +9,14 @@
 
 namespace cdprep::format {
 
-/// Returns the hash of what a model *is*: the header's facts (counts, flags,
-/// units, frame, normalisation) and each section's id, element size, count and
-/// checksum, in the order of ids. Offsets, file size and HDF5's part do not
-/// count.
+/// Returns the hash of a model's content. It covers the header's facts: counts, flags, units, frame
+/// and normalisation. It also covers each section's id, element size, count and checksum, in the
+/// order of ids. It does not cover offsets, the file size and the HDF5 part.
 [[nodiscard]] std::uint64_t content_hash(const FileHeader& header,
                                          std::span<const SectionEntry> sections) noexcept;
 
-/// Returns the checksum of a user block as if its field header_checksum were
-/// zero. `user_block` holds kUserBlockSize bytes.
+/// Returns the checksum of a user block as if its field header_checksum were zero. `user_block`
+/// holds kUserBlockSize bytes.
 [[nodiscard]] std::uint64_t header_checksum(
     std::span<const std::byte, kUserBlockSize> user_block) noexcept;
 

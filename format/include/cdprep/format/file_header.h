@@ -11,11 +11,11 @@
 
 namespace cdprep::format {
 
-/// First bytes of a finished bake. The writer stores them last. 0x93 and the
-/// line ends catch transfers in text mode.
+/// The first bytes of a finished baked file. The writer stores them last. 0x93 and the line ends
+/// detect transfers in text mode.
 inline constexpr std::array<char, 8> kMagic = {'\x93', 'C', 'D', 'P', '\r', '\n', '\x1a', '\n'};
 
-/// Raised whenever an older reader would misread a newer file.
+/// The format version. It rises whenever an older reader would misread a newer file.
 inline constexpr std::uint32_t kVersion = 1;
 
 inline constexpr std::uint32_t kEndianMark = 0x01020304;    ///< as the writer's processor stores it
@@ -23,25 +23,26 @@ inline constexpr double kIeeeCheck = 0x1.5bf0a8b145769p+1;  ///< e: proves IEEE 
 
 inline constexpr std::uint64_t kUserBlockSize = 4096;   ///< HDF5 starts here
 inline constexpr std::uint64_t kSectionAlignment = 64;  ///< one cache line
-inline constexpr std::uint64_t kPageAlignment = 4096;   ///< of sections of kPageThreshold and more
+inline constexpr std::uint64_t kPageAlignment = 4096;   ///< for sections of kPageThreshold and more
 inline constexpr std::uint64_t kPageThreshold = 65536;  ///< bytes
 
-/// What a section holds: the rows of section_table.inc, which says more of each. Numbers are never
-/// reused, not even for retired ids.
+/// The content of a section: a row of section_table.inc, which describes it. Numbers are never
+/// reused, not even those of retired ids.
 enum class SectionId : std::uint32_t {
 #define CDPREP_SECTION(member, name, id, Element, count, when, serves, units, description) \
     name = (id),
 #include "cdprep/format/section_table.inc"
 };
 
-/// In repaired_from and source_vertex: made by a repair, from nothing in the file.
+/// The value in repaired_from and source_vertex for elements that a repair made from nothing in the
+/// file.
 inline constexpr std::uint32_t kMadeByRepair = 0xffffffffU;
 
-/// Where a section lies.
+/// An entry of the section table: the place and size of a section.
 struct SectionEntry {
     SectionId id;
-    std::uint32_t element_size;  ///< bytes; redundant, so that a mismatch is caught early
-    std::uint64_t offset;        ///< from the start of the file; kSectionAlignment; 0 when empty
+    std::uint32_t element_size;  ///< bytes; redundant, to catch a mismatch early
+    std::uint64_t offset;        ///< in the file, a multiple of kSectionAlignment; 0 if empty
     std::uint64_t count;         ///< elements, not bytes
     std::uint64_t checksum;      ///< checksum() of the section's bytes
 };
@@ -51,29 +52,29 @@ enum ModelFlags : std::uint32_t {
     model_balanced = 1,           ///< the directed uses of every edge cancel: winding numbers exist
     model_normalized = 2,         ///< baked with --normalize
     model_exact_leaves = 4,       ///< bvh_leaves hold model coordinates without loss
-    model_swept_lines = 8,        ///< swept_nodes hold lines; without this and the next: points
+    model_swept_lines = 8,        ///< swept_nodes hold lines; points without either bit
     model_swept_rectangles = 16,  ///< swept_nodes hold rectangles
 };
 
-/// What the swept_nodes of a model with these flags hold.
+/// Returns the kind of swept_nodes in a model with these flags.
 [[nodiscard]] constexpr SweptKind swept_kind(std::uint32_t flags) noexcept {
     if ((flags & model_swept_rectangles) != 0) return SweptKind::rectangle;
     return (flags & model_swept_lines) != 0 ? SweptKind::line : SweptKind::point;
 }
 
-/// The flags that say so.
+/// Returns the flags for this kind.
 [[nodiscard]] constexpr std::uint32_t swept_flags(SweptKind kind) noexcept {
     if (kind == SweptKind::rectangle) return model_swept_rectangles;
     return kind == SweptKind::line ? model_swept_lines : 0U;
 }
 
-/// Direction that the imported file calls up. Data only: nothing is turned.
+/// The up direction of the imported file. Data only: nothing is rotated.
 enum class UpAxis : std::uint32_t { unknown = 0, x = 1, y = 2, z = 3 };
 
 /// The start of the file. The section table follows at byte 256.
 ///
-/// The frame maps model coordinates to those of the hierarchy's boxes:
-/// (x - frame_origin) * 2^frame_exponent, which lie in [-1, 1].
+/// The frame maps model coordinates x to (x - frame_origin) * 2^frame_exponent. These are the
+/// coordinates of the BVH's boxes, which lie in [-1, 1].
 struct FileHeader {
     std::array<char, 8> magic;  ///< kMagic
     std::uint32_t version;      ///< kVersion
@@ -82,21 +83,21 @@ struct FileHeader {
     std::uint64_t file_size;    ///< bytes, HDF5 part included
     /// checksum() of the user block with this field zero.
     std::uint64_t header_checksum;
-    /// Of the sections' ids, sizes, counts and checksums and of the header's
-    /// facts about the model: same input, options and tool version, same hash.
+    /// content_hash(): of the sections' ids, sizes, counts and checksums, and of the header's facts
+    /// about the model. The same input, options and tool version give the same hash.
     std::uint64_t content_hash;
-    /// Bytes 8 to 47 of the HDF5 superblock. A tool that rewrites the file moves
-    /// the sections but copies this block; then these no longer match.
+    /// Bytes 8 to 47 of the HDF5 superblock. A tool that rewrites the file moves the sections but
+    /// copies this block; then the bytes no longer match.
     std::array<std::uint8_t, 40> superblock;
     std::uint32_t section_count;
-    std::uint32_t required_features;  ///< a reader refuses bits that it does not know; now 0
+    std::uint32_t required_features;  ///< a reader refuses unknown bits; 0 in this version
     std::uint32_t vertex_count;
     std::uint32_t triangle_count;
     std::uint32_t flags;  ///< ModelFlags
     UpAxis up_axis;
-    double metres_per_unit;       ///< length of one model unit; 0 when the file does not say
+    double metres_per_unit;       ///< length of one model unit; 0 if unknown
     Double3 frame_origin;         ///< model units
-    std::int32_t frame_exponent;  ///< of two
+    std::int32_t frame_exponent;  ///< exponent of two
     std::uint32_t reserved0;      ///< zero
     /// With model_normalized: model = (source - offset) * factor.
     Double3 normalize_offset;

@@ -11,8 +11,8 @@
 
 namespace cdprep::format {
 
-/// Returns the control register of the floating-point unit: MXCSR on x86-64, FPCR on ARM64.
-/// On other processors it is 0; WebAssembly has no modes.
+/// Returns the control register of the floating-point unit: MXCSR on x86-64, FPCR on ARM64. Returns
+/// 0 on other processors; WebAssembly has no modes.
 [[nodiscard]] inline std::uint64_t float_control() noexcept {
 #if defined(__x86_64__) || defined(_M_X64)
     return _mm_getcsr();
@@ -27,8 +27,8 @@ namespace cdprep::format {
 #endif
 }
 
-/// Returns whether a value of float_control() means the default: round to nearest, keep
-/// subnormal operands and results, mask all exceptions. Flags of past exceptions are ignored.
+/// Returns whether a value of float_control() is the default: round to nearest, keep subnormal
+/// operands and results, mask all exceptions. Flags of past exceptions are ignored.
 [[nodiscard]] constexpr bool is_default_float_control(std::uint64_t control) noexcept {
 #if defined(__x86_64__) || defined(_M_X64)
     constexpr std::uint64_t kFlagsOfPastExceptions = 0x3F;
@@ -39,21 +39,21 @@ namespace cdprep::format {
 #endif
 }
 
-/// Stores a value that float_control() returned. Never inlined: the compiler moves no
-/// arithmetic across the call.
+/// Sets a value that float_control() returned. Never inlined, so the compiler moves no arithmetic
+/// across the call.
 void set_float_control(std::uint64_t control) noexcept;
 
-/// Stores the default: see is_default_float_control().
+/// Sets the default; see is_default_float_control().
 void set_default_float_control() noexcept;
 
 /// Sets the default floating-point environment of this thread for its own lifetime, and then
-/// restores the caller's. Usually the caller's is the default already; the guard then costs a
-/// read and two comparisons, eight instructions on x86-64.
+/// restores the caller's. Usually the caller's is already the default. The guard then costs a read
+/// and two comparisons, eight instructions on x86-64.
 ///
-/// Engines flush subnormal numbers to zero on their threads, -ffast-math does so for a whole
-/// program, and some programs round in another direction or trap exceptions. Exactness is
-/// proved for the default environment alone, so each entry of the library begins with a guard.
-/// Stays on the thread that made it.
+/// Engines flush subnormal numbers to zero on their threads, and -ffast-math does so for a whole
+/// program. Some programs round in another direction or trap exceptions. Exactness is proven for
+/// the default environment only, so each entry of the library begins with a guard. A guard must
+/// stay on the thread that made it.
 class FloatEnvironment {
 public:
     FloatEnvironment() noexcept : callers_(float_control()) {
@@ -69,12 +69,12 @@ public:
     FloatEnvironment(const FloatEnvironment&) = delete;
     FloatEnvironment& operator=(const FloatEnvironment&) = delete;
 
-    /// Returns call(), which runs in the caller's environment: for visitors and hooks. A mode
-    /// that it sets stays set for the caller.
+    /// Returns the result of call(), which runs in the caller's environment: for visitors and
+    /// hooks. A mode that it sets stays set for the caller.
     template <class Call>
     decltype(auto) outside(Call&& call) {
 #if defined(__GNUC__)
-        // What the call reads is computed before, in the default environment.
+        // The values that the call reads are computed before, in the default environment.
         asm volatile("" : : "r"(&call) : "memory");
 #endif
         const Outside left(*this);

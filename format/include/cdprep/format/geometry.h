@@ -22,7 +22,7 @@ struct Double3 {
     friend bool operator==(const Double3&, const Double3&) = default;
 };
 
-/// Three numbers of vertices, counter-clockwise seen from outside.
+/// Three vertex numbers, counter-clockwise seen from outside.
 struct Triangle {
     std::array<std::uint32_t, 3> vertex;
     friend bool operator==(const Triangle&, const Triangle&) = default;
@@ -30,57 +30,53 @@ struct Triangle {
 
 /// Eight boxes side by side, ready for eight lanes: row = axis, column = box.
 ///
-/// Box j of node i of level 0 holds the triangles [8 (8i + j), 8 (8i + j) + 8)
-/// of the tree order; box j of node i of level l > 0 holds node 8i + j of level
-/// l - 1. So there are no child links: the triangle count alone fixes the
-/// shape (bvh_shape.h), and no file can hold a cycle. Nodes are stored level by
-/// level, root first. Boxes past the end of the level below are unused and
-/// hold lower = 1, upper = -1.
+/// Box j of node i of level 0 contains the eight triangles from 8 (8i + j) on, in tree order. Box j
+/// of node i of level l > 0 contains node 8i + j of level l - 1. So there are no child links. The
+/// triangle count alone fixes the shape (bvh_shape.h), and no file can contain a cycle. Nodes are
+/// stored level by level, root first. Boxes past the end of the level below are unused and have
+/// lower = 1, upper = -1.
 ///
-/// Coordinates are frame coordinates, (x - frame_origin) * 2^frame_exponent
-/// (FileHeader), rounded outwards: every vertex of every triangle below lies in
-/// the box in exact arithmetic, so a reader may prune without a tolerance of
-/// its own.
+/// Coordinates are frame coordinates, (x - frame_origin) * 2^frame_exponent (FileHeader), rounded
+/// outwards. Every vertex of every triangle below lies in the box in exact arithmetic. So a reader
+/// needs no tolerance of its own for pruning.
 struct BvhNode {
     std::array<std::array<float, kBvhWidth>, 3> lower;  ///< [axis][box], frame coordinates
     std::array<std::array<float, kBvhWidth>, 3> upper;  ///< [axis][box], frame coordinates
 };
 
-/// Eight oriented boxes side by side, around what the boxes of the BvhNode of the
-/// same number hold: row = component, column = box.
+/// Eight oriented boxes side by side: row = component, column = box. They are around the contents
+/// of the boxes of the BvhNode with the same number.
 ///
-/// A box is centre + sum of t_k axis_k with |t_k| <= half_k. The third axis is
-/// axis[0] x axis[1]; axis 0 is the one along which the box is thinnest. Axes are
-/// unit and at right angles up to the rounding of float, and the half extents are
-/// enlarged so that the box, taken with the axes as stored and the third rounded
-/// either way, holds every vertex below. Frame coordinates. Unused boxes hold
-/// centre 0, axes x and y, half -1.
+/// A box is centre + sum of t_k axis_k with |t_k| <= half_k. The third axis is axis[0] x axis[1].
+/// Axis 0 is the one along which the box is thinnest. Axes are unit and orthogonal up to the
+/// rounding of float. The half extents are enlarged so that the box contains every vertex below.
+/// This holds for the axes as stored, and the third axis rounded either way. Frame coordinates.
+/// Unused boxes have centre 0, axes x and y, half -1.
 struct OrientedNode {
     std::array<std::array<std::array<float, kBvhWidth>, 3>, 2> axis;  ///< [axis][component][box]
     std::array<std::array<float, kBvhWidth>, 3> centre;               ///< [component][box]
     std::array<std::array<float, kBvhWidth>, 3> half;                 ///< [axis][box]
 };
 
-/// How far the middle of a swept sphere reaches: a point, a line or a rectangle.
-/// One kind for all of a file (swept_kind() of FileHeader).
+/// The middle of a swept sphere: a point, a line or a rectangle. A file has one kind only
+/// (swept_kind() of FileHeader).
 enum class SweptKind : std::uint32_t { point = 0, line = 1, rectangle = 2 };
 
 /// One direction in which the spheres of a SweptNode are swept.
 struct SweptSide {
     std::array<std::array<float, kBvhWidth>, 3> axis;  ///< [component][box], unit length
-    std::array<float, kBvhWidth> half;                 ///< how far along it, either way, >= 0
+    std::array<float, kBvhWidth> half;                 ///< the extent along it, either way, >= 0
 };
 
-/// Eight swept spheres side by side, around what the boxes of the BvhNode of the
-/// same number hold: row = component, column = box.
+/// Eight swept spheres side by side: row = component, column = box. They are around the contents of
+/// the boxes of the BvhNode with the same number.
 ///
-/// One holds the points at most `radius` from its middle: centre + t_0 axis_0 +
-/// t_1 axis_1 with |t_k| <= half_k. A point has both halves 0, a line the second:
-/// a reader of points needs the first 128 bytes of a node alone, of lines 256. Axes
-/// are unit and at right angles up to the rounding of float; axis 0 is the one along
-/// which the surface spreads most. With the axes as stored every vertex below is held
-/// in exact arithmetic. Frame coordinates. Unused ones hold centre 0, axes x and y,
-/// halves and radius 0.
+/// A swept sphere contains the points at most `radius` from its middle, which is centre + t_0
+/// axis_0 + t_1 axis_1 with |t_k| <= half_k. For a point both halves are 0, for a line the second.
+/// A reader of points needs only the first 128 bytes of a node, a reader of lines 256. Axes are
+/// unit and orthogonal up to the rounding of float. Axis 0 is the one along which the surface
+/// spreads most. With the axes as stored, every vertex below is contained in exact arithmetic.
+/// Frame coordinates. Unused swept spheres have centre 0, axes x and y, halves and radius 0.
 struct SweptNode {
     std::array<std::array<float, kBvhWidth>, 3> centre;  ///< [component][box]
     std::array<float, kBvhWidth> radius;                 ///< >= 0
@@ -89,11 +85,10 @@ struct SweptNode {
 
 /// The corners of the eight triangles of one leaf, ready for eight lanes.
 ///
-/// With model_exact_leaves (FileHeader), corners and origin are in model
-/// coordinates and the corners without loss: the very floats of positions_f32.
-/// Otherwise the origin is in frame coordinates and `corner` holds frame
-/// coordinates less the origin, rounded to float. Lanes past the last triangle
-/// repeat it.
+/// With model_exact_leaves (FileHeader), corners and origin are in model coordinates. The corners
+/// are then the floats of positions_f32, without loss. Otherwise the origin is in frame
+/// coordinates, and `corner` is the frame coordinate less the origin, rounded to float. Lanes past
+/// the last triangle repeat it.
 struct BvhLeaf {
     std::array<std::array<std::array<float, kBvhWidth>, 3>, 3> corner;  ///< [corner][axis][lane]
     std::array<float, 3> origin;                                        ///< near the leaf's middle
@@ -102,8 +97,8 @@ struct BvhLeaf {
     std::uint32_t reserved;     ///< zero
 };
 
-/// The boxes of the whole model, in double precision and model units, both
-/// rounded outwards.
+/// The two boxes around the whole model, in double precision and model units. Both are rounded
+/// outwards.
 struct Bounds {
     Double3 lower;                ///< least coordinates of all triangles
     Double3 upper;                ///< greatest coordinates of all triangles
@@ -112,17 +107,16 @@ struct Bounds {
     Double3 half_extent;          ///< of the oriented box along each axis, >= 0
 };
 
-/// One maximal set of triangles connected through shared vertices.
+/// A maximal set of triangles connected through shared vertices.
 ///
-/// Components are ordered by their lowest source triangle. One vertex of each
-/// decides containment: when two surfaces do not touch, a component lies wholly
-/// inside or wholly outside the other model.
+/// Components are ordered by their lowest source triangle. One vertex of each decides containment.
+/// If two surfaces do not touch, a component lies wholly inside or wholly outside the other model.
 struct Component {
     std::uint32_t vertex;          ///< one of its vertices
     std::uint32_t triangle_count;  ///< its triangles
     std::uint32_t flags;           ///< ComponentFlags
     std::uint32_t reserved;        ///< zero
-    double signed_volume;  ///< cubic model units; negative when inside out; 0 when not closed
+    double signed_volume;  ///< cubic model units; negative if inverted; 0 unless balanced
 };
 
 /// Bits of Component::flags.
@@ -135,18 +129,18 @@ struct MassProperties {
     double volume;        ///< cubic model units, signed
     double surface_area;  ///< square model units
     Double3 centre;       ///< of mass, model units
-    /// About the centre, model axes: xx, yy, zz, xy, yz, zx. Products of
-    /// inertia carry the sign of -integral(x y).
+    /// About the centre, model axes: xx, yy, zz, xy, yz, zx. Products of inertia have the sign of
+    /// -integral(x y).
     std::array<double, 6> inertia;
 };
 
-/// One use of one mesh by one node of the imported scene.
+/// A use of one mesh by one node of the imported scene.
 ///
-/// Its triangles are the run [first_triangle, first_triangle + triangle_count)
-/// of the source numbering; runs follow each other without gaps and cover all
-/// triangles. Equal `mesh` numbers are instances of one mesh.
+/// Its triangles are the run [first_triangle, first_triangle + triangle_count) of the source
+/// numbers. Runs follow each other without gaps and cover all triangles. Equal `mesh` numbers are
+/// instances of one mesh.
 struct Instance {
-    std::array<double, 12> model_from_node;  ///< 3 x 4, row by row, already applied to positions
+    std::array<double, 12> model_from_node;  ///< 3 x 4, row by row; already applied to positions
     std::uint32_t mesh;                      ///< number of the mesh in the imported file
     std::uint32_t name;                      ///< number in instance_names: the node's path
     std::uint32_t first_triangle;            ///< source numbering
@@ -157,11 +151,11 @@ struct Instance {
 
 /// Bits of Instance::flags.
 enum InstanceFlags : std::uint32_t {
-    instance_mirrored = 1,  ///< the transform mirrors; winding was reversed to stay outward
+    instance_mirrored = 1,  ///< the transform mirrors; the winding was reversed to stay outward
 };
 
-/// A run of source triangles that share one name (a group or a material).
-/// Runs are sorted, do not overlap, and cover all triangles.
+/// A run of source triangles that share one name (a group or a material). Runs are sorted, do not
+/// overlap, and cover all triangles.
 struct NamedRun {
     std::uint32_t first_triangle;  ///< source numbering
     std::uint32_t triangle_count;

@@ -7,12 +7,12 @@
 
 namespace cdprep::format {
 
-/// Points of a hull side by side, for one vector operation each.
+/// The number of hull points side by side, for one vector operation.
 inline constexpr std::size_t kHullLanes = 8;
 
-/// Eight points of a convex hull, coordinate by coordinate: x of all, then y, then z, in
-/// model units. Lanes past a hull's last point repeat it, so that a search for the
-/// farthest point need not know how many there are.
+/// Eight points of a convex hull, by coordinate: all x, then all y, then all z, in model units.
+/// Lanes past a hull's last point repeat it. So a search for the farthest point need not know the
+/// number of points.
 struct alignas(64) HullBlock {
     std::array<std::array<double, kHullLanes>, 3> at;
 };

@@ -11,24 +11,26 @@
 
 namespace cdprep::format {
 
-/// What a hull is around.
+/// The set that a hull surrounds.
 enum class HullScope : std::uint32_t {
     whole = 0,      ///< the whole mesh
     component = 1,  ///< a connected component
     instance = 2,   ///< an instance of the imported file
-    part = 3,       ///< some of the surface and of what it encloses; all parts hold all of it
+    part = 3,       ///< a part of the surface and its interior; all parts together hold all
 };
 
 /// Bits of Hull::flags.
 enum HullFlags : std::uint32_t {
-    hull_exact = 1,  ///< its points are vertices; else it contains the exact hull
+    hull_exact = 1,  ///< its points are vertices; otherwise it contains the exact hull
 };
 
-/// A convex hull: of dimension 3 a closed polyhedron, 2 a polygon seen from both sides, 1 a
-/// segment, 0 a point, -1 of nothing. No point of it is farther than `distance`, in model
-/// units, from the exact hull; of a part, from the surface and what it encloses. What belongs to
-/// hulls follows each other in their sections without gaps, in the order of the hulls; numbers in
-/// them count from the hull's own first one.
+/// A convex hull. In dimension 3 it is a closed polyhedron, in 2 a polygon seen from both sides. In
+/// 1 it is a segment, in 0 a point, and in -1 it is empty.
+///
+/// No point of the hull is farther than `distance` from the exact hull, in model units. No point of
+/// a part is farther than that from the surface and its interior. The arrays of each hull follow
+/// those of the hull before in their sections, without gaps. Numbers in them count from the hull's
+/// own first element.
 struct Hull {
     HullScope scope;
     std::uint32_t number;  ///< of the component, instance or part; 0 for the whole
@@ -40,30 +42,30 @@ struct Hull {
     std::uint32_t facet_count;  ///< 2 * point_count - 4 in dimensions 2 and 3, else 0
     std::uint32_t first_group;
     std::uint32_t group_count;
-    std::uint32_t first_neighbour;  ///< of point_count + 1 begins, then neighbour_count points
-    std::uint32_t neighbour_count;  ///< 0: neither, as for small hulls, which are scanned
+    std::uint32_t first_neighbour;  ///< point_count + 1 begins, then neighbour_count points
+    std::uint32_t neighbour_count;  ///< 0: neither is stored; small hulls are scanned
     std::uint32_t first_start;
-    std::uint32_t start_count;  ///< kHullStarts where there are neighbours, else 0
-    double distance;            ///< see below
+    std::uint32_t start_count;  ///< kHullStarts with neighbours, otherwise 0
+    double distance;            ///< model units; see above
     Double3 reach;              ///< at least |x|, |y|, |z| of every point
 };
 
 /// A triangle of a hull, counter-clockwise from outside.
 struct HullFacet {
     std::array<std::uint32_t, 3> point;
-    std::array<std::uint32_t, 3> across;  ///< facet beyond the edge from point i to the next
+    std::array<std::uint32_t, 3> across;  ///< the facet beyond the edge from point i to the next
     std::uint32_t group;                  ///< rises with the facets' numbers
 };
 
-/// A maximal coplanar face of a hull, exactly.
+/// A maximal, exactly coplanar face of a hull.
 struct HullGroup {
     std::uint32_t first_facet;
     std::uint32_t facet_count;
 };
 
-/// Directions for which a start is stored: 8 x 8 cells on each face of a cube.
+/// The number of directions with a stored start: 8 x 8 cells on each face of a cube.
 inline constexpr std::uint32_t kHullStarts = 6 * 8 * 8;
-/// In hull_vertices: a point that is none of the imported file's.
+/// The value in hull_vertices for a point that is not in the imported file.
 inline constexpr std::uint32_t kNoVertex = 0xffffffffU;
 
 static_assert(sizeof(Hull) == 88 && alignof(Hull) == 8);

@@ -10,17 +10,17 @@
 
 namespace cdprep::format {
 
-/// Offset and length of the superblock's bytes that FileHeader::superblock keeps.
+/// The offset of the superblock's bytes that FileHeader::superblock keeps.
 inline constexpr std::uint64_t kSuperblockOffset = kUserBlockSize + 8;
 
 using UserBlock = std::array<std::byte, kUserBlockSize>;
 
-/// Makes the first 4,096 bytes of a file.
+/// Returns the first 4,096 bytes of a file.
 ///
-/// Takes the facts about the model from `facts` (counts, flags, units, frame,
-/// normalisation) and fills in the rest: magic, version, marks, sizes, hashes.
-/// `sections` are at most kMaxSections, complete with checksums, sorted by id;
-/// `superblock` holds the file's bytes 4,104 to 4,143.
+/// Takes the facts about the model from `facts`: counts, flags, units, frame and normalisation.
+/// Fills in the others: magic, version, marks, sizes and hashes. `sections` has at most
+/// kMaxSections entries, complete with checksums and sorted by id. `superblock` holds the file's
+/// bytes 4,104 to 4,143.
 [[nodiscard]] UserBlock make_user_block(const FileHeader& facts,
                                         std::span<const SectionEntry> sections,
                                         std::span<const std::byte, 40> superblock,

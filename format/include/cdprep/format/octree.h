@@ -11,28 +11,29 @@
 
 namespace cdprep::format {
 
-/// Steps along an edge of an octree's cube: 2^21, so that a key of 21 levels, three
-/// bits each behind a leading one, fills 64 bits.
+/// The number of bits of a place along an edge of an octree's cube, which has 2^21 steps. So a key
+/// of 21 levels, with three bits each behind a leading one, fills 64 bits.
 inline constexpr std::uint32_t kOctreeBits = 21;
 
-/// Bit of a reference to a triangle that other leaves of the same tree list too. The
-/// other bits are the triangle's place in tree order.
+/// The bit of a reference to a triangle that other leaves of the same tree list too. The other bits
+/// are the triangle's place in tree order.
 inline constexpr std::uint32_t kSharedReference = 0x80000000U;
 
-/// Bit of OctreeNode::count, AdaptiveOctreeNode::count: the node has children, and the
-/// low eight bits say which. Without it: a leaf, with that many references.
+/// The bit of OctreeNode::count and AdaptiveOctreeNode::count for a node with children; the low
+/// eight bits are the set of children. Without this bit, the node is a leaf and `count` is its
+/// number of references.
 inline constexpr std::uint32_t kInnerNode = 0x80000000U;
 
-/// By which octree_mixed_table multiplies keys: 2^64 divided by the golden ratio, odd.
+/// The factor of keys in octree_mixed_table: 2^64 divided by the golden ratio, odd.
 inline constexpr std::uint64_t kKeyMixer = 0x9e3779b97f4a7c15U;
 
-/// The cube that an octree divides, and how far it does.
+/// The cube that an octree divides, and the limits of the division.
 ///
-/// Plane i of an axis, 0 <= i <= 2^21, lies at origin + i * step: the product is exact
-/// (step has at most 32 significant bits), the sum is rounded to double once, and
-/// planes of rising number rise strictly. A cell of level l is the closed box between
-/// two planes 2^(21 - l) apart along each axis; the root, level 0, holds every vertex
-/// and more than a step beyond. So cells of every level are exact, whatever the model's size.
+/// Plane i of an axis, 0 <= i <= 2^21, lies at origin + i * step. The product is exact, because
+/// step has at most 32 significant bits. The sum is rounded to double once. Planes of rising number
+/// rise strictly. A cell of level l is the closed box between two planes 2^(21 - l) apart along
+/// each axis. The root, level 0, contains every vertex and more than a step beyond. So cells of
+/// every level are exact, whatever the model's size.
 struct OctreeGrid {
     Double3 origin;           ///< model units
     double step;              ///< model units, > 0
@@ -42,55 +43,55 @@ struct OctreeGrid {
     std::uint32_t slot_bits;  ///< 2^slot_bits slots in either hash table
 };
 
-/// One cell that some triangle touches. Nodes are sorted by `key`: level by level, and
-/// along the z curve within a level; the root, key 1, is first. A model without
-/// triangles has none.
+/// A cell that some triangle touches. Nodes are sorted by `key`: level by level, and along the z
+/// curve within a level. The root, key 1, is first. A model without triangles has no nodes.
 struct OctreeNode {
-    /// A leading one, then three bits a level from the root down: bit 0 is set in the
-    /// upper half along x, bit 1 along y, bit 2 along z. Parent: key >> 3.
+    /// A leading one, then three bits per level from the root down. Bit 0 is set in the upper half
+    /// along x, bit 1 along y, bit 2 along z. The parent is key >> 3.
     std::uint64_t key;
-    /// Leaf: its first reference. Inner node: its first child; the children that are
-    /// there follow each other in the order of their last three key bits.
+    /// Of a leaf: its first reference. Of an inner node: its first child. The children follow each
+    /// other in the order of their last three key bits.
     std::uint32_t first;
     std::uint32_t count;  ///< kInnerNode | mask of children, or number of references
 };
 
-/// Level of a key with a leading one; 0 of 0, which is no key.
+/// Returns the level of a key with a leading one. Returns 0 for 0, which is not a key.
 constexpr std::uint32_t level_of(std::uint64_t key) noexcept {
     return static_cast<std::uint32_t>(std::bit_width(key | 1) - 1) / 3;
 }
 
-/// A key without its leading one, shifted up to kOctreeBits levels: where the cell's
-/// first finest cell stands along the z curve.
+/// Returns a key without its leading one, shifted up to kOctreeBits levels. This is the place of
+/// the cell's first finest cell along the z curve.
 constexpr std::uint64_t code_of(std::uint64_t key) noexcept {
     const std::uint32_t level = level_of(key);
     const std::uint64_t path = key ^ (std::uint64_t{1} << (3 * level));
     return path << (3 * (kOctreeBits - level));
 }
 
-/// Finest cells below a cell of a level.
+/// Returns the number of finest cells below a cell of a level.
 constexpr std::uint64_t cells_below(std::uint32_t level) noexcept {
     return std::uint64_t{1} << (3 * (kOctreeBits - level));
 }
 
-/// The slot of a key in octree_modulus_table and in octree_mixed_table.
+/// Return the slot of a key in octree_modulus_table and in octree_mixed_table.
 constexpr std::uint64_t modulus_slot(std::uint64_t key, std::uint32_t slot_bits) noexcept {
     return key & ((std::uint64_t{1} << slot_bits) - 1);
 }
 constexpr std::uint64_t mixed_slot(std::uint64_t key, std::uint32_t slot_bits) noexcept {
-    // In two steps: there may be one slot only, and no shift by 64.
+    // Two shifts, because a shift by 64 is not allowed, and there may be only one slot.
     return (key * kKeyMixer) >> 1 >> (63 - slot_bits);
 }
 
-/// How an adaptive octree chooses the point at which a node is split.
+/// The rule by which an adaptive octree chooses split points.
 enum class SplitRule : std::uint32_t {
     median = 0,        ///< the median of the triangles' middles along each axis
-    surface_area = 1,  ///< along each axis the plane of least area times triangles, of 16
+    surface_area = 1,  ///< along each axis, of 15 planes, the least area times triangles
 };
 
-/// An octree whose nodes choose their split points: the box that it divides, and how.
+/// The box that an adaptive octree divides, and its settings. The nodes of this octree choose their
+/// split points.
 struct AdaptiveOctree {
-    Double3 lower;  ///< of the root's closed box, model units: the model's own box
+    Double3 lower;  ///< of the root's closed box, which is the model's; model units
     Double3 upper;
     std::uint32_t level;      ///< no node is deeper; at most kOctreeBits
     std::uint32_t threshold;  ///< a cell with fewer triangles is not divided
@@ -98,23 +99,23 @@ struct AdaptiveOctree {
     std::uint32_t reserved;  ///< zero
 };
 
-/// One cell that some triangle touches, a closed box: the root's is AdaptiveOctree's;
-/// the planes through `split` divide a node's box into those of its children, numbered
-/// as OctreeNode's. Nodes are stored level by level, root first, siblings side by side;
-/// leaves' references follow each other in the order of the nodes.
+/// A cell that some triangle touches: a closed box. The root's box is that of AdaptiveOctree. The
+/// planes through `split` divide a node's box into those of its children, numbered like
+/// OctreeNode's. Nodes are stored level by level, root first, siblings side by side. Leaves'
+/// references follow each other in the order of the nodes.
 struct AdaptiveOctreeNode {
-    /// Along each axis strictly inside the node's box, model units; or its upper bound: then
-    /// the axis is not divided, as a flat one cannot be, and no child lies above it. At
-    /// least one axis is divided. Of a leaf: zero.
+    /// The split point, model units. Along each axis it is strictly inside the node's box or at its
+    /// upper bound. At the upper bound, the axis is not divided and no child lies above it; a flat
+    /// axis cannot be divided. At least one axis is divided. Of a leaf: zero.
     Double3 split;
     std::uint32_t first;  ///< as OctreeNode
     std::uint32_t count;  ///< as OctreeNode
 };
 
-/// Around what a cell holds, frame coordinates, rounded outwards. A leaf's: around what each
-/// of its triangles' boxes has in common with the leaf's cell. An inner node's: around its
-/// children's. So what of a triangle lies in a cell lies in the cell's box, which is often
-/// much smaller than the cell.
+/// The box around the contents of a cell, in frame coordinates, rounded outwards. A leaf's box is
+/// around the common parts of its cell and each of its triangles' boxes. An inner node's box is
+/// around its children's. So any part of a triangle in a cell also lies in the cell's box, which is
+/// often much smaller than the cell.
 struct CellBox {
     std::array<float, 3> lower;
     std::array<float, 3> upper;

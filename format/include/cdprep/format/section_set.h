@@ -8,7 +8,7 @@
 
 namespace cdprep::format {
 
-/// A set of section ids: what a caller wants checked, mapped or written.
+/// A set of section ids, such as those to check, map or write.
 class SectionSet {
 public:
     constexpr SectionSet() noexcept = default;
@@ -44,7 +44,7 @@ public:
     friend constexpr bool operator==(SectionSet, SectionSet) noexcept = default;
 
 private:
-    /// Ids of 64 and more are of a later version: no reader of this one wants them.
+    /// Ids of 64 and more belong to later versions; no reader of this version wants them.
     static constexpr std::uint64_t bit(SectionId id) noexcept {
         const auto number = static_cast<std::uint32_t>(id);
         return number < 64 ? std::uint64_t{1} << number : 0;

@@ -13,11 +13,11 @@ namespace cdprep::format {
 /// A row of the section table.
 struct SectionKind {
     SectionId id;
-    const char* name;  ///< as FORMAT.md and the HDF5 datasets spell it
+    const char* name;  ///< as in FORMAT.md and the HDF5 datasets
     Element element;
-    const char* count;        ///< how many elements a file holds
-    const char* when;         ///< a bake holds it
-    const char* serves;       ///< what reads it
+    const char* count;        ///< the number of elements in a file
+    const char* when;         ///< the condition for its presence in a bake
+    const char* serves;       ///< its use
     const char* units;        ///< HDF5 attribute
     const char* description;  ///< HDF5 attribute
 };
@@ -28,20 +28,20 @@ struct SectionKind {
 /// Returns the row of `id`, or null for an id that this version does not know.
 [[nodiscard]] const SectionKind* find_section_kind(SectionId id) noexcept;
 
-/// Reads the header. `file` must hold at least kUserBlockSize bytes.
+/// Returns the header. `file` must hold at least kUserBlockSize bytes.
 [[nodiscard]] FileHeader read_header(std::span<const std::byte> file) noexcept;
 
-/// Returns the entry of `id`, or nothing when the file has none. `file` must
-/// have passed find_header_damage().
+/// Returns the entry of `id`, or nothing if the file has none. `file` must have passed
+/// find_header_damage().
 [[nodiscard]] std::optional<SectionEntry> find_section(std::span<const std::byte> file,
                                                        SectionId id) noexcept;
 
-/// Returns the size of one element of `id` in bytes; 0 for an id that this
-/// version does not know.
+/// Returns the size of one element of `id` in bytes, or 0 for an id that this version does not
+/// know.
 [[nodiscard]] std::uint32_t element_size(SectionId id) noexcept;
 
-/// Returns the name of `id` as FORMAT.md and the HDF5 datasets spell it,
-/// "unknown" for an id that this version does not know.
+/// Returns the name of `id` in FORMAT.md and the HDF5 datasets, or "unknown" for an id that this
+/// version does not know.
 [[nodiscard]] const char* section_name(SectionId id) noexcept;
 
 }  // namespace cdprep::format

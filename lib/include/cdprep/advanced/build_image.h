@@ -12,7 +12,7 @@
 
 namespace cdprep::build {
 
-/// One section of a model: its elements as they are to lie in a file or in memory.
+/// One section of a model: its elements, laid out as in a file or in memory.
 struct Section {
     format::SectionId id;
     std::span<const std::byte> bytes;  ///< a whole number of elements; may be empty
@@ -22,7 +22,7 @@ struct Section {
 struct SectionTable {
     std::uint32_t count = 0;
     std::array<Section, format::kMaxSections> sections{};
-    /// Beside the sections. Offsets are zero until somebody sets them, and so are checksums.
+    /// One entry for each section. Offsets and checksums are zero until they are set.
     std::array<format::SectionEntry, format::kMaxSections> entries{};
 
     [[nodiscard]] std::span<const format::SectionEntry> used_entries() const noexcept {
@@ -30,9 +30,9 @@ struct SectionTable {
     }
 };
 
-/// Returns the table of sections in any order. Fails with `bad_argument` when an id is
-/// unknown or given twice, and when bytes are no whole number of elements. Looks at no byte
-/// of the sections. O(n log n) in the sections; allocates nothing unless it fails.
+/// Returns the table of `sections`, which may have any order. Fails with `bad_argument` if an id is
+/// unknown or occurs twice, or bytes are not whole elements. Does not read the bytes of the
+/// sections. Takes O(n log n) time in the number of sections. Allocates only on failure.
 [[nodiscard]] Result<SectionTable> make_section_table(std::span<const Section> sections);
 
 /// Sets the checksums in a table. Reads every byte of the sections once.
@@ -41,32 +41,32 @@ void add_checksums(SectionTable& table) noexcept;
 inline constexpr std::uint64_t kLargestAlignment = std::uint64_t{1} << 30;
 
 struct ImageOptions {
-    /// Sections start at multiples of it: a power of two from format::kSectionAlignment to
-    /// kLargestAlignment. Those of format::kPageThreshold bytes and more start at pages in any
-    /// case.
+    /// Sections start at multiples of this power of two, from format::kSectionAlignment to
+    /// kLargestAlignment. Sections of format::kPageThreshold bytes and more always start at pages.
     std::uint64_t section_alignment = format::kSectionAlignment;
 };
 
-/// Returns how many bytes build_image() fills, a multiple of format::kSectionAlignment.
-/// Fails as build_image() does. Looks at no byte of the sections; allocates nothing unless
-/// it fails.
+/// Returns the number of bytes that build_image() fills, a multiple of format::kSectionAlignment.
+/// Fails if build_image() fails on these sections or options. Does not read the bytes of the
+/// sections. Allocates only on failure.
 [[nodiscard]] Result<std::size_t> image_size(std::span<const Section> sections,
                                              const ImageOptions& options = {});
 
-/// Writes a model into memory: header, section table with checksums, sections, and zeroes
-/// between them. It is what `cdprep bake` writes, without HDF5: the superblock is zero.
-/// Sections, their table without offsets, facts and content hash are the same.
-/// Model::open() takes the bytes as those of a file.
+/// Writes a model into memory: header, section table with checksums, sections, and zeros between
+/// them. The result equals the file of `cdprep bake` without HDF5: the superblock is zero.
+/// Sections, their table except offsets, facts and content hash are the same. Model::open() accepts
+/// the bytes as those of a file.
 ///
-/// `facts` gives the header fields that describe the model (counts, flags, units, frame,
-/// normalisation); the rest is filled in. Whether facts and sections agree is checked by
-/// Model::open(). The sections do not overlap `memory`.
+/// Returns the first image_size() bytes of `memory`. The bytes after them are not changed.
 ///
-/// Returns the first image_size() bytes of `memory`; what follows them is not touched.
-/// Fails with `bad_argument`, and then writes nothing, when make_section_table() fails,
-/// when `memory` is too small or does not start at a multiple of
-/// format::kSectionAlignment, and when the alignment wanted is not as ImageOptions says.
-/// Allocates nothing unless it fails. O(bytes): each is copied and read once.
+/// `facts` supplies the header fields that describe the model: counts, flags, units, frame and
+/// normalisation. The function fills in the others. Model::open() checks that facts and sections
+/// agree. The sections must not overlap `memory`.
+///
+/// Fails with `bad_argument`, and then writes nothing, if make_section_table() fails or
+/// ImageOptions does not allow the alignment. Also fails if `memory` is too small or does not start
+/// at a multiple of format::kSectionAlignment. Allocates only on failure. Takes O(bytes) time: each
+/// byte is copied and read once.
 ///
 ///     const auto size = build::image_size(sections);
 ///     if (!size) return size.error();

@@ -12,44 +12,44 @@
 
 namespace cdprep::build {
 
-/// How a model keeps positions.
+/// The precision in which a model keeps positions.
 enum class Precision : std::uint8_t {
-    single_precision,  ///< as floats: what is none is rounded to the nearest
+    single_precision,  ///< as floats; other values are rounded to the nearest
     double_precision,
 };
 
-/// Everything that a model needs to be asked, as arrays: what `cdprep bake` makes of a mesh
-/// but for hulls, pieces, octrees, bounds, mass, and notes about the imported file.
+/// The arrays of a model that queries read. `cdprep bake` makes the same arrays of a mesh, and adds
+/// hulls, pieces, octrees, bounds, mass, and notes about the imported file.
 struct ModelArrays {
     format::FileHeader facts{};
     Bvh bvh;
     Precision precision = Precision::double_precision;
-    std::vector<format::Float3> positions_f32;   ///< of single precision; else empty
-    std::vector<format::Double3> positions_f64;  ///< of double precision; else empty
+    std::vector<format::Float3> positions_f32;   ///< with single_precision; else empty
+    std::vector<format::Double3> positions_f64;  ///< with double_precision; else empty
     std::vector<format::Triangle> triangles;     ///< tree order
     std::vector<std::uint32_t> source_vertex;    ///< per vertex: its number in the input
     std::vector<std::uint64_t> degenerate_bits;  ///< empty when no triangle is degenerate
     std::vector<format::Component> components;
 
-    /// Views of the arrays that are wanted, for build_image(). Valid while this object lives
-    /// and stays where it is.
+    /// Returns views of the wanted arrays, for build_image(). They are valid while this object
+    /// lives and is not moved.
     ///
     ///     arrays.sections(sections_for(Ask::overlap | Ask::ray))
     [[nodiscard]] SectionList sections(format::SectionSet wanted = format::SectionSet::all()) const;
 };
 
-/// A model that is yet to be built.
+/// The properties of a model that will be built.
 struct PlannedModel {
-    std::uint32_t vertex_count = 0;  ///< those that no triangle uses count too
+    std::uint32_t vertex_count = 0;  ///< vertices that no triangle uses included
     std::uint32_t triangle_count = 0;
     Precision precision = Precision::double_precision;
     BvhBounds bounds = BvhBounds::oriented;
     format::SectionSet wanted = format::SectionSet::all();
 };
 
-/// Returns a number of bytes that is enough for the image: image_size() of what build_model()
-/// makes of any mesh with these counts, or more. It is that of a mesh that has every vertex in use,
-/// as many components as there can be, and degenerate triangles. O(1); allocates nothing.
+/// Returns an upper bound of the image_size() that build_model() gives for any mesh with these
+/// counts. It is the size for a mesh that uses every vertex, with degenerate triangles and as many
+/// components as possible. Takes O(1) time. Never allocates.
 ///
 ///     std::span<std::byte> room = arena.allocate(build::image_size_bound(planned), 64);
 ///     const auto arrays = build::build_model(positions, triangles, {.bounds = planned.bounds});
@@ -58,17 +58,17 @@ struct PlannedModel {
 ///                                           room);
 [[nodiscard]] std::uint64_t image_size_bound(const PlannedModel& planned) noexcept;
 
-/// Builds the arrays of a model from a mesh. Questions then answer with the numbers of
-/// `triangles`, and with source_vertex those of `positions`.
+/// Builds the arrays of a model from a mesh. Query results use the numbers of `triangles`;
+/// source_vertex gives the numbers of `positions`.
 ///
-/// Vertices are shared as the triangles share them: equal positions that have different
-/// numbers are not welded, and a surface with such a seam is not closed. Positions that no
-/// triangle uses are left out. Triangles may be degenerate or equal.
+/// Vertices are shared as in `triangles`. Equal positions with different numbers are not welded,
+/// and a surface with such a seam is not closed. Positions that no triangle uses are left out.
+/// Triangles may be degenerate or equal.
 ///
-/// Fails with `bad_argument`, and names the first vertex or triangle, when a position is NaN,
-/// infinite or beyond format::kMaxCoordinate, when a triangle uses a vertex that is not
-/// there, and when there are more than format::kMaxTriangles or kMaxVertices. O(n log n);
-/// allocates. The same arrays for any options.parallel_for.
+/// Fails with `bad_argument`, and names the first bad vertex or triangle, if a position is NaN,
+/// infinite or beyond format::kMaxCoordinate. Also fails if a triangle uses a vertex that does not
+/// exist, or a count exceeds format::kMaxTriangles or kMaxVertices. Takes O(n log n) time;
+/// allocates. The arrays are the same for any options.parallel_for.
 ///
 ///     const auto arrays = build::build_model(positions, triangles);
 ///     if (!arrays) return arrays.error();
@@ -79,13 +79,13 @@ struct PlannedModel {
                                               std::span<const format::Triangle> triangles,
                                               const BvhOptions& options = {});
 
-/// The same for floats, which the model keeps.
+/// Builds the same arrays from floats, which the model keeps.
 [[nodiscard]] Result<ModelArrays> build_model(std::span<const format::Float3> positions,
                                               std::span<const format::Triangle> triangles,
                                               const BvhOptions& options = {});
 
-/// The same with a hierarchy that build_bvh() made over these triangles. The mesh is as
-/// build_model() wants it; that is not checked.
+/// Builds the same arrays with a BVH that build_bvh() made of these triangles. The mesh must meet
+/// the requirements of build_model(), which are not checked.
 [[nodiscard]] ModelArrays arrange_model(std::span<const format::Double3> positions,
                                         std::span<const format::Triangle> triangles, Bvh bvh,
                                         Precision precision, ParallelFor parallel_for = serial_for);

@@ -10,7 +10,7 @@
 
 namespace cdprep::build {
 
-/// A surface cut into pieces, as format/pieces.h says.
+/// A surface that is cut into pieces (format/pieces.h).
 struct PiecesOf {
     std::span<const format::Double3> positions;
     std::span<const format::Triangle> triangles;
@@ -18,17 +18,17 @@ struct PiecesOf {
     std::span<const std::uint32_t> piece_triangles;  ///< numbers in `triangles`
 };
 
-/// Sections piece_nodes, piece_swept and piece_leaves.
+/// The content of sections piece_nodes, piece_swept and piece_leaves.
 struct PieceBoxes {
     std::vector<format::BvhNode> nodes;
     std::vector<format::SweptNode> swept;
     std::vector<format::PieceLeaf> leaves;
 };
 
-/// Builds the hierarchy of boxes over pieces, in the frame of the model's own hierarchy. Each
-/// piece is cut into as few leaves as hold it, of about one length; leaves stand as
-/// build_bvh() would put triangles with their boxes. The same for any parallel_for. Nothing when
-/// there would be more than format::kMaxPieceLeaves leaves.
+/// Builds the BVH over pieces, in the frame of the model's own BVH. Each piece is cut into the
+/// fewest leaves that hold it, with about equal numbers of triangles. The order of the leaves is
+/// that of build_bvh() for triangles with the leaves' boxes. Returns nothing if that makes more
+/// than format::kMaxPieceLeaves leaves. The result is the same for any parallel_for.
 [[nodiscard]] PieceBoxes build_piece_boxes(const PiecesOf& surface, const Frame& frame,
                                            ParallelFor parallel_for);
 

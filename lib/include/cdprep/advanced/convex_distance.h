@@ -11,35 +11,35 @@
 
 namespace cdprep {
 
-// Questions about two convex hulls, by their points alone: the method of Gilbert, Johnson
-// and Keerthi (1988) in double, whose answers are proved before they are given, or found
-// without rounding where double proves nothing.
+// Queries about two convex hulls that read only their points. They use the method of Gilbert,
+// Johnson and Keerthi (1988) in double. Every answer is proven; where double proves nothing, it is
+// computed without rounding.
 //
-// All are about the hulls of the points as `placement` moves them (level E1): each point
-// is rounded once by transform_point(), and from then on nothing is. The hulls are solid: one
-// inside the other touches it. A hull without points touches nothing.
+// A query is about the hulls of the points as `placement` moves them (level E1 in GLOSSARY.md).
+// transform_point() rounds each point once; nothing is rounded after that. The hulls are solid: a
+// hull inside another one touches it. A hull without points touches nothing.
 //
-// None allocates. Each step costs O(sqrt(n)) where the hull has neighbours, O(n) where it
-// has not; from a good start there are a few steps. Where hulls touch or nearly do, within
-// about 1e-15 of their coordinates, integers decide in tens of microseconds.
+// No query allocates. A step takes O(sqrt(n)) time if the hull has neighbours, otherwise O(n). From
+// a good start a few steps suffice. If hulls touch or nearly touch, within about 1e-15 of their
+// coordinates, integers decide in tens of microseconds.
 
-/// Where the last question about two hulls ended, owned by the caller: the next one about
-/// the same two begins there, and costs less the less they have moved. Any content is
-/// allowed and gives the same yes or no; bounds may differ in their last digits. One a
-/// pair of hulls; threads need one each. All zero is a new cache.
+/// The points at which the last query about two hulls ended, owned by the caller. The next query
+/// about the same two begins there, and is faster the less they have moved. Any content is allowed
+/// and gives the same yes or no; bounds may differ in their last digits. Use one cache for each
+/// pair of hulls and thread. All zero is a new cache.
 struct ConvexCache {
-    std::uint32_t count = 0;           ///< numbers below, at most 4
+    std::uint32_t count = 0;           ///< used elements of `a` and `b`, at most 4
     std::array<std::uint32_t, 4> a{};  ///< points of A
     std::array<std::uint32_t, 4> b{};  ///< points of B
 };
 
-/// Returns whether two hulls have a common point; touching counts. Exact. `cache` and
-/// `counts` may be null, here and below.
+/// Returns whether two hulls have a common point; touching counts. Exact. `cache` and `counts` may
+/// be null, also in the functions below.
 [[nodiscard]] bool convex_collide(const ConvexPoints& a, const ConvexPoints& b,
                                   const Placement& placement, ConvexCache* cache = nullptr,
                                   QueryCounts* counts = nullptr) noexcept;
 
-/// The distance of two hulls, and where it is taken.
+/// The distance of two hulls, and points where it is attained.
 struct ConvexDistance {
     double lower;       ///< the distance is at least this, model units
     double upper;       ///< and at most this
@@ -47,15 +47,15 @@ struct ConvexDistance {
     Double3 witness_b;  ///< on B as moved, up to rounding; `upper` from witness_a
 };
 
-/// Returns how far two hulls are apart, or nothing when that is more than `max_distance`
-/// or one has no points. Both bounds are 0 when the hulls touch, with a common point as
-/// witness, and lower is above 0 when they do not, but for gaps near the smallest doubles.
+/// Returns the distance of two hulls. Returns nothing if it exceeds `max_distance` or one has no
+/// points. If the hulls touch, both bounds are 0 and the witnesses are a common point. Otherwise
+/// lower is above 0, except for gaps near the smallest doubles. If faces or edges are parallel,
+/// many pairs of points are nearest; the witnesses are one of them.
 ///
-/// upper - lower is at most what is permitted, but for relative errors, which are shares of upper
-/// here, below 1e-14. Where
-/// nothing is, it is at most 1e-12 of upper plus 1e-14 of the size of A - B, that is how
-/// far any point of A is from any of B along an axis (convex_distance_laws_test).
-/// Where faces or edges are parallel there are many nearest pairs: one of them answers.
+/// upper - lower is at most the permitted error, except for relative errors below 1e-14. The
+/// relative error is a share of upper here. Without permitted errors, the limit is 1e-12 of upper
+/// plus 1e-14 of the size of A - B (convex_distance_laws_test). That size is the largest difference
+/// of a point of A and a point of B along an axis.
 [[nodiscard]] std::optional<ConvexDistance> convex_distance(const ConvexPoints& a,
                                                             const ConvexPoints& b,
                                                             const Placement& placement,
@@ -63,9 +63,9 @@ struct ConvexDistance {
                                                             ConvexCache* cache = nullptr,
                                                             QueryCounts* counts = nullptr) noexcept;
 
-/// Returns whether two hulls are at most `tolerance` apart: the tolerance belongs to it,
-/// and 0 asks whether they touch. False for a negative tolerance or NaN. Exact: a distance
-/// equal to the tolerance to the last bit is within it, and one step less is not.
+/// Returns whether two hulls are at most `tolerance` apart; inclusive. A tolerance of 0 tests
+/// whether they touch. Returns false for a negative tolerance or NaN. Exact: a tolerance equal to
+/// the distance to the last bit gives true, and the next smaller double gives false.
 [[nodiscard]] bool convex_within(const ConvexPoints& a, const ConvexPoints& b,
                                  const Placement& placement, double tolerance,
                                  ConvexCache* cache = nullptr,

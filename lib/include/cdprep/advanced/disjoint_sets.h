@@ -9,8 +9,8 @@
 
 namespace cdprep::build {
 
-/// Sets of the numbers 0 ... count - 1, one each at first. The lowest number of a set is
-/// its root.
+/// A partition of the numbers 0 ... count - 1 into sets, one each at first. The lowest number of a
+/// set is its root.
 class DisjointSets {
 public:
     explicit DisjointSets(std::size_t count) : parent_(count) {
@@ -24,7 +24,7 @@ public:
         return number;
     }
 
-    /// Returns whether they were apart.
+    /// Unites the sets of two numbers. Returns whether they were different sets.
     bool unite(std::uint32_t a, std::uint32_t b) {
         a = root_of(a);
         b = root_of(b);

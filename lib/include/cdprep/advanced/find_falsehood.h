@@ -10,24 +10,30 @@
 
 namespace cdprep {
 
-/// Proves, of a file in which format::find_damage() finds nothing, that its hulls are hulls:
-/// every edge convex, or flat within a group, by exact signs; points of exact hulls the
-/// vertices that they name; neighbours those of the facets; no point in front of a facet,
-/// nor any vertex in front of one of the whole's; every vertex in one part or more, exactly,
-/// where there are parts. Not looked at: vertices of a component or an instance beside its hull,
-/// those beside a segment or a polygon in its plane, and whether a triangle with corners in
-/// several parts leaves them all in between, for which exact numbers of any length are needed
-/// (tools/info/find_cover_falsehood.h). Returns nothing when all is well, also without hulls.
-/// O(vertices * facets), about a nanosecond each, and up to vertices * parts steps; allocates.
-/// `model` is this file, opened with all its sections.
+/// Proves that the hulls of a file are hulls. Returns nothing if they are, or if there are none.
+///
+/// Every edge is convex, or flat within a group, by exact signs. The points of exact hulls are the
+/// vertices that they name. Neighbours are those of the facets. No point lies in front of a facet,
+/// and no vertex in front of a facet of the whole's hull. If there are parts, each vertex is in at
+/// least one, exactly.
+///
+/// Three properties are not checked. Vertices of a component or an instance may lie outside its
+/// hull. Vertices may lie outside a segment, or outside a polygon in its plane. A triangle with
+/// corners in several parts may leave them all in between. The last check needs exact numbers of
+/// any length (tools/info/find_cover_falsehood.h).
+///
+/// `file` must be one in which format::find_damage() finds nothing. `model` is this file, opened
+/// with all its sections. Takes O(vertices * facets) time, about a nanosecond each, and up to
+/// vertices * parts steps. Allocates.
 [[nodiscard]] std::optional<format::Damage> find_hull_falsehood(std::span<const std::byte> file,
                                                                 const Model& model);
 
-/// Proves, of a file in which format::find_deep_damage() finds nothing, that the hulls around
-/// nodes of its hierarchy over pieces hold every vertex below, exactly, and stick out of what
-/// is below by no more than they say, up to the rounding of double. Returns nothing when all is
-/// well, also without pieces. O(vertices * levels) hull questions; allocates. `model` is this
-/// file, opened with all its sections.
+/// Proves that the hulls around the nodes of the BVH over pieces are right. Each contains every
+/// vertex below its node, exactly. None exceeds what is below by more than its slack, up to the
+/// rounding of double. Returns nothing if all are right, or if there are no pieces.
+///
+/// `file` must be one in which format::find_deep_damage() finds nothing. `model` is this file,
+/// opened with all its sections. Takes O(vertices * levels) hull queries. Allocates.
 [[nodiscard]] std::optional<format::Damage> find_piece_falsehood(std::span<const std::byte> file,
                                                                  const Model& model);
 

@@ -9,53 +9,53 @@
 #include "cdprep/advanced/parallel_for.h"
 #include "cdprep/format/file_header.h"
 
-// The steps from a mesh to the arrays of a model, each on its own. build_model.h runs them
-// all. Vertices are shared as the triangles share them: equal positions are not welded.
+// The separate steps from a mesh to the arrays of a model. build_model.h runs them all. Vertices
+// are shared as in the triangles: equal positions are not welded.
 namespace cdprep::build {
 
-/// A mesh rearranged for the hierarchy.
+/// A mesh rearranged for the BVH.
 struct TreeOrder {
-    std::vector<format::Triangle> triangles;  ///< tree order, with the new numbers of vertices
-    std::vector<std::uint32_t> vertices;      ///< vertices[i]: the input vertex that stands i-th
-    std::vector<std::uint32_t> new_vertex;    ///< of each input vertex, kUnused when not used
+    std::vector<format::Triangle> triangles;  ///< tree order, with new vertex numbers
+    std::vector<std::uint32_t> vertices;      ///< the input vertex at each new place
+    std::vector<std::uint32_t> new_vertex;    ///< of each input vertex; kUnused if unused
     static constexpr std::uint32_t kUnused = 0xffffffffU;
 };
 
-/// Puts triangle order[i] at place i and numbers vertices by first use, so that neighbours in
-/// the tree are neighbours in memory. Vertices that no triangle uses are left out. `order` is
-/// a permutation of the triangles. O(n).
+/// Puts triangle order[i] at place i and numbers vertices by first use. Neighbours in the tree are
+/// then neighbours in memory. Vertices that no triangle uses are left out. `order` must be a
+/// permutation of the triangles. Takes O(n) time.
 [[nodiscard]] TreeOrder in_tree_order(std::size_t vertex_count,
                                       std::span<const format::Triangle> triangles,
                                       std::span<const std::uint32_t> order);
 
-/// Components: sets of triangles connected by shared vertices.
+/// The components of a mesh: sets of triangles connected by shared vertices.
 struct ComponentNumbers {
     std::size_t count = 0;
-    /// In the order of their lowest triangle. Of a vertex that no triangle uses:
-    /// TreeOrder::kUnused.
+    /// The component of each vertex, numbered in the order of the lowest triangles. It is
+    /// TreeOrder::kUnused for a vertex that no triangle uses.
     std::vector<std::uint32_t> of_vertex;
 };
 
-/// Numbers the components. O(n).
+/// Numbers the components. Takes O(n) time.
 [[nodiscard]] ComponentNumbers number_components(std::size_t vertex_count,
                                                  std::span<const format::Triangle> triangles);
 
 struct Topology {
-    /// As format::Component says, in the order of their lowest triangle.
+    /// The components, in the order of their lowest triangle.
     std::vector<format::Component> components;
-    /// The oriented uses of every edge cancel: winding numbers are defined.
+    /// The surface is balanced: the directed uses of every edge cancel, so winding numbers exist.
     bool closed = false;
 };
 
-/// Finds the connected components (triangles that share a vertex) and whether each is closed:
-/// every edge used as often in one direction as in the other. Corners that repeat add
-/// nothing. A mesh without triangles is closed. Volumes beyond the largest double are cut to
-/// it. O(n), with a sort of the edges at each vertex.
+/// Finds the connected components: triangles that share a vertex. Finds whether each is balanced:
+/// every edge is used equally often in both directions. Repeated corners add nothing. A mesh
+/// without triangles is balanced. Volumes beyond the largest double are set to it. Takes O(n) time,
+/// plus a sort of the edges at each vertex.
 [[nodiscard]] Topology find_topology(std::span<const format::Double3> positions,
                                      std::span<const format::Triangle> triangles);
 
-/// Returns one bit per triangle, 64 a word, set where the corners are exactly collinear; no
-/// words at all when none is. O(n).
+/// Returns one bit per triangle, 64 per word. A bit is set if the corners are exactly collinear.
+/// Returns no words if no triangle is degenerate. Takes O(n) time.
 [[nodiscard]] std::vector<std::uint64_t> find_degenerate(
     std::span<const format::Double3> positions, std::span<const format::Triangle> triangles,
     ParallelFor parallel_for = serial_for);

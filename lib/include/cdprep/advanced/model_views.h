@@ -19,12 +19,12 @@ namespace cdprep {
 using format::Double3;
 using format::Float3;
 
-// Views of the sections of an open model, as Model returns them: a member for each row of
-// section_table.inc, which describes it. A span is empty and a pointer is null when the file lacks
+// Views of the sections of an open model, as Model returns them. A view has a member for each row
+// of section_table.inc, which describes it. A span is empty and a pointer is null if the file lacks
 // the section or it was not opened. Views stay valid while the Model lives. FORMAT.md describes the
-// elements and says which arrays are in tree order, the order in which the BVH stores triangles.
+// elements and states which arrays are in tree order, the order in which the BVH stores triangles.
 
-/// What a view has for a section: a span of its elements, a pointer to the only one, or text.
+/// The member type for a section: a span of its elements, a pointer to the only one, or text.
 template <class Element>
 struct SectionViewOf {
     using type = std::span<const Element>;
@@ -45,14 +45,14 @@ namespace views {
 
 using namespace format;
 
-/// The triangles of a model. A file has one kind of positions; an opened model has it when its
-/// vertices were asked for.
+/// The triangles of a model. A file has positions in one precision only. An open model has them if
+/// it was opened with its vertices.
 struct MeshView {
 #define CDPREP_MESH_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"
 };
 
-/// The way from numbers of a model to those of the imported file.
+/// The map from numbers of a model to those of the imported file.
 struct SourceView {
 #define CDPREP_SOURCE_SECTION(member, name, id, Element, ...) SectionView<Element> member = {};
 #include "cdprep/format/section_table.inc"

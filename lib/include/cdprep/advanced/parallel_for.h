@@ -8,8 +8,9 @@
 
 namespace cdprep {
 
-/// Work in numbered parts, called with each number. Refers to the callable, which may be a lambda
-/// written in the call, and copies nothing; as cheap to copy as two pointers.
+/// A piece of work in numbered parts, called with each number. It refers to the callable, which may
+/// be a lambda written in the call, and copies nothing. Copying a Task costs as much as copying two
+/// pointers.
 class Task {
 public:
     template <class Body>
@@ -27,14 +28,16 @@ private:
     void (*call_)(const void*, std::size_t);
 };
 
-/// The caller's threads. The library starts none: it calls `run(count, task)`, which calls
-/// task(0) ... task(count - 1), in any order, on any threads, also all on one, and returns when all
-/// are done. `run` may only propagate a task's exception. Query tasks never throw; build_bvh()
-/// tasks may throw std::bad_alloc. Tasks that begin late find little left to do: best is a `run`
-/// whose own thread takes tasks too and waits only for those that have begun. Refers to the
-/// callable, a named object such as a lambda, and copies nothing; the callable must outlive the
-/// call, and options that hold it. `run` runs in the floating-point environment of the caller;
-/// tasks compute in the default one on every thread.
+/// The caller's threads. The library starts none. It calls `run(count, task)`, which calls task(0)
+/// ... task(count - 1) and returns when all are done. The calls may be in any order and on any
+/// threads, or all on one. `run` may only propagate a task's exception. Query tasks never throw;
+/// build_bvh() tasks may throw std::bad_alloc.
+///
+/// Tasks that begin late find little left to do. The best `run` takes tasks on its own thread too,
+/// and waits only for those that have begun. A ParallelFor refers to the callable, a named object
+/// such as a lambda, and copies nothing. The callable must outlive the call, and options that hold
+/// it. `run` runs in the floating-point environment of the caller; tasks compute in the default one
+/// on every thread.
 ///
 ///     const auto run = [&](std::size_t count, cdprep::Task task) {
 ///         std::vector<std::jthread> threads;
@@ -58,13 +61,13 @@ private:
     void (*call_)(void*, std::size_t, Task);
 };
 
-/// Runs the tasks one after the other, here.
+/// Runs the tasks one after the other on the calling thread.
 inline constexpr auto serial_for = [](std::size_t count, Task task) {
     for (std::size_t i = 0; i < count; ++i) task(i);
 };
 
-/// Runs body(first, last) for consecutive parts of [0, count), each a task of `size` items; the
-/// last may have fewer. `size` is not 0.
+/// Runs body(first, last) for consecutive parts of [0, count). Each part is a task of `size` items;
+/// the last may have fewer. `size` is not 0.
 template <class Body>
 void for_chunks(std::size_t count, std::size_t size, ParallelFor parallel_for, const Body& body) {
     assert(size > 0);

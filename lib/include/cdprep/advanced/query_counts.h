@@ -21,9 +21,9 @@ struct QueryCounts {
 
     // The stage that decided about triangles that boxes and planes in float did not separate.
     // The sum is the number of those pairs.
-    std::uint64_t by_kernel = 0;  ///< float: they cross for certain
+    std::uint64_t by_kernel = 0;  ///< float: they certainly cross
     std::uint64_t by_corner = 0;  ///< a common corner: they touch
-    std::uint64_t by_filter = 0;  ///< double: apart or crossing for certain
+    std::uint64_t by_filter = 0;  ///< double: they are certainly apart or crossing
     std::uint64_t by_exact = 0;   ///< exact arithmetic
 
     std::uint64_t cell_pairs = 0;  ///< leaf cells of octrees or tetra-trees, A's against B's
@@ -31,14 +31,14 @@ struct QueryCounts {
     // The hashed octree.
     std::uint64_t potential = 0;     ///< triangles of one model that may touch the other
     std::uint64_t cells_sought = 0;  ///< cells looked up by key
-    std::uint64_t references = 0;    ///< triangles listed by leaf cells, each time
+    std::uint64_t references = 0;    ///< triangles in the lists of leaf cells; repeats count
 
     std::uint64_t measured = 0;        ///< distances of two triangles, in double
     std::uint64_t measured_again = 0;  ///< again, for the last digits
 
     // Convex hulls.
     std::uint64_t hull_pairs = 0;      ///< pairs of hulls
-    std::uint64_t hull_steps = 0;      ///< searches for a farthest point, one of each hull
+    std::uint64_t hull_steps = 0;      ///< searches for a farthest point, one in each hull
     std::uint64_t hulls_by_exact = 0;  ///< pairs that double could not decide
     std::uint64_t exact_steps = 0;     ///< searches for a farthest point without rounding
 

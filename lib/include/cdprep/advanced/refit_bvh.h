@@ -5,16 +5,15 @@
 
 namespace cdprep::build {
 
-/// Fits a hierarchy to new positions of its triangles, in the same order. Returns its
-/// surface_cost().
+/// Fits a BVH to new positions of its triangles, in the same order. Returns its surface_cost().
 ///
-/// The result equals that of a build with this order. The frame is that of the new positions,
-/// boxes contain their triangles exactly, and leaves are exact if all coordinates are floats. It
-/// depends neither on the old positions nor on options.parallel_for. Oriented boxes are fitted
-/// anew, or dropped if options.bounds has none. Ignores options.quality.
+/// The result equals that of a build with this order. The frame is that of the new positions, and
+/// boxes contain their triangles exactly. Leaves are exact if all coordinates are floats. The
+/// result depends neither on the old positions nor on options.parallel_for. Oriented boxes are
+/// fitted anew, or dropped if options.bounds has none. Ignores options.quality.
 ///
-/// `bvh` comes from build_bvh() or rebuild_bvh() over `triangles`; positions are as there. The
-/// order stays good while neighbours stay neighbours. The cost tells when to rebuild:
+/// `bvh` comes from build_bvh() or rebuild_bvh() over `triangles`; its requirements on positions
+/// apply. The order stays good while neighbours stay neighbours. The cost shows when to rebuild:
 ///
 ///     double cost = refit_bvh(bvh, positions, triangles);
 ///     if (cost > 1.5 * cost_when_built) {

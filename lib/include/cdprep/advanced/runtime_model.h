@@ -12,17 +12,18 @@
 
 namespace cdprep::build {
 
-/// A model whose vertices move: an object that deforms, refitted each frame and asked like any
-/// other. It lives in memory of the caller, is made once, and then allocates nothing.
+/// A model whose vertices move, such as an object that deforms. It is refitted each frame and
+/// queried like any other. It lives in the caller's memory, is made once, and then allocates
+/// nothing.
 ///
-/// Triangles, the numbers of answers and the order of the hierarchy stay; positions, boxes,
-/// leaves and marks of degenerate triangles follow each refit(). The model has no oriented
-/// boxes, with which a refit would take three times as long, and no swept spheres, hulls,
-/// pieces, octrees, bounds or mass. So it serves what needs none of these: collide, overlap,
-/// distance, within, ray, closest, inside and touch.
+/// Triangles, source numbers and the order of the BVH stay. Positions, boxes, leaves and marks of
+/// degenerate triangles follow each refit(). The model has no oriented boxes, because a refit with
+/// them would take three times as long. It has no swept spheres, hulls, pieces, octrees, bounds or
+/// mass. It serves the queries that need none of these: collide, overlap, distance, within, ray,
+/// closest, inside and touch.
 ///
-/// Move-only; moving it does not move its model's bytes. Const members and questions about
-/// model() may run on any number of threads at once, but not while refit() or image() runs.
+/// Move-only; a move leaves the model's bytes in place. Const members, and queries about model(),
+/// may run on any number of threads at once. They must not run during refit() or image().
 ///
 ///     const auto arrays = build::build_model(positions, triangles,
 ///                                            {.bounds = build::BvhBounds::aligned});
@@ -34,61 +35,62 @@ namespace cdprep::build {
 ///     }
 class RuntimeModel {
 public:
-    /// Returns how many bytes in() takes. Fails as it does.
+    /// Returns the number of bytes that in() takes. Fails if in() rejects `base`.
     [[nodiscard]] static Result<std::size_t> bytes(const ModelArrays& base);
     [[nodiscard]] static Result<std::size_t> bytes(const Model& base);
 
-    /// Makes a run-time model of arrays, or of a model that was baked, say. `memory` starts at
-    /// a multiple of format::kSectionAlignment and stays where it is while the run-time model
-    /// lives; `base` is not needed afterwards. Allocates.
+    /// Makes a run-time model of arrays or of another model, such as a baked one. `memory` must
+    /// start at a multiple of format::kSectionAlignment and stay in place while the run-time model
+    /// lives. `base` is not used afterwards. Allocates.
     ///
-    /// Fails with `bad_argument` when `memory` does not fit, and when a baked `base` lacks, or
-    /// was opened without, one of the sections triangles, source_triangle, source_vertex,
-    /// bvh_nodes, bvh_leaves and positions, or has vertices that a repair made.
+    /// Fails with `bad_argument` if `memory` is too small or misaligned. Also fails if a baked
+    /// `base` has vertices that a repair made. Fails if it lacks, or was opened without, one of
+    /// these sections: triangles, source_triangle, source_vertex, bvh_nodes, bvh_leaves and
+    /// positions.
     [[nodiscard]] static Result<RuntimeModel> in(std::span<std::byte> memory,
                                                  const ModelArrays& base);
     [[nodiscard]] static Result<RuntimeModel> in(std::span<std::byte> memory, const Model& base);
 
-    /// What is asked. The same object after each refit(): spans and references into it stay
-    /// valid.
+    /// Returns the model to query. It is the same object after each refit(): spans and references
+    /// into it stay valid.
     [[nodiscard]] const Model& model() const noexcept {
         return model_;
     }
 
-    /// The least number of positions that refit() wants.
+    /// Returns the least number of positions that refit() accepts.
     [[nodiscard]] std::size_t position_count() const noexcept {
         return position_count_;
     }
 
-    /// Moves all vertices. Positions have the numbers of the mesh that the base was made of,
-    /// and are in model units.
+    /// Moves all vertices. Positions have the numbers of the mesh that the base was made of, and
+    /// are in model units. Returns the surface_cost() of the BVH. When it has grown by half, build
+    /// a new model.
     ///
-    /// Answers are afterwards those of a model that was built anew from these positions. They
-    /// do not depend on what the positions were, nor on `parallel_for`. Returns the
-    /// surface_cost() of the hierarchy: when it has grown by half, build the model anew.
+    /// Query results are then those of a new model built from these positions. They depend neither
+    /// on the old positions nor on `parallel_for`.
     ///
-    /// Fails with `bad_argument`, and then changes nothing, when there are fewer positions
-    /// than position_count(); when they are those of model(), which have another order; when
-    /// one is NaN, infinite or beyond format::kMaxCoordinate, naming the first; and when they
-    /// are doubles and the model keeps floats. Floats are taken by both kinds of models.
+    /// Fails with `bad_argument`, and then changes nothing, if there are fewer positions than
+    /// position_count(). Also fails if they are the positions of model(), which have another order.
+    /// Fails and names the first bad position if one is NaN, infinite or beyond
+    /// format::kMaxCoordinate. Fails if they are doubles and the model keeps floats; both kinds of
+    /// models accept floats.
     ///
-    /// A PairCache of this model stays valid: content_hash of the header follows the
-    /// positions, and so an older cache only costs time. O(n). Allocates nothing unless it
-    /// fails.
+    /// A PairCache of this model stays valid. The content_hash of the header follows the positions,
+    /// so an older cache only costs time. Takes O(n) time. Allocates only on failure.
     [[nodiscard]] Result<double> refit(std::span<const format::Double3> positions,
                                        ParallelFor parallel_for = serial_for);
     [[nodiscard]] Result<double> refit(std::span<const format::Float3> positions,
                                        ParallelFor parallel_for = serial_for);
 
-    /// Returns the bytes of the model, to keep or to send: after a refit() their checksums are
-    /// out of date, as are the volumes of components, which no question reads. This brings
-    /// both up to date, so that Model::open() takes a copy of the bytes. O(bytes); allocates.
+    /// Returns the bytes of the model, to store or to send. After a refit(), checksums and the
+    /// volumes of components are out of date; no query reads them. This function updates both, so
+    /// that Model::open() accepts a copy of the bytes. Takes O(bytes) time. Allocates.
     [[nodiscard]] std::span<const std::byte> image();
 
 private:
-    /// The sections that follow the positions.
+    /// The positions, and the sections that follow them.
     struct Moving {
-        std::span<format::Float3> positions_f32;  ///< or
+        std::span<format::Float3> positions_f32;  ///< empty if doubles
         std::span<format::Double3> positions_f64;
         std::span<format::BvhNode> nodes;
         std::span<format::BvhLeaf> leaves;

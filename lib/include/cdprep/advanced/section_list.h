@@ -14,20 +14,20 @@
 
 namespace cdprep::build {
 
-/// Collects the sections of a model from its arrays, which it does not copy: they stay where
-/// they are until the sections were used. What is not wanted is left out.
+/// Collects the sections of a model from its arrays. It copies nothing: the arrays must stay in
+/// place until the sections have been used. Sections that are not wanted are left out.
 class SectionList {
 public:
     explicit SectionList(format::SectionSet wanted = format::SectionSet::all()) noexcept
         : wanted_(wanted) {}
 
-    /// Adds a section that a model has even when it is empty.
+    /// Adds a section that a model has even if it is empty.
     template <class Elements>
     void add(format::SectionId id, const Elements& elements) {
         if (wanted_.contains(id)) sections_.push_back({id, bytes_of(elements)});
     }
 
-    /// Adds a section that is absent when it is empty.
+    /// Adds a section that a model lacks if it is empty.
     template <class Elements>
     void add_unless_empty(format::SectionId id, const Elements& elements) {
         if (std::size(elements) != 0) add(id, elements);
@@ -53,12 +53,12 @@ private:
     std::vector<Section> sections_;
 };
 
-/// Adds the arrays of a hierarchy. The sections of oriented boxes and of swept spheres are
-/// absent when they are empty.
+/// Adds the arrays of a BVH. The sections of oriented boxes and of swept spheres are absent if they
+/// are empty.
 void add_sections(SectionList& list, const Bvh& bvh);
 
-/// Adds the arrays of an octree. Which of its tables and boxes a model has is said by what
-/// the list wants: a mesh without triangles leaves those empty that it has.
+/// Adds the arrays of an octree. The wanted set of the list decides which tables and boxes the
+/// model has. Empty arrays do not show this, because a mesh without triangles has only empty ones.
 void add_sections(SectionList& list, const Octree& octree);
 void add_sections(SectionList& list, const AdaptiveOctree& octree);  ///< likewise
 void add_sections(SectionList& list, const TetraTree& tetra);        ///< likewise

@@ -7,21 +7,21 @@
 
 namespace cdprep {
 
-/// A structure of a file that finds answers. The answer is the same through each, but
+/// A structure of a file through which queries are computed. All give the same answer, but
 /// distance() through pieces may name other triangles that touch.
 enum class Structure : std::uint8_t {
-    bvh,              ///< the hierarchy of boxes: the fastest for two models
+    bvh,              ///< the hierarchy of boxes; the fastest for two models
     octree,           ///< both models' octrees, side by side
-    adaptive_octree,  ///< both models' octrees with split points of their own
-    /// Looks up cells of one model's octree by their keys, for each triangle of the other that
-    /// may collide: cells that the triangle's box overlaps.
+    adaptive_octree,  ///< both models' octrees with chosen split points
+    /// One model's octree. For each triangle of the other model that may collide, the cells under
+    /// its box are looked up by key.
     hashed_octree,
     tetra_tree,  ///< both models' tetra-trees, side by side; the fastest for points
-    pieces,      ///< both models' hierarchies over convex pieces of their surfaces
+    pieces,      ///< both models' BVHs over convex pieces of their surfaces
 };
 
-/// Returns the bit of Ask that a question through a structure needs besides its own; nothing for
-/// Structure::bvh.
+/// Returns the bit of Ask that a query through a structure needs besides its own. Returns nothing
+/// for Structure::bvh.
 [[nodiscard]] Ask ask_of(Structure structure) noexcept;
 
 }  // namespace cdprep

@@ -13,12 +13,12 @@
 
 namespace cdprep::build {
 
-/// An octree whose nodes choose their split points, as format/octree.h has it.
+/// An octree whose nodes choose their split points (format/octree.h).
 struct AdaptiveOctree {
     format::AdaptiveOctree tree{};
     std::vector<format::AdaptiveOctreeNode> nodes;
     std::vector<std::uint32_t> references;
-    std::vector<format::CellBox> boxes;  ///< around what the nodes hold
+    std::vector<format::CellBox> boxes;  ///< around the contents of the nodes
 };
 
 struct AdaptiveOctreeOptions {
@@ -26,33 +26,33 @@ struct AdaptiveOctreeOptions {
     std::uint32_t level = 3;      ///< no cell is deeper; 0 to format::kOctreeBits
     std::uint32_t threshold = 1;  ///< a cell with fewer triangles is not divided; 1 at least
     format::SplitRule rule = format::SplitRule::median;
-    /// The model's frame, where boxes are to be made: in it they are stored.
+    /// The model's frame, if boxes are to be built; they are stored in it.
     std::optional<Frame> boxes_in{};
 };
 
-/// Bytes that a build takes beside its result, at most.
+/// The most memory that a build uses beside its result, in bytes.
 inline constexpr std::uint64_t kAdaptiveScratchPerTriangle = 56;  ///< of the input
 inline constexpr std::uint64_t kAdaptiveScratchPerReference = 16;
 inline constexpr std::uint64_t kAdaptiveScratchPerNode = 400;
 
-/// Builds it, as build_octree() does: closed cells, exact membership, degenerate triangles
-/// as the segment or point they are, the same bytes for any parallel_for and any processor.
-/// The root is the box of all corners.
+/// Builds the octree with the rules of build_octree(): closed cells and exact membership.
+/// Degenerate triangles count as the segment or point that they are. The result is the same, byte
+/// for byte, for any parallel_for and processor. The root is the box of all corners.
 ///
-/// Median: along each axis that of the middles of the triangles' boxes, as far as these lie in
-/// the cell; the cell's own middle where that is on its border, because most of the
-/// triangles lie flat on it. Surface area: of the 15 planes between 16 slices of equal width
-/// the one with the least sum, over both sides, of area times triangles.
+/// Median: along each axis, the median of the middles of the triangles' boxes, each cut to the
+/// cell. If that is on the cell's border, because most triangles lie flat on it, the middle of the
+/// cell. Surface area: one of the 15 planes between 16 slices of equal width. It has the least sum,
+/// over both sides, of area times triangles.
 ///
-/// An axis along which the plane would cut every triangle's box is not divided, unless that
-/// is so of all three; a cell is a leaf when no plane is inside it, or when every child would
-/// have all of its triangles. So equal triangles, and those that meet in one point, end the
-/// division early. A level whose division would give the tree more references than
-/// build_octree() allows is not divided, nor is any below.
+/// An axis is not divided if its plane would cut every triangle's box, unless that holds for all
+/// three axes. A cell is a leaf if no plane is inside it, or every child would have all its
+/// triangles. So equal triangles, and triangles that meet in one point, end the division early. A
+/// level and those below it are not divided if the tree would get more references than
+/// build_octree() allows.
 ///
-/// O(levels * references). Memory beside the result, on one thread, is at most
-/// kAdaptiveScratchPerTriangle, PerReference and PerNode times what the result has of each;
-/// on several, medians in work at once take up to 24 bytes a reference. Throws nothing but
+/// Takes O(levels * references) time. The memory beside the result is at most the sum of
+/// kAdaptiveScratchPerTriangle, PerReference and PerNode, each times its number. This holds for one
+/// thread; on several, the medians in progress take up to 24 bytes per reference. Throws only
 /// std::bad_alloc.
 [[nodiscard]] AdaptiveOctree build_adaptive_octree(std::span<const format::Double3> positions,
                                                    std::span<const format::Triangle> triangles,

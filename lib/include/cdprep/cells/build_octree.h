@@ -14,50 +14,52 @@
 
 namespace cdprep::build {
 
-/// An octree of cells of equal shape, as format/octree.h has it; and what finds a cell
-/// by its key. Vectors that were not asked for are empty.
+/// An octree of cells of equal shape (format/octree.h), and the tables that find a cell by its key.
+/// Vectors that the options exclude are empty.
 struct Octree {
     format::OctreeGrid grid{};
     std::vector<format::OctreeNode> nodes;
     std::vector<std::uint32_t> references;
-    std::vector<std::uint64_t> leaf_codes;     ///< the hashed octree's modern form:
+    std::vector<std::uint64_t> leaf_codes;     ///< the modern form of the hashed octree:
     std::vector<std::uint32_t> leaf_nodes;     ///< leaves sorted along the z curve,
-    std::vector<std::uint32_t> top;            ///< with a table of where to begin
-    std::vector<std::uint32_t> modulus_table;  ///< its literal form
+    std::vector<std::uint32_t> top;            ///< with a table of the places to begin
+    std::vector<std::uint32_t> modulus_table;  ///< its published form
     std::vector<std::uint32_t> mixed_table;    ///< the same with mixed keys
-    std::vector<format::CellBox> boxes;        ///< around what the nodes hold
+    std::vector<format::CellBox> boxes;        ///< around the contents of the nodes
 };
 
 struct OctreeOptions {
     ParallelFor parallel_for = serial_for;
     std::uint32_t level = 3;      ///< no cell is deeper; 0 to format::kOctreeBits
     std::uint32_t threshold = 1;  ///< a cell with fewer triangles is not divided; 1 at least
-    bool hashed = true;           ///< whether to make what finds cells by their keys
-    /// The model's frame, where boxes are to be made: in it they are stored.
+    bool hashed = true;           ///< also build the tables that find cells by their keys
+    /// The model's frame, if boxes are to be built; they are stored in it.
     std::optional<Frame> boxes_in{};
 };
 
-/// References that an octree may have beside kMostReferencesPerTriangle for each triangle.
+/// The number of references that an octree may have, beside kMostReferencesPerTriangle for each
+/// triangle.
 inline constexpr std::uint64_t kMostFreeReferences = std::uint64_t{1} << 22;
 inline constexpr std::uint64_t kMostReferencesPerTriangle = 64;
 
-/// Bytes that building takes for each vertex, reference and node of the result.
+/// The memory that a build uses for each vertex, reference and node of the result, in bytes.
 inline constexpr std::size_t kScratchPerVertex = 16;
 inline constexpr std::size_t kScratchPerReference = 10;
 inline constexpr std::size_t kScratchPerNode = 96;
 
-/// Builds the octree over triangles of finite positions of at most
-/// format::kMaxCoordinate; references are their numbers in `triangles` (a model's: tree
-/// order). A triangle is listed in every leaf whose closed cell it touches, exactly;
-/// degenerate ones as the segment or point they are. Deterministic: the same bytes for
-/// any parallel_for and any processor.
+/// Builds the octree over triangles with finite positions of at most format::kMaxCoordinate.
+/// References are their numbers in `triangles` (in a model: tree order). A triangle is listed in
+/// every leaf whose closed cell it touches, exactly. A degenerate one counts as the segment or
+/// point that it is. The result is the same, byte for byte, for any parallel_for and processor.
 ///
-/// A level whose division would give the tree more than kMostFreeReferences and
-/// kMostReferencesPerTriangle for each triangle is not divided, nor is any below: level 21
-/// around a triangle that fills the cube has 2^42 cells. O(levels * references). Memory beside
-/// the result: at most the sum of the three constants below. Throws nothing but
-/// std::bad_alloc. Coordinates that are NaN are refused long before, by whoever read them;
-/// here they give no answer.
+/// The total number of references is at most kMostFreeReferences plus kMostReferencesPerTriangle
+/// for each triangle. A level whose division would exceed this is not divided, nor is any level
+/// below. For example, level 21 around a triangle that fills the cube has 2^42 cells. If
+/// coordinates are NaN, the result is meaningless; the readers of files reject them.
+///
+/// Takes O(levels * references) time. The memory beside the result is at most the sum of
+/// kScratchPerVertex, kScratchPerReference and kScratchPerNode, each times its number. Throws only
+/// std::bad_alloc.
 [[nodiscard]] Octree build_octree(std::span<const format::Double3> positions,
                                   std::span<const format::Triangle> triangles,
                                   const OctreeOptions& options = {});

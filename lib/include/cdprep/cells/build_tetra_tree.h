@@ -11,14 +11,14 @@
 
 namespace cdprep::build {
 
-/// A tetra-tree, as format/tetra_tree.h has it.
+/// A tetra-tree (format/tetra_tree.h).
 struct TetraTree {
     format::TetraTree tree{};
     std::vector<format::TetraNode> nodes;
     std::vector<std::uint32_t> references;
     std::vector<std::uint32_t> top;
     std::vector<format::BvhNode> boxes;          ///< with TetraBounding::boxes
-    std::vector<format::OrientedNode> oriented;  ///< the same
+    std::vector<format::OrientedNode> oriented;  ///< with TetraBounding::boxes
 };
 
 struct TetraTreeOptions {
@@ -27,25 +27,24 @@ struct TetraTreeOptions {
     std::uint32_t threshold = 1;  ///< a cone with fewer triangles is not split; 1 at least
     format::TetraBounding bounding = format::TetraBounding::caps;
     std::int32_t frame_exponent = 0;  ///< of the model's frame: the unit of radii
-    format::Double3 frame_origin{};   ///< of the same: where boxes count from
+    format::Double3 frame_origin{};   ///< of the model's frame: the origin of boxes
 };
 
-/// Builds it over triangles of finite positions of at most format::kMaxCoordinate;
-/// references are their numbers in `triangles` (a model's: tree order). A triangle is
-/// listed in every leaf whose closed cone it touches, exactly; those that hold the
-/// centre in none. Deterministic: the same bytes for any parallel_for and processor.
+/// Builds the tree over triangles with finite positions of at most format::kMaxCoordinate.
+/// References are their numbers in `triangles` (in a model: tree order). A triangle is listed in
+/// every leaf whose closed cone it touches, exactly. Triangles that hold the centre are listed in
+/// no leaf. The result is the same, byte for byte, for any parallel_for and processor.
 ///
-/// The centre is the mean of the vertices that triangles use, rounded to float where all
-/// their coordinates are floats: so nearly all differences to it are exact. Radii hold the
-/// parts of triangles in exact arithmetic; that takes a frame exponent that brings the model
-/// near 1, else they may be infinite. So do boxes, in a frame that holds the model. TetraTreeFlags
-/// are found along one ray.
+/// The centre is the mean of the vertices that triangles use. It is rounded to float if all their
+/// coordinates are floats, so nearly all differences to it are exact. Radii contain the parts of
+/// triangles in exact arithmetic. This requires a frame exponent that brings the model near 1;
+/// otherwise radii may be infinite. Boxes contain the same parts, in a frame that holds the model.
+/// TetraTreeFlags are found along one ray.
 ///
-/// As of build_octree(), a level whose split would give the tree more than
-/// kMostFreeReferences and kMostReferencesPerTriangle for each triangle (build_octree.h) is
-/// not split, nor is any below. O(levels * references). Scratch, at most: 21 bytes a vertex,
-/// 7 a triangle, and for each reference of the result 13, for each node 160, with boxes 460. Throws
-/// nothing but std::bad_alloc.
+/// The number of references is limited as in build_octree(). A level whose split would exceed the
+/// limit is not split, nor is any below. Takes O(levels * references) time. Uses at most 21 bytes
+/// of scratch memory per vertex and 7 per triangle. It uses 13 more per reference of the result,
+/// and 160 per node, or 460 with boxes. Throws only std::bad_alloc.
 [[nodiscard]] TetraTree build_tetra_tree(std::span<const format::Double3> positions,
                                          std::span<const format::Triangle> triangles,
                                          const TetraTreeOptions& options = {});

@@ -10,15 +10,19 @@
 
 namespace cdprep {
 
-/// Proves, beyond format::find_deep_damage(), which has found nothing in this file, that the
-/// leaves of its octrees and its tetra-tree list exactly the triangles that have a point in
-/// their closed cells or cones, that references are marked as shared where they are, that an
-/// octree's root holds every corner, and that its tables find every node. Exact: each triangle
-/// is held against the cells by signs that no rounding changes. A tetra-tree's radii that leave
-/// out more than rounding can account for are damage too, where a cone's planes cut a triangle
-/// more than a millionth of the part that is left. Returns nothing when all is well, also without
-/// any of them. O(triangles * levels), a microsecond or so each; allocates. `model` is this file,
-/// opened with all its sections.
+/// Proves the lists of the octrees and the tetra-tree. Returns nothing if all are correct, or if
+/// there are no such trees. Each leaf must list exactly the triangles that have a point in its
+/// closed cell or cone.
+///
+/// References must be marked as shared if they are. An octree's root must hold every corner, and
+/// its tables must find every node. Exact: each triangle is compared with the cells by signs that
+/// no rounding changes. Radii of a tetra-tree are damage too if they exclude more than rounding can
+/// explain. If a cone's planes cut a triangle, this means more than a millionth of the part that is
+/// left.
+///
+/// `file` must be one in which format::find_deep_damage() finds nothing. `model` is this file,
+/// opened with all its sections. Takes O(triangles * levels) steps of about a microsecond.
+/// Allocates.
 [[nodiscard]] std::optional<format::Damage> find_list_damage(std::span<const std::byte> file,
                                                              const Model& model);
 

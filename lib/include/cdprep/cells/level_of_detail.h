@@ -10,7 +10,7 @@
 
 namespace cdprep {
 
-/// What the facets of two tetra-trees say about two solids at one level of detail.
+/// The answer that the facets of two tetra-trees give about two solids at one level of detail.
 struct CoarseCollision {
     /// `no`: the solids, and so their surfaces, have no common point. `yes`: they have one.
     /// `unknown`: the facets of this level cannot tell.
@@ -19,10 +19,10 @@ struct CoarseCollision {
     double error_b = 0;
 };
 
-/// Returns the error of a model at a level: the greatest distance of the outer and the inner facet
-/// of a cone, along any ray from the tetra-tree's centre, model units. It falls as the level rises,
-/// down to that of the leaves. A model without triangles has 0. Needs Ask::tetra_tree. Takes
-/// O(cones of the level) time.
+/// Returns the error of a model at a level, in model units. It is the greatest distance between the
+/// outer and the inner facet of a cone, along any ray from the tetra-tree's centre. It falls as the
+/// level rises, down to that of the leaves. A model without triangles has 0. Needs Ask::tetra_tree.
+/// Takes O(cones of the level) time.
 ///
 /// Level 0 has one outer and one inner facet per octant. Each further level splits every cone of
 /// the tree into four; a leaf stays as it is. The outer facet cuts a cone at its greatest radius,

@@ -9,41 +9,43 @@
 
 namespace cdprep {
 
-/// Figures that describe an octree of either kind (format/octree.h): its size, and how well
-/// it divides.
+/// Figures that describe an octree of either kind (format/octree.h): its size, and the quality of
+/// its division.
 struct OctreeFigures {
     std::uint64_t triangles = 0;       ///< of the model
-    std::uint64_t nodes = 0;           ///< cells that some triangle touches: those stored
-    std::uint64_t leaves = 0;          ///< of them, those that are not divided
-    std::uint64_t empty_children = 0;  ///< of the eight of each divided node, those not there
+    std::uint64_t nodes = 0;           ///< stored cells: those that some triangle touches
+    std::uint64_t leaves = 0;          ///< nodes that are not divided
+    std::uint64_t empty_children = 0;  ///< children that divided nodes lack, of eight each
     std::uint64_t references = 0;      ///< of all leaves
     std::uint64_t shared = 0;          ///< triangles that more than one leaf lists
     std::uint64_t largest_leaf = 0;    ///< references
     std::uint32_t deepest = 0;         ///< level of the deepest node; 0: the root
     std::uint64_t bytes = 0;           ///< of all its sections as stored
-    std::uint64_t table_bytes = 0;     ///< of `bytes`, what finds cells by their keys
+    std::uint64_t table_bytes = 0;     ///< the share of tables that find cells by key, in `bytes`
 
     friend bool operator==(const OctreeFigures&, const OctreeFigures&) = default;
 };
 
-/// The figures of a model's octree; all but `triangles` are 0 when it was baked without.
-/// O(nodes + references).
+/// Returns the figures of a model's octree. All but `triangles` are 0 if the model was baked
+/// without one. Takes O(nodes + references) time.
 [[nodiscard]] OctreeFigures octree_figures(const Model& model) noexcept;
 
-/// The same of a tree over so many triangles that stands in no file.
+/// Returns the same figures of a tree over `triangle_count` triangles that is not in a file.
 [[nodiscard]] OctreeFigures octree_figures(const build::Octree& octree,
                                            std::uint64_t triangle_count) noexcept;
 
-/// The same of an octree with split points of its own.
+/// Returns the same figures of an octree with chosen split points.
 [[nodiscard]] OctreeFigures adaptive_octree_figures(const Model& model) noexcept;
 [[nodiscard]] OctreeFigures adaptive_octree_figures(const build::AdaptiveOctree& octree,
                                                     std::uint64_t triangle_count) noexcept;
 
-/// Whether a node has a record for every child, or for those alone that triangles touch.
+/// The children that have a record in a node: all, or only those that triangles touch.
 enum class EmptyChildren : std::uint8_t { counted, left_out };
 
-/// What the published implementation would take: 72 bytes for the root, 80 for any other
-/// node, 4 for a reference. Which children it stored is not known. 0 without nodes.
+/// Returns the size that the published implementation would need, in bytes: 72 for the root, 80 for
+/// any other node, 4 for a reference. It is not known which children that implementation stored.
+/// Returns 0 without nodes. The formula is that of "A comparative study of implemented collision
+/// detection strategies".
 [[nodiscard]] std::uint64_t seed_formula_bytes(const OctreeFigures& figures,
                                                EmptyChildren empty) noexcept;
 

@@ -14,13 +14,14 @@
 
 namespace cdprep {
 
-/// What a search says when no node has that key, or no leaf holds that point.
+/// The result of a search if no node has the key, or no leaf holds the point.
 inline constexpr std::uint32_t kNoNode = 0xffffffffU;
 
-/// The parts of a hashed octree that a search reads: a model's or a builder's, which outlive
-/// it. Safe to search when find_damage found nothing: then tops rise from 0 to the number of
-/// leaves, all numbers name nodes, and every chain ends. A search reads nodes and, when there
-/// are any, what it is named for, which then must be there: an octree may be baked without.
+/// The parts of a hashed octree that a search reads. They belong to a model or a builder, which
+/// must outlive the index. A search is safe if find_damage finds nothing. Then tops rise from 0 to
+/// the number of leaves, all numbers name nodes, and every chain ends. If there are nodes, a search
+/// also reads the table that it is named after. That table must be present, but an octree may be
+/// baked without it.
 struct OctreeIndex {
     std::uint32_t top_level = 0;  ///< as format::OctreeGrid
     std::uint32_t slot_bits = 0;
@@ -33,7 +34,8 @@ struct OctreeIndex {
     std::span<const std::uint32_t> mixed_table;
 };
 
-/// The index of a model that has octree().grid, or of a builder's octree; empty without nodes.
+/// Returns the index of a model that has octree().grid, or of a builder's octree. It is empty
+/// without nodes.
 [[nodiscard]] OctreeIndex octree_index(const Model& model) noexcept;
 [[nodiscard]] OctreeIndex octree_index(const build::Octree& octree) noexcept;
 
@@ -42,7 +44,7 @@ struct OctreeIndex {
 [[nodiscard]] std::uint64_t code_of_point(const format::OctreeGrid& grid,
                                           const Double3& p) noexcept;
 
-/// The key of the cell of `level` in which the finest cell `code` lies.
+/// Returns the key of the cell of `level` that contains the finest cell `code`.
 inline std::uint64_t key_at(std::uint64_t code, std::uint32_t level) noexcept {
     assert(level <= format::kOctreeBits && code >> (3 * format::kOctreeBits) == 0);
     return (std::uint64_t{1} << (3 * level)) | (code >> (3 * (format::kOctreeBits - level)));
@@ -52,7 +54,8 @@ inline bool is_leaf(const format::OctreeNode& node) noexcept {
     return (node.count & format::kInnerNode) == 0;
 }
 
-/// The node of a key among those chained from a slot on, or kNoNode. O(length of the chain).
+/// Returns the node of a key in the chain that starts at a slot, or kNoNode. Takes O(length of the
+/// chain) time.
 inline std::uint32_t find_chained(const OctreeIndex& index, std::span<const std::uint32_t> table,
                                   std::uint64_t slot, std::uint64_t key) noexcept {
     assert(slot >> index.slot_bits == 0);
@@ -65,9 +68,9 @@ inline std::uint32_t find_chained(const OctreeIndex& index, std::span<const std:
     return kNoNode;
 }
 
-/// The node of a key by bisection of the nodes themselves, which are sorted: no table is
-/// read. O(log nodes): when searches overlap five to nine times as slow as a table, one after
-/// the other one to three times (octree_top_bench).
+/// Returns the node of a key, or kNoNode, by bisection of the sorted nodes. Reads no table. Takes
+/// O(log nodes) time. Overlapping searches take five to nine times as long as with a table.
+/// Searches one after the other take one to three times as long (octree_top_bench).
 inline std::uint32_t find_node_in_order(const OctreeIndex& index, std::uint64_t key) noexcept {
     const auto at = std::lower_bound(
         index.nodes.begin(), index.nodes.end(), key,
@@ -76,15 +79,15 @@ inline std::uint32_t find_node_in_order(const OctreeIndex& index, std::uint64_t 
     return static_cast<std::uint32_t>(at - index.nodes.begin());
 }
 
-/// find_leaf() by the sorted leaves; there are nodes. Leaves do not overlap, so the one that
-/// begins last before `code` or there holds it, if any does: empty cells are not stored,
-/// and it may end before.
+/// Computes find_leaf() by the sorted leaves. There must be nodes. Leaves do not overlap. So if a
+/// leaf holds `code`, it is the one with the last beginning that is not after `code`. That leaf may
+/// end before `code`, because empty cells are not stored.
 inline std::uint32_t find_sorted_leaf(const OctreeIndex& index, std::uint64_t code) noexcept {
     const std::uint64_t cell = code >> (3 * (format::kOctreeBits - index.top_level));
     assert(cell + 1 < index.top.size());
     const std::uint64_t* const codes = index.leaf_codes.data();
-    // With branches: those that the processor guesses wrong cost less than waiting, step by
-    // step, for codes that are not in the caches (octree_top_bench).
+    // Branches are used here. Mispredicted ones cost less than waiting, step by step, for codes
+    // that are not in the caches (octree_top_bench).
     const std::uint64_t* const after =
         std::upper_bound(codes + index.top[cell], codes + index.top[cell + 1], code);
     if (after == codes) return kNoNode;
@@ -93,7 +96,7 @@ inline std::uint32_t find_sorted_leaf(const OctreeIndex& index, std::uint64_t co
     return key_at(code, format::level_of(key)) == key ? node : kNoNode;
 }
 
-/// find_leaf() by a chained table. The deepest stored cell that holds `code` is a leaf, or
+/// Computes find_leaf() by a chained table. The deepest stored cell that holds `code` is a leaf, or
 /// an inner node whose child there is empty.
 template <auto kSlotOf>
 std::uint32_t find_chained_leaf(const OctreeIndex& index, std::span<const std::uint32_t> table,
@@ -105,8 +108,9 @@ std::uint32_t find_chained_leaf(const OctreeIndex& index, std::span<const std::u
     return kNoNode;
 }
 
-/// The node of a key, an inner node or a leaf, or kNoNode; 0 is no node's key. By the table
-/// that `search` names; sorted leaves do not tell of inner nodes: find_node_in_order then.
+/// Returns the node of a key, which may be an inner node or a leaf, or kNoNode. 0 is not the key of
+/// any node. Uses the table that `search` names. Sorted leaves do not include inner nodes;
+/// find_node_in_order() is then used.
 inline std::uint32_t find_node(const OctreeIndex& index, CellSearch search,
                                std::uint64_t key) noexcept {
     if (index.nodes.empty()) return kNoNode;
@@ -123,10 +127,10 @@ inline std::uint32_t find_node(const OctreeIndex& index, CellSearch search,
     return find_node_in_order(index, key);
 }
 
-/// The leaf whose half-open cell holds the finest cell `code`, below 2^63, or kNoNode when
-/// no triangle touches its cell. The answer is the same whatever the search, and that of a
-/// descent from the root. Sorted: O(log of the leaves in one cell of top_level), one
-/// bisection. The others go up from the deepest level: O(levels between that and the
+/// Returns the leaf whose half-open cell holds the finest cell `code`, which is below 2^63. Returns
+/// kNoNode if no triangle touches its cell. Every search gives the same answer, that of a descent
+/// from the root. CellSearch::sorted takes O(log of the leaves in one cell of top_level) time, for
+/// one bisection. The others go up from the deepest level, and search O(levels between that and the
 /// answer) chains.
 inline std::uint32_t find_leaf(const OctreeIndex& index, CellSearch search,
                                std::uint64_t code) noexcept {

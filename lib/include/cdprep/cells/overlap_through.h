@@ -42,11 +42,11 @@ struct StructureOptions {
 };
 
 /// Finds the pairs that overlaps() finds, by `through` instead of pair.options.through: the same
-/// sets in the same order. Slowest where triangles are larger than cells and thousands of pairs
-/// overlap: not all answers can then be remembered, and each is traced to the cells that own it.
+/// sets in the same order. Slowest if triangles are larger than cells and thousands of pairs
+/// overlap. Not all answers can then be remembered, and each is traced to the cells that own it.
 ///
-/// Needs Ask::overlap and ask_of() the structure of both models. Never allocates; takes some
-/// 20 KiB of stack.
+/// Needs Ask::overlap and ask_of() the structure of both models. Never allocates; takes some 20 KiB
+/// of stack.
 [[nodiscard]] std::size_t overlaps_through(const Pair& pair, const StructureOptions& through,
                                            Workspace& workspace,
                                            std::span<TrianglePair> room) noexcept;

@@ -9,14 +9,14 @@
 
 namespace cdprep::build {
 
-/// How far a structure divides space.
+/// The limits of the division of space by a structure.
 struct TreeLimits {
     std::uint32_t level;      ///< no node is deeper
     std::uint32_t threshold;  ///< a node with fewer triangles is not divided
 };
 
-/// Settings for each structure, found together. In a file that has a hashed octree, the
-/// octree is that one, with tables.
+/// Settings for each structure, chosen together. In a file with a hashed octree, that octree with
+/// its tables is also the octree.
 struct StructurePreset {
     const char* name;
     TreeLimits octree;
@@ -24,11 +24,12 @@ struct StructurePreset {
     TreeLimits adaptive_octree;
     TreeLimits tetra_tree;
     format::SplitRule split;         ///< of the adaptive octree
-    bool boxes;                      ///< whether octrees' cells get boxes around what they hold
+    bool boxes;                      ///< octree cells have boxes around their contents
     format::TetraBounding bounding;  ///< of the tetra-tree
 };
 
-/// As in the papers: 512 cells each, 8^3 of the octree and 8 * 4^3 of the tetra-tree.
+/// The settings of the published studies in docs/STUDIES.md: 512 cells each. That is 8^3 for the
+/// octree and 8 * 4^3 for the tetra-tree.
 inline constexpr StructurePreset kPaperPreset = {
     .name = "paper",
     .octree = {3, 1},
@@ -40,11 +41,11 @@ inline constexpr StructurePreset kPaperPreset = {
     .bounding = format::TetraBounding::caps,
 };
 
-/// What finds overlaps and collisions soonest: cells that are small enough to be told apart by
-/// the boxes around what they hold, and no smaller, since what two cells that meet list is held
-/// against each other by blocks of 64 triangles, and many cells bring the same blocks again.
-/// Times the hierarchy of boxes, medians of light and deep poses of twelve pairs of models
-/// (tests/bench/results, structure_queries.csv):
+/// The fastest settings for overlaps and collisions. Cells are small enough to be separated by the
+/// boxes around their contents, and no smaller. The lists of two cells that meet are compared in
+/// blocks of 64 triangles, and many cells would bring the same blocks again. The table gives times
+/// relative to the BVH: medians of light and of deep poses of twelve pairs (tests/bench/results,
+/// structure_queries.csv):
 ///
 ///                      octree       adaptive     hashed       tetra-tree
 ///     tuned, collide   2.4, 2.5     2.3, 2.7     5.6, 5.3     3.6, 3.9
@@ -52,7 +53,7 @@ inline constexpr StructurePreset kPaperPreset = {
 ///     paper, collide   7.4, 6.5     12, 6.6      18, 19       18, 11
 ///     paper, overlap   3.2, 2.3     5.7, 4.0     7.0, 8.5     6.4, 4.9
 ///
-/// To ask what is inside, a deeper tetra-tree is better: its costs are the triangles of one cone.
+/// For containment of points, a deeper tetra-tree is better: its cost is the triangles of one cone.
 inline constexpr StructurePreset kTunedPreset = {
     .name = "tuned",
     .octree = {5, 8},

@@ -8,13 +8,13 @@
 
 namespace cdprep {
 
-/// Figures that describe a tetra-tree (format/tetra_tree.h): its size, and how well its
-/// cones divide this shape. A star-shaped one has one layer; with more than about four,
-/// or the centre outside or near the surface, cones are the wrong tool.
+/// Figures that describe a tetra-tree (format/tetra_tree.h): its size, and how well its cones
+/// divide this shape. A star-shaped model has one layer. Cones are the wrong tool for more than
+/// about four layers, or for a centre outside or near the surface.
 struct TetraFigures {
     std::uint64_t triangles = 0;     ///< of the model
-    std::uint64_t nodes = 0;         ///< cones that some triangle touches: those stored
-    std::uint64_t leaves = 0;        ///< of them, those that are not split
+    std::uint64_t nodes = 0;         ///< stored cones: those that some triangle touches
+    std::uint64_t leaves = 0;        ///< nodes that are not split
     std::uint64_t empty_cones = 0;   ///< octants and children that no triangle touches
     std::uint64_t references = 0;    ///< of all leaves, and triangles that hold the centre
     std::uint64_t centre_count = 0;  ///< triangles that hold the centre
@@ -22,8 +22,9 @@ struct TetraFigures {
     std::uint64_t in_many = 0;       ///< triangles that more than eight leaves list
     std::uint64_t largest_leaf = 0;  ///< references
     std::uint32_t deepest = 0;       ///< splits above the deepest node
-    /// Over the leaves: triangles that the ray from the centre through the middle of the
-    /// leaf's generators crosses, counted exactly, each on one side of an edge alone.
+    /// The mean over the leaves of the number of triangles that a ray crosses. The ray runs from
+    /// the centre through the middle of the leaf's generators. Triangles are counted exactly, and
+    /// at an edge on one side only.
     double mean_layers = 0;
     std::uint64_t most_layers = 0;
     bool centre_inside = false;
@@ -32,18 +33,19 @@ struct TetraFigures {
     friend bool operator==(const TetraFigures&, const TetraFigures&) = default;
 };
 
-/// The figures of a model's tetra-tree; all but `triangles` are 0 when it was baked without.
-/// Layers are 0 of a model that was opened without positions and triangles. O(nodes +
-/// references), tens of nanoseconds a reference; allocates four bytes a triangle.
+/// Returns the figures of a model's tetra-tree. All but `triangles` are 0 if the model was baked
+/// without one. Layers are 0 if the model was opened without positions and triangles. Takes O(nodes
+/// + references) time, tens of nanoseconds per reference. Allocates four bytes per triangle.
 [[nodiscard]] TetraFigures tetra_figures(const Model& model);
 
-/// The same of a tree over these triangles that stands in no file.
+/// Returns the same figures of a tree over these triangles that is not in a file.
 [[nodiscard]] TetraFigures tetra_figures(const build::TetraTree& tree,
                                          std::span<const format::Double3> positions,
                                          std::span<const format::Triangle> triangles);
 
-/// What the published implementation would take: 340 bytes for the root, 88 for any other
-/// node, empty ones too, 4 for a reference. 0 without nodes.
+/// Returns the size that the published implementation would need, in bytes: 340 for the root, 88
+/// for any other node, including empty ones, and 4 for a reference. Returns 0 without nodes. The
+/// formula is that of "A comparative study of implemented collision detection strategies".
 [[nodiscard]] std::uint64_t seed_formula_bytes(const TetraFigures& figures) noexcept;
 
 }  // namespace cdprep

@@ -33,8 +33,8 @@ namespace cdprep::exact {
 /// integers of any length.
 [[nodiscard]] int orient2d(const Double2& a, const Double2& b, const Double2& c) noexcept;
 
-/// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]: positive when d lies behind the plane, seen
-/// from the side where a, b, c turn counter-clockwise. Cost and stages as orient2d().
+/// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]. It is positive when d lies behind the
+/// plane, seen from the side where a, b, c turn counter-clockwise. Cost and stages as orient2d().
 [[nodiscard]] int orient3d(const Double3& a, const Double3& b, const Double3& c,
                            const Double3& d) noexcept;
 

@@ -9,12 +9,12 @@
 
 namespace cdprep {
 
-/// How two triangles meet.
+/// The contact of two triangles.
 enum class TriangleContact : std::uint8_t {
     disjoint,         ///< no common point
     touch,            ///< common points, but no crossing and no shared area
-    cross,            ///< their insides cross: not in one plane
-    coplanar_overlap  ///< one plane, shared area
+    cross,            ///< their interiors cross; not in one plane
+    coplanar_overlap  ///< in one plane, with shared area
 };
 
 /// An edge of one triangle that meets the other's plane in one point.
@@ -35,8 +35,8 @@ struct CrossingEnds {
 struct PointTriangleDistance {
     Double3 nearest;  ///< on the triangle, up to rounding
     double computed;  ///< the rounded distance to `nearest`
-    double lower;     ///< proved: the exact distance is at least this, >= 0
-    double upper;     ///< proved: and at most this
+    double lower;     ///< proven: the exact distance is at least this, >= 0
+    double upper;     ///< proven: and at most this
 };
 
 }  // namespace cdprep
@@ -51,8 +51,8 @@ namespace cdprep::exact {
 /// touch. Cost as triangles_touch().
 [[nodiscard]] TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept;
 
-/// Returns what classify_contact() returns, without its filter: for studies of what the filter
-/// saves. Exact.
+/// Returns the result of classify_contact(), without its filter: for studies of the filter's
+/// benefit. Exact.
 [[nodiscard]] TriangleContact contact_without_filter(const Corners& a, const Corners& b) noexcept;
 
 /// Returns the edges that bound the common segment of two triangles that touch. Returns nothing
@@ -63,17 +63,17 @@ namespace cdprep::exact {
 /// Returns whether the corners are collinear. Exact.
 [[nodiscard]] bool is_degenerate(const Corners& t) noexcept;
 
-/// Returns the distance of `q` from a triangle, with or without area, as a proved interval.
+/// Returns the distance of `q` from a triangle, with or without area, as a proven interval.
 ///
-/// The interval is at most 32 u of the farthest corner's distance wide, u = 2^-53, unless the
-/// point is much nearer than that: then up to 200 u, and more for slivers. Works for all sizes
-/// from subnormal numbers to format::kMaxCoordinate. Takes some 50 ns.
+/// The width of the interval is at most 32 u times the distance of the farthest corner, u = 2^-53.
+/// If the point is much nearer than that, the width is up to 200 u, and more for slivers. Works for
+/// all sizes from subnormal numbers to format::kMaxCoordinate. Takes some 50 ns.
 [[nodiscard]] PointTriangleDistance point_triangle_distance(const Double3& q,
                                                             const Corners& t) noexcept;
 
-/// Returns whether a point, segment or triangle, given by its 1 to 3 corners, is at most
-/// `distance` from a triangle; equal counts. Exact. False for a negative distance or NaN. Takes
-/// microseconds where double does not decide, and some 20 KiB of stack.
+/// Returns whether a point, segment or triangle is at most `distance` from a triangle; inclusive.
+/// `corners` are the 1 to 3 corners of the former. Exact. False for a negative distance or NaN.
+/// Takes microseconds where double does not decide, and some 20 KiB of stack.
 [[nodiscard]] bool is_within(std::span<const Double3> corners, const Corners& t,
                              double distance) noexcept;
 

@@ -5,7 +5,7 @@
 
 namespace cdprep {
 
-/// What one triangle adds to the winding number of a surface around a point.
+/// The contribution of one triangle to the winding number of a surface around a point.
 struct WindingTerm {
     int crossings;    ///< 1 from behind, -1 from the front, 0 none
     bool on_surface;  ///< the point lies on the triangle; `crossings` is then 0
@@ -15,12 +15,12 @@ struct WindingTerm {
 
 namespace cdprep::exact {
 
-/// Returns what triangle `t` adds to the winding number around q: the crossing of `t` with the ray
-/// that starts at q and runs away from o. Exact. `o` differs from q.
+/// Returns the contribution of triangle `t` to the winding number around q. It is the crossing of
+/// `t` with the ray that starts at q and runs away from o. Exact. `o` must differ from q.
 ///
-/// Over a closed surface the terms add up to the winding number, whatever o is. The origin is
-/// perturbed symbolically to o + (e, e^2, e^3), e infinitely small, so that no ray meets an edge or
-/// a vertex. A triangle without area adds nothing. (Feito and Torres 1997, with another rule for
+/// Over a closed surface the contributions add up to the winding number, whatever o is. The origin
+/// is perturbed symbolically to o + (e, e^2, e^3) with e infinitely small. So no ray meets an edge
+/// or a vertex. A triangle without area adds nothing. (Feito and Torres 1997, with another rule for
 /// vertices.)
 [[nodiscard]] WindingTerm winding_term(const Double3& o, const Double3& q,
                                        const Corners& t) noexcept;

@@ -130,7 +130,7 @@ TEST(FalseFact, IsAForgedFlag) {
     const AlignedBytes sheet = baked(test::grid_sheet(3, 2));
     const auto closed = false_fact(with_flags(sheet, format::model_balanced));
     ASSERT_TRUE(closed);
-    EXPECT_EQ(closed->field, "the user block, field flags, flag closed");
+    EXPECT_EQ(closed->field, "the user block, field flags, flag balanced");
     EXPECT_EQ(closed->found + closed->expected, "10");
     const AlignedBytes solids = baked(two_solids());
     const auto open = false_fact(with_flags(solids, format::model_balanced));
@@ -346,7 +346,7 @@ TEST(FalseFact, IsToldByInfoInOneSentence) {
     EXPECT_EQ(exit, Exit::unreadable);
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
               "cdprep info: " + path +
-                  ": the user block, field flags, flag closed is not true of the mesh: found 1, "
+                  ": the user block, field flags, flag balanced is not true of the mesh: found 1, "
                   "expected 0. Copy the file again, or bake it again.\n");
 }
 
