@@ -27,7 +27,7 @@ void set_frame(Bvh& bvh, std::span<const Double3> positions, std::span<const Tri
     bvh.exact_leaves = has_exact_leaves(extent, bvh.frame);
 }
 
-/// What the options want besides the axis-aligned boxes.
+/// Computes the bounds that the options select besides the axis-aligned boxes.
 void fit_bounds(Bvh& bvh, const BvhOptions& options) {
     if (options.bounds != BvhBounds::aligned) {
         make_oriented(bvh, options.parallel_for);
@@ -42,7 +42,7 @@ void fit_bounds(Bvh& bvh, const BvhOptions& options) {
     }
 }
 
-/// Everything that follows from frame and order.
+/// Computes everything that follows from frame and order.
 void fill_nodes(Bvh& bvh, std::span<const Double3> positions, std::span<const Triangle> triangles,
                 const BvhOptions& options) {
     const auto shape = format::bvh_shape(static_cast<std::uint32_t>(triangles.size()));
@@ -93,7 +93,7 @@ double surface_cost(const Bvh& bvh) noexcept {
 double surface_cost(std::span<const BvhNode> nodes) noexcept {
     const format::FloatEnvironment environment;
     if (nodes.empty()) return 0;
-    // Of boxes that are not used the sides are -2: they count for nothing.
+    // The sides of unused boxes are -2: they count as 0.
     const auto half_areas = [](const BvhNode& node) {
         Lanes<double, kBvhWidth> area;
         for_lanes<kBvhWidth>([&](std::size_t box) {

@@ -17,8 +17,8 @@
 namespace cdprep::build {
 namespace {
 
-/// Where HDF5 would begin. An image has zeroes there: as many bytes as the header keeps of
-/// them, and as a reader compares.
+/// The place where HDF5 would begin. An image has zeroes there: as many bytes as the header keeps,
+/// and as a reader compares.
 constexpr std::array<std::byte, sizeof(format::FileHeader::superblock)> kNoSuperblock{};
 
 Error bad(const std::string& message) {
@@ -39,7 +39,7 @@ std::optional<Error> find_fault(const Section& section) {
                " bytes.");
 }
 
-/// Gives every section its place; returns where the image ends.
+/// Gives every section its place; returns the end of the image.
 std::uint64_t place(SectionTable& table, std::uint64_t alignment) {
     SectionPlaces places(alignment);
     for (std::uint32_t i = 0; i < table.count; ++i) {
@@ -82,8 +82,8 @@ std::optional<Error> find_fault(std::span<const std::byte> memory, std::uint64_t
                std::to_string(memory.size()) + ".");
 }
 
-/// Copies the sections in the order of their places, with zeroes in front of each and
-/// behind the last.
+/// Copies the sections in the order of their places. Writes zeroes in front of each and after the
+/// last.
 void fill(std::span<std::byte> image, const SectionTable& table) {
     std::uint64_t end = format::kUserBlockSize;
     const auto clear_up_to = [&](std::uint64_t begin) {

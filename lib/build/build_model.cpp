@@ -30,7 +30,7 @@ std::optional<Error> find_fault(std::span<const Position> positions,
     return find_bad_triangle(positions.size(), triangles);
 }
 
-/// The positions that triangles use, in the order of their first use.
+/// Adds the positions that triangles use, in the order of their first use.
 void add_positions(ModelArrays& arrays, std::span<const Double3> positions) {
     const std::vector<std::uint32_t>& order = arrays.source_vertex;
     if (arrays.precision == Precision::double_precision) {
@@ -89,7 +89,8 @@ SectionList ModelArrays::sections(format::SectionSet wanted) const {
 
 std::uint64_t image_size_bound(const PlannedModel& planned) noexcept {
     const std::uint64_t triangles = planned.triangle_count;
-    // Vertices that no triangle uses are left out. A component has a vertex and a triangle.
+    // Vertices that no triangle uses are omitted. A component has at least one vertex and one
+    // triangle.
     const std::uint64_t vertices = std::min<std::uint64_t>(planned.vertex_count, 3 * triangles);
     const std::uint64_t components = std::min(vertices, triangles);
     const format::BvhShape shape = format::bvh_shape(planned.triangle_count);
@@ -125,7 +126,8 @@ std::uint64_t image_size_bound(const PlannedModel& planned) noexcept {
 
 namespace {
 
-/// The hook runs in the caller's environment, which the builders below would not see.
+/// The hook must run in the caller's floating-point environment. The builders below cannot see that
+/// one, so the guard restores it for the hook.
 BvhOptions guarded_options(const BvhOptions& options, const GuardedFor& guarded) {
     BvhOptions inner = options;
     inner.parallel_for = guarded;

@@ -21,7 +21,7 @@ using format::Double3;
 using format::kBvhWidth;
 using format::PieceLeaf;
 
-/// The triangles of each piece, in as few runs as hold them, of about one length.
+/// Returns the triangles of each piece, in the fewest runs of nearly equal length.
 std::vector<PieceLeaf> cut_into_leaves(const PiecesOf& surface) {
     std::vector<PieceLeaf> leaves;
     for (std::uint32_t piece = 0; piece < surface.pieces.size(); ++piece) {
@@ -41,7 +41,7 @@ std::vector<PieceLeaf> cut_into_leaves(const PiecesOf& surface) {
     return leaves;
 }
 
-/// Two opposite corners of the box around a leaf's triangles.
+/// Returns two opposite corners of the box around a leaf's triangles.
 std::array<Double3, 2> box_of(const PiecesOf& surface, const PieceLeaf& leaf) {
     assert(leaf.count > 0 && leaf.count <= kBvhWidth);
     constexpr double kMost = std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ std::array<Double3, 2> box_of(const PiecesOf& surface, const PieceLeaf& leaf) {
     return {lower, upper};
 }
 
-/// For each leaf a triangle with its box is put in order.
+/// Orders the leaves; a triangle with the same box represents each leaf.
 void order_leaves(std::vector<PieceLeaf>& leaves, const PiecesOf& surface, const Frame& frame,
                   ParallelFor parallel_for) {
     std::vector<Double3> corners;
@@ -76,7 +76,8 @@ void order_leaves(std::vector<PieceLeaf>& leaves, const PiecesOf& surface, const
     leaves = std::move(ordered);
 }
 
-/// As a hierarchy each of whose leaves holds eight triangles, the last as often as it takes.
+/// Computes the bounds as for a BVH in which each leaf holds eight triangles; the last triangle
+/// repeats.
 void bound_leaves(PieceBoxes& made, const PiecesOf& surface, const Frame& frame,
                   ParallelFor parallel_for) {
     const std::vector<PieceLeaf>& leaves = made.leaves;

@@ -9,8 +9,8 @@
 
 namespace cdprep::build {
 
-/// Sets bit i of `words`, 64 a word, where the corners of triangle i are exactly collinear,
-/// and clears it elsewhere.
+/// Sets bit i of `words`, 64 a word, if the corners of triangle i are exactly collinear; otherwise
+/// clears it.
 void mark_degenerate(std::span<const format::Double3> positions,
                      std::span<const format::Triangle> triangles, std::span<std::uint64_t> words,
                      ParallelFor parallel_for);

@@ -16,7 +16,7 @@ using format::Double3;
 using format::Float3;
 using format::Triangle;
 
-/// Exponents of frames whose scale is an ordinary float.
+/// The largest |exponent| of frames whose scale is an ordinary float.
 constexpr std::int32_t kMaxExactExponent = 100;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct PointBounds {
     std::array<double, 3> lower = {kInfinity, kInfinity, kInfinity};
     std::array<double, 3> upper = {-kInfinity, -kInfinity, -kInfinity};
-    std::uint64_t lost = 0;  ///< bits that differ once rounded to float
+    std::uint64_t lost = 0;  ///< bits that rounding to float changes
 
     void grow(const PointBounds& other) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -44,7 +44,7 @@ struct PointBounds {
     }
 };
 
-/// Grows bounds by part(first, last) of `count` items each, and adds these up.
+/// Returns the union of part(first, last) over all parts of `count` items.
 template <class Part>
 Extent extent_of_parts(std::size_t count, ParallelFor parallel_for, const Part& part) {
     constexpr std::size_t kMostParts = 64;
@@ -73,7 +73,7 @@ Extent extent_of_all(std::span<const Position> positions, ParallelFor parallel_f
 Extent extent_of(std::span<const Double3> positions, std::span<const Triangle> triangles,
                  ParallelFor parallel_for) {
     const auto part = [&](std::size_t first, std::size_t last) {
-        // One for each corner: they do not wait for each other.
+        // One for each corner, so that none waits for another.
         std::array<PointBounds, 3> corner;
         for (std::size_t i = first; i < last; ++i) {
             for (std::size_t k = 0; k < 3; ++k) {

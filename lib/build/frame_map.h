@@ -23,7 +23,7 @@ namespace cdprep::build {
     return {double{p.x}, double{p.y}, double{p.z}};
 }
 
-/// The next float above x, or x when it is one. Finite numbers of float's range.
+/// Returns the least float that is at least x. Requires a finite x in the range of float.
 [[nodiscard]] inline float float_above(double x) {
     const auto rounded = static_cast<float>(x);
     const float zero_is_positive = rounded + 0.0F;
@@ -36,7 +36,7 @@ namespace cdprep::build {
     return -float_above(-x);
 }
 
-/// What all vertices that triangles use have in common.
+/// The properties of all vertices that triangles use: their bounds, and whether all are floats.
 struct Extent {
     std::array<double, 3> lower;
     std::array<double, 3> upper;
@@ -47,20 +47,20 @@ struct Extent {
                                std::span<const format::Triangle> triangles,
                                ParallelFor parallel_for);
 
-/// The same, of the vertices whose mark is not 0.
+/// As above, for the vertices whose mark is not 0.
 [[nodiscard]] Extent extent_of(std::span<const format::Double3> positions,
                                std::span<const std::uint8_t> marks, ParallelFor parallel_for);
 
-/// The same, of all vertices.
+/// As above, for all vertices.
 [[nodiscard]] Extent extent_of(std::span<const format::Double3> positions,
                                ParallelFor parallel_for);
 [[nodiscard]] Extent extent_of(std::span<const format::Float3> positions, ParallelFor parallel_for);
 
-/// Centres the box and scales it by a power of two so that no coordinate leaves
-/// [-1, 1], not even after rounding: the largest distance lands in [1/4, 1/2].
+/// Centres the box and scales it by a power of two so that no coordinate leaves [-1, 1], not even
+/// after rounding. The largest distance lies in [1/4, 1/2].
 [[nodiscard]] Frame frame_of(const Extent& extent);
 
-/// Whether leaves keep model coordinates: all are floats, and the scale of the frame is an
+/// Returns whether leaves keep model coordinates: all are floats, and the scale of the frame is an
 /// ordinary float.
 [[nodiscard]] bool has_exact_leaves(const Extent& extent, const Frame& frame);
 
@@ -70,30 +70,30 @@ struct Interval {
     float upper;
 };
 
-/// Takes model coordinates to frame coordinates.
+/// Maps model coordinates to frame coordinates.
 class FrameMap {
 public:
     explicit FrameMap(const Frame& frame)
         : origin_{frame.origin.x, frame.origin.y, frame.origin.z},
-          // Two steps: neither power of two leaves the range of double.
+          // Two steps, so that neither power of two leaves the range of double.
           scale_{std::ldexp(1.0, frame.exponent / 2),
                  std::ldexp(1.0, frame.exponent - frame.exponent / 2)},
           back_{std::ldexp(1.0, -(frame.exponent / 2)),
                 std::ldexp(1.0, -(frame.exponent - frame.exponent / 2))} {}
 
-    /// A length. Rounds only below the normal range.
+    /// Returns a length in frame units. Rounds only below the normal range.
     [[nodiscard]] double scaled(double length) const {
         return length * scale_[0] * scale_[1];
     }
 
-    /// Rounds twice at most.
+    /// Returns the frame coordinate of x, rounded at most twice.
     [[nodiscard]] double near(double x, std::size_t axis) const {
         return scaled(x - origin_[axis]);
     }
 
-    /// The difference rounds by at most half an ulp and the scaling only when it
-    /// falls below the normal range; both are noticed, and then the double is
-    /// widened before it becomes a float.
+    /// Returns floats around the frame coordinate of x. The difference rounds by at most half an
+    /// ulp, and the scaling rounds only below the normal range. Both are detected; the double is
+    /// then widened before it becomes a float.
     [[nodiscard]] Interval around(double x, std::size_t axis) const {
         const double origin = origin_[axis];
         const double difference = x - origin;

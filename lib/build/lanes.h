@@ -6,9 +6,9 @@
 
 namespace cdprep::build {
 
-/// Numbers side by side. GCC unrolls loops of four and eight before it looks for
-/// vectors, and then finds none: the pragma keeps them loops, so that one vector
-/// instruction does what four scalar ones would.
+/// Numbers side by side. GCC unrolls loops of four and eight before it looks for vectors, and then
+/// finds none. The pragma keeps the loops, so that one vector instruction replaces four scalar
+/// ones.
 template <class T, std::size_t kCount>
 using Lanes = std::array<T, kCount>;
 
@@ -19,8 +19,8 @@ template <class T, std::size_t kCount>
     return lanes;
 }
 
-/// Calls body(lane) for each lane. Eight are twice four: of floats one vector each, and
-/// no loop is left.
+/// Calls body(lane) for each lane. Eight are twice four: of floats one vector each, and no loop
+/// remains.
 template <std::size_t kCount, class Body>
 inline void for_lanes(const Body& body) {
     if constexpr (kCount == 8) {
@@ -42,7 +42,7 @@ inline void take_upper(Lanes<T, kCount>& a, const Lanes<T, kCount>& b) {
     for_lanes<kCount>([&](std::size_t lane) { a[lane] = a[lane] < b[lane] ? b[lane] : a[lane]; });
 }
 
-/// Halves meet first, so that vectors do most of it.
+/// Compares the halves first, so that vector instructions do most of the work.
 template <class T>
 [[nodiscard]] inline T least(const Lanes<T, 8>& lanes) {
     Lanes<T, 4> half;

@@ -22,8 +22,8 @@ using format::Float3;
 using format::kBvhWidth;
 using format::Triangle;
 
-/// One coordinate of the corners of a leaf, corner by corner, lanes past the last
-/// triangle repeating it.
+/// One coordinate of the corners of a leaf, corner by corner. Lanes past the last triangle repeat
+/// it.
 using CornerRow = Lanes<double, std::size_t{3} * kBvhWidth>;
 using LeafCorners = std::array<CornerRow, 3>;
 
@@ -46,7 +46,7 @@ Bound bound_of(const CornerRow& row) {
     return {least(lower), greatest(upper)};
 }
 
-/// Where a leaf's corners are kept: in model coordinates, or in frame coordinates.
+/// Writes leaves, whose corners are in model coordinates or in frame coordinates.
 class LeafMaker {
 public:
     LeafMaker(const Frame& frame, bool exact) : map_(frame), exact_(exact) {}
@@ -71,7 +71,7 @@ public:
             fill_axis(leaf, row, axis);
             const double reach =
                 std::max(bound.upper - double{origin}, double{origin} - bound.lower);
-            // The difference of two doubles is off by half an ulp at most.
+            // The difference of two doubles is off by at most half an ulp.
             const double enlarged = reach * (1 + 0x1p-50);
             leaf.half[axis] = float_above(exact_ ? map_.scaled(enlarged) : enlarged);
         }
@@ -92,7 +92,7 @@ private:
     bool exact_;
 };
 
-/// Triangles anywhere in memory, in an order of their own.
+/// Triangles anywhere in memory, with an order of their own.
 class OrderedTriangles {
 public:
     OrderedTriangles(std::span<const std::uint32_t> order, std::span<const Double3> positions,
@@ -109,7 +109,7 @@ public:
         return positions_[vertex];
     }
 
-    /// Asks for what leaves ahead will read: the tree order is not that of the memory.
+    /// Prefetches the data of leaves ahead: the tree order is not the order in memory.
     void ask_ahead_of(std::size_t leaf) const {
         each_of(leaf + 2 * kLeavesAhead, [](const Triangle& t) { prefetch(&t); });
         each_of(leaf + kLeavesAhead, [&](const Triangle& t) {
@@ -132,8 +132,8 @@ private:
     std::span<const Triangle> triangles_;
 };
 
-/// Triangles that lie in tree order, and nearly so their vertices: the processor sees itself
-/// what comes next.
+/// Triangles stored in tree order, with vertices nearly so: the processor itself predicts the next
+/// reads.
 template <class Position>
 class SortedTriangles {
 public:

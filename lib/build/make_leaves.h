@@ -5,7 +5,7 @@
 
 namespace cdprep::build {
 
-/// What leaves are made into.
+/// The memory into which leaves are written.
 struct LeafRoom {
     Frame frame;
     bool exact = false;  ///< the leaves hold model coordinates
@@ -13,15 +13,15 @@ struct LeafRoom {
     std::span<format::BvhLeaf> leaves;
 };
 
-/// Fills leaves and the boxes around them, those of level 0 of the nodes, for triangles that
-/// stand in tree order.
+/// Fills leaves and the boxes around them, which are level 0 of the nodes. Requires triangles in
+/// tree order.
 void make_leaves(const LeafRoom& room, std::span<const format::Double3> positions,
                  std::span<const format::Triangle> triangles, ParallelFor parallel_for);
 void make_leaves(const LeafRoom& room, std::span<const format::Float3> positions,
                  std::span<const format::Triangle> triangles, ParallelFor parallel_for);
 
-/// Fills bvh.leaves and the boxes around them, those of level 0 of bvh.nodes, from
-/// bvh.order, bvh.frame and bvh.exact_leaves.
+/// Fills bvh.leaves and the boxes around them, which are level 0 of bvh.nodes, from bvh.order,
+/// bvh.frame and bvh.exact_leaves.
 void make_leaves(Bvh& bvh, std::span<const format::Double3> positions,
                  std::span<const format::Triangle> triangles, ParallelFor parallel_for);
 

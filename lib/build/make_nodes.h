@@ -5,11 +5,11 @@
 
 namespace cdprep::build {
 
-/// Fills the levels of a hierarchy's nodes above the lowest, from that one.
+/// Fills the levels of a hierarchy's nodes above the lowest, from the lowest.
 void make_nodes(std::span<format::BvhNode> all, std::uint32_t triangle_count,
                 ParallelFor parallel_for);
 
-/// Marks boxes from `first` on as not used.
+/// Marks boxes from `first` on as unused.
 void set_unused_boxes(format::BvhNode& node, std::size_t first);
 
 }  // namespace cdprep::build

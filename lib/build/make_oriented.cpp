@@ -12,9 +12,9 @@
 #include "build/frame_map.h"
 #include "build/oriented_axes.h"
 
-// Axes are those of the surface below a box (oriented_axes.h). The moments of a box are
-// those of what it holds added up; its extents are those of all vertices below. Eight boxes
-// are fitted side by side.
+// The axes are those of the surface below a box (oriented_axes.h). The moments of a box are the sum
+// of the moments of its contents. Its extents are those of all vertices below. Eight boxes are
+// fitted side by side.
 
 namespace cdprep::build {
 namespace {
@@ -27,7 +27,7 @@ using format::OrientedNode;
 
 using Floats = Lanes<float, kBvhWidth>;
 
-/// A leaf's corners from its own middle on, in floats, and where that middle lies.
+/// A leaf's corners relative to its own middle, in floats, and the place of that middle.
 struct LocalLeaf {
     std::array<std::array<Floats, 3>, 3> corner;  ///< [corner][axis], times 2^-exponent frame units
     Vector middle;                                ///< frame coordinates
@@ -40,7 +40,7 @@ public:
           exact_(bvh.exact_leaves),
           scale_(bvh.exact_leaves ? std::ldexp(1.0F, bvh.frame.exponent) : 1) {}
 
-    /// Corners in frame units.
+    /// Returns the corners in frame units.
     [[nodiscard]] LocalLeaf read(const BvhLeaf& leaf) const {
         LocalLeaf local;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -62,13 +62,14 @@ private:
     float scale_;
 };
 
-/// A power of two near 1 / size, so that squares of squares stay in float's range.
+/// Returns a power of two near 1 / size, so that squares of squares stay in the range of float.
 float unit_of(const BvhLeaf& leaf) {
     const float size = std::max({leaf.half[0], leaf.half[1], leaf.half[2], 0x1p-100F});
     return std::bit_cast<float>((254U << 23U) - (std::bit_cast<std::uint32_t>(size) & 0x7f800000U));
 }
 
-/// Of one triangle the integral of x x^T is area / 12 (9 m m^T + sum of p p^T).
+/// Returns the moments of a leaf. For one triangle, the integral of x x^T is
+/// area / 12 (9 m m^T + sum of p p^T).
 Moments moments_of(const BvhLeaf& leaf, const LocalLeaf& local) {
     const float unit = unit_of(leaf);
     auto p = local.corner;
@@ -122,7 +123,7 @@ Moments moments_of(const BvhLeaf& leaf, const LocalLeaf& local) {
     return moments;
 }
 
-/// Of an axis-aligned box, as floats: near everything in it.
+/// Returns the middle of an axis-aligned box, as floats: near everything in it.
 Vector middle_of(const BvhNode& node, std::size_t box) {
     Vector middle{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -133,7 +134,7 @@ Vector middle_of(const BvhNode& node, std::size_t box) {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Extents of eight things along three axes.
+/// The extents of eight objects along three axes.
 struct Range {
     std::array<Floats, 3> lower;
     std::array<Floats, 3> upper;
@@ -157,7 +158,7 @@ struct Bound {
     }
 };
 
-/// Takes the coordinates of a leaf's corners along the axes, from `origin` on.
+/// Widens the bound by the coordinates of a leaf's corners along the axes, relative to `origin`.
 void widen(Bound& bound, const LocalLeaf& leaf, const Vector& origin, const Axes& axes) {
     const Vector from = {leaf.middle[0] - origin[0], leaf.middle[1] - origin[1],
                          leaf.middle[2] - origin[2]};
@@ -182,7 +183,7 @@ void widen(Bound& bound, const LocalLeaf& leaf, const Vector& origin, const Axes
     }
 }
 
-/// How far the boxes of a node reach along the axes, from `origin` on: of each the
+/// Returns the reach of the boxes of a node along the axes, relative to `origin`: for each box, its
 /// corners that lie farthest back and farthest on.
 Range reach_of(const BvhNode& node, const Vector& origin, const Axes& axes) {
     Range reach;
@@ -202,17 +203,16 @@ Range reach_of(const BvhNode& node, const Vector& origin, const Axes& axes) {
     return reach;
 }
 
-/// Writes the box of one bound. The axes are unit and at right angles to 8 u (u =
-/// 2^-24), the third however it is rounded; so the coordinates of a point along
-/// them are off by 24 u times the largest, and the tests treat the cross terms as
-/// zero, for as much again. No corner, and no leaf's middle, is farther from
-/// `origin` than 3 times the largest half extent, but for 2^-23 by which boxes and
-/// middles were rounded; the coordinates were found in floats from such a middle on:
-/// 12 u for the products and sums, 5 u for the third axis, 3 u for the middle and 6 u
-/// for adding it; 21 u where a box that seemed to lie within was not looked into. 95 u
-/// of the largest, for which 2^-17 is taken, and of that 2^-23 less than 2^-40. Leaves
-/// that are not exact were rounded by u; 2^-23 of the frame's size covers that and the
-/// rounding of the centre.
+/// Writes the box of one bound. Let u = 2^-24. The axes are unit and at right angles to 8 u, the
+/// third for any rounding. So the coordinates of a point along them are off by 24 u times the
+/// largest. The tests treat the cross terms as zero, which costs as much again. No corner, and no
+/// leaf's middle, is farther from `origin` than 3 times the largest half extent. Boxes and middles
+/// were rounded by 2^-23, which is added to that. The coordinates were found in floats relative to
+/// such a middle: 12 u for the products and sums, 5 u for the third axis, 3 u for the middle and
+/// 6 u for adding it. A box that seemed to lie inside and was not visited costs 21 u. The total is
+/// 95 u of the largest, for which 2^-17 is taken. Applied to the 2^-23 above, that is less than
+/// 2^-40. Leaves that are not exact were rounded by u; 2^-23 of the frame's size covers that and
+/// the rounding of the centre.
 void set_box(OrientedNode& node, std::size_t box, const Vector& origin, const Axes& axes,
              const Bound& bound, bool exact) {
     Reach reach{};
@@ -223,7 +223,7 @@ void set_box(OrientedNode& node, std::size_t box, const Vector& origin, const Ax
     write_box(origin, axes, reach, exact ? 0x1p-40 : 0x1p-24, node, box);
 }
 
-/// Which of the first `used` lanes is the least.
+/// Returns which of the first `used` lanes is the least.
 std::size_t least_of(const Floats& lanes, std::size_t used) {
     assert(used > 0 && used <= lanes.size());
     std::size_t best = 0;
@@ -256,8 +256,8 @@ public:
         return fit_node(level, index, below);
     }
 
-    /// Fits the boxes of a node above level 0 from the moments of what they hold;
-    /// returns their sum.
+    /// Fits the boxes of a node above level 0 from the moments of their contents; returns the sum
+    /// of these.
     Moments fit_node(std::uint32_t level, std::size_t index, const MomentLanes& below) const {
         set_boxes(level, index, below,
                   [&](Bound& bound, std::size_t box, const Vector& origin, const Axes& axes) {
@@ -289,7 +289,7 @@ private:
         return sum_of(below);
     }
 
-    /// widen_box(bound, box, origin, axes) finds the extents of one box.
+    /// widen_box(bound, box, origin, axes) computes the extents of one box.
     template <class WidenBox>
     void set_boxes(std::uint32_t level, std::size_t index, const MomentLanes& below,
                    const WidenBox& widen_box) const {
@@ -308,15 +308,15 @@ private:
         }
     }
 
-    /// Widens a bound by the corners below a place, leaf `index` at height 0, node
-    /// `index` of level h - 1 at height h; what cannot widen it is not looked into.
+    /// Widens a bound by the corners below a place: leaf `index` at height 0, node `index` of level
+    /// h - 1 at height h. Skips places that cannot widen it.
     void widen_by(Bound& bound, std::uint32_t height, std::size_t index, const Vector& origin,
                   const Axes& axes) const {
         if (height == 0) return widen(bound, reader_.read(bvh_.leaves[index]), origin, axes);
         const std::size_t used = used_boxes(height - 1, index);
         const Range reach = reach_of(bvh_.nodes[shape_.first[height - 1] + index], origin, axes);
-        // First the box that reaches farthest, either way along each axis: the others
-        // are then likely to lie within.
+        // The boxes that reach farthest, either way along each axis, come first. The others are
+        // then likely to lie inside.
         unsigned left = (1U << used) - 1;
         const auto visit = [&](std::size_t box) {
             if ((left >> box & 1U) == 0) return;
@@ -336,7 +336,7 @@ private:
     LeafReader reader_;
 };
 
-/// Nodes of this level, 4096 triangles each, are tasks.
+/// The level of the nodes that are tasks: 4096 triangles each.
 constexpr std::uint32_t kTaskLevel = 2;
 
 /// Fits one level above the tasks.

@@ -10,12 +10,12 @@
 #include "build/chunks.h"
 #include "cdprep/advanced/parallel_for.h"
 
-// Swept spheres in the manner of Larsen, Gottschalk, Lin and Manocha 1999: along the
-// axes of the oriented box, a ball around the surface's shadow on the axes that are not
-// swept gives the radius; then each side is as short as it can be with that radius, a
-// point far from the middle's plane needing more of it than a near one. Last, the
-// radius becomes the largest distance from the middle as stored: it holds every vertex
-// however the steps before were rounded.
+// Swept spheres in the manner of Larsen, Gottschalk, Lin and Manocha 1999, along the axes of the
+// oriented box. The surface is projected on the axes that are not swept; a ball around the
+// projection gives the radius. Then each side is as short as that radius allows. A point far from
+// the middle's plane uses more of the radius than a near one. Last, the radius becomes the largest
+// distance from the middle as stored. So it covers every vertex, for any rounding in the earlier
+// steps.
 
 namespace cdprep::build {
 namespace {
@@ -39,7 +39,7 @@ Vector minus(const Vector& a, const Vector& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-/// The corners below one box, frame coordinates.
+/// The corners below one box, in frame coordinates.
 class Corners {
 public:
     Corners(const Bvh& bvh, std::size_t first_leaf, std::size_t last_leaf)
@@ -74,7 +74,7 @@ private:
     double scale_;
 };
 
-/// Axes of the oriented box, as floats: where the surface spreads most first.
+/// The axes of the oriented box, as floats; the axis of the surface's greatest extent first.
 struct Axes {
     std::array<std::array<float, 3>, 3> stored;
     std::array<Vector, 3> used;
@@ -100,25 +100,26 @@ Axes axes_of(const OrientedNode& node, std::size_t box) {
     return axes;
 }
 
-/// A swept sphere along its axes, from the centre of the oriented box on.
+/// A swept sphere along its axes, relative to the centre of the oriented box.
 struct Fit {
     Vector middle{};  ///< of the ball and of the sides, along the axes
     std::array<double, 2> half{};
     double radius = 0;
 };
 
-/// The part of a fit that is done: sides before `side` and the ball.
+/// Computes the steps of a fit: first the ball, then the sides in order.
 struct Fitter {
     const Corners& corners;
     const Axes& axes;
     Vector origin;
-    std::size_t sides;  ///< how many axes are swept
+    std::size_t sides;  ///< the number of swept axes
 
     [[nodiscard]] Vector along_axes(const Vector& p) const {
         const Vector from = minus(p, origin);
         return {dot(from, axes.used[0]), dot(from, axes.used[1]), dot(from, axes.used[2])};
     }
-    /// Square of the distance from the ball's middle across the axes that are not swept.
+    /// Returns the square of the distance from the ball's middle across the axes that are not
+    /// swept.
     [[nodiscard]] double squared_across(const Vector& at, const Vector& middle) const {
         double sum = 0;
         for (std::size_t k = sides; k < 3; ++k) sum += (at[k] - middle[k]) * (at[k] - middle[k]);
@@ -129,9 +130,8 @@ struct Fitter {
     void fit_side(Fit& fit, std::size_t side) const;
 };
 
-/// A ball around the shadow: steps of falling length towards the farthest corner
-/// (Badoiu and Clarkson 2003), the best of them kept. For one axis the box's middle is
-/// the answer.
+/// Fits a ball around the projection: steps of falling length towards the farthest corner (Badoiu
+/// and Clarkson 2003); keeps the best. For one axis the box's middle is the answer.
 void Fitter::fit_ball(Fit& fit) const {
     assert(sides <= 2);
     constexpr int kSteps = 12;
@@ -159,8 +159,8 @@ void Fitter::fit_ball(Fit& fit) const {
     fit.radius = std::sqrt(least);
 }
 
-/// The shortest side with which every corner is within the radius; what a corner lies
-/// beyond the sides before counts against it.
+/// Fits the shortest side with which every corner is within the radius. A corner's distance beyond
+/// the earlier sides reduces its share of the radius.
 void Fitter::fit_side(Fit& fit, std::size_t side) const {
     assert(side < sides);
     double lower = kInfinity;
@@ -194,9 +194,9 @@ void set_middle(SweptNode& node, std::size_t box, const Vector& origin, const Ax
     }
 }
 
-/// The largest distance of a corner from the stored middle, rounded up. Leaves that
-/// are not exact were rounded by 2^-25 a coordinate: 2^-24 covers three. 2^-40 covers
-/// the rounding of double here.
+/// Returns the largest distance of a corner from the stored middle, rounded up. Leaves that are not
+/// exact were rounded by 2^-25 a coordinate; 2^-24 covers three. 2^-40 covers the rounding of
+/// double here.
 float radius_of(const SweptNode& node, std::size_t box, const Corners& corners, bool exact) {
     std::array<Vector, 2> axis{};
     Vector centre{};

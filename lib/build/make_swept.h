@@ -5,9 +5,9 @@
 
 namespace cdprep::build {
 
-/// Fills bvh.swept_nodes and bvh.swept_kind from bvh.leaves, bvh.frame and
-/// bvh.oriented_nodes, whose axes and centres it starts from, and whose place they take
-/// unless `bounds` wants both. It is one of the swept ones.
+/// Fills bvh.swept_nodes and bvh.swept_kind from bvh.leaves, bvh.frame and bvh.oriented_nodes.
+/// Starts from the axes and centres of bvh.oriented_nodes, and clears these unless `bounds` selects
+/// both. Requires that `bounds` selects swept spheres.
 void make_swept(Bvh& bvh, BvhBounds bounds, ParallelFor parallel_for);
 
 }  // namespace cdprep::build

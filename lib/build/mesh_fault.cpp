@@ -19,7 +19,7 @@ Error bad(const std::string& message) {
     return {ErrorCode::bad_argument, message};
 }
 
-/// False for NaN.
+/// Returns whether x is an allowed coordinate; false for NaN.
 bool is_coordinate(double x) {
     return std::fabs(x) <= format::kMaxCoordinate;
 }

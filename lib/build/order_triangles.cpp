@@ -16,8 +16,8 @@ using format::Double3;
 using format::kBvhWidth;
 using format::Triangle;
 
-/// A triangle's box: lower x, y, z, its number, then minus upper x, y, z, so that
-/// the union of two boxes is the lesser of either lane.
+/// A triangle's box: lower x, y, z, its number, then the negated upper x, y, z. So the union of two
+/// boxes is the lesser of either lane.
 using BoxLanes = Lanes<float, 8>;
 constexpr std::size_t kNumberLane = 3;
 
@@ -30,7 +30,7 @@ float half_area(const BoxLanes& box) {
 
 constexpr BoxLanes kEmpty = all_lanes<float, 8>(kFarOff);
 
-/// The middle of twice the box, and the number: all that a quick cut looks at.
+/// Twice the middle of the box, and the number: all that a quick cut reads.
 struct alignas(16) MiddleItem {
     Lanes<float, 4> lanes;
 
@@ -45,7 +45,7 @@ struct alignas(16) MiddleItem {
 struct alignas(32) BoxItem {
     BoxLanes box;
 
-    /// Twice the middle: the halving would change no comparison.
+    /// Returns twice the middle: the halving would change no comparison.
     [[nodiscard]] float middle(std::size_t axis) const {
         return box[axis] - box[4 + axis];
     }
@@ -59,7 +59,8 @@ struct Reach {
     double upper;
 };
 
-/// Of a triangle along an axis. Cuts need no box that is rounded outwards.
+/// Returns the reach of a triangle along an axis. Cuts do not require boxes that are rounded
+/// outwards.
 Reach reach_of(const Triangle& triangle, std::span<const Double3> positions, const FrameMap& map,
                std::size_t axis) {
     const double a = coordinate(positions[triangle.vertex[0]], axis);
@@ -88,8 +89,7 @@ void make_item(const Triangle& triangle, std::uint32_t number, std::span<const D
     item.lanes[kNumberLane] = std::bit_cast<float>(number);
 }
 
-/// Rounds to the nearest multiple of the subtree size that leaves both sides
-/// something.
+/// Rounds to the nearest multiple of the subtree size that leaves neither side empty.
 std::size_t snap(std::size_t left, std::size_t count) {
     const std::size_t unit = subtree_size(count);
     const std::size_t most = (count - 1) / unit;
@@ -116,7 +116,7 @@ std::size_t bin_of_rank(const Counts& count, std::size_t rank) {
     return bin;
 }
 
-/// Across the longest side of the middles, as near to half as full subtrees allow.
+/// Cuts across the longest side of the middles' bounds, as near to half as full subtrees allow.
 struct QuickPolicy {
     using Item = MiddleItem;
     static constexpr std::size_t kBins = 64;
@@ -140,8 +140,8 @@ struct QuickPolicy {
         bins.count.fill(0);
     }
     static void count(Bins& bins, std::span<const Item> items) {
-        // Neighbours in the list often are neighbours in space: two counters, so that one
-        // need not wait for the other.
+        // Neighbours in the list often are neighbours in space. With two counters, neither waits
+        // for the other.
         std::array<std::uint32_t, kBins> odd{};
         const auto bin = [&](std::size_t i) {
             return bins.binning.bin(items[i].middle(bins.axis));
@@ -172,9 +172,9 @@ struct QuickPolicy {
     }
 };
 
-/// By the surface-area heuristic: of the cuts between full subtrees, along any axis,
-/// the one with the least sum of area times items of either side. Of larger sets the
-/// areas are those of 32 bins, and between their borders a share of it.
+/// Cuts by the surface-area heuristic. Of the cuts between full subtrees along any axis, takes the
+/// one with the least sum of area times items of both sides. For larger sets, the areas are those
+/// of 32 bins, interpolated between the bins' borders.
 struct BestPolicy {
     using Item = BoxItem;
     static constexpr std::size_t kBins = 32;
@@ -213,13 +213,13 @@ struct BestPolicy {
         return counts_around(bins.count[cut.axis], cut.bin);
     }
 
-    /// Areas and items of everything before and from each bin's border on.
+    /// The areas and items of everything before each bin's border and from it on.
     struct Sweep {
         std::array<float, kBins + 1> area_before{};
         std::array<float, kBins + 1> area_from{};
         std::array<std::size_t, kBins + 1> items_before{};
 
-        /// What the cut with `left` items on the left costs, of all `count`; it falls
+        /// Returns the cost of the cut with `left` of all `count` items on the left; the cut falls
         /// into `bin`.
         [[nodiscard]] float cost(std::size_t left, std::size_t count, std::size_t bin) const {
             assert(items_before[bin] <= left && left < items_before[bin + 1]);
@@ -270,7 +270,7 @@ struct BestPolicy {
         std::size_t left = 0;
     };
 
-    /// The best cut behind one of the runs of eight that ranks make.
+    /// Returns the best cut after one of the runs of eight in the order of ranks.
     static RunCut cut_between_runs(std::span<const Item> items, const Ranks& rank) {
         const std::size_t count = items.size();
         const std::size_t runs = (count + kBvhWidth - 1) / kBvhWidth;

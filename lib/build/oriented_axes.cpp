@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 
-// Axes are the eigenvectors of the covariance of a surface, every triangle counted by its
-// area (Gottschalk, Lin and Manocha 1996, without their convex hull): they do not depend on
-// how finely a part is tessellated. Eight are found side by side.
+// The axes are the eigenvectors of the covariance of a surface (Gottschalk, Lin and Manocha 1996,
+// without their convex hull). Every triangle is weighted by its area. So they do not depend on how
+// finely a part is tessellated. Eight are computed side by side.
 
 namespace cdprep::build {
 namespace {
@@ -21,14 +21,14 @@ Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Eight symmetric matrices and their eigenvectors, after `turn`.
+/// Eight symmetric matrices and, after `turn`, their eigenvectors.
 struct Eigen {
     std::array<std::array<Floats, 3>, 3> m;  ///< [row][column]
     std::array<std::array<Floats, 3>, 3> v;  ///< v[k]: k-th vector
 };
 
-/// A Jacobi rotation that makes m[i][j] zero (Golub and Van Loan 8.5), without a
-/// branch: tan = 2 m_ij / (d +- sqrt(d^2 + 4 m_ij^2)), d = m_jj - m_ii.
+/// Performs a Jacobi rotation that makes m[i][j] zero (Golub and Van Loan 8.5), without a branch:
+/// tan = 2 m_ij / (d +- sqrt(d^2 + 4 m_ij^2)), d = m_jj - m_ii.
 void turn(Eigen& e, std::size_t i, std::size_t j) {
     assert(i < j && j < 3);
     const std::size_t other = 3 - i - j;
@@ -48,7 +48,7 @@ void turn(Eigen& e, std::size_t i, std::size_t j) {
     for_lanes<8>([&](std::size_t k) { e.m[i][i][k] -= moved[k]; });
     for_lanes<8>([&](std::size_t k) { e.m[j][j][k] += moved[k]; });
     e.m[i][j].fill(0);
-    // Only the upper half is kept.
+    // Only the upper half is stored.
     Floats& x = e.m[std::min(i, other)][std::max(i, other)];
     Floats& y = e.m[std::min(j, other)][std::max(j, other)];
     const auto rotate = [&](Floats& a, Floats& b) {
@@ -65,7 +65,7 @@ void turn(Eigen& e, std::size_t i, std::size_t j) {
     for (std::size_t row = 0; row < 3; ++row) rotate(e.v[i][row], e.v[j][row]);
 }
 
-/// Makes two vectors unit and normal to each other.
+/// Makes two vectors unit and normal to each other, rounds them to float, and adds the third axis.
 Axes rounded(Vector first, Vector second) {
     const double length = 1 / std::sqrt(dot(first, first));
     for (double& x : first) x *= length;
@@ -84,7 +84,8 @@ Axes rounded(Vector first, Vector second) {
     return axes;
 }
 
-/// Of the matrices, divided by their traces; those that have none get x, y, z.
+/// Diagonalises the matrices divided by their traces. A matrix without a positive trace gets x, y,
+/// z.
 Eigen diagonal_of(const MomentLanes& moments) {
     constexpr int kSweeps = 3;  // the error of one is squared by the next
     Eigen e{};

@@ -13,7 +13,7 @@ namespace cdprep::build {
 using Vector = std::array<double, 3>;
 using Doubles = Lanes<double, format::kBvhWidth>;
 
-/// Rows and columns of a symmetric matrix kept as xx, yy, zz, xy, yz, zx.
+/// Rows and columns of a symmetric matrix stored as xx, yy, zz, xy, yz, zx.
 inline constexpr std::array<std::size_t, 6> kRow = {0, 1, 2, 0, 1, 2};
 inline constexpr std::array<std::size_t, 6> kColumn = {0, 1, 2, 1, 2, 0};
 
@@ -21,22 +21,21 @@ inline double dot(const Vector& a, const Vector& b) {
     return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
 }
 
-/// In pairs, so that half of a vector is added to the other.
+/// Adds in pairs, so that half of a vector is added to the other.
 template <class T>
 T sum_of(Lanes<T, format::kBvhWidth> lanes) {
     for_lanes<4>([&](std::size_t lane) { lanes[lane] += lanes[lane + 4]; });
     return (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]);
 }
 
-/// Area, its middle, and the integral of (x - middle) (x - middle)^T. Frame
-/// coordinates.
+/// Area, its middle, and the integral of (x - middle) (x - middle)^T, in frame coordinates.
 struct Moments {
     double area = 0;
     Vector middle{};
     std::array<double, 6> second{};
 };
 
-/// The moments of eight things.
+/// The moments of eight surfaces.
 struct MomentLanes {
     Doubles area{};
     std::array<Doubles, 3> middle{};
@@ -50,10 +49,10 @@ struct MomentLanes {
     }
 };
 
-/// Of eight things together (Steiner).
+/// Returns the moments of eight surfaces together (Steiner).
 [[nodiscard]] Moments sum_of(const MomentLanes& lanes);
 
-/// Orthonormal axes rounded to float, the third their cross product.
+/// Orthonormal axes rounded to float; the third is their cross product.
 struct Axes {
     std::array<std::array<float, 3>, 2> stored;
     std::array<Vector, 3> used;
@@ -61,22 +60,22 @@ struct Axes {
 
 using NodeAxes = std::array<Axes, format::kBvhWidth>;
 
-/// Of eight surfaces, every part counted by its area: the direction of least extent first,
-/// then that of the middle one. x and y of what has no area.
+/// Returns the axes of eight surfaces, with every part weighted by its area. The direction of least
+/// extent comes first, then that of middle extent. For a surface without area, they are x and y.
 [[nodiscard]] NodeAxes axes_of(const MomentLanes& moments);
 
-/// How far something reaches along three axes, from a point on.
+/// The extents of an object along three axes, relative to a point.
 struct Reach {
     Vector lower;
     Vector upper;
 };
 
-/// Writes the box of what reaches so far from `origin`, frame coordinates, its half extents
-/// enlarged by `slack`, by 2^-17 of the largest and by what the centre is rounded.
+/// Writes the box of an object with this reach from `origin`, in frame coordinates. Its half
+/// extents are enlarged by `slack`, by 2^-17 of the largest and by the rounding of the centre.
 void write_box(const Vector& origin, const Axes& axes, const Reach& reach, double slack,
                format::OrientedNode& node, std::size_t box);
 
-/// Writes that there is no such box.
+/// Marks the box as unused.
 void write_no_box(format::OrientedNode& node, std::size_t box);
 
 }  // namespace cdprep::build

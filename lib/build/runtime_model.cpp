@@ -33,23 +33,24 @@ using format::SectionId;
 using format::SectionSet;
 using format::Triangle;
 
-/// What a run-time model has: what follows its positions, and what these leave as it is.
+/// The sections of a run-time model: those that follow from its positions, and those that do not
+/// depend on them.
 constexpr SectionSet kSections = {
     SectionId::positions_f32,   SectionId::positions_f64,   SectionId::triangles,
     SectionId::source_triangle, SectionId::source_vertex,   SectionId::bvh_nodes,
     SectionId::bvh_leaves,      SectionId::degenerate_bits, SectionId::components};
 
-/// The facts without swept spheres, which are left out.
+/// Returns the facts without swept spheres, which a run-time model omits.
 format::FileHeader facts_of(format::FileHeader base) {
     base.flags &= ~(format::model_swept_lines | format::model_swept_rectangles);
     return base;
 }
 
-/// What a run-time model is made of: views of its base.
+/// The parts of a run-time model: views of its base.
 struct Start {
     format::FileHeader facts;
     SectionList list;
-    /// A triangle may become degenerate: the model has marks even when none is set.
+    /// A triangle may become degenerate, so the model has marks even if none is set.
     std::vector<std::uint64_t> no_marks;
 
     Start(const format::FileHeader& base, SectionList views, bool has_marks)
@@ -67,7 +68,7 @@ Error bad(const std::string& message) {
     return {ErrorCode::bad_argument, message};
 }
 
-/// Why a model cannot be the base of a run-time model.
+/// Returns why a model cannot be the base of a run-time model.
 std::optional<Error> find_fault(const Model& base) {
     for (const SectionId id :
          {SectionId::triangles, SectionId::source_triangle, SectionId::source_vertex,
@@ -117,7 +118,7 @@ Start start_of(const Model& base) {
     return {base.header(), views_of(base), !base.mesh().degenerate_bits.empty()};
 }
 
-/// The elements of a section of an image that was checked.
+/// Returns the elements of a section of a checked image.
 template <class Element>
 std::span<Element> elements_of(std::span<std::byte> image, SectionId id) {
     const std::optional<SectionEntry> entry = format::find_section(image, id);
@@ -126,7 +127,7 @@ std::span<Element> elements_of(std::span<std::byte> image, SectionId id) {
             static_cast<std::size_t>(entry->count)};
 }
 
-/// The table of an image, to be changed and put back.
+/// The section table of an image, to be changed and written back.
 struct Table {
     explicit Table(std::span<const std::byte> image)
         : count(format::read_header(image).section_count) {
@@ -136,7 +137,7 @@ struct Table {
     [[nodiscard]] std::span<SectionEntry> used() {
         return std::span(entries).first(count);
     }
-    /// Adds up the bytes of a section anew.
+    /// Computes the checksum of a section again.
     static void sum(std::span<const std::byte> image, SectionEntry& entry) {
         entry.checksum = format::checksum(
             image.subspan(static_cast<std::size_t>(entry.offset),
@@ -163,7 +164,7 @@ bool is_positions(SectionId id) {
     return id == SectionId::positions_f32 || id == SectionId::positions_f64;
 }
 
-/// As they were imported: components are found in that order.
+/// Returns the triangles in import order: components are numbered in that order.
 std::vector<Triangle> in_source_order(const Model& model) {
     const auto triangles = model.mesh().triangles;
     std::vector<Triangle> sorted(triangles.size());
@@ -270,7 +271,7 @@ Result<double> RuntimeModel::refit_to(std::span<const Position> positions,
     return refit_over(model_.mesh().positions_f64, guarded);
 }
 
-/// Everything that follows from the positions, which stand in the image.
+/// Computes everything that follows from the positions, which are in the image.
 template <class Kept>
 double RuntimeModel::refit_over(std::span<const Kept> positions, ParallelFor parallel_for) {
     if (moving_.leaves.empty()) return 0;
@@ -285,8 +286,8 @@ double RuntimeModel::refit_over(std::span<const Kept> positions, ParallelFor par
     return surface_cost(moving_.nodes);
 }
 
-/// The content hash has to tell these positions from any others: caches compare it. All else
-/// that moves follows from the positions, so their checksum is enough.
+/// The content hash must distinguish these positions from any others, because caches compare it.
+/// All else that moves follows from the positions, so their checksum is enough.
 void RuntimeModel::update_header(const Frame& frame, bool exact_leaves) {
     format::FileHeader facts = format::read_header(image_);
     facts.flags &= ~format::model_exact_leaves;

@@ -10,17 +10,17 @@
 
 namespace cdprep::build {
 
-/// Where the sections of an image lie, one after the other by rising id.
+/// The places of the sections of an image, one after the other by rising id.
 ///
-/// A larger section, or one more, never makes the image smaller: aligned() never falls when what
-/// it is given rises, and a multiple of a page is one of any smaller alignment.
+/// A larger section, or one more, never makes the image smaller. aligned() never falls when its
+/// argument rises, and a multiple of a page is a multiple of any smaller alignment.
 class SectionPlaces {
 public:
     explicit SectionPlaces(std::uint64_t alignment) noexcept : alignment_(alignment) {
         assert(std::has_single_bit(alignment));
     }
 
-    /// Returns where a section of so many bytes begins; 0 when it has none.
+    /// Returns the place where a section of `size` bytes begins; 0 if it has none.
     std::uint64_t next(std::uint64_t size) noexcept {
         if (size == 0) return 0;
         const bool is_large = size >= format::kPageThreshold;
@@ -30,7 +30,7 @@ public:
         return begin;
     }
 
-    /// Returns how many bytes the image has.
+    /// Returns the number of bytes of the image.
     [[nodiscard]] std::uint64_t end() const noexcept {
         return aligned(end_, alignment_);
     }

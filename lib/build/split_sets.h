@@ -13,22 +13,21 @@
 #include "build/chunks.h"
 #include "build/lanes.h"
 
-// Cuts a set of items in two until all are runs of eight, so that every subtree
-// but the last is full. What is cut where is the policy's choice; this is how.
+// Cuts a set of items in two until all are runs of eight, so that every subtree but the last is
+// full. The policy chooses the cuts; this file performs them.
 //
-// A cut is by rank along one axis. The policy has counted the items of each bin of
-// that axis; the items before the bin in which the rank falls go to the left side,
-// those behind it to the right, and only the few in it are told apart one by one.
-// Every item moves once per cut, into the other of two arrays. Large sets are cut
-// in pieces of a fixed size, all of one generation side by side. Each step keeps the
-// order in which it found the items, and what it decides depends on nothing else: the
-// result is the same for any schedule and any standard library.
+// A cut is by rank along one axis. The policy has counted the items of each bin of that axis. The
+// items before the bin in which the rank falls go to the left side, those after it to the right.
+// Only the few in that bin are compared one by one. Every item moves once per cut, into the other
+// of two arrays. Large sets are cut in pieces of a fixed size, all of one generation in parallel.
+// Each step keeps the order in which it found the items, and its decisions depend on nothing else.
+// So the result is the same for any schedule and any standard library.
 
 namespace cdprep::build {
 
-inline constexpr std::size_t kSmallSet = 64;  ///< items that a policy cuts by sorting them
+inline constexpr std::size_t kSmallSet = 64;  ///< the most items that a policy cuts by sorting them
 
-/// Size of the largest full subtree that is smaller than `count` triangles.
+/// Returns the size of the largest full subtree that is smaller than `count` triangles.
 [[nodiscard]] inline std::size_t subtree_size(std::size_t count) {
     std::size_t unit = format::kBvhWidth;
     while (unit * format::kBvhWidth < count) unit *= format::kBvhWidth;
@@ -37,7 +36,7 @@ inline constexpr std::size_t kSmallSet = 64;  ///< items that a policy cuts by s
 
 inline constexpr float kFarOff = std::numeric_limits<float>::infinity();
 
-/// Least and greatest middles of a set along each axis. The fourth lane is not used.
+/// The least and greatest middles of a set along each axis. The fourth lane is unused.
 struct MiddleBounds {
     Lanes<float, 4> lower = all_lanes<float, 4>(kFarOff);
     Lanes<float, 4> upper = all_lanes<float, 4>(-kFarOff);
@@ -59,16 +58,16 @@ struct MiddleBounds {
     }
 };
 
-/// Maps middles of one axis to bins.
+/// Maps the middles along one axis to bins.
 struct Binning {
     float least = 0;
     float scale = 0;
 
-    /// Middles closer than 2^-100 of the frame count as equal: all in bin 0.
+    /// Middles closer than 2^-100 of the frame count as equal: all are in bin 0.
     [[nodiscard]] static Binning of(const MiddleBounds& bounds, std::size_t axis,
                                     std::size_t bins) {
         const float width = bounds.width(axis);
-        // A little less than what would put the greatest middle in bin `bins`.
+        // Slightly less than the factor that would put the greatest middle in bin `bins`.
         const float most = static_cast<float>(bins) * (1 - 0x1p-20F);
         return {bounds.lower[axis], width > 0x1p-100F ? most / width : 0};
     }
@@ -78,15 +77,15 @@ struct Binning {
     }
 };
 
-/// Where a set is cut.
+/// The place where a set is cut.
 struct Cut {
     std::size_t axis = 0;
     Binning binning;
     std::size_t left = 0;  ///< items on the left, a multiple of subtree_size()
-    std::size_t bin = 0;   ///< in which the first item of the right side lies
+    std::size_t bin = 0;   ///< the bin of the first item of the right side
 };
 
-/// Items of a set before the cut's bin, in it, and in all.
+/// The number of items of a set before the cut's bin, in it, and in all.
 struct CutCounts {
     std::size_t before = 0;
     std::size_t in = 0;
@@ -95,9 +94,9 @@ struct CutCounts {
 
 using Ranks = std::array<std::int16_t, kSmallSet>;
 
-/// Sorts items by rank along an axis. Keys: where middles lie among 2^10 steps from
-/// least to greatest, then the place they had, so that no two are equal. Every item
-/// is compared with every other, without a branch.
+/// Computes the ranks of items along an axis. A key is the place of the middle among 2^10 steps
+/// from least to greatest, then the item's index, so that no two are equal. Compares every item
+/// with every other, without a branch.
 template <class Item>
 void ranks_along(std::span<const Item> items, std::size_t axis, const MiddleBounds& bounds,
                  Ranks& rank) {
@@ -130,15 +129,16 @@ void place_by_rank(std::span<const Item> items, const Ranks& rank, std::span<Ite
     }
 }
 
-/// A policy has an Item, with a middle and a number; Bins, which clear() makes ready, a
-/// piece's items are counted into, and add() joins; choose() cuts by them; and cut_small(),
-/// which orders a set of at most kSmallSet and returns how many are left of the cut.
+/// Cuts and orders a set of items by a policy. A policy has an Item, with a middle and a number,
+/// and Bins: clear() prepares them, count() counts a piece's items into them, and add() joins them.
+/// choose() cuts by the bins. cut_small() orders a set of at most kSmallSet items and returns the
+/// number of items left of the cut.
 template <class Policy>
 class SetSplitter {
 public:
     using Item = typename Policy::Item;
 
-    /// Orders `items`; `spare` is as long. order[i] becomes the number of the i-th.
+    /// Orders `items`; `spare` has the same size. order[i] becomes the number of the i-th item.
     SetSplitter(std::span<Item> items, std::span<Item> spare, std::span<std::uint32_t> order)
         : arrays_{items, spare}, order_(order) {
         assert(items.size() == order.size() && spare.size() == order.size());
@@ -153,26 +153,26 @@ public:
     }
 
 private:
-    /// [first, first + count) of one of the two arrays.
+    /// The items [first, first + count) of one of the two arrays.
     struct Set {
         std::size_t first;
         std::size_t count;
         std::size_t array;
     };
 
-    /// A part of a large set that one task works on.
+    /// A part of a large set, for one task.
     struct Piece {
         std::size_t set;
         std::size_t first;
         std::size_t count;
         MiddleBounds bounds = {};
         typename Policy::Bins bins = {};
-        /// Where its items before the bin, in it and behind it go.
+        /// The places for its items before the bin, in it and after it.
         std::array<std::size_t, 3> target = {};
     };
 
-    /// Whether a set is too much for one task: few tasks share badly, small ones go
-    /// through all the memory once more for each generation.
+    /// Returns whether a set is too large for one task. Few large tasks balance badly; many small
+    /// ones read all memory once more for each generation.
     [[nodiscard]] bool is_large(std::size_t count) const {
         return count > std::max(2 * kItemsPerTask, order_.size() / 16 + 1);
     }
@@ -184,7 +184,7 @@ private:
         return arrays_[1 - set.array].subspan(set.first, set.count);
     }
 
-    /// Two at a time: neither waits for the other.
+    /// Two at a time, so that neither waits for the other.
     static MiddleBounds bounds_of(std::span<const Item> items) {
         assert(!items.empty());
         MiddleBounds even;
@@ -198,8 +198,8 @@ private:
         return even;
     }
 
-    /// Moves each item to where its bin says. Which side is a matter of chance: no
-    /// branch depends on it. That it falls into the one bin is not.
+    /// Moves each item to the place for its bin. The side is unpredictable, so no branch depends on
+    /// it. A branch tests for the cut's bin, which is predictable.
     static void scatter(std::span<const Item> items, const Cut& cut,
                         std::array<std::size_t, 3> target, std::span<Item> out) {
         const auto border = static_cast<std::ptrdiff_t>(cut.bin);
@@ -210,7 +210,7 @@ private:
                 out[in++] = item;
                 continue;
             }
-            // All ones behind the border.
+            // All ones after the border.
             const auto mask = static_cast<std::size_t>((border - bin) >> 63);
             out[before ^ ((before ^ behind) & mask)] = item;
             before += 1 + mask;
@@ -218,7 +218,7 @@ private:
         }
     }
 
-    /// Sorts the items of the cut's bin by side; first come those of the left.
+    /// Sorts the items of the cut's bin by side, the left ones first.
     static void settle(std::span<Item> items, std::size_t left, std::size_t axis,
                        std::span<Item> scratch) {
         assert(left <= items.size() && items.size() <= scratch.size());
@@ -252,7 +252,7 @@ private:
                from.first(counts.in));
     }
 
-    /// Cuts a set; both sides stand in the other array.
+    /// Cuts a set; both sides are then in the other array.
     std::size_t cut_in_two(const Set& set) const {
         const std::span<Item> items = items_of(set);
         const std::span<Item> to = target_of(set);
@@ -280,8 +280,7 @@ private:
         put_in_order(items_of(set), order_.subspan(set.first, set.count));
     }
 
-    /// Writes the numbers of one leaf, least first: each to as many places from the
-    /// front as there are lesser ones.
+    /// Writes the numbers of one leaf, least first. The place of each is the count of lesser ones.
     static void put_in_order(std::span<const Item> items, std::span<std::uint32_t> numbers) {
         assert(items.size() <= format::kBvhWidth && items.size() == numbers.size());
         Lanes<std::int32_t, 8> number = all_lanes<std::int32_t, 8>(INT32_MAX);
@@ -308,7 +307,7 @@ private:
         return pieces;
     }
 
-    /// Cuts all sets; returns the sides that are large still.
+    /// Cuts all sets; returns the sides that are still large.
     std::vector<Set> split_generation(const std::vector<Set>& sets, std::vector<Set>& tasks,
                                       ParallelFor parallel_for) const {
         std::vector<Piece> pieces = pieces_of(sets);
@@ -345,7 +344,7 @@ private:
         return next;
     }
 
-    /// Chooses the cuts, and where the items of each piece go.
+    /// Chooses the cuts, and the places for the items of each piece.
     static void aim(const std::vector<Set>& sets, std::vector<Piece>& pieces,
                     std::vector<Cut>& cuts, std::vector<CutCounts>& counts) {
         std::vector<typename Policy::Bins> bins(sets.size());

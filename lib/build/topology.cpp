@@ -16,13 +16,13 @@ namespace {
 using format::Double3;
 using format::Triangle;
 
-/// One use of an edge, kept with its lower vertex.
+/// One use of an edge, stored with its lower vertex.
 struct EdgeUse {
     std::uint32_t upper;  ///< the higher vertex
     std::int32_t sign;    ///< 1 from lower to upper, -1 back
 };
 
-/// All edge uses, those of lower vertex v in [first[v], first[v + 1]).
+/// All uses of edges; those with lower vertex v are in [first[v], first[v + 1]).
 struct EdgeUses {
     std::vector<std::uint32_t> first;
     std::vector<EdgeUse> use;
@@ -53,7 +53,7 @@ EdgeUses collect_edges(std::size_t vertex_count, std::span<const Triangle> trian
     return edges;
 }
 
-/// Whether all edges of one lower vertex cancel.
+/// Returns whether all edges of one lower vertex cancel.
 bool edges_cancel(std::span<EdgeUse> uses) {
     std::sort(uses.begin(), uses.end(),
               [](const EdgeUse& a, const EdgeUse& b) { return a.upper < b.upper; });
@@ -66,7 +66,7 @@ bool edges_cancel(std::span<EdgeUse> uses) {
     return true;
 }
 
-/// Six times the volume between a triangle and the point o.
+/// Returns six times the volume between a triangle and the point o.
 double signed_volume_6(const Double3& a, const Double3& b, const Double3& c, const Double3& o) {
     const Double3 u{a.x - o.x, a.y - o.y, a.z - o.z};
     const Double3 v{b.x - o.x, b.y - o.y, b.z - o.z};

@@ -6,9 +6,9 @@
 
 namespace cdprep {
 
-/// The caller's threads, as a `run` for ParallelFor: the caller's function runs in the caller's
-/// floating-point environment, each task in the default one. Whoever began with `environment`
-/// calls it, on the same thread.
+/// The caller's threads, as a `run` for ParallelFor. The caller's function runs in the caller's
+/// floating-point environment, and each task in the default one. Must be called on the thread that
+/// created `environment`.
 class GuardedFor {
 public:
     GuardedFor(format::FloatEnvironment& environment, ParallelFor parallel_for) noexcept

@@ -9,16 +9,16 @@
 
 namespace cdprep {
 
-/// The bytes of a file, mapped or copied, read-only. The only part of the library that
-/// knows the operating system. Move-only; gives the memory back when it ends.
+/// The bytes of a file, mapped or copied, read-only. The only part of the library that depends on
+/// the operating system. Move-only; releases the memory on destruction.
 class MappedFile {
 public:
-    /// Fails with `unreadable` when the path is no regular file that can be
-    /// read and mapped. An empty file maps to no bytes.
+    /// Maps the file. Fails with `unreadable` if the path is not a regular file that can be read
+    /// and mapped. An empty file maps to no bytes.
     [[nodiscard]] static Result<MappedFile> map(const std::filesystem::path& path);
 
-    /// Reads the file into pages of its own, so that what happens to the file later changes
-    /// nothing. Fails as map() does, and when the file becomes shorter while it is read.
+    /// Reads the file into private pages, so later changes of the file have no effect. Fails as
+    /// map() does, and if the file becomes shorter during the read.
     [[nodiscard]] static Result<MappedFile> copy(const std::filesystem::path& path);
 
     MappedFile() noexcept = default;

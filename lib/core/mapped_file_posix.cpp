@@ -59,7 +59,7 @@ struct OpenFile {
     }
 };
 
-/// Fills all of `bytes` from the start of the file. Returns how many there were, or -1.
+/// Fills all of `bytes` from the start of the file. Returns the number of bytes read, or -1.
 std::ptrdiff_t read_whole(int descriptor, std::span<std::byte> bytes) {
     std::size_t done = 0;
     while (done < bytes.size()) {

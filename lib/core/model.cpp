@@ -15,7 +15,7 @@ namespace cdprep {
 
 namespace {
 
-/// Few files have them.
+/// Few files have cells, so these views are allocated separately.
 struct CellViews {
     OctreeView octree;
     AdaptiveOctreeView adaptive_octree;
@@ -32,7 +32,7 @@ struct Model::State {
     std::span<const std::byte> file;
     const format::FileHeader* header = nullptr;
     SectionSet sections;
-    SectionSet in_file;  ///< also those that were not asked for
+    SectionSet in_file;  ///< also sections that were not requested
     MeshView mesh;
     SourceView source;
     BvhView bvh;
@@ -43,7 +43,8 @@ struct Model::State {
 
     void find_sections(SectionSet wanted);
 
-    /// A model without triangles has no leaves. Reads the header, which a RuntimeModel changes.
+    /// Returns whether the leaves are exact; a model without triangles has no leaves. Reads the
+    /// header, which a RuntimeModel changes.
     [[nodiscard]] bool is_exact() const noexcept {
         return (header->flags & format::model_exact_leaves) != 0 && header->triangle_count > 0;
     }
@@ -52,7 +53,7 @@ struct Model::State {
     }
 
 private:
-    /// Points `span` at the section when it is wanted and there.
+    /// Points `span` at the section if it is wanted and present.
     template <class T>
     void view(SectionId id, SectionSet wanted, std::span<const T>& span) {
         const std::optional<format::SectionEntry> entry = format::find_section(file, id);
@@ -60,7 +61,7 @@ private:
         in_file.insert(id);
         if (!wanted.contains(id)) return;
         sections.insert(id);
-        // The checker has proved offset, alignment and element size.
+        // find_header_damage() has checked offset, alignment and element size.
         span = {reinterpret_cast<const T*>(file.data() + entry->offset),
                 static_cast<std::size_t>(entry->count)};
     }

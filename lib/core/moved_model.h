@@ -11,10 +11,10 @@
 
 namespace cdprep {
 
-/// A model as one query sees it: where its vertices are after moving.
+/// A model and its vertices after moving, as one query sees them.
 struct MovedModel {
     const Model* model;
-    const Pose* pose;  ///< null: the model stays as it is
+    const Pose* pose;  ///< null: the model does not move
 
     MovedModel(const Model& of, const Pose* by) noexcept
         : model(&of),
@@ -24,8 +24,8 @@ struct MovedModel {
           floats_(of.mesh().positions_f32.empty() ? nullptr : of.mesh().positions_f32.data()),
           doubles_(of.mesh().positions_f64.data()) {}
 
-    /// Corners of triangle `index` of the tree order. Exactly the points that
-    /// the query answers for.
+    /// Returns the corners of triangle `index` in tree order. These are exactly the points for
+    /// which the query's answer is exact.
     [[nodiscard]] Corners corners(std::uint32_t index) const noexcept {
         assert(index < model->triangle_count());
         if (exact_leaves_ != nullptr) {
@@ -52,14 +52,14 @@ private:
         return placed({rows[0][lane], rows[1][lane], rows[2][lane]});
     }
 
-    // Kept here: looked up anew, they cost more than the corners themselves.
+    // Cached here: looking them up each time would cost more than the corners themselves.
     const format::BvhLeaf* exact_leaves_;  ///< or null
     const format::Triangle* triangles_;
     const format::Float3* floats_;  ///< or null
     const Double3* doubles_;
 };
 
-/// The two models of a question, each with the pose that moves it.
+/// The two models of a query, each with the pose that moves it.
 inline MovedModel moved_a(const Model& a, const Placement& placement) noexcept {
     return {a, placement.a_is_moved() ? &placement.pose_a() : nullptr};
 }

@@ -5,8 +5,9 @@
 
 namespace cdprep {
 
-/// transform_point() for the insides of questions: inline, and in the environment that they have
-/// set. Headers of the library hold no arithmetic: a caller's compiler could contract it.
+/// As transform_point(), for the code inside queries: inline, and in the floating-point environment
+/// that the query has set. Public headers contain no arithmetic, because a caller's compiler could
+/// contract it.
 [[nodiscard]] inline Double3 moved_point(const Pose& pose, const Double3& p) noexcept {
     const std::array<double, 9>& r = pose.rotation();
     const Double3& t = pose.translation();

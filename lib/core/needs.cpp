@@ -15,12 +15,12 @@ constexpr SectionSet with(SectionSet a, SectionSet b) noexcept {
 }
 
 constexpr SectionSet kPositions = {SectionId::positions_f32, SectionId::positions_f64};
-/// What holds the corners of triangles, and which of these are degenerate.
+/// The sections for the corners of triangles, and the marks of degenerate triangles.
 constexpr SectionSet kGeometry =
     with(kPositions, {SectionId::triangles, SectionId::degenerate_bits});
-/// Tighter bounds of the hierarchy of boxes: questions about pairs are faster with them.
+/// Tighter bounds for the BVH, which make queries about pairs faster.
 constexpr SectionSet kTighter = {SectionId::oriented_nodes, SectionId::swept_nodes};
-/// Where in the imported file an answer lies.
+/// The sections that locate an answer in the imported file.
 constexpr SectionSet kSource = {
     SectionId::source_vertex, SectionId::source_face,    SectionId::repaired_from,
     SectionId::instances,     SectionId::instance_names, SectionId::group_runs,
@@ -48,12 +48,12 @@ constexpr SectionSet kPieces = {SectionId::pieces,           SectionId::piece_tr
                                 SectionId::piece_node_hulls, SectionId::piece_swept};
 /// The hulls of single pieces.
 constexpr SectionSet kPieceHulls = {SectionId::piece_vertices, SectionId::piece_facets};
-/// What contacts between pieces need besides them.
+/// The sections that contacts between pieces require in addition.
 constexpr SectionSet kContacts = {SectionId::piece_adjacency, SectionId::edge_convexity,
                                   SectionId::triangle_piece};
 
-// Questions that answer with triangles need their numbers in the imported file: a number of the
-// tree order would be a wrong answer.
+// Queries that return triangles require source numbers: a number in tree order would be a wrong
+// answer.
 constexpr std::array<Needs, 19> kNeeds = {{
     {Ask::collide, "collide", "--effects collide", kPair, Vertices::corners,
      with(with(kGeometry, kTighter), {SectionId::components})},

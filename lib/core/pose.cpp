@@ -14,14 +14,14 @@
 namespace cdprep {
 namespace {
 
-/// In the fewest digits that read back the same: 1e-12, not 9.9999999999999998e-13.
+/// Returns the fewest digits that read back as the same number: 1e-12, not 9.9999999999999998e-13.
 std::string shown(double value) {
     std::array<char, 32> digits{};
     const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
     return {digits.data(), end};
 }
 
-/// The entry of R^T R - I that is farthest from zero.
+/// Returns the size of the entry of R^T R - I that is farthest from zero.
 double worst_rotation_error(const std::array<double, 9>& r) {
     double worst = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -86,7 +86,7 @@ Result<Pose> Pose::from_quaternion(double w, double x, double y, double z,
     if (largest == 0) {
         return bad_pose("The quaternion of the pose is zero; it must have a direction.");
     }
-    // A power of two keeps the squares in range and changes no digit.
+    // Scaling by a power of two keeps the squares in range and changes no digit.
     const int exponent = -std::ilogb(largest);
     w = std::scalbn(w, exponent);
     x = std::scalbn(x, exponent);
@@ -126,15 +126,15 @@ Double3 transform_point(const Pose& pose, const Double3& p) noexcept {
 
 namespace {
 
-/// A product or a transpose that is farther from a rotation than this is brought back.
+/// A product or a transpose that is farther from a rotation than this is corrected.
 constexpr double kDrift = 1e-13;
 
-/// R^T R - I, the entry of row i and column j.
+/// Returns the entry of R^T R - I in row i and column j.
 double gram_error(const std::array<double, 9>& r, std::size_t i, std::size_t j) {
     return (r[i] * r[j] + r[3 + i] * r[3 + j]) + r[6 + i] * r[6 + j] - (i == j ? 1.0 : 0.0);
 }
 
-/// The inverse of the transpose: cofactors over the determinant.
+/// Returns the inverse of the transpose: cofactors over the determinant.
 std::array<double, 9> inverse_transpose(const std::array<double, 9>& m) {
     const double d = determinant(m);
     assert(d > 0);
@@ -150,9 +150,9 @@ std::array<double, 9> inverse_transpose(const std::array<double, 9>& m) {
     return inverse;
 }
 
-/// The rotation of the polar decomposition of M, by Newton's iteration X <- (X + X^-T) / 2 (Higham,
-/// 1986). Its singular values become 1 quadratically; from within kGreatestPoseTolerance of a
-/// rotation they are at least 1/2 at first, and six steps reach the rounding of double.
+/// Returns the rotation of the polar decomposition of M by Newton's iteration X <- (X + X^-T) / 2
+/// (Higham, 1986). The singular values converge to 1 quadratically. Within kGreatestPoseTolerance
+/// of a rotation they are at least 1/2 at first, and six steps reach the rounding of double.
 std::array<double, 9> nearest_rotation(std::array<double, 9> m) {
     constexpr int kMostSteps = 10;
     for (int step = 0; step < kMostSteps; ++step) {
@@ -174,7 +174,8 @@ Result<Pose> rigid_pose(std::array<double, 9> r, const Double3& t) {
     return Pose::from_rows({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8], t.x, t.y, t.z});
 }
 
-/// Why a 3 x 3 matrix is no rotation, or an empty string. Products that overflow are refused too.
+/// Returns why a 3 x 3 matrix is not a rotation, or an empty string. Rejects products that overflow
+/// too.
 std::string defect_of(const std::array<double, 9>& m, double tolerance) {
     for (std::size_t i = 0; i < 3; ++i) {
         const double error = gram_error(m, i, i);

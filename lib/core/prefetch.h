@@ -5,7 +5,7 @@
 
 namespace cdprep {
 
-/// Asks for an object's cache lines ahead of use. A hint: any address may be given.
+/// Prefetches an object's cache lines. A hint: any address is allowed.
 template <class T>
 void prefetch(const T* object) noexcept {
 #if defined(__GNUC__) || defined(__clang__)

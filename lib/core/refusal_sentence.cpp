@@ -11,7 +11,7 @@ namespace {
 using format::SectionId;
 using format::SectionSet;
 
-/// Either kind of positions serves.
+/// Either kind of positions is enough, so the name covers both.
 const char* name_of(SectionId id) {
     return id == SectionId::positions_f32 ? "positions" : format::section_name(id);
 }

@@ -8,15 +8,16 @@
 
 namespace cdprep {
 
-/// What a model is made of, as far as needs depend on it.
+/// The properties of a model that decide which queries it serves.
 struct Contents {
     SectionSet sections;
     bool has_exact_leaves;
     bool is_closed;
 };
 
-/// Returns why `contents` do not serve the first of `asks` that they do not serve: the name of the
-/// file, the question, every section that it lacks, and the way out. Requires that there is one.
+/// Returns the reason why `contents` do not serve the first unserved query of `asks`. The sentence
+/// names the file, the query, every missing section and the remedy. If the table of needs lacks all
+/// of `asks`, it says that this version does not know the query.
 [[nodiscard]] std::string refusal_sentence(std::string_view file, Ask asks,
                                            const Contents& contents, Refusal::Reason reason);
 

@@ -8,17 +8,17 @@ namespace cdprep {
 /// Calls the handler of broken preconditions, then aborts.
 [[noreturn]] void stop_with(const char* sentence) noexcept;
 
-/// Stops with the sentence of Model::refusal(). Requires that there is one.
+/// Stops the program with the sentence of Model::refusal(). Requires that there is one.
 [[noreturn]] void refuse(const Model& model, Ask asks) noexcept;
 
-/// Every C++ question begins with this: a model that does not serve it stops the program, in
-/// every build. One AND.
+/// Stops the program, in every build, if the model does not serve the query. Every C++ query begins
+/// with this call. Costs one AND.
 inline void require(const Model& model, Ask asks) noexcept {
     if (!model.serves(asks)) [[unlikely]]
         refuse(model, asks);
 }
 
-/// The same for two models, in one test.
+/// As above for two models, in one test.
 inline void require(const Model& a, const Model& b, Ask asks) noexcept {
     if (!contains(a.asks() & b.asks(), asks)) [[unlikely]] {
         refuse(a.serves(asks) ? b : a, asks);

@@ -10,7 +10,7 @@
 
 namespace cdprep {
 
-/// Numbers 0 ... count - 1, a few at a time, to whoever asks next.
+/// Hands out the numbers 0 ... count - 1 to workers, a few at a time.
 class Shares {
 public:
     Shares(std::size_t count, std::size_t at_a_time) noexcept
@@ -35,7 +35,7 @@ private:
     std::atomic<std::size_t> next_ = 0;
 };
 
-/// Calls `work(worker)` once for each worker, by the caller's threads.
+/// Calls `work(worker)` once for each worker, on the caller's threads.
 template <class Work>
 void run_workers(std::size_t workers, ParallelFor parallel_for, Work&& work) noexcept {
     assert(workers > 0);
@@ -46,13 +46,14 @@ void run_workers(std::size_t workers, ParallelFor parallel_for, Work&& work) noe
     }
 }
 
-/// Calls `body(job, worker)` once for each job below `count`, by the caller's threads;
-/// a worker is below `most_workers` and does one job at a time.
+/// Calls `body(job, worker)` once for each job below `count`, on the caller's threads. A worker's
+/// number is below `most_workers`; a worker does one job at a time.
 template <class Body>
 void share_jobs(std::size_t count, std::size_t most_workers, ParallelFor parallel_for,
                 Body body) noexcept {
     assert(most_workers > 0);
-    // Jobs differ: small shares keep all busy to the end, large ones seldom meet.
+    // Jobs differ in cost. Small shares keep all workers busy to the end; large shares reduce
+    // contention.
     constexpr std::size_t kSharesOfAWorker = 16;
     const std::size_t workers = std::min(most_workers, count);
     if (workers == 0) return;

@@ -8,7 +8,7 @@
 
 namespace cdprep {
 
-/// Keeps the smallest of those added by `Less`, as many as fit.
+/// Keeps the smallest of the values added, in the order of `Less`, up to the room for them.
 template <class T, class Less = std::less<>>
 class Smallest {
 public:
@@ -18,18 +18,18 @@ public:
         if (count_ < kept_.size()) {
             kept_[count_] = value;
         } else if (!kept_.empty()) {
-            // From here on a heap: its front is the greatest kept.
+            // From here on the values kept are a heap: its front is the greatest.
             if (count_ == kept_.size()) std::make_heap(kept_.begin(), kept_.end(), Less());
             if (Less()(value, kept_.front())) replace_greatest(value);
         }
         ++count_;
     }
 
-    /// How many were added.
+    /// Returns the number of values added.
     [[nodiscard]] std::size_t count() const noexcept {
         return count_;
     }
-    /// Those kept, in no order.
+    /// Returns the values kept, in no order.
     [[nodiscard]] std::span<T> kept() const noexcept {
         return kept_.first(std::min(count_, kept_.size()));
     }

@@ -11,9 +11,9 @@
 namespace cdprep {
 namespace {
 
-constexpr std::size_t kFew = 64;  ///< below, comparing is faster than counting
+constexpr std::size_t kFew = 64;  ///< below, comparison sorting is faster than counting
 
-/// Where the numbers of each digit start, and the last end.
+/// Returns the place where the numbers of each digit start, and the end of the last.
 template <int kBits, class Number>
 std::array<std::size_t, (std::size_t{1} << kBits) + 1> places(std::span<const Number> numbers,
                                                               int shift) noexcept {
@@ -24,7 +24,7 @@ std::array<std::size_t, (std::size_t{1} << kBits) + 1> places(std::span<const Nu
     return start;
 }
 
-/// One stable counting pass from one room to another.
+/// Performs one stable counting pass from one buffer to the other.
 template <class From, class To>
 void pass(std::span<const From> from, std::span<To> to, int shift) noexcept {
     constexpr int kBits = 8;
@@ -34,7 +34,7 @@ void pass(std::span<const From> from, std::span<To> to, int shift) noexcept {
     }
 }
 
-/// By digits, the lowest first, there and back until no bits are left.
+/// Sorts by digits, lowest first. Passes go to the scratch and back until no bits are left.
 void sort_in_passes(std::span<std::uint32_t> numbers, std::span<std::uint64_t> scratch,
                     int bits) noexcept {
     assert(numbers.size() <= scratch.size());
@@ -45,7 +45,7 @@ void sort_in_passes(std::span<std::uint32_t> numbers, std::span<std::uint64_t> s
     }
 }
 
-/// In place by the highest digit, until the scratch has room (McIlroy, Bostic and McIlroy
+/// Sorts in place by the highest digit until the rest fits the scratch (McIlroy, Bostic and McIlroy
 /// 1993).
 void sort_lowest(std::span<std::uint32_t> numbers, std::span<std::uint64_t> scratch,
                  int bits) noexcept {

@@ -6,7 +6,7 @@
 
 namespace cdprep {
 
-/// Sorts; O(n) for as many numbers as `scratch` has room for, and nearly so for more.
+/// Sorts numbers. Takes O(n) if `scratch` has room for all of them, and nearly O(n) otherwise.
 /// Never allocates.
 void sort_numbers(std::span<std::uint32_t> numbers, std::span<std::uint64_t> scratch) noexcept;
 

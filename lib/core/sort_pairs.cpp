@@ -10,7 +10,7 @@
 namespace cdprep {
 namespace {
 
-constexpr std::size_t kFewPairs = 64;  ///< below, comparing is faster than counting
+constexpr std::size_t kFewPairs = 64;  ///< below, comparison sorting is faster than counting
 constexpr int kMostDigitBits = 9;
 constexpr int kPartBits = std::bit_width(PairParts::kParts - 1);
 using Places = std::array<std::uint32_t, std::size_t{1} << kMostDigitBits>;
@@ -19,7 +19,7 @@ std::uint64_t key_of(const TrianglePair& pair) noexcept {
     return std::uint64_t{pair.a} << 32 | pair.b;
 }
 
-/// The bits in which keys differ.
+/// Returns the bits in which keys differ.
 std::uint64_t differing_bits(std::span<const TrianglePair> pairs) noexcept {
     std::uint64_t any = 0;
     std::uint64_t all = ~std::uint64_t{0};
@@ -39,7 +39,7 @@ struct Digit {
     }
 };
 
-/// One stable counting pass.
+/// Performs one stable counting pass.
 void sort_by_digit(std::span<const TrianglePair> from, TrianglePair* to, Digit digit) noexcept {
     assert(digit.bits > 0 && digit.bits <= kMostDigitBits);
     Places place{};
@@ -51,7 +51,7 @@ void sort_by_digit(std::span<const TrianglePair> from, TrianglePair* to, Digit d
     for (const TrianglePair& pair : from) to[place[digit(pair)]++] = pair;
 }
 
-/// Sorts by A's triangle, in as few passes of equal width as will do.
+/// Sorts by A's triangle, in the fewest passes of equal width.
 void sort_by_a(std::span<TrianglePair> pairs, std::span<TrianglePair> other) noexcept {
     const auto differing = static_cast<std::uint32_t>(differing_bits(pairs) >> 32);
     const int bits = std::max(1, static_cast<int>(std::bit_width(differing)));
@@ -66,8 +66,8 @@ void sort_by_a(std::span<TrianglePair> pairs, std::span<TrianglePair> other) noe
     if (from.data() != pairs.data()) std::copy(from.begin(), from.end(), pairs.begin());
 }
 
-/// As many as the scratch holds. A triangle seldom overlaps many: once the pairs stand
-/// by A's triangle, what is left are short runs.
+/// Sorts at most as many pairs as the scratch holds. A triangle seldom overlaps many others, so
+/// short runs remain after the sort by A's triangle.
 void sort_few(std::span<TrianglePair> pairs, SortScratch& scratch) noexcept {
     assert(pairs.size() <= scratch.size());
     sort_by_a(pairs, std::span(scratch).first(pairs.size()));
@@ -111,7 +111,7 @@ void sort_pairs(std::span<TrianglePair> pairs, SortScratch& scratch) noexcept {
     } else if (pairs.size() <= scratch.size()) {
         sort_few(pairs, scratch);
     } else if (differing_bits(pairs) != 0) {
-        // Every part differs in fewer bits than the whole: this ends.
+        // Each part differs in fewer bits than the whole, so the recursion ends.
         const PairParts parts = divide_pairs(pairs);
         for (std::size_t i = 0; i < PairParts::kParts; ++i) {
             sort_pairs(pairs.subspan(parts.first[i], parts.first[i + 1] - parts.first[i]), scratch);

@@ -13,20 +13,21 @@ struct Box3 {
     Double3 upper;
 };
 
-/// Closed: touching boxes overlap.
+/// Returns whether two boxes overlap. Closed: touching boxes overlap.
 inline bool overlap(const Box3& a, const Box3& b) noexcept {
     return a.lower.x <= b.upper.x && b.lower.x <= a.upper.x && a.lower.y <= b.upper.y &&
            b.lower.y <= a.upper.y && a.lower.z <= b.upper.z && b.lower.z <= a.upper.z;
 }
 
-/// The widest gap between two boxes along an axis, each difference rounded once: what they hold
-/// is no nearer, up to that. Negative where they overlap along all three.
+/// Returns the widest gap between two boxes along an axis; each difference is rounded once. It is a
+/// lower bound of the distance between their contents, up to that rounding. Negative where the
+/// boxes overlap along all three axes.
 inline double axis_gap(const Box3& a, const Box3& b) noexcept {
     return std::max({a.lower.x - b.upper.x, b.lower.x - a.upper.x, a.lower.y - b.upper.y,
                      b.lower.y - a.upper.y, a.lower.z - b.upper.z, b.lower.z - a.upper.z});
 }
 
-/// Closed: a point of the border is held.
+/// Returns whether the box contains p. Closed: points of the boundary count.
 inline bool holds(const Box3& box, const Double3& p) noexcept {
     return overlap(box, {p, p});
 }

@@ -7,11 +7,10 @@
 
 namespace cdprep {
 
-/// An unevaluated sum of two doubles, about 104 bits (Dekker 1971; the error
-/// bounds of Joldes, Muller and Popescu 2017, at most 10 * 2^-106 relative for a
-/// product or quotient, and for a sum of numbers of any signs relative to the
-/// larger). For differences that cancel where a double has nothing left; 20 times
-/// slower.
+/// An unevaluated sum of two doubles with about 104 bits (Dekker 1971). A product or quotient has a
+/// relative error of at most 10 * 2^-106 (Joldes, Muller and Popescu 2017). The error of a sum of
+/// numbers of any sign has the same bound relative to the larger number. For differences that
+/// cancel completely in double. It is 20 times slower than double.
 struct DoubleDouble {
     double high = 0;
     double low = 0;
@@ -65,7 +64,7 @@ inline bool operator>(const DoubleDouble& a, const DoubleDouble& b) noexcept {
     return b < a;
 }
 
-/// One Newton step from the square root of the leading part.
+/// Returns the square root by one Newton step from the root of the leading part.
 inline DoubleDouble square_root(const DoubleDouble& a) noexcept {
     if (!(a.high > 0)) return 0.0;
     const double root = std::sqrt(a.high);

@@ -7,10 +7,10 @@
 #include "exact/double_double.h"
 #include "exact/wide_integer.h"
 
-// With the signed volumes s0 and s1 of the ends p0 and p1, of opposite sign, the point
-// is (p0 |s1| + p1 |s0|) / (|s0| + |s1|): numerator and denominator are integers once
-// the coordinates are. Their first 129 bits and more are divided in twice the
-// precision of double: off by less than 2^-98 of the quotient before it is rounded.
+// Let s0 and s1 be the signed volumes of the ends p0 and p1; their signs are opposite. The point is
+// (p0 |s1| + p1 |s0|) / (|s0| + |s1|). Numerator and denominator are integers when the coordinates
+// are. Their first 129 bits or more are divided in twice the precision of double. The error before
+// the final rounding is below 2^-98 of the quotient.
 
 namespace cdprep {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The public functions of this room: the private ones, each in the default floating-point
-// environment. Queries call the private ones, which are inline where that pays.
+// The public functions of this folder: each calls the private one in the default floating-point
+// environment. Queries call the private functions, which are inline where that is faster.
 #include <algorithm>
 #include <cmath>
 
@@ -51,10 +51,10 @@ double Plane::height(const Double3& p) const noexcept {
 int Plane::side(const Double3& p) const noexcept {
     const FloatEnvironment environment;
     const Double3 w = p - a_;
-    // plane_signs(), one point at a time; its normal is turned round.
-    const int sign = filtered_sign(dot(normal_, w), std::max(most_.x, std::fabs(w.x)),
-                                   std::max(most_.y, std::fabs(w.y)),
-                                   std::max(most_.z, std::fabs(w.z)));
+    // As plane_signs(), for one point at a time; its normal has the opposite direction.
+    const int sign =
+        filtered_sign(dot(normal_, w), std::max(most_.x, std::fabs(w.x)),
+                      std::max(most_.y, std::fabs(w.y)), std::max(most_.z, std::fabs(w.z)));
     return sign == 2 ? orient3d_beyond_filter(a_, b_, c_, p) : -sign;
 }
 

@@ -13,13 +13,14 @@
 #include "exact/vectors.h"
 #include "exact/wide_vector.h"
 
-// Two that do not touch are nearest at a corner of one and a corner, edge or face of
-// the other, or at an edge of each. Every such place whose feet lie within is a pair
-// of points of the two; so one that is near enough decides yes, and if none is, no.
+// Two objects that do not touch are nearest in one of two ways: at a corner of one and a corner,
+// edge or face of the other, or at an edge of each. Every such place whose feet lie inside is a
+// pair of points of the two objects. So one place that is near enough proves yes; if there is none,
+// the answer is no.
 //
-// A place is near enough when a polynomial of the coordinates is not positive: of
-// degree 2 for corners, 4 for a corner and an edge, 6 for the others. All numbers are
-// taken as multiples of the lowest bit that occurs, which makes them integers.
+// A place is near enough when a polynomial of the coordinates is not positive. Its degree is 2 for
+// corners, 4 for a corner and an edge, and 6 otherwise. All numbers are multiples of the lowest bit
+// that occurs, so they are integers.
 
 namespace cdprep {
 namespace {
@@ -34,7 +35,7 @@ bool at_most(const WideInteger<kLimbs>& a, const WideInteger<kLimbs>& b) noexcep
     return (a - b).sign() <= 0;
 }
 
-/// 1 to 3 corners in integers.
+/// One to three corners in integers.
 struct Figure {
     std::array<Place, 3> corner;
     std::size_t count;
@@ -48,7 +49,7 @@ bool near_corner(const Place& w, const Square& limit) noexcept {
     return at_most(dot(w, w), limit);
 }
 
-/// p and the segment, ends included.
+/// Tests p against the segment, ends included.
 bool near_segment(const Place& p, const Place& from, const Place& to,
                   const Square& limit) noexcept {
     const Place w = p - from;
@@ -60,7 +61,7 @@ bool near_segment(const Place& p, const Place& from, const Place& to,
     return at_most(dot(w, w) * whole - along * along, limit * whole);
 }
 
-/// p and the inside of the triangle, where p's foot lies in it.
+/// Tests p against the inside of the triangle; false unless p's foot lies in it.
 bool near_face(const Place& p, const Figure& t, const Square& limit) noexcept {
     const WideVector<2 * kWideCoordinate> n =
         cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]);
@@ -74,7 +75,7 @@ bool near_face(const Place& p, const Figure& t, const Square& limit) noexcept {
     return at_most(height * height, limit * squared);
 }
 
-/// The insides of two segments, where the lines' nearest points lie in both.
+/// Tests the insides of two segments; false unless the lines' nearest points lie in both.
 bool near_lines(const Place& p, const Place& p_end, const Place& q, const Place& q_end,
                 const Square& limit) noexcept {
     const Place u = p_end - p;
@@ -92,7 +93,7 @@ bool near_lines(const Place& p, const Place& p_end, const Place& q, const Place&
     return at_most(height * height, limit * squared);
 }
 
-/// A corner of `a` and any place of `b`.
+/// Tests all corners of `a` against all corners, edges and the face of `b`.
 bool near_any_corner(const Figure& a, const Figure& b, const Square& limit) noexcept {
     for (std::size_t i = 0; i < a.count; ++i) {
         for (std::size_t j = 0; j < b.edges(); ++j) {
@@ -126,7 +127,7 @@ Figure figure(std::span<const Double3> points, int lowest) noexcept {
     return result;
 }
 
-/// Whether the interval arithmetic of the first stage stays in range.
+/// Returns whether the interval arithmetic of the first stage stays in range.
 bool in_range(std::span<const Double3> points) noexcept {
     constexpr double kMost = 8 * format::kMaxCoordinate;
     return std::all_of(points.begin(), points.end(), [](const Double3& p) {
@@ -134,9 +135,9 @@ bool in_range(std::span<const Double3> points) noexcept {
     });
 }
 
-/// Whether the boxes around the two are farther apart, for certain: each gap is off by
-/// a factor 1 + u, their squares' sum and the limit's square by 1 + 8u together; below
-/// kLeastSquare an underflow would show.
+/// Returns whether the boxes around the two are certainly farther apart than `distance`. Each gap
+/// is off by a factor of 1 + u; the sum of their squares and the square of the limit are off by
+/// 1 + 8u together. Below kLeastSquare an underflow could matter.
 bool boxes_are_apart(std::span<const Double3> points, const Corners& t, double distance) noexcept {
     constexpr double kRounding = 0x1p-48;
     constexpr double kLeastSquare = 0x1p-900;
@@ -154,18 +155,19 @@ bool boxes_are_apart(std::span<const Double3> points, const Corners& t, double d
 
 enum class Quick : std::uint8_t { no, yes, unsure };
 
-/// What most triangles near a point or segment need: a corner is near enough, or the
-/// triangle lies beyond the plane across the way from the segment to its middle.
+/// Answers most queries for triangles near a point or segment. `yes`: a corner is near enough.
+/// `no`: the triangle lies beyond the plane that is normal to the line from the segment to its
+/// middle.
 ///
-/// Everything is relative to an end of the segment; with M the largest coordinate, the
+/// Everything is relative to an end of the segment. Let M be the largest coordinate: the
 /// differences, feet and dot products with unit vectors are off by less than 64 u M.
 Quick quick_answer(std::span<const Double3> points, const Corners& t, double distance) noexcept {
     if (points.size() > 2) return Quick::unsure;
     const Double3 along = points.back() - points[0];
     const Corners corner = {t[0] - points[0], t[1] - points[0], t[2] - points[0]};
-    const double size = std::max({largest_of(along), largest_of(corner[0]), largest_of(corner[1]),
-                                  largest_of(corner[2])});
-    // Squares keep their digits, and finite.
+    const double size = std::max(
+        {largest_of(along), largest_of(corner[0]), largest_of(corner[1]), largest_of(corner[2])});
+    // Within these limits squares neither underflow nor overflow.
     if (!(size > 0x1p-400 && size < 0x1p400 && distance < 0x1p400)) return Quick::unsure;
     const double margin = 64 * 0x1p-53 * (size + distance);
     const double squared = dot(along, along);

@@ -8,10 +8,9 @@
 
 namespace cdprep {
 
-/// An exact sum of doubles: components that do not overlap, least first, none
-/// zero (Shewchuk 1997, strongly non-overlapping). `Capacity` is an upper bound
-/// of their number; nothing is allocated. Exact as long as no product leaves the
-/// range of double; predicates.cpp sees to that.
+/// An exact sum of doubles: non-overlapping components, least first, none zero (Shewchuk 1997,
+/// strongly non-overlapping). `Capacity` is an upper bound of their number; nothing is allocated.
+/// Exact as long as no product leaves the range of double; predicates.cpp ensures that.
 template <std::size_t Capacity>
 struct Expansion {
     std::array<double, Capacity> component;
@@ -21,14 +20,14 @@ struct Expansion {
         assert(value == 0 || size < Capacity);
         if (value != 0) component[size++] = value;
     }
-    /// Sign of the exact sum: that of the largest component.
+    /// Returns the sign of the exact sum, which is the sign of the largest component.
     [[nodiscard]] int sign() const noexcept {
         if (size == 0) return 0;
         return component[size - 1] > 0 ? 1 : -1;
     }
 };
 
-/// A rounded value and exactly what rounding lost.
+/// A rounded value and the exact error of the rounding.
 struct Exact2 {
     double value;
     double tail;
@@ -41,14 +40,14 @@ inline Exact2 two_sum(double a, double b) noexcept {
     return {sum, (a - a_virtual) + (b - b_virtual)};
 }
 
-/// For |a| >= |b| or a == 0.
+/// Requires |a| >= |b| or a == 0.
 inline Exact2 fast_two_sum(double a, double b) noexcept {
     assert(a == 0 || !(std::fabs(a) < std::fabs(b)));
     const double sum = a + b;
     return {sum, b - (sum - a)};
 }
 
-/// The upper 26 bits and the rest (Veltkamp). Overflows beyond 2^996.
+/// Splits into the upper 26 bits and the rest (Veltkamp). Overflows beyond 2^996.
 inline Exact2 split(double a) noexcept {
     constexpr double kSplitter = 0x1p27 + 1;
     const double scaled = kSplitter * a;
@@ -56,8 +55,7 @@ inline Exact2 split(double a) noexcept {
     return {upper, a - upper};
 }
 
-/// Dekker's product: without a fused multiply-add, which the oldest processors
-/// that we support do not have.
+/// Dekker's product. Uses no fused multiply-add, because the oldest supported processors lack it.
 inline Exact2 two_product(double a, double b) noexcept {
     const double product = a * b;
     const Exact2 x = split(a);
@@ -66,7 +64,7 @@ inline Exact2 two_product(double a, double b) noexcept {
     return {product, x.tail * y.tail - rest};
 }
 
-/// a - b, exactly.
+/// Returns a - b, exactly.
 inline Expansion<2> difference(double a, double b) noexcept {
     const Exact2 exact = two_sum(a, -b);
     Expansion<2> result;
@@ -81,8 +79,8 @@ Expansion<N> negated(Expansion<N> a) noexcept {
     return a;
 }
 
-/// Shewchuk's FAST-EXPANSION-SUM, which needs rounding to even: the components
-/// of both in order of size, added up from the least.
+/// Shewchuk's FAST-EXPANSION-SUM, which requires rounding to even. Merges the components of both by
+/// size and adds them up from the least.
 template <std::size_t N, std::size_t M>
 Expansion<N + M> sum(const Expansion<N>& a, const Expansion<M>& b) noexcept {
     Expansion<N + M> result;

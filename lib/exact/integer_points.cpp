@@ -11,7 +11,7 @@ Integer3 operator-(const Integer3& a, const Integer3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-/// a d - b c: below 2^126.
+/// Returns a d - b c, which is below 2^126 in magnitude.
 Int128 minor_of(std::int64_t a, std::int64_t b, std::int64_t c, std::int64_t d) {
     return static_cast<Int128>(a) * d - static_cast<Int128>(b) * c;
 }
@@ -25,7 +25,8 @@ Normal cross(const Integer3& a, const Integer3& b) {
             minor_of(a.x, a.y, b.x, b.y)};
 }
 
-/// high * 2^64 + low, three products of a minor and a difference: each below 2^189.
+/// The sum of three products of a minor and a difference, as high * 2^64 + low. Each product is
+/// below 2^189.
 class WideSum {
 public:
     void add_product(Int128 minor, std::int64_t factor) noexcept {
@@ -65,7 +66,7 @@ int orient3d(const Integer3& a, const Integer3& b, const Integer3& c, const Inte
 
 std::array<int, 3> plane_signs(const std::array<Integer3, 3>& plane,
                                const std::array<Integer3, 3>& points) noexcept {
-    // Turned round: orient3d is positive behind the plane.
+    // The opposite normal: orient3d is positive behind the plane.
     const Normal behind = cross(plane[2] - plane[0], plane[1] - plane[0]);
     return {dot_sign(behind, points[0] - plane[0]), dot_sign(behind, points[1] - plane[0]),
             dot_sign(behind, points[2] - plane[0])};

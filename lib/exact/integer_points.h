@@ -14,8 +14,8 @@
 
 namespace cdprep {
 
-/// Points whose differences are at most 2^62 + 2^9 in size per coordinate: all signs
-/// below are then exact in machine integers.
+/// A point with integer coordinates. Differences are at most 2^62 + 2^9 in magnitude per
+/// coordinate, so all signs below are exact in machine integers.
 struct Integer3 {
     std::int64_t x, y, z;
 };
@@ -23,23 +23,22 @@ struct Integer2 {
     std::int64_t x, y;
 };
 
-/// Differences along one axis as integers, if they fit.
+/// The differences along one axis as integers, if they fit.
 template <std::size_t N>
 struct ScaledAxis {
     std::array<std::int64_t, N> at;
     bool fits;
 };
 
-/// Returns x[i] - from, exactly, times the power of two that puts the largest between
-/// 2^(bits - 1) and 2^bits (plus 2^(bits - 53)). They do not fit when they spread over
-/// more than `bits` bits: floats, grids, and corners that lie near each other seldom
-/// do. `bits` is at most 62. Each axis may have its own power of two: no sign below
-/// depends on it.
+/// Returns the exact x[i] - from, times a power of two. The power puts the largest between
+/// 2^(bits - 1) and 2^bits (plus 2^(bits - 53)). The numbers fit unless they spread over more than
+/// `bits` bits, which is rare for floats, grids and corners near each other. `bits` is at most 62.
+/// Each axis may have its own power of two: no sign below depends on it.
 template <std::size_t N>
 [[nodiscard]] ScaledAxis<N> scaled_axis(const std::array<double, N>& x, double from,
                                         int bits) noexcept;
 
-/// As the functions of the same names for doubles (predicates.h).
+/// The counterparts of the functions for doubles in predicates.h.
 [[nodiscard]] int orient2d(const Integer2& a, const Integer2& b, const Integer2& c) noexcept;
 [[nodiscard]] int orient3d(const Integer3& a, const Integer3& b, const Integer3& c,
                            const Integer3& d) noexcept;
@@ -48,9 +47,8 @@ template <std::size_t N>
 
 // --- Implementation ------------------------------------------------------------------
 
-/// Adds to `sum` the integer that `value` is times `scale`; false when it is none.
-/// The product is below 2^63. Undone, it must give the value again: so nothing
-/// fell off the lower end of double either.
+/// Adds value * scale to `sum`. Returns false when the product is not an integer. The product is
+/// below 2^63. Dividing it again must reproduce the value, so underflow is detected too.
 inline bool add_scaled(double value, double scale, double unscale, std::int64_t& sum) noexcept {
     const auto integer = static_cast<std::int64_t>(value * scale);
     sum += integer;
@@ -65,7 +63,7 @@ inline double power_of_two(int exponent) noexcept {
 template <std::size_t N>
 ScaledAxis<N> scaled_axis(const std::array<double, N>& x, double from, int bits) noexcept {
     assert(bits > 0 && bits <= 62);
-    constexpr double kLeastToScale = 0x1p-900;  // of less, the scale is no double
+    constexpr double kLeastToScale = 0x1p-900;  // below this, the scale is not a double
     constexpr double kLift = 0x1p600;
     std::array<Exact2, N> difference;
     double most = 0;

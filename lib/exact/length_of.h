@@ -6,8 +6,8 @@
 namespace cdprep {
 
 /// Returns the length of a finite vector, rounded a few times. It overflows only where the length
-/// does. std::hypot() of three numbers is a template: the linker may keep a copy of it that a
-/// caller compiled with -ffast-math.
+/// does. Replaces std::hypot() of three numbers, which is a template: the linker may keep a copy
+/// that a caller compiled with -ffast-math.
 inline double length_of(double x, double y, double z) noexcept {
     x = std::fabs(x);
     y = std::fabs(y);

@@ -6,32 +6,33 @@
 #include <limits>
 #include <optional>
 
-// All work is done relative to q and scaled by a power of two so that the largest
-// corner coordinate is about 1; u = 2^-53, M the largest |corner - q|.
+#include "exact/vectors.h"
+
+// All work is relative to q and scaled by a power of two so that the largest corner coordinate is
+// about 1. Let u = 2^-53 and let M be the largest |corner - q|.
 //
-// Every candidate is a point of the triangle: it is put together from corners with
-// weights that are not negative and add up to 1, off by less than 8 u M. So its
-// distance is an upper bound, give or take 16 u M, however badly the weights are
-// known. The lower bound takes what the weights may be wrong by.
+// Every candidate is a point of the triangle: a combination of the corners with weights that are
+// not negative and add up to 1, off by less than 8 u M. So its distance is an upper bound within
+// 16 u M, even if the weights themselves are inaccurate. The lower bound accounts for errors of the
+// weights.
 //
-// Edges. One projection; the place along the edge is off by a few u M, so the
-// distance is within 16 u M.
+// Edges. One projection gives the place along the edge within a few u M, and the distance within
+// 16 u M.
 //
-// Face. With n = (b - a) x (c - a) and L the longest edge, n is off by at most
-// 8 u L^2, in relative terms 8 u L^2 / |n|, which tilts the plane by as much. The
-// foot's places along the edges, taken relative to an end of each (the edge enters
-// the product, not two far corners), are off by that tilt and 8 u M. Both together
-// stay below eta = 64 u M (1 + L^2 / |n|). A foot that is wrongly thought inside or
-// outside is within eta of an edge, so the other's distance is right within eta.
+// Face. Let n = (b - a) x (c - a) and let L be the longest edge. n is off by at most 8 u L^2, or
+// 8 u L^2 / |n| in relative terms, which tilts the plane by as much. The foot's places along the
+// edges are relative to an end of each, so the product has the edge and not two far corners. They
+// are off by that tilt and 8 u M. Both together stay below eta = 64 u M (1 + L^2 / |n|). A foot
+// that is wrongly classified as inside or outside is within eta of an edge. Then the distance of
+// the other candidate is right within eta.
 //
-// Support. Whatever p is, the triangle lies beyond the plane through its corner
-// that is least in p's direction: min(corner . p) / |p| is a lower bound, tight
-// when p is near the nearest point. Its products, sum, division and the corners
-// themselves are off by at most 8 u M. Near the surface p's direction is not
-// known well enough, and the bounds above are the better ones.
+// Support. For any p, the triangle lies beyond the plane through the corner that is least in p's
+// direction. So min(corner . p) / |p| is a lower bound, and it is tight when p is near the nearest
+// point. Its products, sum, division and the corners themselves are off by at most 8 u M. Near the
+// surface, p's direction is not known well enough, and the bounds above are better.
 //
-// Slivers. Where eta is larger than the inradius |n| / perimeter, the face is left
-// out of the lower bound: every point of it is within the inradius of an edge.
+// Slivers. Where eta exceeds the inradius |n| / perimeter, the lower bound omits the face: every
+// point of it is within the inradius of an edge.
 
 namespace cdprep {
 namespace {
@@ -42,25 +43,8 @@ constexpr double kFaceError = 64 * kUnit;
 constexpr double kSupportError = 8 * kUnit;
 constexpr double kLeastSquarable = 0x1p-400;
 
-struct Vector {
-    double x, y, z;
-};
+using Vector = Double3;
 
-Vector operator-(const Vector& a, const Vector& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Vector operator+(const Vector& a, const Vector& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Vector operator*(double s, const Vector& a) {
-    return {s * a.x, s * a.y, s * a.z};
-}
-double dot(const Vector& a, const Vector& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Vector cross(const Vector& a, const Vector& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 double length(const Vector& a) {
     return std::sqrt(dot(a, a));
 }
@@ -70,7 +54,7 @@ struct Nearest {
     double distance;
 };
 
-/// The point of the segment nearest to the origin.
+/// Returns the point of the segment nearest to the origin.
 Nearest nearest_on_edge(const Vector& a, const Vector& b) {
     const Vector edge = b - a;
     const double squared = dot(edge, edge);
@@ -87,8 +71,8 @@ Nearest nearest_on_edges(const Vector& a, const Vector& b, const Vector& c) {
     return best;
 }
 
-/// The foot of the origin, when it lies inside the triangle as far as rounding
-/// lets one see; n is the triangle's normal.
+/// Returns the foot of the origin if it lies inside the triangle, as computed with rounding; n is
+/// the triangle's normal.
 std::optional<Vector> foot_inside(const Vector& a, const Vector& b, const Vector& c,
                                   const Vector& n) {
     const double at_a = dot(n, cross(b, c - b));
@@ -99,8 +83,8 @@ std::optional<Vector> foot_inside(const Vector& a, const Vector& b, const Vector
     return (at_a / all) * a + (at_b / all) * b + (at_c / all) * c;
 }
 
-/// A lower bound from the plane across `nearest`; `farthest` is the distance of
-/// the farthest corner.
+/// Returns a lower bound from the plane normal to `nearest`; `farthest` is the distance of the
+/// farthest corner.
 double support_bound(const std::array<Vector, 3>& corner, const Nearest& nearest, double farthest) {
     if (nearest.distance < kLeastSquarable) return 0;
     const Vector& p = nearest.point;
@@ -145,8 +129,8 @@ PointTriangleDistance point_triangle_distance(const Double3& q, const Corners& t
         eta < inradius ? best.distance - eta : on_edges - candidate_error - inradius;
     const double lower = std::max(by_error, support_bound(corner, best, farthest));
     const auto back = [&](double x) { return std::ldexp(x, -exponent); };
-    // The last factor covers the roundings of these sums; scaling back may round
-    // a subnormal, so one step outwards covers that.
+    // The last factor covers the roundings of these sums. Scaling back may round a subnormal; one
+    // step outwards covers that.
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double outer = std::nextafter(back(upper * (1 + 4 * kUnit)), kInfinity);
     const double inner = std::nextafter(back(lower * (1 - 4 * kUnit)), -kInfinity);

@@ -11,21 +11,19 @@
 #include "exact/integer_points.h"
 #include "exact/wide_integer.h"
 
-// Five stages, each exact when it answers:
+// There are five stages. Each is exact when it answers.
 //
-// 1. The filter of predicates.h, while no difference is too small or too large
-//    for it. orient2d's is Shewchuk's, (3 + 16u) u (|left| + |right|).
+// 1. The filter of predicates.h, while no difference is too small or too large for it. The filter
+//    of orient2d is Shewchuk's, (3 + 16u) u (|left| + |right|).
 // 2. Equal points: neighbours in a mesh share corners.
-// 3. Machine integers, when a power of two for each axis makes 62-bit integers of all
-//    differences along it: floats, grids, and corners near each other nearly always.
-// 4. Expansions of the exact differences (two components each; one where the
-//    difference is exact, which floats and grids nearly always give: then the
-//    work shrinks by itself because zero components are dropped). A component of
-//    size 2^e is a multiple of 2^(e - 52), so when all are 0 or between 2^-250
-//    and 2^300, a product of three is a multiple of 2^-906 and below 2^903:
-//    nothing is lost. Otherwise a power of two brings the largest coordinate
-//    below 2^300; all being multiples of 2^lowest, products stay exact when
-//    3 lowest >= -1074.
+// 3. Machine integers, if a power of two for each axis makes all differences along it 62-bit
+//    integers. Floats, grids, and corners near each other nearly always fit.
+// 4. Expansions of the exact differences, with two components each. Floats and grids nearly always
+//    give exact differences with one component; dropping zero components then reduces the work. A
+//    component of size 2^e is a multiple of 2^(e - 52). If all are 0 or between 2^-250 and 2^300,
+//    a product of three is a multiple of 2^-906 and below 2^903: nothing is lost. Otherwise a power
+//    of two brings the largest coordinate below 2^300. All are multiples of 2^lowest, so products
+//    stay exact when 3 lowest >= -1074.
 // 5. Integers wide enough for any doubles, when the exponents spread further.
 
 static_assert(FLT_EVAL_METHOD == 0, "double must be evaluated in double");
@@ -33,8 +31,8 @@ static_assert(FLT_EVAL_METHOD == 0, "double must be evaluated in double");
 namespace cdprep {
 namespace {
 
-constexpr double kFilter2d = 4.0 * 0x1p-53 * 1.0625;  ///< 3 u + 16 u^2, rounded up
-constexpr double kLeastForFilter2d = 1e-290;   ///< a product that underflows is no longer seen
+constexpr double kFilter2d = 4.0 * 0x1p-53 * 1.0625;  ///< 4.25 u, above 3 u + 16 u^2
+constexpr double kLeastForFilter2d = 1e-290;   ///< products that underflow would go unnoticed
 constexpr double kLargestForFilter2d = 1e150;  ///< products stay finite
 constexpr int kIntegerBits = 62;               ///< of a difference, in machine integers
 
@@ -42,7 +40,7 @@ int sign_of(double value) {
     return (value > 0) - (value < 0);
 }
 
-/// Exponents of the highest and lowest bits over all coordinates.
+/// The exponents of the highest and lowest bits over all coordinates.
 struct Spread {
     int highest = -2000;
     int lowest = 2000;
@@ -58,8 +56,8 @@ void widen(Spread& spread, double value) {
     spread.lowest = std::min(spread.lowest, exponent - 53 + zeros);
 }
 
-/// The power of two that brings all coordinates below 2^300; nothing when their
-/// lowest bit would then be too low for products of `factors`.
+/// The power of two that brings all coordinates below 2^300. Not possible when their lowest bit
+/// would then be too low for products of `factors` factors.
 struct Scale {
     bool possible;
     int exponent;

@@ -9,45 +9,42 @@
 
 namespace cdprep {
 
-/// Returns the sign, -1, 0 or 1, of det[a-c, b-c]: positive when a, b, c turn
-/// counter-clockwise. Exact for all finite inputs, subnormals included. Never
-/// allocates.
+/// Returns the sign, -1, 0 or 1, of det[a-c, b-c]: positive when a, b, c turn counter-clockwise.
+/// Exact for all finite inputs, subnormals included. Never allocates.
 [[nodiscard]] int orient2d(const Double2& a, const Double2& b, const Double2& c) noexcept;
 
-/// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]: positive when d lies
-/// behind the plane that shows a, b, c counter-clockwise. Exact for all finite
-/// inputs, subnormals included. Never allocates.
+/// Returns the sign, -1, 0 or 1, of det[a-d, b-d, c-d]: positive when d lies behind the plane, seen
+/// from the side where a, b, c turn counter-clockwise. Exact for all finite inputs, subnormals
+/// included. Never allocates.
 ///
-/// A semi-static filter decides most calls in a few nanoseconds; equal points,
-/// then expansions of the differences, then wide integers decide the rest.
+/// A semi-static filter decides most calls in a few nanoseconds. Equal points, machine integers,
+/// expansions of the differences and wide integers decide the rest, in this order.
 [[nodiscard]] inline int orient3d(const Double3& a, const Double3& b, const Double3& c,
                                   const Double3& d) noexcept;
 
-/// Returns orient3d(plane[0], plane[1], plane[2], p) for three points p: the
-/// plane's normal is worked out once.
+/// Returns orient3d(plane[0], plane[1], plane[2], p) for three points p; computes the plane's
+/// normal once.
 [[nodiscard]] inline std::array<int, 3> plane_signs(const Corners& plane,
                                                     const Corners& points) noexcept;
 
-/// What orient3d() does where its filter cannot decide; for orient3d() alone.
+/// Does the part of orient3d() where its filter cannot decide; for orient3d() only.
 [[nodiscard]] int orient3d_beyond_filter(const Double3& a, const Double3& b, const Double3& c,
                                          const Double3& d) noexcept;
 
-// The filter. Let u = 2^-53 and M the product of the largest |difference| per
-// axis. Each rounded difference is off by a factor 1 + u, each product of two of
-// them by 1 + 3u, so each of the three minors, at most 2 M / m with m the largest
-// of the third axis, is off by 2 (3u) + 2u for its subtraction: 8u M / m. Times a
-// difference: 8u + 2u for the difference + 2u for the product = 12u M per term,
-// 36u M for three. The first sum, at most 4 M, adds 4u M, the second 6u M. All in
-// all 46u M, and terms in u^2 that the constant, 46.03u, covers together with the
-// roundings of M itself. Underflow changes the determinant by at most 2^-1070
-// times the largest difference m; the limits keep M above (1e-97)^2 m, and every
-// number finite.
+// The filter. Let u = 2^-53, and let M be the product of the largest |difference| per axis. Each
+// rounded difference is off by a factor of 1 + u, and each product of two by 1 + 3u. Each of the
+// three minors is at most 2 M / m, with m the largest of the third axis. So it is off by
+// 2 (3u) + 2u for its subtraction: 8u M / m. Times a difference, 2u for the difference and 2u for
+// the product are added to 8u: 12u M per term, 36u M for three. The first sum, at most 4 M, adds
+// 4u M, the second 6u M. The total is 46u M and terms in u^2. The constant, 46.03u, covers these
+// and the roundings of M itself. Underflow changes the determinant by at most 2^-1070 times the
+// largest difference m. The limits keep M above (1e-97)^2 m, and every number finite.
 inline constexpr double kFilter3d = 5.1107127829973299e-15;
 inline constexpr double kLeastForFilter3d = 1e-97;
 inline constexpr double kLargestForFilter3d = 1e102;
 
-/// The sign of `determinant`, or 2 when its rounding may have changed it, given
-/// the largest |difference| per axis.
+/// Returns the sign of `determinant`, or 2 when rounding may have changed it. x, y and z are the
+/// largest |difference| per axis.
 [[nodiscard]] inline int filtered_sign(double determinant, double x, double y, double z) noexcept {
     const double bound = kFilter3d * x * y * z;
     const double least = std::min(std::min(x, y), z);
@@ -56,8 +53,8 @@ inline constexpr double kLargestForFilter3d = 1e102;
         if (determinant > bound) return 1;
         if (determinant < -bound) return -1;
     }
-    // A flat axis: gradual underflow makes differences of unequal numbers
-    // non-zero, so a largest difference of 0 is exact.
+    // A flat axis: gradual underflow makes differences of unequal numbers non-zero, so a largest
+    // difference of 0 is exact.
     return least == 0 ? 0 : 2;
 }
 
@@ -65,7 +62,7 @@ inline double largest_of(double a, double b, double c) noexcept {
     return std::max(std::max(std::fabs(a), std::fabs(b)), std::fabs(c));
 }
 
-/// orient3d(), or 2 when the filter cannot tell.
+/// Returns orient3d(), or 2 when the filter cannot decide.
 inline int filtered_orient3d(const Double3& a, const Double3& b, const Double3& c,
                              const Double3& d) noexcept {
     const double ax = a.x - d.x, ay = a.y - d.y, az = a.z - d.z;
@@ -83,13 +80,13 @@ inline int orient3d(const Double3& a, const Double3& b, const Double3& c,
     return sign != 2 ? sign : orient3d_beyond_filter(a, b, c, d);
 }
 
-/// plane_signs(), with 2 where the filter cannot tell.
+/// Returns plane_signs(), with 2 where the filter cannot decide.
 inline std::array<int, 3> filtered_plane_signs(const Corners& plane,
                                                const Corners& points) noexcept {
     const auto& [a, b, c] = plane;
     const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
     const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
-    // The normal turned round: orient3d is positive behind the plane.
+    // The opposite normal: orient3d is positive behind the plane.
     const double nx = bz * cy - by * cz, ny = bx * cz - bz * cx, nz = by * cx - bx * cy;
     const double mx = std::max(std::fabs(bx), std::fabs(cx));
     const double my = std::max(std::fabs(by), std::fabs(cy));
@@ -104,8 +101,7 @@ inline std::array<int, 3> filtered_plane_signs(const Corners& plane,
     return signs;
 }
 
-inline std::array<int, 3> plane_signs(const Corners& plane,
-                                      const Corners& points) noexcept {
+inline std::array<int, 3> plane_signs(const Corners& plane, const Corners& points) noexcept {
     std::array<int, 3> signs = filtered_plane_signs(plane, points);
     for (std::size_t i = 0; i < 3; ++i) {
         if (signs[i] != 2) continue;

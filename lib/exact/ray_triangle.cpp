@@ -11,9 +11,9 @@
 #include "exact/predicates.h"
 #include "exact/wide_integer.h"
 
-// The signs that decide are those of orient3d() and orient2d() with a second point of
-// the line in place of its direction; but origin + direction need not be a double, so
-// the direction itself stands in the determinants.
+// The signs that decide are those of orient3d() and orient2d(), with the direction in place of a
+// second point of the line. The second point, origin + direction, may not be a double, so the
+// determinants contain the direction itself.
 
 namespace cdprep {
 namespace {
@@ -24,8 +24,8 @@ std::array<double, 3> axes(const Double3& p) {
     return {p.x, p.y, p.z};
 }
 
-/// Where p lies on the line, in lengths of the step, rounded; its largest component alone
-/// decides for points on the line.
+/// Returns the place of p on the line in lengths of the step, rounded. Uses only the step's largest
+/// component, which is enough for points on the line.
 double along(const HalfLine& ray, const Double3& p) {
     const std::array<double, 3> o = axes(ray.origin), d = axes(ray.step), at = axes(p);
     std::size_t axis = 0;
@@ -36,7 +36,7 @@ double along(const HalfLine& ray, const Double3& p) {
     return (at[axis] - o[axis]) / d[axis];
 }
 
-/// Whether p, which lies on the line, is not behind the origin. Exact: compares
+/// Returns whether p, which lies on the line, is not behind the origin. Exact: compares
 /// coordinates.
 bool is_ahead(const HalfLine& ray, const Double3& p) {
     const std::array<double, 3> o = axes(ray.origin), d = axes(ray.direction), at = axes(p);
@@ -46,13 +46,13 @@ bool is_ahead(const HalfLine& ray, const Double3& p) {
     return false;
 }
 
-/// Keeps the smallest of the values seen.
+/// Keeps the smallest of the values given, at least 0.
 void take(std::optional<double>& best, double t) {
     t = std::max(t, 0.0);
     if (!best || t < *best) best = t;
 }
 
-/// Where the planes' crossing lies: the ratio of two volumes.
+/// Returns the place where the line crosses the plane: the ratio of two volumes.
 double crossing_parameter(const HalfLine& ray, const Corners& t) {
     const auto difference = [](const Double3& a, const Double3& b, int e) {
         return Double3{std::ldexp(a.x - b.x, e), std::ldexp(a.y - b.y, e),
@@ -75,7 +75,7 @@ double crossing_parameter(const HalfLine& ray, const Corners& t) {
     return step == 0 ? 0 : std::ldexp(to / step, along_scale - to_scale);
 }
 
-/// A coordinate plane, by the two axes that it keeps.
+/// A projection to a coordinate plane, given by the two axes that it keeps.
 struct View {
     std::size_t first;
     std::size_t second;
@@ -87,7 +87,7 @@ struct View {
 
 constexpr std::array<View, 3> kViews = {{{1, 2}, {2, 0}, {0, 1}}};
 
-/// Integer multiples of the lowest bit that occurs.
+/// Converts numbers to integer multiples of the lowest bit that occurs.
 class Multiples {
 public:
     explicit Multiples(std::initializer_list<Double3> points) noexcept {
@@ -112,7 +112,7 @@ private:
     int lowest_ = lowest_bit(0);
 };
 
-/// Products of three of these lose nothing: see predicates.cpp.
+/// Returns whether products of three such numbers lose nothing: see predicates.cpp.
 bool safe_to_multiply(double component) {
     const double size = std::fabs(component);
     return size == 0 || (size >= 0x1p-250 && size <= 0x1p300);
@@ -125,7 +125,7 @@ bool safe_to_multiply(const Expansion<N>& e) {
                        [](double component) { return safe_to_multiply(component); });
 }
 
-/// The sign of det[a - o, b - o, d] by expansions, or 2 where one might lose a bit.
+/// Returns the sign of det[a - o, b - o, d] by expansions, or 2 where one might lose a bit.
 int sign_in_expansions(const Double3& a, const Double3& b, const Double3& o, const Double3& d) {
     const Expansion<2> ax = difference(a.x, o.x), ay = difference(a.y, o.y);
     const Expansion<2> az = difference(a.z, o.z), bx = difference(b.x, o.x);
@@ -150,9 +150,9 @@ int sign_in_integers(const Double3& a, const Double3& b, const Double3& o, const
         .sign();
 }
 
-/// orient3d(origin, origin + direction, a, b), which is the sign of
-/// -det[a - origin, b - origin, direction]. The filter of orient3d(): a step that is
-/// rounded is off by less than its underflow allowance.
+/// Returns orient3d(origin, origin + direction, a, b), the sign of -det[a - origin, b - origin,
+/// direction]. Uses the filter of orient3d(): a rounded step is off by less than the filter's
+/// underflow allowance.
 int turn_about(const HalfLine& ray, const Double3& a, const Double3& b) {
     const Double3& o = ray.origin;
     const double ax = a.x - o.x, ay = a.y - o.y, az = a.z - o.z;
@@ -168,7 +168,7 @@ int turn_about(const HalfLine& ray, const Double3& a, const Double3& b) {
     return sign != 2 ? -sign : -sign_in_integers(a, b, o, ray.direction);
 }
 
-/// orient2d(origin, origin + direction, p) in a view.
+/// Returns orient2d(origin, origin + direction, p) in a view.
 int side_of_line(const HalfLine& ray, const View& view, const Double3& p) {
     const Multiples of_places{ray.origin, p};
     const auto w = of_places(p, ray.origin);
@@ -176,8 +176,9 @@ int side_of_line(const HalfLine& ray, const View& view, const Double3& p) {
     return (d[view.first] * w[view.second] - d[view.second] * w[view.first]).sign();
 }
 
-/// Where the line from o along d crosses that through a and b: the ratio of two areas, each of
-/// lengths near 1, so that neither overflows however large coordinates are.
+/// Returns the place where the line from o along d crosses the line through a and b. This is the
+/// ratio of two areas. The factors of each are scaled to lengths near 1, so neither overflows for
+/// large coordinates.
 double crossing_parameter(const Double2& o, const Double2& d, const Double2& a, const Double2& b) {
     const auto exponent = [](const Double2& v) {
         const double size = std::max(std::fabs(v.x), std::fabs(v.y));
@@ -194,7 +195,8 @@ double crossing_parameter(const Double2& o, const Double2& d, const Double2& a, 
     return step == 0 ? 0 : std::ldexp(to / step, of_way - of_step);
 }
 
-/// Where the half-line meets an edge in one plane, seen in a view that keeps it.
+/// Offers the places where the half-line meets an edge in the same plane. The view keeps that
+/// plane's area.
 void take_edge(const HalfLine& ray, const View& view, const Double3& u, const Double3& v,
                std::optional<double>& best) {
     const int side_u = side_of_line(ray, view, u);
@@ -203,12 +205,12 @@ void take_edge(const HalfLine& ray, const View& view, const Double3& u, const Do
     if (side_v == 0 && is_ahead(ray, v)) take(best, along(ray, v));
     if (side_u * side_v >= 0) return;
     const int side = orient2d(view(u), view(v), view(ray.origin));
-    // Ahead when the origin is on the edge, or on the side that the ray comes from.
+    // Ahead if the origin is on the edge or on the side that the ray comes from.
     if (side == -side_v) return;
     take(best, crossing_parameter(view(ray.origin), view(ray.step), view(u), view(v)));
 }
 
-/// The line lies in the triangle's plane, or meets a triangle without area.
+/// Answers for a line in the triangle's plane, or one that meets a triangle without area.
 std::optional<double> coplanar_ray(const HalfLine& ray, const Corners& t) {
     std::optional<double> best;
     if (triangles_touch({ray.origin, ray.origin, ray.origin}, t)) return 0.0;
@@ -237,8 +239,8 @@ std::optional<double> ray_triangle(const HalfLine& ray, const Corners& t) noexce
     const int greatest = *std::max_element(turns.begin(), turns.end());
     if (least < 0 && greatest > 0) return std::nullopt;
     if (least == 0 && greatest == 0) return coplanar_ray(ray, t);
-    // The three volumes add up to that of the direction over the triangle, so
-    // their common sign is that of the direction against the plane.
+    // The three volumes add up to that of the direction over the triangle. So their common sign is
+    // the sign of the direction against the plane.
     const int turn = least + greatest < 0 ? -1 : 1;
     const int side = orient3d(t[0], t[1], t[2], ray.origin);
     if (side == turn) return std::nullopt;

@@ -10,15 +10,15 @@ namespace cdprep {
 /// A half-line: origin + t direction, t >= 0.
 struct HalfLine {
     Double3 origin;
-    Double3 direction;  ///< not zero; signs are taken of this one
-    /// 2^k direction, about as long as the coordinates are large; rounded where that is
-    /// too small for a double. Lengths are measured in this one.
+    Double3 direction;  ///< not zero; decides all signs
+    /// 2^k direction, about as long as the coordinates are large; the unit of lengths. Rounded
+    /// where it is too small for a double.
     Double3 step;
 };
 
-/// Returns where the half-line first meets the triangle, in lengths of the step and
-/// rounded, or nothing. Whether it meets it is exact, edges, corners, coplanar
-/// half-lines and triangles without area included.
+/// Returns the place where the half-line first meets the triangle, or nothing. The place is in
+/// lengths of the step, and rounded. The decision is exact, also for edges, corners, coplanar
+/// half-lines and triangles without area.
 [[nodiscard]] std::optional<double> ray_triangle(const HalfLine& ray, const Corners& t) noexcept;
 
 }  // namespace cdprep

@@ -6,23 +6,22 @@
 #include "exact/predicates.h"
 #include "exact/triangle_box_filter.h"
 
-// A box and a triangle are disjoint exactly when one of 13 directions separates them:
-// the box's faces, the triangle's face, and the products of an edge of each (Gottschalk,
-// Lin and Manocha 1996; Akenine-Moller 2001). The products with the box's edges along
-// one axis lie across that axis: they and the box's faces separate exactly when the
-// views along the axis are disjoint, a rectangle and a triangle in a plane. There, and
-// for the triangle's plane, it is enough to look at the corner of the box that is
-// extreme in the direction; which corner that is, is known from signs alone.
+// A box and a triangle are disjoint exactly if one of 13 directions separates them: the normals of
+// the box's faces and of the triangle, and the products of an edge of each (Gottschalk, Lin and
+// Manocha 1996; Akenine-Moller 2001). The products with the box's edges along one axis are normal
+// to that axis. They and the box's faces separate exactly if the views along the axis are disjoint:
+// a rectangle and a triangle in a plane. There, and for the triangle's plane, one corner of the box
+// is enough: the extreme one in the direction. Signs alone determine which corner that is.
 
 namespace cdprep {
 namespace {
 
-/// One axis's coordinate: 0, 1, 2.
+/// Returns the coordinate along axis 0, 1 or 2.
 double coordinate(const Double3& p, std::size_t axis) noexcept {
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-/// The box and the triangle seen along an axis.
+/// The box and the triangle, seen along an axis.
 struct Seen {
     std::array<Double2, 3> corner;
     Double2 lower;
@@ -36,8 +35,8 @@ Seen seen_along(std::size_t axis, const Corners& t, const Box3& box) noexcept {
     return {{flat(t[0]), flat(t[1]), flat(t[2])}, flat(box.lower), flat(box.upper)};
 }
 
-/// Whether all of the rectangle lies to the right of the line, or for side -1 to its
-/// left: its corner that is farthest to the other side does.
+/// Returns whether the whole rectangle lies to the right of the line, or to its left for side -1.
+/// Tests only the corner that is farthest to the other side.
 bool is_beyond(const Double2& from, const Double2& to, const Seen& view, int side) noexcept {
     const bool up = side > 0 ? to.x >= from.x : to.x < from.x;
     const bool back = side > 0 ? to.y >= from.y : to.y < from.y;
@@ -45,8 +44,8 @@ bool is_beyond(const Double2& from, const Double2& to, const Seen& view, int sid
     return orient2d(from, to, corner) == -side;
 }
 
-/// Whether a line through an edge separates the two in this view; `turn` is the sense
-/// in which the triangle's corners turn in it.
+/// Returns whether a line through an edge separates the two in this view. `turn` is the orientation
+/// of the triangle's corners in the view.
 bool is_separated(const Seen& view, int turn) noexcept {
     for (std::size_t i = 0; i < 3; ++i) {
         const Double2& from = view.corner[i];
@@ -57,7 +56,7 @@ bool is_separated(const Seen& view, int turn) noexcept {
     return false;
 }
 
-/// The box's corner that is farthest along a direction of these signs.
+/// Returns the box's corner that is farthest along a direction with these signs.
 Double3 farthest(const Box3& box, const std::array<int, 3>& direction) noexcept {
     return {direction[0] > 0 ? box.upper.x : box.lower.x,
             direction[1] > 0 ? box.upper.y : box.lower.y,
@@ -65,7 +64,7 @@ Double3 farthest(const Box3& box, const std::array<int, 3>& direction) noexcept 
 }
 
 bool is_on_one_side(const Corners& t, const std::array<int, 3>& normal, const Box3& box) noexcept {
-    // orient3d() is positive behind the plane, as the normal points.
+    // orient3d() is positive behind the plane; the normal points in front.
     if (orient3d(t[0], t[1], t[2], farthest(box, normal)) > 0) return true;
     const std::array<int, 3> back = {-normal[0], -normal[1], -normal[2]};
     return orient3d(t[0], t[1], t[2], farthest(box, back)) < 0;

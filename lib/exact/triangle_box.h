@@ -6,9 +6,9 @@
 
 namespace cdprep {
 
-/// Returns whether the triangle and the solid box have a common point. Exact: all
-/// comparisons are of coordinates or signs of orient2d() and orient3d(). A box may be
-/// flat; one whose lower exceeds its upper is empty. Corners may be collinear or equal.
+/// Returns whether the triangle and the solid box have a common point. Exact: compares coordinates
+/// and signs of orient2d() and orient3d() only. A box may be flat; one whose lower exceeds its
+/// upper is empty. Corners may be collinear or equal.
 [[nodiscard]] bool triangle_touches_box(const Corners& t, const Box3& box) noexcept;
 
 }  // namespace cdprep

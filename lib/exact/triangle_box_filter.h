@@ -8,32 +8,33 @@
 
 #include "exact/box3.h"
 
-// The same 13 directions as in triangle_box.cpp, in double, where rounding cannot change
-// the answer.
+// Tests the same 13 directions as triangle_box.cpp in double, and answers where rounding cannot
+// change the answer.
 //
-// Let u = 2^-53, and let corners v, and the box, be seen from the box's lower corner: each
-// coordinate, and each side of the box and each edge, is one difference of two doubles, off
-// by a factor of 1 + u. M is the largest size per axis of these coordinates and sides.
+// Let u = 2^-53. Corners v and the box are relative to the box's lower corner. Each coordinate,
+// side of the box and edge is one difference of two doubles, off by a factor of 1 + u. M is the
+// largest magnitude per axis of these coordinates and sides.
 //
 // Along axis x an edge e gives the direction (0, -ez, ey). A corner's height along it,
-// ey vz - ez vy, is off by (3u + u) B, B = |ey| Mz + |ez| My, and so is the box's, a sum
-// of two products or their zeros. Their difference, at most 2 B in size, rounds by 2u B more.
-// 16u B covers all of it, and the roundings of B.
+// ey vz - ez vy, is off by (3u + u) B, with B = |ey| Mz + |ez| My. The box's height has the same
+// error: it is a sum of two products or their zeros. Their difference, at most 2 B in magnitude,
+// rounds by 2u B more. 16u B covers all of it, and the roundings of B.
 //
-// Across the triangle, n = e0 x e1 is off by 4u N per component, N being the sum of
-// the sizes of its two products. A product n v is off by 6u N M, the sum of three by 2u
-// more; the box's the same; their difference, 2u. 32u times the sum of N M covers it.
+// Along the triangle's normal, n = e0 x e1 is off by 4u N per component; N is the sum of the
+// magnitudes of its two products. A product n v is off by 6u N M, and the sum of three by 2u more.
+// The box's is off by as much. Their difference adds 2u. 32u times the sum of N M covers it.
 //
-// Where B is above 1e-290, what is lost in products that underflow is nothing beside u B.
-// What overflows compares false, and is left to the exact test. An edge along an axis gives
-// no direction with it, exactly: differences of unequal numbers are never 0.
+// Where B is above 1e-290, the loss by products that underflow is negligible against u B.
+// Comparisons with overflowed numbers are false, which leaves the case to the exact test. An edge
+// along an axis gives no direction with it. That is exact: differences of unequal numbers are
+// never 0.
 
 namespace cdprep {
 
-/// Whether a triangle and a box have a common point, as far as doubles tell.
+/// The answer whether a triangle and a box have a common point, as far as double can decide.
 enum class TouchesBox : std::uint8_t { no, yes, unknown };
 
-/// Of a triangle and a box that is not empty.
+/// The filter for a triangle and a box that is not empty.
 class TriangleBoxFilter {
 public:
     TriangleBoxFilter(const Corners& t, const Box3& box) noexcept {
@@ -50,7 +51,7 @@ public:
         }
     }
 
-    /// Given that their boxes overlap.
+    /// Requires that their boxes overlap.
     [[nodiscard]] TouchesBox touches() const noexcept {
         TouchesBox found = TouchesBox::yes;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -83,7 +84,7 @@ private:
         return above < -slack && below < -slack ? TouchesBox::yes : TouchesBox::unknown;
     }
 
-    /// The direction across an axis and an edge.
+    /// Tests the direction normal to an axis and an edge.
     [[nodiscard]] TouchesBox along(std::size_t axis, std::size_t edge) const noexcept {
         const std::size_t u = (axis + 1) % 3;
         const std::size_t v = (axis + 2) % 3;
@@ -104,7 +105,7 @@ private:
             kAlong * size);
     }
 
-    /// The triangle's normal.
+    /// Tests the direction of the triangle's normal.
     [[nodiscard]] TouchesBox across() const noexcept {
         double height = 0;
         Reach box{0, 0};
@@ -124,10 +125,10 @@ private:
         return compare({height, height}, box, kAcross * size);
     }
 
-    std::array<Vector, 3> corner_;  ///< from the box's lower corner on
+    std::array<Vector, 3> corner_;  ///< relative to the box's lower corner
     std::array<Vector, 3> edge_;    ///< from corner i to the next
     Vector side_;                   ///< of the box
-    Vector most_;                   ///< size of what lies along each axis
+    Vector most_;                   ///< largest magnitude per axis of coordinates and sides
 };
 
 }  // namespace cdprep

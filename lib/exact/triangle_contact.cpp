@@ -10,15 +10,15 @@
 namespace cdprep {
 namespace {
 
-// Where doubles and integers stand alike: Point is Double3, with predicates that are
-// exact whatever it takes, or Integer3.
+// The same code serves doubles and integers. Point is Double3, with predicates that are always
+// exact, or Integer3.
 
 using Signs = std::array<int, 3>;
 
 template <class Point>
 using Triangle = std::array<Point, 3>;
 
-/// The coordinate plane that a planar figure is seen in.
+/// The coordinate plane to which a planar figure is projected.
 enum class View : std::uint8_t { yz, zx, xy };
 
 Double2 flat(const Double3& /*kind*/, double u, double v) {
@@ -65,8 +65,7 @@ struct Lone {
     int side;
 };
 
-/// Not for three equal signs. A zero counts to whichever side leaves one corner
-/// alone.
+/// Requires signs that are not all equal. A zero counts for the side that leaves one corner alone.
 Lone find_lone(const Signs& s) {
     assert(s[0] != s[1] || s[1] != s[2]);
     const auto where = [&s](int sign) {
@@ -79,8 +78,8 @@ Lone find_lone(const Signs& s) {
     return plus == 2 ? Lone{where(0), -1} : Lone{where(0), 1};
 }
 
-/// Both triangles turned so that each starts with its lone corner, and wound so
-/// that the other's lone corner is on the positive side.
+/// Both triangles, rotated so that each starts with its lone corner. They are wound so that the
+/// other's lone corner is on the positive side.
 template <class Point>
 struct Canonical {
     Triangle<Point> a;
@@ -102,9 +101,9 @@ Canonical<Point> canonical(const Triangle<Point>& a, const Signs& a_signs, const
     return turned;
 }
 
-/// Returns the greater of the two signs that compare the ends of the intervals
-/// in which the triangles meet the common line: 1 apart, 0 touching, -1 sharing
-/// more than a point. `limit` is the value beyond which the caller stops caring.
+/// Returns the greater of the two signs that compare the ends of the intervals in which the
+/// triangles meet the common line: 1 apart, 0 touching, -1 sharing more than a point. The caller
+/// treats all values above `limit` alike.
 template <class Point>
 int interval_order(const Canonical<Point>& t, int limit) {
     const int first = orient3d(t.a[0], t.a[1], t.b[0], t.b[1]);
@@ -114,7 +113,7 @@ int interval_order(const Canonical<Point>& t, int limit) {
 
 // --- One plane ---------------------------------------------------------------
 
-/// A view in which the triangle keeps its area; only for one that has area.
+/// Returns a view in which the triangle keeps its area. Requires a triangle with area.
 template <class Point>
 View view_of(const Triangle<Point>& t) {
     for (const View view : {View::yz, View::zx}) {
@@ -123,8 +122,8 @@ View view_of(const Triangle<Point>& t) {
     return View::xy;
 }
 
-/// True when the line through an edge of `a` has all of `b` beyond it; with
-/// `limit` 0 points on the line count as beyond it too.
+/// Returns whether the line through an edge of `a` has all of `b` beyond it. With `limit` 0, points
+/// on the line count as beyond it too.
 template <class Point>
 bool edge_separates(View view, const Triangle<Point>& a, const Triangle<Point>& b, int limit) {
     const int turn = orient_seen(view, a[0], a[1], a[2]);
@@ -140,8 +139,8 @@ bool edge_separates(View view, const Triangle<Point>& a, const Triangle<Point>& 
     return false;
 }
 
-/// Two triangles with area in one plane are disjoint exactly when an edge of
-/// one separates them strictly, and share no area when one separates weakly.
+/// Two triangles with area in one plane are disjoint exactly if an edge of one separates them
+/// strictly. They share no area exactly if an edge separates them weakly.
 template <class Point>
 TriangleContact coplanar_contact(const Triangle<Point>& a, const Triangle<Point>& b) {
     const View view = view_of(a);
@@ -156,7 +155,7 @@ TriangleContact coplanar_contact(const Triangle<Point>& a, const Triangle<Point>
 
 // --- Segments ------------------------------------------------------------------
 
-/// A segment; equal ends are a point.
+/// A segment; with equal ends, a point.
 template <class Point>
 struct Segment {
     Point from;
@@ -170,7 +169,7 @@ bool precedes(const Point& a, const Point& b) {
     return a.z < b.z;
 }
 
-/// What three collinear corners span: along a line the order of coordinates is
+/// Returns the segment that three collinear corners span. Along a line, the order of coordinates is
 /// the order on the line.
 template <class Point>
 Segment<Point> span_of(const Triangle<Point>& t) {
@@ -183,7 +182,7 @@ bool within(Coordinate x, Coordinate a, Coordinate b) {
     return std::min(a, b) <= x && x <= std::max(a, b);
 }
 
-/// Whether p, known to be collinear with the segment, lies on it.
+/// Returns whether p, known to be collinear with the segment, lies on it.
 template <class Point>
 bool between(const Point& p, const Segment<Point>& s) {
     return within(p.x, s.from.x, s.to.x) && within(p.y, s.from.y, s.to.y) &&
@@ -196,7 +195,7 @@ bool collinear(const Point& a, const Point& b, const Point& c) {
            orient_seen(View::xy, a, b, c) == 0;
 }
 
-/// Two segments in one plane, seen where that plane keeps its area.
+/// Tests two segments in one plane, in a view that keeps its area.
 template <class Point>
 bool segments_touch_seen(View view, const Segment<Point>& s, const Segment<Point>& t) {
     const int s1 = orient_seen(view, s.from, s.to, t.from);
@@ -208,7 +207,7 @@ bool segments_touch_seen(View view, const Segment<Point>& s, const Segment<Point
            (t1 == 0 && between(s.from, t)) || (t2 == 0 && between(s.to, t));
 }
 
-/// A segment and a triangle with area, both in one plane.
+/// Tests a segment and a triangle with area, both in one plane.
 template <class Point>
 bool touches_in_plane(const Segment<Point>& s, const Triangle<Point>& t) {
     const View view = view_of(t);
@@ -223,9 +222,9 @@ bool touches_in_plane(const Segment<Point>& s, const Triangle<Point>& t) {
     return inside;
 }
 
-/// A segment and a triangle with area: one end on either side of the plane, and
-/// the line through both passes the three edges on one side (Feito and Torres'
-/// signed volumes).
+/// Tests a segment and a triangle with area (signed volumes, Feito and Torres 1997). They touch
+/// when the ends are not on one side of the plane, and the line through them passes the three edges
+/// on one side.
 template <class Point>
 bool segment_touches(const Segment<Point>& s, const Triangle<Point>& t) {
     const int from = orient3d(t[0], t[1], t[2], s.from);
@@ -238,7 +237,7 @@ bool segment_touches(const Segment<Point>& s, const Triangle<Point>& t) {
     return !(std::min({e0, e1, e2}) < 0 && std::max({e0, e1, e2}) > 0);
 }
 
-/// Two segments anywhere in space.
+/// Tests two segments anywhere in space.
 template <class Point>
 bool segments_touch(const Segment<Point>& s, const Segment<Point>& t) {
     if (orient3d(s.from, s.to, t.from, t.to) != 0) return false;
@@ -254,7 +253,7 @@ bool segments_touch(const Segment<Point>& s, const Segment<Point>& t) {
     return between(s.from, t) || between(s.to, t) || between(t.from, s);  // all on one line
 }
 
-/// For pairs of which at least one has no area.
+/// Requires that at least one of the two has no area.
 template <class Point>
 bool degenerate_touch(const Triangle<Point>& a, bool a_is_flat, const Triangle<Point>& b,
                       bool b_is_flat) {
@@ -268,8 +267,8 @@ bool is_flat(const Triangle<Point>& t) {
     return collinear(t[0], t[1], t[2]);
 }
 
-/// For pairs where all corners of one have sign 0: the planes coincide, or a
-/// triangle without area has none.
+/// Answers where all corners of one have sign 0: the planes coincide, or a triangle without area
+/// defines no plane.
 template <class Point>
 TriangleContact flat_contact(const Triangle<Point>& a, const Triangle<Point>& b) {
     const bool a_is_flat = is_flat(a);
@@ -295,14 +294,14 @@ TriangleContact contact_of(const Triangle<Point>& a, const Triangle<Point>& b) {
 
 // --- Stages ----------------------------------------------------------------------
 
-/// Both triangles in machine integers, around a corner of the first.
+/// Both triangles in machine integers, relative to a corner of the first.
 struct IntegerPair {
     Triangle<Integer3> a;
     Triangle<Integer3> b;
 };
 
 std::optional<IntegerPair> in_integers(const Corners& a, const Corners& b) {
-    constexpr int kBits = 61;  // differences of two then have 62
+    constexpr int kBits = 61;  // so differences of two have 62
     const auto x = scaled_axis<5>({a[1].x, a[2].x, b[0].x, b[1].x, b[2].x}, a[0].x, kBits);
     const auto y = scaled_axis<5>({a[1].y, a[2].y, b[0].y, b[1].y, b[2].y}, a[0].y, kBits);
     const auto z = scaled_axis<5>({a[1].z, a[2].z, b[0].z, b[1].z, b[2].z}, a[0].z, kBits);
@@ -326,7 +325,7 @@ bool is_degenerate(const Corners& t) noexcept {
 std::optional<TriangleContact> contact_by_filter(const Corners& a, const Corners& b) noexcept {
     const Signs a_signs = filtered_plane_signs(b, a);
     if (strictly_one_side(a_signs)) {
-        // In one plane, as far as double can tell: so are the others.
+        // All undecided: the triangles may lie in one plane. Then b's signs are undecided too.
         if (a_signs[0] == kUnknown) return std::nullopt;
         return TriangleContact::disjoint;
     }
@@ -360,14 +359,14 @@ TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept {
     return sure ? *sure : contact_beyond_filter(a, b);
 }
 
-// On the common line the edges from a lone corner end the part that belongs to its
-// triangle. orient3d(a0, ai, b0, bk) is positive when the point on a0 ai lies beyond
-// that on b0 bk, where a0 a1 comes before a0 a2 and so b0 b2 before b0 b1.
+// On the common line, the edges from a lone corner bound the part that belongs to its triangle.
+// orient3d(a0, ai, b0, bk) is positive when the point on a0 ai lies beyond that on b0 bk. Here
+// a0 a1 comes before a0 a2, and so b0 b2 before b0 b1.
 std::optional<CrossingEnds> crossing_ends(const Corners& a, const Corners& b) noexcept {
     const Signs a_signs = plane_signs(b, a);
     const Signs b_signs = plane_signs(a, b);
     if (all_zero(a_signs) || all_zero(b_signs)) return std::nullopt;
-    // Boxes that make no sense can name a pair that is not in contact.
+    // Damaged boxes can produce a pair that is not in contact.
     if (strictly_one_side(a_signs) || strictly_one_side(b_signs)) return std::nullopt;
     const auto [s, t] = canonical(a, a_signs, b, b_signs);
     const bool first_of_a = orient3d(s[0], s[1], t[0], t[2]) > 0;

@@ -7,36 +7,35 @@
 
 namespace cdprep {
 
-/// Returns whether the two triangles have a common point. Exact; the sign test
-/// of Guigue and Devillers (2003), with exact planar and degenerate cases.
+/// Returns whether the two triangles have a common point. Exact; the sign test of Guigue and
+/// Devillers (2003), with exact planar and degenerate cases.
 [[nodiscard]] bool triangles_touch(const Corners& a, const Corners& b) noexcept;
 
-/// The same answer, by the six segment-triangle tests of Feito and Torres: an
-/// independent second implementation that the first is held against.
+/// Returns the same answer by the six segment-triangle tests of Feito and Torres. An independent
+/// second implementation; tests compare the first with it.
 [[nodiscard]] bool triangles_touch_by_segments(const Corners& a, const Corners& b) noexcept;
 
-/// Returns how the two stand where the signs of a few determinants in double leave no
-/// doubt: apart, or crossing. Nothing for all that touches, is flat or comes near.
+/// Returns how two triangles meet where the signs of a few determinants in double prove it:
+/// disjoint or crossing. Returns nothing for triangles that touch, are degenerate or nearly touch.
 [[nodiscard]] std::optional<TriangleContact> contact_by_filter(const Corners& a,
                                                                const Corners& b) noexcept;
 
-/// Returns what classify_contact() does, without asking contact_by_filter() first: in
-/// machine integers where all coordinates fit, in expansions where not.
+/// Returns the answer of classify_contact() without calling contact_by_filter() first. Uses machine
+/// integers where all coordinates fit, otherwise expansions.
 [[nodiscard]] TriangleContact contact_beyond_filter(const Corners& a, const Corners& b) noexcept;
 
-/// True when a corner of each is the same point: then the two touch, at least.
+/// Returns whether a corner of each is the same point; then the two at least touch.
 [[nodiscard]] bool share_a_corner(const Corners& a, const Corners& b) noexcept;
 
-/// Returns how the two stand. Exact. A degenerate triangle has no inside: it can
-/// only touch.
+/// Returns how two triangles meet. Exact. A degenerate triangle has no inside: it can only touch.
 [[nodiscard]] TriangleContact classify_contact(const Corners& a, const Corners& b) noexcept;
 
-/// Returns what bounds the common segment of two triangles that touch, or nothing when
-/// both lie in one plane or one has no area. Exact.
+/// Returns the edges that bound the common segment of two triangles that touch. Returns nothing
+/// when both lie in one plane or one has no area. Exact.
 [[nodiscard]] std::optional<CrossingEnds> crossing_ends(const Corners& a,
                                                         const Corners& b) noexcept;
 
-/// True when the corners are exactly collinear.
+/// Returns whether the corners are exactly collinear.
 [[nodiscard]] bool is_degenerate(const Corners& a) noexcept;
 
 }  // namespace cdprep

@@ -9,23 +9,21 @@
 
 #include "exact/double_double.h"
 
-// Two triangles that do not touch are nearest where an edge of each (nine pairs,
-// corners included) or a corner of one and the face of the other (six) are nearest
-// (Larsen, Gottschalk, Lin and Manocha 1999). All work is relative to a corner of A
-// and scaled by a power of two so that the largest coordinate, M, is about 1. Let e
-// be the unit roundoff of the numbers in use.
+// Two triangles that do not touch are nearest in one of two ways (Larsen, Gottschalk, Lin and
+// Manocha 1999): at an edge of each, nine pairs with corners included; or at a corner of one and
+// the face of the other, six pairs. All work is relative to a corner of A and scaled by a power of
+// two so that the largest coordinate, M, is about 1. Let e be the unit roundoff of the numbers in
+// use.
 //
-// Every candidate is a pair of points of the triangles: each is put together from
-// corners with weights in [0, 1] that add up to 1, off by less than 8 e M. So their
-// distance is an upper bound, give or take 24 e M, however badly the weights are
-// known.
+// Every candidate is a pair of points of the triangles. Each point is a combination of corners with
+// weights in [0, 1] that add up to 1, off by less than 8 e M. So their distance is an upper bound
+// within 24 e M, even if the weights are inaccurate.
 //
-// The lower bound does not trust the candidates at all. Whatever the direction w,
-// the planes across it through A's farthest and B's nearest corner lie
-// (min w.b - max w.a) / |w| apart, and so do the triangles, at least. The dot
-// products, the difference, the root and the quotient are off by 24 e M. With w
-// between the nearest points the bound is tight; where w is off by an angle, it
-// loses that angle times the size of a triangle.
+// The lower bound does not depend on the accuracy of the candidates. For any direction w, take the
+// planes normal to it through A's farthest and B's nearest corner. They lie
+// (min w.b - max w.a) / |w| apart, and the triangles at least as far. The dot products, the
+// difference, the root and the quotient are off by 24 e M. With w between the nearest points the
+// bound is tight. If w is off by an angle, the bound loses that angle times the size of a triangle.
 
 namespace cdprep {
 namespace {
@@ -62,14 +60,14 @@ Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
 template <class T>
 using Triangle = std::array<Vector<T>, 3>;
 
-// Written to be chosen among, not branched on: which way a triangle lies, nobody can guess.
+// Uses selections instead of branches: the cases are unpredictable.
 template <class T>
 T within_unit(const T& t) {
     const T from_zero = t < T(0.0) ? T(0.0) : t;
     return from_zero > T(1.0) ? T(1.0) : from_zero;
 }
 
-/// A point of each triangle.
+/// A point of each triangle, and their squared distance.
 template <class T>
 struct Nearest {
     Vector<T> on_a{};
@@ -87,7 +85,8 @@ Nearest<T> pair_of(const Vector<T>& a, const Vector<T>& b) {
     return {a, b, dot(w, w)};
 }
 
-/// Ericson 2005, 5.1.9, with the ends of both segments tried by clamping.
+/// The nearest points of two segments (Ericson 2005, 5.1.9), with clamping instead of branches for
+/// the ends of both.
 template <class T>
 Nearest<T> nearest_on_edges(const Vector<T>& p, const Vector<T>& p_end, const Vector<T>& q,
                             const Vector<T>& q_end) {
@@ -111,7 +110,7 @@ Nearest<T> nearest_on_edges(const Vector<T>& p, const Vector<T>& p_end, const Ve
     return pair_of((one - s) * p + s * p_end, (one - t) * q + t * q_end);
 }
 
-/// The foot of p on the triangle's plane, when it lies inside.
+/// Computes the foot of p on the triangle's plane; false if it lies outside.
 template <class T>
 bool foot_inside(const Vector<T>& p, const Triangle<T>& t, Vector<T>& foot) {
     const Vector<T> n = cross(t[1] - t[0], t[2] - t[0]);
@@ -128,7 +127,7 @@ bool foot_inside(const Vector<T>& p, const Triangle<T>& t, Vector<T>& foot) {
 
 template <class T>
 Nearest<T> nearest_points(const Triangle<T>& a, const Triangle<T>& b) {
-    // Compared when all are known: so none waits for the one before.
+    // Compared when all are known, so no pair waits for the one before.
     std::array<Nearest<T>, 9> on_edges;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) {
@@ -148,7 +147,7 @@ Nearest<T> nearest_points(const Triangle<T>& a, const Triangle<T>& b) {
     return nearest;
 }
 
-/// Bounds of the distance, scaled.
+/// Bounds of the scaled distance.
 struct Interval {
     double lower;
     double upper;
@@ -173,7 +172,7 @@ Interval interval_of(const Triangle<T>& a, const Triangle<T>& b, const Nearest<T
     return {std::max(0.0, lower), upper};
 }
 
-/// Multiplies by a power of two, in two steps because one may leave the range.
+/// Multiplies by a power of two, in two steps because one factor may leave the range.
 class Scale {
 public:
     explicit Scale(int exponent) noexcept
@@ -191,8 +190,8 @@ private:
 template <class T>
 Triangle<T> scaled(const Corners& corners, const Double3& origin, const Scale& scale) {
     const auto at = [&](double x, double from) {
-        // Scaled before the difference: exact, and so is the difference in twice
-        // the precision.
+        // Scaled before the difference, which is exact. So is the difference in twice the
+        // precision.
         return T(scale(x)) - T(scale(from));
     };
     Triangle<T> result{};
@@ -217,14 +216,14 @@ TriangleDistance measured(const Corners& a, const Corners& b, int exponent, doub
         };
         return Double3{moved(p.x, a[0].x), moved(p.y, a[0].y), moved(p.z, a[0].z)};
     };
-    // Scaling back may round a subnormal: one step outwards covers that.
+    // Scaling back may round a subnormal; one step outwards covers that.
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const double lower = std::nextafter(unscale(interval.lower), -kInfinity);
     return {std::max(0.0, lower), std::nextafter(unscale(interval.upper), kInfinity),
             back(nearest.on_a), back(nearest.on_b)};
 }
 
-/// The exponent of two that brings the largest difference to about 1.
+/// Returns the exponent of two that brings the largest difference to about 1.
 int exponent_of(const Corners& a, const Corners& b) {
     double size = 0;
     for (const Corners* corners : {&a, &b}) {
@@ -236,7 +235,7 @@ int exponent_of(const Corners& a, const Corners& b) {
     return size > 0 ? -std::ilogb(size) : 0;
 }
 
-/// Where the segment meets the triangle's plane, when that lies inside.
+/// Computes the point where the segment meets the triangle's plane; false if it lies outside.
 bool crossing(const Vector<double>& p, const Vector<double>& q, const Triangle<double>& t,
               Vector<double>& point) {
     const Vector<double> n = cross(t[1] - t[0], t[2] - t[0]);
@@ -259,8 +258,8 @@ Double3 common_point(const Corners& a, const Corners& b) noexcept {
     const Scale unscale(-exponent);
     const Triangle<double> at_a = scaled<double>(a, a[0], scale);
     const Triangle<double> at_b = scaled<double>(b, a[0], scale);
-    // Crossing triangles: an edge of one pierces the other. Else they touch where
-    // they are nearest.
+    // If the triangles cross, an edge of one pierces the other. Otherwise they touch where they are
+    // nearest.
     Vector<double> point = nearest_points(at_a, at_b).on_a;
     for (std::size_t i = 0; i < 3; ++i) {
         if (crossing(at_a[i], at_a[(i + 1) % 3], at_b, point) ||

@@ -5,28 +5,27 @@
 
 namespace cdprep {
 
-/// How far two triangles are apart.
+/// The distance of two triangles, as an interval with two witnesses.
 struct TriangleDistance {
-    double lower;  ///< the distance is at least this
-    double upper;  ///< and at most this: the points are that near, up to rounding
+    double lower;  ///< a lower bound of the distance
+    double upper;  ///< an upper bound; the points are at most this far apart, up to rounding
     Double3 on_a;
     Double3 on_b;
 };
 
-/// Returns the distance of two triangles that do not touch; for two that do,
-/// `lower` is 0 and `upper` any bound. Corners may be collinear or equal. In double,
-/// and when the interval is then wider than 1e-12 of itself and `tight` is set,
-/// again in twice the precision.
+/// Returns the distance of two triangles that do not touch. For two that touch, `lower` is 0 and
+/// `upper` any bound. Corners may be collinear or equal. Computes in double. If `tight` is set and
+/// the interval is wider than 1e-12 of its lower bound, computes again in twice the precision.
 [[nodiscard]] TriangleDistance triangle_distance(const Corners& a, const Corners& b,
                                                  bool tight) noexcept;
 
-/// Whether it is so narrow that it is not taken again, when `tight` is set.
+/// Returns whether the interval is narrow enough not to be computed again with `tight`.
 [[nodiscard]] inline bool is_tight(const TriangleDistance& found) noexcept {
     constexpr double kTightness = 1e-12;
     return found.upper - found.lower <= kTightness * found.lower;
 }
 
-/// Returns a point of both triangles, up to rounding; they must touch.
+/// Returns a common point of both triangles, up to rounding. Requires that they touch.
 [[nodiscard]] Double3 common_point(const Corners& a, const Corners& b) noexcept;
 
 }  // namespace cdprep

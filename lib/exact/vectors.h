@@ -10,7 +10,7 @@ namespace cdprep {
 
 using format::Double3;
 
-// Points and directions in double, rounded as written.
+// Points and directions in double; every operation is rounded in the order written.
 
 inline Double3 operator-(const Double3& a) noexcept {
     return {-a.x, -a.y, -a.z};
@@ -33,7 +33,7 @@ inline Double3 cross(const Double3& a, const Double3& b) noexcept {
 inline double largest_of(const Double3& a) noexcept {
     return std::max({std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)});
 }
-/// The sum of the sizes of what dot() adds up.
+/// Returns the sum of the magnitudes of the terms of dot().
 inline double dot_size(const Double3& a, const Double3& b) noexcept {
     return (std::fabs(a.x * b.x) + std::fabs(a.y * b.y)) + std::fabs(a.z * b.z);
 }

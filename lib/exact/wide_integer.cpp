@@ -9,7 +9,7 @@ namespace {
 
 constexpr unsigned kLimbBits = 32;
 
-/// The size without zeros at the top.
+/// Returns the size without zero limbs at the top.
 std::size_t trimmed(const std::uint32_t* limb, std::size_t size) noexcept {
     while (size > 0 && limb[size - 1] == 0) --size;
     return size;
@@ -24,7 +24,7 @@ int compare(const WideView& a, const WideView& b) noexcept {
     return 0;
 }
 
-/// |a| + |b| for a that is not shorter.
+/// Writes |a| + |b|. Requires that a is not shorter.
 std::size_t add_sizes(const WideView& a, const WideView& b, std::uint32_t* limb) noexcept {
     std::uint64_t carry = 0;
     for (std::size_t i = 0; i < a.size; ++i) {
@@ -37,7 +37,7 @@ std::size_t add_sizes(const WideView& a, const WideView& b, std::uint32_t* limb)
     return a.size + 1;
 }
 
-/// |a| - |b| for |a| >= |b|.
+/// Writes |a| - |b|. Requires |a| >= |b|.
 std::size_t subtract_sizes(const WideView& a, const WideView& b, std::uint32_t* limb) noexcept {
     std::int64_t borrow = 0;
     for (std::size_t i = 0; i < a.size; ++i) {
@@ -49,7 +49,7 @@ std::size_t subtract_sizes(const WideView& a, const WideView& b, std::uint32_t* 
     return trimmed(limb, a.size);
 }
 
-/// A finite number's mantissa times 2^exponent.
+/// A finite number's magnitude as mantissa * 2^exponent.
 struct Parts {
     std::uint64_t mantissa;
     int exponent;

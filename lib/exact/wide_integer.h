@@ -9,21 +9,21 @@
 
 namespace cdprep {
 
-/// Limbs of 32 bits, the least first, none zero at the top; no limbs are zero.
+/// A view of 32-bit limbs, the least first. The top limb is not zero; zero has no limbs.
 struct WideView {
     const std::uint32_t* limb;
     std::size_t size;
     bool negative;
 };
 
-/// What of a result does not stand in its limbs.
+/// The parts of a result that are not in its limbs.
 struct WideSize {
     std::size_t size;
     bool negative;
 };
 
-/// These write to `limb`, which has room: for the larger and a carry where there is
-/// one, or for both.
+/// These write to `limb`, which must have enough room: a sum needs the larger size and one limb for
+/// a carry, a product both sizes.
 [[nodiscard]] WideSize wide_sum(const WideView& a, const WideView& b, std::uint32_t* limb) noexcept;
 [[nodiscard]] WideSize wide_product(const WideView& a, const WideView& b,
                                     std::uint32_t* limb) noexcept;
@@ -32,22 +32,21 @@ struct WideSize {
 /// The exponent of the least subnormal double.
 inline constexpr int kLowestExponent = -1074;
 
-/// The exponent of the lowest bit that is set; kLowestExponent + 3000 for 0.
+/// Returns the exponent of the lowest bit that is set; kLowestExponent + 3000 for 0.
 [[nodiscard]] int lowest_bit(double value) noexcept;
 
-/// Limbs of a double, or the difference of two, as a multiple of 2^-1074: 2,099 bits,
-/// and some to add a few up. Products of k of these need k times as many.
+/// The number of limbs of a double, or a difference of two, as a multiple of 2^-1074: 2,099 bits,
+/// and some to add up a few. A product of k factors needs k times as many.
 inline constexpr std::size_t kWideCoordinate = 66;
 
-/// A signed integer of at most `kLimbs` limbs for the rarest stage of the predicates:
-/// every double is an integer multiple of 2^-1074, and those of one question are
-/// often multiples of something much larger. Its cost depends on the limbs in use:
-/// tens of nanoseconds an operation on everyday numbers, microseconds at worst.
-/// Never allocates. Sums of up to 2^10 terms fit.
+/// A signed integer of at most `kLimbs` limbs for the rarest stage of the predicates. Every double
+/// is an integer multiple of 2^-1074, and the doubles of one query are often multiples of something
+/// much larger. The cost depends on the limbs in use: tens of nanoseconds an operation for everyday
+/// numbers, microseconds at worst. Never allocates. Sums of up to 2^10 terms fit.
 template <std::size_t kLimbs>
 class WideInteger {
 public:
-    // Limbs past the size are never read: setting them would cost more than the rest.
+    // Limbs past the size are never read; initialising them would cost more than the rest.
     WideInteger() noexcept {}  // NOLINT
     WideInteger(const WideInteger& other) noexcept
         : size_(other.size_), negative_(other.negative_) {
@@ -61,7 +60,7 @@ public:
     }
     ~WideInteger() = default;
 
-    /// value / 2^lowest, which is an integer: `lowest` is at most lowest_bit(value).
+    /// Returns value / 2^lowest, which is an integer. Requires lowest <= lowest_bit(value).
     [[nodiscard]] static WideInteger from_double(double value,
                                                  int lowest = kLowestExponent) noexcept {
         static_assert(kLimbs >= kWideCoordinate);

@@ -11,11 +11,11 @@
 
 namespace cdprep {
 
-/// A vector of integers: of doubles as multiples of the lowest bit that occurs in a
-/// question, or of products of those.
+/// A vector of integers: doubles as multiples of the lowest bit that occurs in a query, or products
+/// of such integers.
 template <std::size_t kLimbs>
 using WideVector = std::array<WideInteger<kLimbs>, 3>;
-/// A point, a difference of two, or the difference of two differences.
+/// A point, a difference of two points, or a difference of two differences.
 using WidePlace = WideVector<kWideCoordinate>;
 
 template <std::size_t kLimbs>
@@ -46,7 +46,7 @@ WideVector<kLimbs + kOther> cross(const WideVector<kLimbs>& a,
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The lowest of the points' bits.
+/// Returns the lowest bit of all the points' coordinates.
 inline int lowest_bit_of(std::span<const format::Double3> points) noexcept {
     int lowest = lowest_bit(0);
     for (const format::Double3& p : points) {
@@ -55,7 +55,7 @@ inline int lowest_bit_of(std::span<const format::Double3> points) noexcept {
     return lowest;
 }
 
-/// p / 2^lowest, of at most the point's lowest bit.
+/// Returns p / 2^lowest. Requires that `lowest` is at most the point's lowest bit.
 inline WidePlace wide_place(const format::Double3& p, int lowest) noexcept {
     using Length = WideInteger<kWideCoordinate>;
     return {Length::from_double(p.x, lowest), Length::from_double(p.y, lowest),

@@ -7,22 +7,19 @@
 
 #include "exact/predicates.h"
 #include "exact/triangle_contact.h"
+#include "exact/vectors.h"
 
 namespace cdprep {
 namespace {
 
-/// Sign of orient3d(o', q, a, b) for the perturbed o'. The determinant is linear
-/// in its first point, with the gradient (q - b) x (a - b), whose components are
-/// planar determinants.
+/// Returns the sign of orient3d(o', q, a, b) for the perturbed o'. The determinant is linear in its
+/// first point, with the gradient (q - b) x (a - b). The gradient's components are planar
+/// determinants.
 int perturbed_sign(const Double3& o, const Double3& q, const Double3& a, const Double3& b) {
     if (const int sign = orient3d(o, q, a, b); sign != 0) return sign;
     if (const int sign = orient2d({q.y, q.z}, {a.y, a.z}, {b.y, b.z}); sign != 0) return sign;
     if (const int sign = orient2d({q.z, q.x}, {a.z, a.x}, {b.z, b.x}); sign != 0) return sign;
     return orient2d({q.x, q.y}, {a.x, a.y}, {b.x, b.y});
-}
-
-double dot(const Double3& a, const Double3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 Double3 scaled_difference(const Double3& a, const Double3& b, int exponent) {
@@ -39,7 +36,7 @@ double largest(const Double3& p) {
 WindingTerm winding_term(const Double3& o, const Double3& q, const Corners& t) noexcept {
     const int side = orient3d(t[0], t[1], t[2], q);
     if (side == 0) {
-        // In the plane of the triangle, or the triangle has none.
+        // q lies in the triangle's plane, or the triangle defines no plane.
         return {0, triangles_touch({q, q, q}, t)};
     }
     const int turn = perturbed_sign(o, q, t[0], t[1]);
@@ -47,7 +44,7 @@ WindingTerm winding_term(const Double3& o, const Double3& q, const Corners& t) n
         turn != perturbed_sign(o, q, t[2], t[0])) {
         return {0, false};
     }
-    // The line pierces the triangle; beyond q it does so when the signs differ.
+    // The line pierces the triangle. It does so beyond q if the signs differ.
     return {side != turn ? side : 0, false};
 }
 
@@ -61,7 +58,7 @@ double solid_angle(const Double3& q, const Corners& t) noexcept {
         std::fmax(largest(scaled_difference(t[0], q, 0)), largest(scaled_difference(t[1], q, 0))),
         largest(scaled_difference(t[2], q, 0)));
     if (size == 0) return 0;
-    // A power of two keeps the triple product in range and changes no digit.
+    // Scaling by a power of two keeps the triple product in range and changes no digit.
     const int exponent = -std::ilogb(size);
     const Double3 a = scaled_difference(t[0], q, exponent);
     const Double3 b = scaled_difference(t[1], q, exponent);

@@ -8,7 +8,7 @@
 namespace cdprep::kernels {
 namespace {
 
-/// Eight lanes that are all ones or all zeros.
+/// Eight lanes, each all ones or all zeros.
 struct Mask8 {
     __m256 x;
 };
@@ -28,7 +28,7 @@ inline unsigned bits(Mask8 a) noexcept {
     return static_cast<unsigned>(_mm256_movemask_ps(a.x));
 }
 
-/// For each set of eight bits the numbers of those that are set, one after the other.
+/// For each set of eight bits, the numbers of the bits that are set, one after the other.
 struct SetBits {
     alignas(8) std::uint8_t number[256][8];
 };
@@ -44,7 +44,7 @@ constexpr SetBits set_bits() noexcept {
 }
 constexpr SetBits kSetBits = set_bits();
 
-/// Eight places.
+/// Eight indices.
 struct Index8 {
     __m256i x;
 };
@@ -54,7 +54,7 @@ inline Index8 operator+(Index8 a, Index8 b) noexcept {
 inline Index8 shifted_right(Index8 a, int by) noexcept {
     return {_mm256_srli_epi32(a.x, by)};
 }
-/// The lowest three.
+/// Returns the lowest three bits.
 inline Index8 low_bits(Index8 a) noexcept {
     return {_mm256_and_si256(a.x, _mm256_set1_epi32(7))};
 }
@@ -83,11 +83,11 @@ struct F8 {
     static Index gather_index(const std::int32_t* base, Index at) noexcept {
         return {_mm256_i32gather_epi32(base, at.x, 4)};
     }
-    /// Of eight floats.
+    /// Picks from eight floats.
     static F8 pick(const float* p, Index at) noexcept {
         return _mm256_permutevar8x32_ps(load(p).x, at.x);
     }
-    /// Numbers beside numbers: their bits count.
+    /// Loads numbers that are compared bit by bit.
     static Index load_numbers(const std::uint32_t* p) noexcept {
         return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
     }
@@ -98,12 +98,12 @@ struct F8 {
     static F8 gather(const float* base, Index at) noexcept {
         return _mm256_i32gather_ps(base, at.x, 4);
     }
-    /// One of eight, the same for all lanes.
+    /// Returns one of eight floats, the same for all lanes.
     template <class Rows>
     static F8 spread(const float* p, const Rows& at) noexcept {
         return F8(p[at.first]);
     }
-    /// first + i for each bit i that is set, one after the other. May write eight.
+    /// Stores first + i for each bit i that is set, one after the other. May write eight.
     static void store_lanes(unsigned bits, unsigned first, unsigned /*second*/,
                             std::uint16_t* to) noexcept {
         assert(bits < 256);
@@ -121,11 +121,11 @@ struct F8 {
     void store_rows(float* first, float* /*second*/) const noexcept {
         store(first);
     }
-    /// Finds the largest of many lanes: as integers, which order as floats that are not
-    /// negative do, with the number of the lane in place of the lowest six bits.
+    /// Finds the largest of many lanes. Compares as integers, which order as non-negative floats
+    /// do. The number of the lane replaces the lowest six bits.
     class Deepest {
     public:
-        /// The lanes of a row whose bits are set, of the lowest eight: numbers 8 row + i.
+        /// Adds the lanes of a row whose bits are set, among the lowest eight: numbers 8 row + i.
         template <class Rows>
         void add(F8 depth, unsigned bits, const Rows& at) noexcept {
             const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
@@ -180,7 +180,7 @@ inline F8 root(F8 a) noexcept {
 inline F8 fma(F8 a, F8 b, F8 c) noexcept {
     return _mm256_fmadd_ps(a.x, b.x, c.x);
 }
-/// a b - c
+/// Returns a b - c.
 inline F8 fms(F8 a, F8 b, F8 c) noexcept {
     return _mm256_fmsub_ps(a.x, b.x, c.x);
 }

@@ -8,7 +8,7 @@
 namespace cdprep::kernels {
 namespace {
 
-/// One bit a lane.
+/// One bit per lane.
 template <class Bits>
 struct LaneMask {
     Bits x;
@@ -70,7 +70,7 @@ inline F8 operator-(F8 a) noexcept {
 inline F8 fma(F8 a, F8 b, F8 c) noexcept {
     return _mm256_fmadd_ps(a.x, b.x, c.x);
 }
-/// a b - c
+/// Returns a b - c.
 inline F8 fms(F8 a, F8 b, F8 c) noexcept {
     return _mm256_fmsub_ps(a.x, b.x, c.x);
 }
@@ -87,7 +87,7 @@ inline F8::Mask greater(F8 a, F8 b) noexcept {
     return {_mm256_cmp_ps_mask(a.x, b.x, _CMP_GT_OQ)};
 }
 
-/// Sixteen places.
+/// Sixteen indices.
 struct Index16 {
     __m512i x;
 };
@@ -97,7 +97,7 @@ inline Index16 operator+(Index16 a, Index16 b) noexcept {
 inline Index16 shifted_right(Index16 a, unsigned by) noexcept {
     return {_mm512_srli_epi32(a.x, by)};
 }
-/// The lowest three.
+/// Returns the lowest three bits.
 inline Index16 low_bits(Index16 a) noexcept {
     return {_mm512_and_si512(a.x, _mm512_set1_epi32(7))};
 }
@@ -117,25 +117,25 @@ struct F16 {
     F16() noexcept = default;
     F16(__m512 value) noexcept : x(value) {}  // NOLINT(google-explicit-constructor)
     explicit F16(float value) noexcept : x(_mm512_set1_ps(value)) {}
-    /// Eight floats, twice.
+    /// Loads eight floats, twice.
     static F16 load(const float* p) noexcept {
         return _mm512_broadcast_f32x8(_mm256_loadu_ps(p));
     }
-    /// One number for the lower lanes, one for the upper.
+    /// Returns one number for the lower lanes and one for the upper.
     static __m512i of_rows(std::size_t first, std::size_t second) noexcept {
         constexpr __mmask16 kUpper = 0xff00;
         return _mm512_mask_set1_epi32(_mm512_set1_epi32(static_cast<std::int32_t>(first)), kUpper,
                                       static_cast<std::int32_t>(second));
     }
-    /// One of eight for the lower lanes, one for the upper: a load and a permutation, where
-    /// two broadcasts would be two loads and a blend.
+    /// Returns one of eight floats for the lower lanes and one for the upper. Uses a load and a
+    /// permutation; two broadcasts would be two loads and a blend.
     template <class Rows>
     static F16 spread(const float* p, const Rows& at) noexcept {
         return _mm512_permutexvar_ps(of_rows(at.first, at.second),
                                      _mm512_castps256_ps512(_mm256_loadu_ps(p)));
     }
-    /// For each bit that is set, one after the other: first + i for bit i, second + i
-    /// for bit 8 + i. May write sixteen.
+    /// Stores, for each bit that is set, one after the other: first + i for bit i, second + i for
+    /// bit 8 + i. May write sixteen.
     static void store_lanes(unsigned bits, unsigned first, unsigned second,
                             std::uint16_t* to) noexcept {
         assert(bits >> kCount == 0);
@@ -148,7 +148,7 @@ struct F16 {
     void store_all(float* p) const noexcept {
         _mm512_storeu_ps(p, x);
     }
-    /// The lower eight.
+    /// Stores the lower eight.
     void store_row(float* p) const noexcept {
         _mm256_storeu_ps(p, _mm512_castps512_ps256(x));
     }
@@ -160,11 +160,11 @@ struct F16 {
         _mm256_storeu_ps(second, _mm512_extractf32x8_ps(x, 1));
         _mm256_storeu_ps(first, _mm512_castps512_ps256(x));
     }
-    /// Finds the largest of many lanes: as integers, which order as floats that are not
-    /// negative do, with the number of the lane in place of the lowest six bits.
+    /// Finds the largest of many lanes. Compares as integers, which order as non-negative floats
+    /// do. The number of the lane replaces the lowest six bits.
     class Deepest {
     public:
-        /// The lanes of two rows whose bits are set: numbers 8 row + i.
+        /// Adds the lanes of two rows whose bits are set: numbers 8 row + i.
         template <class Rows>
         void add(F16 depth, unsigned bits, const Rows& at) noexcept {
             const __m512i number =
@@ -198,11 +198,11 @@ struct F16 {
     static Index gather_index(const std::int32_t* base, Index at) noexcept {
         return {_mm512_i32gather_epi32(at.x, base, 4)};
     }
-    /// Of eight floats.
+    /// Picks from eight floats.
     static F16 pick(const float* p, Index at) noexcept {
         return _mm512_permutexvar_ps(at.x, _mm512_castps256_ps512(_mm256_loadu_ps(p)));
     }
-    /// Eight numbers, twice; numbers beside numbers: their bits count.
+    /// Loads eight numbers, twice; they are compared bit by bit.
     static Index load_numbers(const std::uint32_t* p) noexcept {
         return {_mm512_broadcast_i32x8(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p)))};
     }

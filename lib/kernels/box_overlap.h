@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Box against box, eight at a time. Included by kernel sources alone, after they
-// have defined the lanes: a type F of eight floats, and a type R of the same eight
-// once or twice, so that R::kRows rows are tested at once; each with a mask type.
+// Box against box, eight at a time. Included by kernel sources alone, after they have defined the
+// lanes: a type F of eight floats, and a type R of the same eight once or twice. R::kRows rows are
+// tested at once. Each type has a mask type.
 #pragma once
 
 #include <cassert>
@@ -11,7 +11,7 @@
 namespace cdprep::kernels {
 namespace {
 
-/// (m0 x + m1 y) + m2 z.
+/// Returns (m0 x + m1 y) + m2 z.
 template <class F>
 F combined(float m0, float m1, float m2, const F* v) noexcept {
     return fma(F(m2), v[2], fma(F(m1), v[1], F(m0) * v[0]));
@@ -67,7 +67,7 @@ F sum_of(const F* v) noexcept {
     return v[0] + v[1] + v[2];
 }
 
-/// B's boxes as the tests along A's axes want them: shifted, with the slack and the tolerance.
+/// Returns B's boxes for the tests along A's axes: shifted, with the slack and the tolerance.
 template <class F>
 Boxes<F> turned_to_a(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
     assert(p.slack >= 0 && p.tolerance >= 0);
@@ -81,7 +81,7 @@ Boxes<F> turned_to_a(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
     return turned;
 }
 
-/// B's boxes as the tests along B's axes want them.
+/// Returns B's boxes for the tests along B's axes.
 template <class F>
 Boxes<F> shifted_in_b(const Boxes<F>& boxes, const BoxPlacement& p) noexcept {
     Boxes<F> shifted;
@@ -106,7 +106,7 @@ void store(const Boxes<F>& boxes, BoxRows& rows) noexcept {
     }
 }
 
-/// Boxes of B that the box around all of A's reaches along A's axes.
+/// Returns the boxes of B that the box around all of A's reaches along A's axes.
 template <class F>
 unsigned boxes_within(const Boxes<F>& turned_b, const BoxPlacement& p,
                       const float* around_a) noexcept {
@@ -120,8 +120,7 @@ unsigned boxes_within(const Boxes<F>& turned_b, const BoxPlacement& p,
     return ~bits(out);
 }
 
-/// The rows that are tested together: the second repeats the first when one is
-/// left over.
+/// The rows that are tested together. The second repeats the first if only one is left.
 struct RowPair {
     std::size_t first;
     std::size_t second;
@@ -139,7 +138,7 @@ RowPair take_rows(unsigned& rows) noexcept {
     return {first, second};
 }
 
-/// By how much boxes of `rows` overlap each of `a` along one of three axes, at least.
+/// Returns the least overlap of boxes of `rows` with each of `a` along three axes.
 template <class R>
 R least_overlap(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
     R least = (a.half[0] + R::spread(rows.half[0], at)) -
@@ -151,7 +150,7 @@ R least_overlap(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
     return least;
 }
 
-/// Lanes of `a` that boxes of `rows` miss along one of three axes.
+/// Returns the lanes of `a` that boxes of `rows` miss along one of three axes.
 template <class R>
 typename R::Mask apart(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
     typename R::Mask out = R::none();
@@ -162,7 +161,7 @@ typename R::Mask apart(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexc
     return out;
 }
 
-/// The pairs of two rows, from eight bits of each; a row that repeats repeats its bits.
+/// Returns the pairs of two rows, from eight bits of each; a row that repeats repeats its bits.
 template <class R>
 BoxPairs pairs_in_rows(unsigned found, RowPair at) noexcept {
     assert(at.first <= at.second && at.second < kLanes);
@@ -172,7 +171,7 @@ BoxPairs pairs_in_rows(unsigned found, RowPair at) noexcept {
     return first | BoxPairs{(found >> kLanes) & 0xff} << (kLanes * at.second);
 }
 
-/// Eight bits of either row.
+/// Returns eight bits of either row.
 inline unsigned bits_of_rows(BoxPairs pairs, RowPair at) noexcept {
     const auto first = static_cast<unsigned>(pairs >> (kLanes * at.first)) & 0xff;
     const auto second = static_cast<unsigned>(pairs >> (kLanes * at.second)) & 0xff;
@@ -199,7 +198,7 @@ void load_oriented(const float* node, float scale, OrientedBoxes<F>& boxes) noex
     cross(boxes.axis[0], boxes.axis[1], boxes.axis[2]);
 }
 
-/// Oriented boxes of B along A's axes, one to be spread over all lanes.
+/// Oriented boxes of B along A's axes, in rows, so that one can be spread over all lanes.
 struct OrientedRows {
     alignas(32) float axis[3][3][kLanes];
     alignas(32) float centre[3][kLanes];
@@ -219,8 +218,8 @@ void turn_oriented(const OrientedBoxes<F>& boxes, const BoxPlacement& p,
     }
 }
 
-/// How far boxes are apart along the three axes of either; negative: by how much
-/// they overlap. The slack and the tolerance are taken off.
+/// The gaps between boxes along the three axes of either; negative: the overlap. The slack and the
+/// tolerance are subtracted.
 template <class R>
 struct FaceGaps {
     R of_a[3];
@@ -233,8 +232,8 @@ R largest(const FaceGaps<R>& gaps) noexcept {
                max(max(gaps.of_b[0], gaps.of_b[1]), gaps.of_b[2]));
 }
 
-/// Six of the fifteen directions of Gottschalk, Lin and Manocha 1996. The nine cross
-/// products of edges separate a few boxes more and cost as much again.
+/// Tests six of the fifteen directions of Gottschalk, Lin and Manocha 1996. The nine cross products
+/// of edges separate a few boxes more, but double the cost.
 template <class R>
 FaceGaps<R> oriented_gaps(const OrientedBoxes<R>& a, const OrientedRows& rows, RowPair at,
                           const BoxPlacement& p) noexcept {
@@ -261,9 +260,8 @@ FaceGaps<R> oriented_gaps(const OrientedBoxes<R>& a, const OrientedRows& rows, R
     return gaps;
 }
 
-/// Both nodes have oriented boxes: keeps of the pairs what they do not separate.
-/// Sets `depths` where kDepths is true. In place wherever it is asked for: a walk for the
-/// first hit waits for each step.
+/// Keeps the pairs that the oriented boxes of both nodes do not separate. Sets `depths` if kDepths
+/// is true. Always inlined: a walk for the first hit waits for each step.
 template <class F, class R, bool kDepths>
 [[gnu::always_inline]] inline BoxPairs keep_oriented(const BoxPlacement& p, const NodeBoxes& a,
                                                      const NodeBoxes& b, BoxPairs pairs,
@@ -294,8 +292,8 @@ template <class F, class R, bool kDepths>
     return kept;
 }
 
-/// The pairs of chosen boxes that the axes of either node do not separate. Sets
-/// `depths` where kDepths is true. In place like keep_oriented().
+/// Returns the pairs of chosen boxes that the axes of either node do not separate. Sets `depths` if
+/// kDepths is true. Always inlined, like keep_oriented().
 template <class F, class R, bool kDepths>
 [[gnu::always_inline]] inline BoxPairs keep_aligned(const BoxPlacement& p, const NodeBoxes& a,
                                                     const NodeBoxes& b, const BoxChoice& choice,
@@ -342,7 +340,7 @@ BoxPairs overlapping_boxes_of(const BoxPlacement& p, const NodeBoxes& a, const N
     const bool oriented = a.oriented != nullptr && b.oriented != nullptr;
     const bool one_row = (choice.of_b & (choice.of_b - 1)) == 0;
     if (oriented && one_row) {
-        // Turning the axis-aligned boxes would cost more than it saves.
+        // Rotating the axis-aligned boxes would cost more than it saves.
         assert(choice.of_b != 0);
         const auto row = static_cast<unsigned>(__builtin_ctz(choice.of_b));
         const BoxPairs pairs = BoxPairs{choice.of_a} << (kLanes * row);

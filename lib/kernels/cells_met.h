@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Eight boxes against the eight cells around a point. Included by kernel sources alone, after
-// they have defined the lanes: a type F of eight floats with its mask type; lanes are boxes.
+// Eight boxes against the eight cells around a point. Included by kernel sources alone, after they
+// have defined the lanes: a type F of eight floats with its mask type. Lanes are boxes.
 #pragma once
 
 #include <cassert>
@@ -10,8 +10,8 @@
 namespace cdprep::kernels {
 namespace {
 
-/// The axes of B's boxes along A's, and where they stand: oriented boxes, or what they are
-/// without.
+/// Computes the axes and centres of B's boxes along A's axes: those of the oriented boxes or,
+/// without them, of the axis-aligned ones.
 template <class F>
 void turn_axes(const BoxPlacement& p, const NodeBoxes& b, const Boxes<F>& aligned,
                OrientedBoxes<F>& turned) noexcept {
@@ -66,7 +66,7 @@ void cells_met_of(const BoxesAmongCells& b, const OctantPlanes& cells, unsigned 
     assert(of_b >> kLanes == 0 && !(cells.half < 0));
     unsigned halves[3][2];
     for (std::size_t i = 0; i < 3; ++i) {
-        // Rising, unless a damaged grid is out of range of float.
+        // Rising, unless a damaged grid is out of the range of float.
         assert(!(cells.plane[i][0] > cells.plane[i][1] || cells.plane[i][1] > cells.plane[i][2]));
         const F lower = F::load(b.lower[i]);
         const F upper = F::load(b.upper[i]);

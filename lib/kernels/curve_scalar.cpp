@@ -6,7 +6,7 @@
 namespace cdprep::kernels {
 namespace {
 
-/// Bit i of a number below 2^21 to bit 3 i: halves are moved apart, then their halves.
+/// Moves bit i of a number below 2^21 to bit 3 i: halves are moved apart, then their halves.
 std::uint64_t spread(std::uint64_t x) noexcept {
     x = (x | x << 32) & 0x001f00000000ffff;
     x = (x | x << 16) & 0x001f0000ff0000ff;
@@ -15,7 +15,7 @@ std::uint64_t spread(std::uint64_t x) noexcept {
     return (x | x << 2) & 0x1249249249249249;
 }
 
-/// Bit 3 i to bit i; the way back.
+/// Moves bit 3 i to bit i, the inverse of spread().
 std::uint32_t gathered(std::uint64_t x) noexcept {
     x &= 0x1249249249249249;
     x = (x | x >> 2) & 0x10c30c30c30c30c3;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lower bounds of distances, of boxes and of triangles. Included by kernel sources
-// alone, after leaf_contacts.h.
+// Lower bounds of distances of boxes and of triangles. Included by kernel sources alone, after
+// leaf_contacts.h.
 #pragma once
 
 #include <cassert>
@@ -10,7 +10,7 @@
 namespace cdprep::kernels {
 namespace {
 
-/// Squares and adds up what is positive.
+/// Returns the sum of the squares of the positive components.
 template <class R>
 R squared_length(const R* gap) noexcept {
     const R zero(0.0F);
@@ -22,7 +22,7 @@ R squared_length(const R* gap) noexcept {
     return sum;
 }
 
-/// Square of the gap between boxes along three axes.
+/// Returns the square of the gap between boxes along three axes.
 template <class R>
 R squared_gap(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
     R gap[3];
@@ -33,17 +33,17 @@ R squared_gap(const Boxes<R>& a, const BoxRows& rows, RowPair at) noexcept {
     return squared_length(gap);
 }
 
-/// Axes are at right angles up to 2^-21, and squares, sums and the root round: a
-/// length of gaps is too great by less than this, in relative terms.
+/// Axes are at right angles up to 2^-21, and squares, sums and the root round. So a length of gaps
+/// is too great by less than this, in relative terms.
 inline constexpr float kGapRounding = 1 - 0x1p-18F;
 
-/// Reach::direction is of a length below 1; this allows for its rounding.
+/// Reach::direction is shorter than 1; this allows for its rounding.
 [[maybe_unused]] inline bool is_within_unit(const float* direction) noexcept {
     const float* d = direction;
     return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] <= 1 + 0x1p-20F;
 }
 
-/// Where boxes lie along a direction: the middle, and how far they reach from it.
+/// The extent of boxes along a direction: the middle, and the reach from it.
 template <class F>
 struct Span {
     F middle;
@@ -72,8 +72,8 @@ Span<F> span_of(const OrientedBoxes<F>& boxes, const float* direction) noexcept 
     return {dot(boxes.centre, d), half};
 }
 
-/// Boxes of B along the direction: where each begins, less the slack in all three
-/// components and the shift's place.
+/// Stores the begins of B's boxes along the direction, plus the shift, minus the slack in all three
+/// components.
 template <class F>
 void store_begins(const Span<F>& span, const BoxPlacement& p, const Reach& reach,
                   float* begins) noexcept {
@@ -137,7 +137,7 @@ struct Range {
     F greatest;
 };
 
-/// Where eight triangles lie along a direction.
+/// Returns the extent of eight triangles along a direction.
 template <class F>
 Range<F> corner_range(const F corner[3][3], const float* direction) noexcept {
     const F d[3] = {F(direction[0]), F(direction[1]), F(direction[2])};
@@ -147,7 +147,7 @@ Range<F> corner_range(const F corner[3][3], const float* direction) noexcept {
     return {min(min(first, second), third), max(max(first, second), third)};
 }
 
-/// Where B's triangles begin along the direction.
+/// Stores the begins of B's triangles along the direction.
 template <class F>
 void store_begins(const Rows& b, const float* direction, float* begins) noexcept {
     F corner[3][3];
@@ -159,9 +159,9 @@ void store_begins(const Rows& b, const float* direction, float* begins) noexcept
     corner_range(corner, direction).least.store(begins);
 }
 
-/// Triangles of A that come within the limit of triangles of B, by their boxes and
-/// along the direction: `ends` is where A's triangles end, `begins` where B's begin.
-/// Eight bits a row.
+/// Returns the triangles of A that come within the limit of triangles of B, by their boxes and
+/// along the direction. `ends` holds the ends of A's triangles, `begins` the begins of B's. Eight
+/// bits a row.
 template <class R>
 unsigned near_rows(const ShiftedTriangles<R>& a, const Rows& b, RowPair at, const R& ends,
                    const float* begins, const LeafShift& leaf, float limit) noexcept {
@@ -172,8 +172,8 @@ unsigned near_rows(const ShiftedTriangles<R>& a, const Rows& b, RowPair at, cons
         gap[axis] = max(above, below);
     }
     const R squared = squared_length(gap) * R(kGapRounding);
-    // The error of a corner is more than 3 u times any coordinate: 12 of them cover
-    // the corners' own and the rounding of two dot products.
+    // The error of a corner exceeds 3 u times any coordinate. Twelve such errors cover the corners'
+    // own errors and the rounding of two dot products.
     const R along = (R::spread(begins, at) - ends) - R(12.0F * leaf.error);
     return ~bits(greater(squared, R(limit * limit)) | greater(along, R(limit)));
 }
@@ -183,7 +183,7 @@ template <class W>
 struct LaneNearest {
     W difference[3];  ///< from A's point to B's
     W squared;
-    W between_edges;  ///< the same of points of edges alone, surely the triangles' own
+    W between_edges;  ///< the least for points on edges, which certainly lie on the triangles
 };
 
 template <class W>
@@ -201,8 +201,8 @@ W within_unit(W t) noexcept {
     return min(max(t, W(0.0F)), W(1.0F));
 }
 
-/// An edge, its squared length and what one is divided by that: asked for three times
-/// each, where a quotient takes as long as ten products.
+/// An edge, its squared length and the reciprocal of that. Each is used three times, and a quotient
+/// takes as long as ten products.
 template <class W>
 struct LaneEdge {
     W along[3];
@@ -224,7 +224,7 @@ void edges_of(const LaneTriangle<W>& t, LaneEdge<W> edge[3]) noexcept {
     }
 }
 
-/// Ericson 2005, 5.1.9; `r` leads from q to p.
+/// Offers the nearest points of two edges (Ericson 2005, 5.1.9). `r` leads from q to p.
 template <class W>
 void offer_edges(const LaneEdge<W>& of_a, const LaneEdge<W>& of_b, const W* r,
                  LaneNearest<W>& nearest) noexcept {
@@ -242,7 +242,7 @@ void offer_edges(const LaneEdge<W>& of_a, const LaneEdge<W>& of_b, const W* r,
     offer(nearest, difference, ~W::none());
 }
 
-/// A triangle's plane: a normal, its squared length and one divided by that.
+/// A triangle's plane: a normal, its squared length and the reciprocal of that.
 template <class W>
 struct LanePlane {
     W normal[3];
@@ -256,8 +256,8 @@ struct LanePlane {
     }
 };
 
-/// The foot of a corner on the other triangle's plane, where it lies inside; `sign`
-/// is 1 when the corner is B's.
+/// Offers the foot of a corner on the other triangle's plane, if it lies inside. `sign` is 1 if the
+/// corner is B's.
 template <class W>
 void offer_foot(const W* corner, const LaneTriangle<W>& t, const LaneEdge<W> edge[3],
                 const LanePlane<W>& plane, W sign, LaneNearest<W>& nearest) noexcept {
@@ -277,8 +277,8 @@ void offer_foot(const W* corner, const LaneTriangle<W>& t, const LaneEdge<W> edg
     offer(nearest, difference, inside);
 }
 
-/// A direction across which two triangles lie far apart: between their nearest
-/// points as far as float finds them (Larsen, Gottschalk, Lin and Manocha 1999).
+/// Returns a direction along which two triangles lie far apart: between their nearest points, as
+/// far as float finds them (Larsen, Gottschalk, Lin and Manocha 1999).
 template <bool kUpper, class W>
 LaneNearest<W> nearest_of(const LaneTriangle<W>& a, const LaneTriangle<W>& b) noexcept {
     LaneEdge<W> edge_a[3];
@@ -303,22 +303,22 @@ LaneNearest<W> nearest_of(const LaneTriangle<W>& a, const LaneTriangle<W>& b) no
     return nearest;
 }
 
-/// How far triangles are apart, at least and at most.
+/// A lower and an upper bound of the distance of two triangles.
 template <class W>
 struct LaneGap {
     W lower;
     W upper;
 };
 
-/// At least the gap between the planes across a direction w through A's farthest and B's
-/// nearest corner: min w.b - max w.a, over |w|. Whatever w is, the triangles are
-/// that far apart, at least. Products, sums, root and quotient are off by less than
-/// 16 u times the largest coordinate difference, corners by 2 sqrt 3 error.
+/// Lower bound: the gap between the planes across a direction w through A's farthest and B's
+/// nearest corner, (min w.b - max w.a) / |w|. For any w, the triangles are at least that far apart.
+/// Products, sums, root and quotient are off by less than 16 u times the largest coordinate
+/// difference, corners by 2 sqrt 3 error.
 ///
-/// At most what points of two edges are apart, whatever their weights in [0, 1]. With
-/// coordinates up to M from A's first corner, differences of corners are off by 2 u M,
-/// the two weighted ones and the sums by 14 u M a component in all, 25 u M in length;
-/// square, sums and root by 14 u M: less than 64 u M together.
+/// Upper bound: the distance of points of two edges, for any weights in [0, 1]. Let coordinates be
+/// at most M from A's first corner. Differences of corners are off by 2 u M. The two weighted ones
+/// and the sums are off by 14 u M a component in all, 25 u M in length. Square, sums and root are
+/// off by 14 u M. Together this is less than 64 u M.
 template <bool kUpper, class W>
 LaneGap<W> support_gap(const LaneTriangle<W>& a, const LaneTriangle<W>& b,
                        const LaneNearest<W>& nearest, W error) noexcept {
@@ -326,7 +326,7 @@ LaneGap<W> support_gap(const LaneTriangle<W>& a, const LaneTriangle<W>& b,
     W greatest;
     W reach(0.0F);
     for (std::size_t i = 0; i < 3; ++i) {
-        // From one corner: what is far away would round more.
+        // Relative to one corner: larger coordinates would round more.
         W from_a[3];
         W from_b[3];
         subtract(a.corner[i], a.corner[0], from_a);
@@ -340,7 +340,7 @@ LaneGap<W> support_gap(const LaneTriangle<W>& a, const LaneTriangle<W>& b,
     const W length = root(dot(nearest.difference, nearest.difference));
     const W gap = (least - greatest) / max(length, W(1e-15F));
     const W rounding = fma(W(32 * kUlp), reach, W(4.0F) * error);
-    // Where the direction is lost in rounding, nothing is known.
+    // If the direction is lost in rounding, nothing is known.
     const auto known = greater(length, W(1e-15F));
     LaneGap<W> bounds;
     bounds.lower = max(select(known, gap - rounding, W(0.0F)), W(0.0F));
@@ -348,9 +348,8 @@ LaneGap<W> support_gap(const LaneTriangle<W>& a, const LaneTriangle<W>& b,
     return bounds;
 }
 
-/// Bounds the gaps of the candidates, W::kCount at a time: `load(candidate)` makes
-/// LanePairs of them. Returns the new number of those kept. Without kUpper nothing is
-/// certain, at less cost.
+/// Bounds the gaps of the candidates, W::kCount at a time; `load(candidate)` makes LanePairs of
+/// them. Returns the new number of those kept. Without kUpper nothing is certain, at less cost.
 template <bool kUpper, class W, class Load>
 std::size_t keep_near(std::size_t candidates, std::size_t kept, const Reach& reach,
                       LeafScratch& scratch, Load load) noexcept {
@@ -376,8 +375,8 @@ std::size_t keep_near(std::size_t candidates, std::size_t kept, const Reach& rea
     return kept;
 }
 
-/// Appends the candidates of pair `index`; returns their new number. Inlined by order:
-/// two callers make GCC call it, and a search for the nearest takes 2 % longer.
+/// Appends the candidates of pair `index`; returns their new number. Always inlined: with two
+/// callers GCC would not inline it, and a search for the nearest takes 2 % longer.
 template <class F, class R>
 [[gnu::always_inline]] inline std::size_t near_candidates(const LeafPlacement& placement,
                                                           const LeafPair& pair, std::size_t index,
@@ -423,7 +422,7 @@ std::size_t triangles_within_of(const LeafPlacement& placement, const LeafPair* 
     std::size_t kept = 0;
     for (std::size_t first = 0; first < count;) {
         const std::size_t last = end_of_run(pairs, first, count);
-        assert(last > first);  // one pair has its places whatever the numbers are
+        assert(last > first);  // one pair always has its places
         std::size_t candidates = 0;
         for (; first < last; ++first) {
             candidates =

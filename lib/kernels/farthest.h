@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The body that all instruction sets share; see kernels.h. Products and sums are rounded
-// one by one and in one order: the answers are the same for every table, to the last bit.
+// The body that all instruction sets share; see kernels.h. Products and sums are rounded one by one
+// and in one order, so the answers are the same for every table, to the last bit.
 #pragma once
 
 #include <cassert>
@@ -9,12 +9,12 @@
 
 namespace cdprep::kernels {
 
-/// The number of a point has 32 bits.
+/// The most blocks: the number of a point has 32 bits.
 inline constexpr std::size_t kMostBlocks = (std::size_t{1} << 32) / kLanes;
 
 namespace {
 
-/// The highest of each lane, and the first block that has it.
+/// The highest value of each lane, and the first block that has it.
 template <class D8>
 struct HighestOfLane {
     D8 value = D8(-__builtin_inf());
@@ -25,7 +25,7 @@ struct HighestOfLane {
         value = select(higher, other, value);
         block = select(higher, number, block);
     }
-    /// Of all lanes; of several the lowest number.
+    /// Returns the highest value of all lanes; of several, the lowest number.
     [[nodiscard]] FarthestPoint farthest() const noexcept {
         double values[kLanes];
         double blocks[kLanes];
@@ -34,7 +34,7 @@ struct HighestOfLane {
         FarthestPoint best = {0, -__builtin_inf(), 0};
         for (std::uint32_t lane = 0; lane < kLanes; ++lane) {
             const auto number = static_cast<std::uint32_t>(blocks[lane]) * 8 + lane;
-            // Without branches: which lane it is, nobody can guess.
+            // Without branches, because the lane is unpredictable.
             const bool is_first = values[lane] == best.value && number < best.number;
             const bool is_better = values[lane] > best.value || is_first;
             best.number = is_better ? number : best.number;
@@ -60,9 +60,10 @@ std::uint32_t farthest_of(const double* blocks, std::size_t count,
     return highest.farthest().number;
 }
 
-/// Of a value, the sum of three products of a difference and a component: the difference,
-/// the product and two sums are off by u each, of at most the sum of the products' sizes;
-/// and the sum of both here by another u. The sixth covers the roundings of the sizes.
+/// The relative error of a value, which is the sum of three products of a difference and a
+/// component. The difference, the product and two sums are off by u each, relative to the sum of
+/// the products' magnitudes. The final sum with the error here is off by another u. The sixth
+/// covers the roundings of the magnitudes.
 inline constexpr double kValueError = 6 * 0x1p-53;
 
 template <class D8>

@@ -6,21 +6,20 @@
 
 /// The innermost loops, once per instruction set.
 ///
-/// A kernel sees raw arrays and returns plain numbers. It knows nothing of
-/// Model, allocates nothing and fails at nothing. What a kernel leaves open may
-/// differ between instruction sets (one rounds a product and a sum at once,
-/// another one after the other), so everything it settles is settled with a
-/// proven margin: the answers of the queries are the same for every table.
+/// A kernel takes raw arrays and returns plain numbers. It does not know Model, allocates nothing
+/// and never fails. Its undecided cases may differ between instruction sets: one rounds a product
+/// and a sum at once, another one after the other. So a kernel decides only with a proven margin,
+/// and the answers of the queries are the same for every table.
 ///
-/// A kernel source includes this header, the vendor's intrinsics, <cassert>, and the bodies
-/// that all share (box_overlap.h, cells_met.h, leaf_contacts.h, ...). Those stand in an
-/// unnamed namespace: an inline function with a name that the linker sees could be
-/// emitted with AVX2 inside and then be the copy it keeps for everyone.
+/// A kernel source includes this header, the vendor's intrinsics, <cassert>, and the bodies that
+/// all share (box_overlap.h, cells_met.h, leaf_contacts.h, ...). The bodies are in an unnamed
+/// namespace. A compiler could emit an inline function with external linkage with AVX2 inside, and
+/// the linker could keep that copy for all callers.
 namespace cdprep::kernels {
 
-/// How the boxes of two hierarchies stand to each other: a box centre c of B
-/// lies at rotation * (scale_b c) + shift in the frame of A's boxes, scaled by
-/// scale_a. One scale is 1, the other at most 1.
+/// The relative placement of the boxes of two hierarchies. A box centre c of B lies at
+/// rotation * (scale_b c) + shift in the frame of A's boxes, scaled by scale_a. One scale is 1, the
+/// other at most 1.
 struct BoxPlacement {
     float rotation[9];      ///< a_from_b, row by row
     float abs_rotation[9];  ///< its absolute values
@@ -29,24 +28,23 @@ struct BoxPlacement {
     float scale_a;
     float scale_b;
     float slack;  ///< added to every sum of half extents; covers all rounding
-    /// Pair units: boxes that are no farther apart overlap still. Added once, however many slacks
-    /// a test takes. It is to be 0 where a test finds how far boxes are apart, and larger by 2^-18
-    /// of itself than what it stands for: tests round it.
+    /// In pair units: boxes at most this far apart count as overlapping. Added once, however many
+    /// slacks a test adds. Must be 0 where a test computes the distance of boxes. Must exceed the
+    /// intended tolerance by 2^-18 of itself, because tests round it.
     float tolerance;
 };
 
-/// The boxes of one node: 48 floats, lower x, y, z, then upper x, y, z, eight
-/// each; and, or null, its oriented boxes: 96 floats, as format::OrientedNode; or its
-/// swept spheres, as format::SweptNode.
+/// The boxes of one node: 48 floats, lower x, y, z, then upper x, y, z, eight each. Also, each or
+/// null, its oriented boxes (96 floats, as format::OrientedNode) and its swept spheres (as
+/// format::SweptNode).
 struct NodeBoxes {
     const float* boxes;
     const float* oriented;
     const float* swept = nullptr;
 };
 
-/// What of two nodes is to be tested: bit sets of boxes, and, or null, the box
-/// around all of A's: a pointer to its lower x in a node, the others at the
-/// strides of a node.
+/// The boxes of two nodes to test: bit sets, and, or null, the box around all of A's. That is a
+/// pointer to its lower x in a node; the others follow at the strides of a node.
 struct BoxChoice {
     std::uint8_t of_a;
     std::uint8_t of_b;
@@ -62,7 +60,7 @@ using BoxPairs = std::uint64_t;
 
 namespace {  // nothing here may be emitted for the linker to choose from
 
-/// The boxes of A that have a partner, as a bit set.
+/// Returns the boxes of A that have a partner, as a bit set.
 [[maybe_unused]] constexpr unsigned boxes_of_a(BoxPairs pairs) noexcept {
     pairs |= pairs >> 32;
     pairs |= pairs >> 16;
@@ -70,8 +68,8 @@ namespace {  // nothing here may be emitted for the linker to choose from
     return static_cast<unsigned>(pairs & 0xff);
 }
 
-/// The boxes of B that have a partner: each byte that is not 0 leaves its highest bit,
-/// and a product gathers those.
+/// Returns the boxes of B that have a partner, as a bit set. Each non-zero byte leaves its highest
+/// bit, and a product gathers those.
 [[maybe_unused]] constexpr unsigned boxes_of_b(BoxPairs pairs) noexcept {
     constexpr BoxPairs kLow = 0x7f7f7f7f7f7f7f7f;
     const BoxPairs some = (((pairs & kLow) + kLow) | pairs) & ~kLow;
@@ -80,25 +78,25 @@ namespace {  // nothing here may be emitted for the linker to choose from
 
 }  // namespace
 
-/// Half the sum of each box's edges, pair units: which node to open next.
+/// Half the sum of each box's edges, in pair units; decides which node to open next.
 struct BoxSizes {
     alignas(32) float a[kLanes];
     alignas(32) float b[kLanes];
 };
 
-/// A number for each pair of boxes; set for those that were found alone.
+/// A number for each pair of boxes; set only for the pairs found.
 struct BoxPairFloats {
     alignas(32) float value[kLanes][kLanes];  ///< [of B][of A], pair units
 };
 
-/// By how much each pair of boxes overlaps, and the bit of the one that does most; bits
-/// of depths that differ by less than 2^-17 of themselves may stand for each other.
+/// The overlap of each pair of boxes, and the bit of the deepest pair. Depths that differ by less
+/// than 2^-17 of themselves may be confused.
 struct BoxDepths : BoxPairFloats {
-    unsigned deepest;  ///< of the pairs that were found, where there are any
+    unsigned deepest;  ///< among the pairs found, if there are any
 };
 
-/// A leaf is 78 floats: corners as in format::BvhLeaf, its origin, and the half
-/// extents of the box around it.
+/// A leaf is 78 floats: corners as in format::BvhLeaf, its origin, and the half extents of the box
+/// around it.
 inline constexpr std::size_t kLeafOrigin = 72;
 inline constexpr std::size_t kLeafHalf = 75;
 
@@ -106,16 +104,16 @@ inline constexpr std::size_t kLeafHalf = 75;
 struct LeafPair {
     const float* a;
     const float* b;
-    std::uint32_t number_a;  ///< tells leaves of one model apart
+    std::uint32_t number_a;  ///< identifies the leaf among those of its model
     std::uint32_t number_b;
     std::uint8_t used_a;  ///< bit set of triangles
     std::uint8_t used_b;
 };
 
-/// What stored coordinates of one model's leaves mean. A leaf's middle m is at
-/// (origin - frame_origin) * scale in pair units; its corners at m plus
-/// (corner - middle) * scale, middle being its origin or, for corners that are
-/// stored without it, 0.
+/// The meaning of the stored coordinates of one model's leaves. A leaf's middle m is at
+/// (origin - frame_origin) * scale in pair units. Its corners are at m plus
+/// (corner - middle) * scale. Here middle is the leaf's origin or, for corners that are stored
+/// relative to it, 0.
 struct LeafFrame {
     double frame_origin[3];
     double scale;
@@ -123,33 +121,33 @@ struct LeafFrame {
     float takes_origin;  ///< 1 or 0: middle = takes_origin * origin
 };
 
-/// Where B's leaves lie among A's: rotation * b + shift, pair units.
+/// The map from B's leaves to A's: rotation * b + shift, in pair units.
 struct LeafPlacement {
     LeafFrame a;
     LeafFrame b;
     double rotation[9];
     double shift[3];
     float corner_rotation[9];  ///< rotation times b.scale
-    float error;  ///< how far corners may be off, relative to each other, before any rounding here
+    float error;               ///< largest relative error of corners before any rounding here
 };
 
-/// What a search for the nearest pair knows already.
+/// The prior knowledge of a search for the nearest pair.
 struct Reach {
     float limit;    ///< pair units: nothing farther apart is of interest
     float certain;  ///< pair units: triangles nearer than this need no other proof
-    /// Of a length below 1, from A to B along A's axes; the better it points along
-    /// the shortest way, the more it rules out. 0, 0, 0 rules out nothing.
+    /// From A to B along A's axes, shorter than 1. The better it points along the shortest way, the
+    /// more it excludes. 0, 0, 0 excludes nothing.
     float direction[3];
     float direction_in_b[3];  ///< the same along B's axes
 };
 
-/// How far two triangles are apart, at least.
+/// A lower bound of the distance of two triangles.
 struct TriangleGap {
     float lower;        ///< pair units
     std::uint8_t pair;  ///< index of the LeafPair
     std::uint8_t a;     ///< lane
     std::uint8_t b;     ///< lane
-    bool certain;       ///< they are less than Reach::certain apart; else nobody knows
+    bool certain;       ///< proven to be less than Reach::certain apart; otherwise not known
 };
 
 /// A pair of triangles that is not certainly disjoint.
@@ -157,36 +155,36 @@ struct TriangleContactLanes {
     std::uint8_t pair;  ///< index of the LeafPair
     std::uint8_t a;     ///< lane
     std::uint8_t b;     ///< lane
-    bool certain;       ///< they cross; else the kernel cannot tell
+    bool certain;       ///< they cross; otherwise the kernel cannot decide
 };
 
-/// A leaf along A's axes, around its own middle, as the tests of its triangles want
-/// it: the same for all leaves of the other model.
+/// A leaf along A's axes, relative to its own middle, as the tests of its triangles use it. The
+/// same for all leaves of the other model.
 struct PlacedLeaf {
     static constexpr std::size_t kRows = 20;
     alignas(64) float row[kRows][kLanes];
 };
 
-/// The leaves of one model that are placed already, by number modulo kLeafPlaces.
+/// The leaves of one model that are already placed, by number modulo kLeafPlaces.
 struct PlacedLeaves {
     PlacedLeaf leaf[kLeafPlaces];
-    double middle[kLeafPlaces][3];          ///< pair units; of B's leaves alone
-    std::uint64_t holds[kLeafPlaces] = {};  ///< the question, shifted by 32, and the number
+    double middle[kLeafPlaces][3];          ///< pair units; for B's leaves only
+    std::uint64_t holds[kLeafPlaces] = {};  ///< the query, shifted by 32, and the number
 };
 
-/// What the leaf kernels work in and answer in. What has no initial value need not
-/// have one.
+/// The working memory and the results of the leaf kernels. Members without an initial value require
+/// none.
 struct LeafScratch {
     PlacedLeaves a;
     PlacedLeaves b;
-    alignas(64) float shift[4][kLeafBatch];         ///< of A's corners to B's, and the error
+    alignas(64) float shift[4][kLeafBatch];         ///< from A's corners to B's, and the error
     alignas(64) std::int32_t place[2][kLeafBatch];  ///< of A's and of B's leaf, in floats
-    std::uint64_t question = 0;                     ///< begin() makes it a number of its own
+    std::uint64_t question = 0;                     ///< begin() gives each query its own number
     TriangleGap gap[kLeafBatch * kLanes * kLanes];
-    std::uint16_t candidate[kLeafBatch * kLanes * kLanes + 2 * kLanes];  ///< stores reach beyond
+    std::uint16_t candidate[kLeafBatch * kLanes * kLanes + 2 * kLanes];  ///< room for full stores
     TriangleContactLanes found[kLeafBatch * kLanes * kLanes];
 
-    /// To be called before the first leaves of another placement or other models.
+    /// Must be called before the first leaves of another placement or other models.
     void begin() noexcept {
         constexpr std::uint64_t kQuestions = std::uint64_t{1} << 32;
         if (++question < kQuestions) return;
@@ -196,7 +194,7 @@ struct LeafScratch {
     }
 };
 
-/// The boxes of a node of B along A's axes, pair units, as many cells of A want them: eight
+/// The boxes of a node of B along A's axes, in pair units, for tests against many cells of A: eight
 /// a row.
 struct BoxesAmongCells {
     alignas(64) float lower[3][kLanes];  ///< along A's axes, with the slack
@@ -206,22 +204,24 @@ struct BoxesAmongCells {
     alignas(64) float half[3][kLanes];     ///< and half extents, with the slack
 };
 
-/// The planes that bound eight cells of A, two along each axis, pair units. Cell i is above
-/// the middle plane along x where bit 0 of i is set, along y bit 1, along z bit 2.
+/// The planes that bound eight cells of A, two cells along each axis, in pair units. Cell i is
+/// above the middle plane along x if bit 0 of i is set; bits 1 and 2 serve y and z.
 struct OctantPlanes {
     float plane[3][3];  ///< [axis], rising
     float half;         ///< half the edge of a cell
 };
 
-/// The tests of two nodes' boxes by what bounds their children.
+/// The tests of two nodes' boxes by the bounds of their children.
 struct BoundTests {
-    /// As Table::overlapping_boxes: of swept spheres, what neither six face directions of
-    /// the axis-aligned boxes separate nor the direction between nearest points.
+    /// As Table::overlapping_boxes. With swept spheres: returns the pairs that neither the six face
+    /// directions of the axis-aligned boxes nor those of the spheres separate: the direction
+    /// between nearest points and, for rectangles, the face directions. If B has one chosen box,
+    /// tests only those of the spheres.
     BoxPairs (*overlapping)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
                             const BoxChoice& choice, BoxSizes& sizes) noexcept;
 
-    /// The same, and depths as Table::overlap_depths has them: with swept spheres, of the
-    /// axis-aligned boxes.
+    /// As above, with depths as in Table::overlap_depths. With swept spheres, the depths are those
+    /// of the axis-aligned boxes.
     BoxPairs (*depths)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
                        const BoxChoice& choice, BoxSizes& sizes, BoxDepths& depths) noexcept;
 
@@ -230,8 +230,8 @@ struct BoundTests {
                      const BoxChoice& choice, const Reach& reach, BoxPairFloats& gaps) noexcept;
 };
 
-/// The motion that points are tested under: they move to rotation * p + translation, as
-/// cdprep::transform_point() does, and are then so far along `direction` from `origin`.
+/// The motion of points under test. They move to rotation * p + translation, as
+/// cdprep::transform_point() does; their value is the position along `direction` from `origin`.
 struct MovedDirection {
     double rotation[9];
     double translation[3];
@@ -239,17 +239,18 @@ struct MovedDirection {
     double direction[3];
 };
 
-/// The point that is farthest along a direction; of several the lowest number.
+/// The point that is farthest along a direction; of several, the lowest number.
 struct FarthestPoint {
     std::uint32_t number;
-    double value;  ///< how far it is, rounded
-    double bound;  ///< no point is farther: rounding included, underflow not
+    double value;  ///< its position along the direction, rounded
+    double bound;  ///< no point is farther: covers rounding, not underflow
 };
 
 /// Planes between places: rows of numbers, `stride` from row to row, which is a multiple of
-/// sixteen. Of each plane: 0 to 2 its direction n from A to B, at most 1 long, A's axes; 3 to 5
-/// what B's axes saw of it when it was set; 6 to 8 a middle of B's place; 9 the gap along n, but
-/// for B's shift; 10 how far B's place reaches from its middle. Pair units.
+/// sixteen. The rows of each plane are: 0 to 2 its direction n from A to B, at most 1 long, along
+/// A's axes; 3 to 5 that direction along B's axes when the plane was set; 6 to 8 a middle of B's
+/// place; 9 the gap along n without B's shift; 10 the reach of B's place from its middle. Pair
+/// units.
 struct PlaneRows {
     const float* first;
     std::size_t stride;
@@ -259,78 +260,77 @@ struct PlaneRows {
 struct Table {
     const char* name;  ///< "scalar", "avx2", "avx512": shown in tests and benchmarks
 
-    /// Finds the pairs of chosen boxes that none of their face directions separates:
-    /// six of the axis-aligned boxes and, when both nodes have them, six of the
-    /// oriented ones. Sets `sizes` when there are any.
+    /// Returns the pairs of chosen boxes that none of their face directions separates: six of the
+    /// axis-aligned boxes and, if both nodes have oriented boxes, six of those. If B has one chosen
+    /// box and both have oriented boxes, tests only those. Sets `sizes` if there are any.
     BoxPairs (*overlapping_boxes)(const BoxPlacement& placement, const NodeBoxes& a,
                                   const NodeBoxes& b, const BoxChoice& choice,
                                   BoxSizes& sizes) noexcept;
 
-    /// The same; and by how much each pair overlaps along the direction where it
-    /// overlaps least, of the oriented boxes when both nodes have them.
+    /// As above; also computes the overlap of each pair along the direction of least overlap. Uses
+    /// the oriented boxes if both nodes have them.
     BoxPairs (*overlap_depths)(const BoxPlacement& placement, const NodeBoxes& a,
                                const NodeBoxes& b, const BoxChoice& choice, BoxSizes& sizes,
                                BoxDepths& depths) noexcept;
 
-    /// Finds the pairs of chosen boxes that may be at most reach.limit apart, and a
-    /// lower bound of their distance: the length of the gaps along three directions at
-    /// right angles, the best of A's, B's and those of the oriented boxes, and the gap
+    /// Returns the pairs of chosen boxes that may be at most reach.limit apart, and a lower bound
+    /// of their distance. The bound is the greatest of several: the length of the gaps along three
+    /// directions at right angles, which are A's, B's and those of the oriented boxes; and the gap
     /// along reach.direction.
     BoxPairs (*near_boxes)(const BoxPlacement& placement, const NodeBoxes& a, const NodeBoxes& b,
                            const BoxChoice& choice, const Reach& reach,
                            BoxPairFloats& gaps) noexcept;
 
-    /// Finds the pairs of triangles of one pair of leaves that may be at most
-    /// reach.limit apart. Returns their number; they stand in scratch.gap. A pair
-    /// that touches has a lower bound of 0.
+    /// Finds the pairs of triangles of one pair of leaves that may be at most reach.limit apart.
+    /// Returns their number and stores them in scratch.gap. The lower bound of a pair that touches
+    /// is 0.
     std::size_t (*near_triangles)(const LeafPlacement& placement, const LeafPair& pair,
                                   const Reach& reach, LeafScratch& scratch) noexcept;
 
-    /// The same among at most kLeafBatch pairs of leaves; and which of them are less than
-    /// reach.certain apart for certain.
+    /// As above, for at most kLeafBatch pairs of leaves. Also marks the pairs that are certainly
+    /// less than reach.certain apart.
     std::size_t (*triangles_within)(const LeafPlacement& placement, const LeafPair* pairs,
                                     std::size_t count, const Reach& reach,
                                     LeafScratch& scratch) noexcept;
 
-    /// Finds the pairs of triangles, among at most kLeafBatch pairs of leaves,
-    /// that cross or whose contact rounding may hide. Returns their number; they
-    /// stand in scratch.found.
+    /// Finds the pairs of triangles, among at most kLeafBatch pairs of leaves, that cross or whose
+    /// contact rounding may hide. Returns their number and stores them in scratch.found.
     std::size_t (*find_contacts)(const LeafPlacement& placement, const LeafPair* pairs,
                                  std::size_t count, LeafScratch& scratch) noexcept;
 
-    /// The same for leaves of one tree against each other, of triangles without a common
-    /// vertex; of a leaf against itself those with a < b. `corners` has the numbers of the
+    /// As above, for leaves of one tree against each other and triangles without a common vertex.
+    /// For a leaf against itself, finds pairs with a < b. `corners` has the numbers of the
     /// triangles' vertices, [leaf][corner][lane]; LeafPair has the numbers of leaves.
     std::size_t (*find_own_contacts)(const LeafPlacement& placement, const LeafPair* pairs,
                                      std::size_t count, const std::uint32_t* corners,
                                      LeafScratch& scratch) noexcept;
 
-    /// Works out for a node of B what cells_met() wants of it. The slack is to cover the
-    /// rounding of both.
+    /// Prepares a node of B for cells_met(). The slack must cover the rounding of both functions.
     void (*place_among_cells)(const BoxPlacement& placement, const NodeBoxes& b,
                               BoxesAmongCells& placed) noexcept;
 
-    /// Finds for each of eight cells which of B's boxes among `of_b`, a bit set, neither A's
-    /// axes nor the box's own separate from it.
+    /// Finds, for each of eight cells, the boxes of B among `of_b` that neither A's axes nor the
+    /// box's own axes separate from it. `of_b` and the eight results are bit sets.
     void (*cells_met)(const BoxesAmongCells& b, const OctantPlanes& cells, unsigned of_b,
                       std::uint8_t* met) noexcept;
 
     /// The tests of nodes that both have swept spheres, by format::SweptKind.
     BoundTests swept[3];
 
-    /// The number of the point that is farthest along a direction, as far as double can
-    /// tell; of several the lowest. `count` blocks, at least one, as format::HullBlock; no
-    /// number is beyond double's range on the way. The same for every table, as is the next.
+    /// Returns the number of the point that is farthest along a direction, as computed in double;
+    /// of several, the lowest. Takes `count` blocks, at least one, as format::HullBlock. No
+    /// intermediate number may exceed the range of double. This and the next are the same for every
+    /// table.
     std::uint32_t (*farthest)(const double* blocks, std::size_t count,
                               const double* direction) noexcept;
 
-    /// The same of points as they are moved, and a proven bound.
+    /// As above for points as they are moved, with a proven bound.
     FarthestPoint (*farthest_moved)(const double* blocks, std::size_t count,
                                     const MovedDirection& from) noexcept;
 
-    /// Finds the first `count` planes that no longer have a gap of more than `limit`, pair
-    /// units, for certain. Returns how many there are; their numbers, rising, stand in `numbers`,
-    /// beyond which sixteen more may be written.
+    /// Finds, among the first `count` planes, those without a certain gap of more than `limit`,
+    /// pair units. Returns their number; stores their numbers, rising, in `numbers`. May write
+    /// sixteen more beyond them.
     std::size_t (*weak_planes)(const BoxPlacement& placement, const PlaneRows& planes,
                                std::size_t count, float limit, std::uint16_t* numbers) noexcept;
 };
@@ -348,8 +348,8 @@ struct Available {
 };
 [[nodiscard]] Available available() noexcept;
 
-/// The table that queries use: the last available one, or the one that the
-/// environment variable CDPREP_KERNELS names when the process first asks.
+/// Returns the table that queries use: the last available one, or the one that the environment
+/// variable CDPREP_KERNELS names at the first call of the process.
 [[nodiscard]] const Table& active() noexcept;
 
 }  // namespace cdprep::kernels

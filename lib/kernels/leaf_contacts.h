@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Triangle against triangle, eight pairs and more at a time. Included by kernel
-// sources alone, after they have defined the lanes: F of eight floats, W of eight
-// or more, each with its mask type. placed_leaves.h bounds the rounding.
+// Triangle against triangle, eight pairs and more at a time. Included by kernel sources alone,
+// after they have defined the lanes: F of eight floats, W of eight or more, each with its mask
+// type. placed_leaves.h bounds the rounding.
 #pragma once
 
 #include <cassert>
@@ -10,18 +10,18 @@
 
 namespace cdprep::kernels {
 
-/// Pairs of triangles in a batch: the room for candidates and for answers.
+/// The most pairs of triangles in a batch: the room for candidates and for answers.
 inline constexpr std::size_t kMostPairs = kLeafBatch * kLanes * kLanes;
 
 namespace {
 
-/// A's triangles where they stand to B's leaf.
+/// A's triangles at their place relative to B's leaf.
 template <class R>
 struct ShiftedTriangles {
     R corner[3][3];
     R normal[3];
-    R lower[3];  ///< of the box, less twice the error
-    R upper[3];  ///< with it
+    R lower[3];  ///< of the box, minus twice the error
+    R upper[3];  ///< plus twice the error
     R tolerance;
 };
 
@@ -41,7 +41,7 @@ void load_shifted(const Rows& a, const LeafShift& leaf, const ErrorFactors& fact
     triangles.tolerance = tolerance_of(R::load(a[kEdgeProduct]), R::load(a[kEdgeSum]), factors);
 }
 
-/// Triangles of A that triangles of B may meet: boxes, then the sides of both
+/// Returns the triangles of A that triangles of B may meet: tests boxes, then the sides of both
 /// planes. Eight bits a row.
 template <class R>
 unsigned row_candidates(const ShiftedTriangles<R>& a, const Rows& b, const ErrorFactors& factors,
@@ -77,7 +77,7 @@ unsigned row_candidates(const ShiftedTriangles<R>& a, const Rows& b, const Error
     return ~bits(out);
 }
 
-/// One triangle of each lane.
+/// One triangle per lane.
 template <class W>
 struct LaneTriangle {
     W corner[3][3];  ///< [corner][axis]
@@ -95,7 +95,7 @@ LaneTriangle<W> gathered(const PlacedLeaves& leaves, typename W::Index at) noexc
     return triangle;
 }
 
-/// The same where all are of one leaf.
+/// As gathered(), if all triangles are of one leaf.
 template <class W>
 LaneTriangle<W> picked(const PlacedLeaf& leaf, typename W::Index at) noexcept {
     LaneTriangle<W> triangle;
@@ -107,7 +107,7 @@ LaneTriangle<W> picked(const PlacedLeaf& leaf, typename W::Index at) noexcept {
     return triangle;
 }
 
-/// On which side of a plane three corners lie.
+/// The sides of a plane on which three corners lie.
 template <class W>
 struct Sides {
     typename W::Mask plus[3];
@@ -121,7 +121,7 @@ struct Sides {
     }
 };
 
-/// Sides as orient3d() gives them: plus is behind the plane.
+/// Returns the sides as orient3d() defines them: plus is behind the plane.
 template <class W>
 Sides<W> sides_of(const LaneTriangle<W>& plane, const LaneTriangle<W>& points, W error) noexcept {
     W edge1[3];
@@ -147,7 +147,7 @@ Sides<W> sides_of(const LaneTriangle<W>& plane, const LaneTriangle<W>& points, W
     return sides;
 }
 
-/// A triangle turned so that it starts with the corner that is alone on its side.
+/// Returns the triangle rotated so that it starts with the corner that is alone on its side.
 template <class W>
 LaneTriangle<W> turned(const LaneTriangle<W>& t, const Sides<W>& sides,
                        typename W::Mask& lone_is_minus) noexcept {
@@ -177,7 +177,7 @@ void swap_where(typename W::Mask where, LaneTriangle<W>& t) noexcept {
     }
 }
 
-/// orient3d(a, b, c, d) and how far it may be off.
+/// orient3d(a, b, c, d) and its largest error.
 template <class W>
 struct Orientation {
     W determinant;
@@ -197,14 +197,14 @@ Orientation<W> orientation(const W* a, const W* b, const W* c, const W* d, W err
     return {dot(u, normal), determinant_error(largest(u), largest(v), largest(w), error)};
 }
 
-/// Bit sets of lanes.
+/// The lanes that cross and those that are undecided: bit sets.
 struct Verdict {
     unsigned crossing;
     unsigned unknown;
 };
 
-/// Guigue and Devillers 2003: three signs each way, then two that order the
-/// intervals on the common line.
+/// Tests lanes of triangles (Guigue and Devillers 2003): three signs each way, then two that order
+/// the intervals on the common line.
 template <class W>
 Verdict judge(const LaneTriangle<W>& a, const LaneTriangle<W>& b, W error) noexcept {
     using Mask = typename W::Mask;
@@ -230,14 +230,14 @@ Verdict judge(const LaneTriangle<W>& a, const LaneTriangle<W>& b, W error) noexc
     return {crossing, ~(crossing | bits(apart | (certain & beyond)))};
 }
 
-/// Two triangles of each lane, in one place, and their error.
+/// Two triangles per lane, in common coordinates, and their error.
 template <class W>
 struct LanePairs {
     LaneTriangle<W> a;
     LaneTriangle<W> b;
     W error;
 
-    /// Of any pairs of leaves.
+    /// Loads candidates of any pairs of leaves.
     LanePairs(const LeafScratch& scratch, const std::uint16_t* candidate) noexcept {
         const typename W::Index at = W::load_index(candidate);
         const typename W::Index pair = shifted_right(at, 6);
@@ -251,8 +251,8 @@ struct LanePairs {
         }
     }
 
-    /// Of one pair of leaves, number `index`: permutations, where gathers would take as
-    /// long as all the rest. Lanes past the last candidate may hold anything.
+    /// Loads candidates of one pair of leaves, number `index`. Uses permutations; gathers would
+    /// take as long as all the rest. Lanes past the last candidate may hold anything.
     LanePairs(const LeafScratch& scratch, const std::uint16_t* candidate, const LeafPair& pair,
               std::size_t index) noexcept {
         assert(index < kLeafBatch);
@@ -267,14 +267,14 @@ struct LanePairs {
     }
 };
 
-/// How many of the lanes from `first` on hold candidates.
+/// Returns the number of lanes from `first` on that hold candidates.
 template <class W>
 std::size_t lanes_used(std::size_t first, std::size_t end) noexcept {
     assert(first < end);
     return end - first < W::kCount ? end - first : std::size_t{W::kCount};
 }
 
-/// Lanes past the last candidate are to repeat it where they say what is gathered.
+/// Repeats the last candidate in the lanes past it, because they are used to gather.
 template <class W>
 void fill_up(std::uint16_t* candidate, std::size_t count) noexcept {
     assert(count <= kMostPairs);
@@ -282,8 +282,8 @@ void fill_up(std::uint16_t* candidate, std::size_t count) noexcept {
     for (std::size_t i = 0; i < W::kCount; ++i) candidate[count + i] = candidate[count - 1];
 }
 
-/// Judges the candidates, W::kCount at a time: `load(candidate)` makes LanePairs of them.
-/// Returns the new number of those found.
+/// Judges the candidates, W::kCount at a time; `load(candidate)` makes LanePairs of them. Returns
+/// the new number of those found.
 template <class W, class Load>
 std::size_t judge_all(std::size_t candidates, std::size_t found, LeafScratch& scratch,
                       Load load) noexcept {
@@ -305,8 +305,8 @@ std::size_t judge_all(std::size_t candidates, std::size_t found, LeafScratch& sc
     return found;
 }
 
-/// Appends the triangles of A in either row's bits, (pair << 6 | b << 3 | a) each;
-/// returns the new count. Without a branch: their number cannot be foreseen.
+/// Appends the triangles of A in either row's bits, (pair << 6 | b << 3 | a) each; returns the new
+/// count. Without a branch, because their number is unpredictable.
 template <class R>
 std::size_t append_rows(unsigned pair, RowPair at, unsigned found, unsigned used_a,
                         std::uint16_t* candidate, std::size_t count) noexcept {
@@ -319,10 +319,10 @@ std::size_t append_rows(unsigned pair, RowPair at, unsigned found, unsigned used
     return count + static_cast<unsigned>(__builtin_popcount(kept));
 }
 
-/// Which leaf each place is for, over some pairs.
+/// The leaf that claims each place, over some pairs.
 class Claims {
 public:
-    /// False when either leaf's place is another's.
+    /// Returns false if another leaf has claimed the place of either leaf.
     bool claim(const LeafPair& pair) noexcept {
         return claim(a_, number_a_, pair.number_a) && claim(b_, number_b_, pair.number_b);
     }
@@ -342,7 +342,7 @@ private:
 };
 static_assert(kLeafPlaces <= 64);
 
-/// One past the last of the pairs from `first` on whose leaves have places of their own.
+/// Returns one past the last of the pairs from `first` on whose leaves have places of their own.
 inline std::size_t end_of_run(const LeafPair* pairs, std::size_t first,
                               std::size_t count) noexcept {
     Claims claims;
@@ -350,7 +350,7 @@ inline std::size_t end_of_run(const LeafPair* pairs, std::size_t first,
     return first;
 }
 
-/// Leaves of two models: no pair of triangles is left out.
+/// Leaves of two models: no pair of triangles is excluded.
 struct NothingLeftOut {
     template <class R>
     static unsigned lanes(const LeafPair& /*pair*/, RowPair /*at*/) noexcept {
@@ -358,12 +358,12 @@ struct NothingLeftOut {
     }
 };
 
-/// Leaves of one tree: triangles with a common vertex are left out, and in a leaf against
-/// itself what comes up twice.
+/// Leaves of one tree: excludes triangles with a common vertex and, for a leaf against itself,
+/// duplicate pairs.
 struct NeighboursLeftOut {
     const std::uint32_t* corners;  ///< numbers of vertices: [leaf][corner][lane]
 
-    /// Triangles of A left out beside one of B. Eight bits a row.
+    /// Returns the triangles of A excluded with one of B. Eight bits a row.
     template <class R>
     [[nodiscard]] unsigned lanes(const LeafPair& pair, RowPair at) const noexcept {
         assert(corners != nullptr);
@@ -383,8 +383,8 @@ struct NeighboursLeftOut {
     }
 };
 
-/// Finds the candidates of pairs [first, last); returns their number. In two rounds:
-/// whether leaves meet cannot be foreseen, so it is worked out ahead for all.
+/// Finds the candidates of pairs [first, last); returns their number. Works in two rounds: whether
+/// leaves meet is unpredictable, so the first round computes it for all.
 template <class F, class R, class LeftOut>
 std::size_t find_candidates(const LeafPlacement& placement, const LeafPair* pairs,
                             std::size_t first, std::size_t last, const LeftOut& left_out,
@@ -414,7 +414,7 @@ std::size_t find_candidates(const LeafPlacement& placement, const LeafPair* pair
     return candidates;
 }
 
-/// Finds the contacts of a batch but those left out.
+/// Finds the contacts of a batch except those excluded.
 template <class F, class R, class W, class LeftOut>
 std::size_t find_contacts_but(const LeafPlacement& placement, const LeafPair* pairs,
                               std::size_t count, const LeftOut& left_out,
@@ -423,7 +423,7 @@ std::size_t find_contacts_but(const LeafPlacement& placement, const LeafPair* pa
     std::size_t found = 0;
     for (std::size_t first = 0; first < count;) {
         const std::size_t last = end_of_run(pairs, first, count);
-        assert(last > first);  // one pair has its places whatever the numbers are
+        assert(last > first);  // one pair always has its places
         const std::size_t candidates =
             find_candidates<F, R>(placement, pairs, first, last, left_out, scratch);
         if (last - first == 1) {

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Leaves brought into one place. Included by kernel sources alone, after box_overlap.h.
+// Leaves transformed into common coordinates. Included by kernel sources alone, after
+// box_overlap.h.
 //
-// Rounding. Let u = 2^-24 and d the error of a pair: no corner, in the coordinates
-// computed here, is further than d from where the question has it along any axis.
-// A determinant of three differences U, V, W of corners is then off
-//   - by the corners: each row moves by 2d per component, and the cross product of
-//     two rows has components of at most 2|V||W| (largest components), six such
-//     terms in all: 12 d (|V||W| + |U||W| + |U||V|), where each norm already
-//     counts the other rows' motion and is therefore taken 3d too large;
-//   - by rounding: six products of three, each of a difference (u), two products
-//     (2u), and up to three sums of terms below 6|U||V||W| in all: 48 u |U||V||W|.
-// Underflow moves a product by 2^-126 at most, even where the processor flushes
-// subnormal numbers to zero; components are at most 4, so 1e-35 covers it.
+// Rounding. Let u = 2^-24 and d the error of a pair: no corner, in the coordinates computed here,
+// is further than d along any axis from its place in the query. A determinant of three differences
+// U, V, W of corners is then off
+//
+//   - by the corners: each row moves by 2d per component, and the cross product of two rows has
+//     components of at most 2|V||W| (largest components). There are six such terms in all:
+//     12 d (|V||W| + |U||W| + |U||V|). Each norm includes the other rows' motion and is therefore
+//     taken 3d too large;
+//   - by rounding: six products of three, each of a difference (u), two products (2u), and up to
+//     three sums of terms below 6|U||V||W| in all: 48 u |U||V||W|.
+// Underflow moves a product by at most 2^-126, even if the processor flushes subnormal numbers to
+// zero. Components are at most 4, so 1e-35 covers it.
 #pragma once
 
 #include <cassert>
@@ -25,8 +27,8 @@ namespace {
 inline constexpr float kUlp = 0x1p-24F;
 inline constexpr float kUnderflow = 1e-35F;
 
-/// Rows of a placed leaf: corners, normals and boxes of its triangles; the product
-/// and the sum of the largest components of two edges.
+/// The rows of a placed leaf: corners, normals and boxes of its triangles; the product and the sum
+/// of the largest components of two edges.
 enum Row : std::size_t {
     kCorner = 0,
     kNormal = 9,
@@ -49,7 +51,7 @@ void subtract(const F* a, const F* b, F* result) noexcept {
     for (std::size_t i = 0; i < 3; ++i) result[i] = a[i] - b[i];
 }
 
-/// How far a determinant of rows with these largest components may be off.
+/// Returns the largest error of a determinant of rows with these largest components.
 template <class F>
 F determinant_error(F u, F v, F w, F error) noexcept {
     const F more = F(3.0F) * error;
@@ -61,8 +63,8 @@ F determinant_error(F u, F v, F w, F error) noexcept {
     return fma(F(64 * kUlp) * uv, w, moved);
 }
 
-/// The same for rows of which a leaf knows u v and u + v, spread over the leaf:
-/// product * by_product + sum * by_sum + rest. Expanded from determinant_error().
+/// The same error for rows of which a leaf has u v and u + v, with factors that serve the whole
+/// leaf: product * by_product + sum * by_sum + rest. Expanded from determinant_error().
 struct ErrorFactors {
     float by_product;
     float by_sum;
@@ -104,7 +106,7 @@ void describe(const F corner[3][3], Rows& rows) noexcept {
     (largest1 + largest2).store(rows[kEdgeSum]);
 }
 
-/// Corner i of the stored leaf, around its middle, in the model's units.
+/// Loads corner i of the stored leaf, relative to the leaf's middle, in the model's units.
 template <class F>
 void load_corner(const float* leaf, const LeafFrame& frame, std::size_t i, F* corner) noexcept {
     assert(i < 3 && (frame.takes_origin == 0 || frame.takes_origin == 1));
@@ -160,7 +162,7 @@ inline std::size_t place_of(std::uint32_t number) noexcept {
     return number % kLeafPlaces;
 }
 
-/// Whether a leaf was placed for this question; notes that it will be.
+/// Returns whether a leaf is placed for this query; records that it will be.
 inline bool is_placed(PlacedLeaves& leaves, std::uint32_t number, std::uint64_t question) noexcept {
     assert(question > 0 && question >> 32 == 0);  // LeafScratch::begin() was called
     std::uint64_t& holds = leaves.holds[place_of(number)];
@@ -179,11 +181,11 @@ inline float largest(float x, float y, float z) noexcept {
     return xy > z ? xy : z;
 }
 
-/// How two placed leaves stand to each other.
+/// The relative position of two placed leaves.
 struct LeafShift {
-    float shift[3];   ///< A's middle less B's: to be added to A's corners
+    float shift[3];   ///< A's middle minus B's: added to A's corners
     float half_a[3];  ///< of the box around A's leaf
-    float reach;      ///< the largest difference of two corners along an axis, at least
+    float reach;      ///< at least the largest difference of two corners along an axis
     float error;
 };
 
@@ -202,15 +204,15 @@ inline LeafShift shift_of(const LeafPlacement& p, const LeafPair& pair,
     const float half = largest(leaf.half_a[0], leaf.half_a[1], leaf.half_a[2]);
     const float* half_b = pair.b + kLeafHalf;
     const float reach_b = largest(half_b[0], half_b[1], half_b[2]) * p.b.box_scale;
-    // A corner of B: rounded when baked and when the middle is taken off (u each),
-    // three rounded factors, products and sums: below 12 u sqrt 3 reach_b in all.
-    // A's: 2 u half_a, the shift u |shift|, and their sum u (half_a + |shift|).
+    // A corner of B is rounded when baked and when the middle is subtracted (u each), then by three
+    // rounded factors, products and sums: below 12 u sqrt 3 reach_b in all. A corner of A:
+    // 2 u half_a, the shift u |shift|, and their sum u (half_a + |shift|).
     leaf.error = p.error + kUlp * (21.0F * reach_b + 4.0F * far + 4.0F * half) + kUnderflow;
     leaf.reach = far + half + 1.75F * reach_b;
     return leaf;
 }
 
-/// Triangles of B whose boxes come within `margin` of the box around A's leaf.
+/// Returns the triangles of B whose boxes come within `margin` of the box around A's leaf.
 template <class F>
 unsigned rows_near(const Rows& b, const LeafShift& leaf, unsigned used_b, float margin) noexcept {
     typename F::Mask out = F::none();
@@ -222,14 +224,14 @@ unsigned rows_near(const Rows& b, const LeafShift& leaf, unsigned used_b, float 
     return used_b & ~bits(out);
 }
 
-/// One pair of leaves, as far as boxes tell.
+/// The result of the box tests for one pair of leaves.
 struct MetLeaves {
     LeafShift leaf;
-    unsigned rows;  ///< triangles of B that come near A's leaf
+    unsigned rows;  ///< triangles of B near A's leaf
 };
 
-/// Places B's leaf, unless it is placed, and notes in the scratch how the leaves of
-/// pair `index` stand.
+/// Places B's leaf, unless it is placed. Stores the relative position of the leaves of pair `index`
+/// in the scratch.
 template <class F>
 MetLeaves meet(const LeafPlacement& p, const LeafPair& pair, std::size_t index, float margin,
                LeafScratch& scratch) noexcept {
@@ -249,7 +251,7 @@ MetLeaves meet(const LeafPlacement& p, const LeafPair& pair, std::size_t index, 
     return {leaf, rows_near<F>(b, leaf, pair.used_b, margin)};
 }
 
-/// A's leaf, placed unless it is.
+/// Returns A's leaf; places it unless it is placed.
 template <class F>
 const Rows& placed_in_a(const LeafPlacement& p, const LeafPair& pair,
                         LeafScratch& scratch) noexcept {

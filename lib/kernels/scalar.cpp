@@ -7,7 +7,7 @@
 namespace cdprep::kernels {
 namespace {
 
-/// One bit a lane.
+/// One bit per lane.
 struct Mask8 {
     unsigned x;
 };
@@ -42,7 +42,7 @@ struct F8 {
     };
     float x[8];
 
-    /// Numbers beside numbers: their bits count.
+    /// Loads numbers that are compared bit by bit.
     static Index load_numbers(const std::uint32_t* p) noexcept {
         Index result;
         for (unsigned i = 0; i < kCount; ++i) result.x[i] = static_cast<std::int32_t>(p[i]);
@@ -74,7 +74,7 @@ struct F8 {
         for (unsigned i = 0; i < kCount; ++i) result.x[i] = base[at.x[i]];
         return result;
     }
-    /// Of eight floats.
+    /// Picks from eight floats.
     static F8 pick(const float* p, const Index& at) noexcept {
         return gather(p, at);
     }
@@ -83,12 +83,12 @@ struct F8 {
         for (unsigned i = 0; i < kCount; ++i) result.x[i] = base[at.x[i]];
         return result;
     }
-    /// One of eight, the same for all lanes.
+    /// Returns one of eight floats, the same for all lanes.
     template <class Rows>
     static F8 spread(const float* p, const Rows& at) noexcept {
         return F8(p[at.first]);
     }
-    /// first + i for each bit i that is set, one after the other. May write eight.
+    /// Stores first + i for each bit i that is set, one after the other. May write eight.
     static void store_lanes(unsigned bits, unsigned first, unsigned /*second*/,
                             std::uint16_t* to) noexcept {
         assert(bits >> kCount == 0);
@@ -109,8 +109,8 @@ struct F8 {
     /// Finds the largest of many lanes.
     class Deepest {
     public:
-        /// The lanes of a row whose bits are set, of the lowest eight: numbers 8 row + i.
-        /// One that is no number counts as the largest.
+        /// Adds the lanes of a row whose bits are set, among the lowest eight: numbers 8 row + i.
+        /// NaN counts as the largest.
         template <class Rows>
         void add(const F8& depth, unsigned bits, const Rows& at) noexcept {
             for (bits &= 0xff; bits != 0; bits &= bits - 1) {
@@ -144,7 +144,7 @@ inline F8::Index shifted_right(const F8::Index& a, int by) noexcept {
     for (unsigned i = 0; i < F8::kCount; ++i) result.x[i] = a.x[i] >> by;
     return result;
 }
-/// The lowest three.
+/// Returns the lowest three bits.
 inline F8::Index low_bits(const F8::Index& a) noexcept {
     F8::Index result;
     for (unsigned i = 0; i < F8::kCount; ++i) result.x[i] = a.x[i] & 7;
@@ -159,7 +159,7 @@ inline Mask8 equal(const F8::Index& a, const F8::Index& b) noexcept {
     return {mask};
 }
 
-/// operation(lane) for each lane.
+/// Returns operation(lane) for each lane.
 template <class Operation>
 F8 each(Operation operation) noexcept {
     F8 result;
@@ -188,7 +188,7 @@ inline F8 root(const F8& a) noexcept {
 inline F8 fma(const F8& a, const F8& b, const F8& c) noexcept {
     return each([&](unsigned i) { return a.x[i] * b.x[i] + c.x[i]; });
 }
-/// a b - c
+/// Returns a b - c.
 inline F8 fms(const F8& a, const F8& b, const F8& c) noexcept {
     return each([&](unsigned i) { return a.x[i] * b.x[i] - c.x[i]; });
 }

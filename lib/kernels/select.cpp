@@ -21,7 +21,7 @@ namespace cdprep::kernels {
 namespace {
 
 const char* wanted_kernels() noexcept {
-    // Read once, before any query: nothing else in the process writes it then.
+    // Read once, before any query; nothing else in the process writes it then.
     return std::getenv("CDPREP_KERNELS");  // NOLINT(concurrency-mt-unsafe)
 }
 
@@ -35,8 +35,8 @@ const Table& choose() noexcept {
 }
 
 #ifdef CDPREP_HAVE_AVX2
-/// Whether bits are dealt out in a few cycles: by Intel's, and by AMD's from Zen 3 (family
-/// 0x19) on. Of others nobody knows.
+/// Returns whether BMI2 distributes bits in a few cycles: on Intel, and on AMD from Zen 3 (family
+/// 0x19) on. Others are unknown and count as slow.
 bool has_fast_bmi2() noexcept {
     if (!__builtin_cpu_supports("bmi2")) return false;
     if (__builtin_cpu_is("intel")) return true;

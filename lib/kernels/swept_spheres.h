@@ -1,32 +1,33 @@
 // SPDX-License-Identifier: MIT
-// Swept sphere against swept sphere, eight at a time: points, lines and rectangles with
-// a radius. Included by kernel sources alone.
+// Swept sphere against swept sphere, eight at a time: points, lines and rectangles with a radius.
+// Included by kernel sources alone.
 //
-// Two are apart by at least
+// Two swept spheres are apart by at least
 //
 //     gap(w) = (w.d - sum h_i |w.u_i| - sum g_j |w.v_j|) / |w| - r_a - r_b
 //
-// whatever the direction w: d leads from A's middle to B's, u and h are the axes and
-// halves of A's, v and g those of B's. This is the distance of two parallel planes with
-// the two between them, so it needs no axes at right angles, and no w that is exact. The
-// best w leads from the point of A's middle that is nearest B's to that of B's: then
-// gap(w) is the distance itself. For points w is d. For lines the nearest points have a
-// closed form (Ericson 2005, 5.1.9). For rectangles they are sought by going to and fro
-// between the two, each time to the nearest point of the other, which for a rectangle
-// is a clamp of two coordinates: from B's centre to A, to B, to A. More steps separate
-// one pair in fifty more and cost as much as that saves. The face directions are tried
-// besides.
+// for any direction w. Here d leads from A's middle to B's, u and h are the axes and halves of A's,
+// v and g those of B's. This is the distance of two parallel planes with the two between them. So
+// it requires neither axes at right angles nor an exact w. The best w leads from the point of A's
+// middle that is nearest to B's to that of B's: then gap(w) is the distance itself. For points w is
+// d. For lines the nearest points have a closed form (Ericson 2005, 5.1.9). For rectangles an
+// iteration alternates between the two: each step takes the nearest point of the other, which for a
+// rectangle is a clamp of two coordinates. It goes from B's centre to A, to B, to A. More steps
+// separate one pair in fifty more and cost as much as that saves. The face directions are tried in
+// addition.
 //
-// Rounding. Let v = 2^-24, s_a and s_b the scales, t the shift; middles lie within
-// sqrt 3 s of their origins, halves and radii are at most that. Take |w| = 1: a common
-// factor is divided out. d is off by 19 v s_b + 3 v s_a + 5 v |t| (turning, shifting and
-// subtracting, three components), its product with w by 6 v (s_a + s_b + |t|). B's axes
-// are turned with 7 v each: 17 v s_b after the halves, whose sum is at most sqrt 6 s. The
-// products w.u, w.v: 8 v (s_a + s_b); the sum of five terms: 21 v (s_a + s_b) + 9 v |t|;
-// length, root and quotient: 7 v (s_a + s_b + |t|); a face direction's length: 14 v of
-// the same instead. Together below 96 v (s_a + s_b + |t|): three times BoxPlacement's
-// slack, which also covers all that was rounded before. A tolerance is rounded by 5 v of
-// itself where the radii are summed and squared: its caller has made it larger.
+// Rounding. Let v = 2^-24, s_a and s_b the scales, t the shift. Middles lie within sqrt 3 s of
+// their origins; halves and radii are at most that. Take |w| = 1: a common factor cancels.
+//
+//   - Rotating, shifting and subtracting three components: d is off by 19 v s_b + 3 v s_a +
+//     5 v |t|. Its product with w is off by 6 v (s_a + s_b + |t|).
+//   - B's axes are rotated with 7 v each: 17 v s_b after the halves, whose sum is at most sqrt 6 s.
+//   - The products w.u, w.v: 8 v (s_a + s_b); the sum of five terms: 21 v (s_a + s_b) + 9 v |t|.
+//   - Length, root and quotient: 7 v (s_a + s_b + |t|). A face direction's length has 14 v of the
+//     same instead.
+// Together they stay below 96 v (s_a + s_b + |t|): three times BoxPlacement's slack, which also
+// covers all earlier rounding. A tolerance is rounded by 5 v of itself where the radii are summed
+// and squared; its caller has enlarged it.
 #pragma once
 
 #include <cassert>
@@ -36,9 +37,9 @@
 namespace cdprep::kernels {
 namespace {
 
-inline constexpr float kSweptSlack = 3;  ///< times BoxPlacement::slack
+inline constexpr float kSweptSlack = 3;  ///< a factor of BoxPlacement::slack
 
-/// Eight swept spheres: kSides of the sides count.
+/// Eight swept spheres, with kSides sides in use.
 template <class F>
 struct SweptSpheres {
     F centre[3];
@@ -61,8 +62,8 @@ void load_swept(const float* node, float scale, SweptSpheres<F>& spheres) noexce
     }
 }
 
-/// Swept spheres of B along A's axes, one to be spread over all lanes; the slack and the
-/// tolerance are in the radius.
+/// Swept spheres of B along A's axes, in rows, so that one can be spread over all lanes. The radius
+/// includes the slack and the tolerance.
 struct SweptRows {
     alignas(32) float centre[3][kLanes];
     alignas(32) float radius[kLanes];
@@ -96,7 +97,7 @@ struct SweptPair {
     R d[3];  ///< from A's middle to B's
     R axis_b[2][3];
     R half_b[2];
-    R radii;  ///< both, the slack and the tolerance
+    R radii;  ///< the sum of both, the slack and the tolerance
 };
 
 template <int kSides, class R>
@@ -118,7 +119,7 @@ R within_half(R x, R half) noexcept {
     return max(min(x, half), -half);
 }
 
-/// Where on the two middles the nearest points lie, about: along A's axes and B's.
+/// The approximate nearest points on the two middles, along A's axes and B's.
 template <class R>
 struct NearestOnMiddles {
     R a[2];
@@ -137,7 +138,7 @@ void find_nearest_on_lines(const SweptSpheres<R>& a, const SweptPair<R>& pair,
     at.a[0] = within_half(fma(c, at.b[0], p), a.half[0]);
 }
 
-/// Rectangles: B's point is the nearest to A's nearest to B's centre.
+/// Rectangles: B's point is the nearest to A's point nearest to B's centre.
 template <class R>
 void find_nearest_on_rectangles(const SweptSpheres<R>& a, const SweptPair<R>& pair,
                                 NearestOnMiddles<R>& at) noexcept {
@@ -182,7 +183,7 @@ MiddleGap<R> gap_between_nearest(const SweptSpheres<R>& a, const SweptPair<R>& p
         for (std::size_t k = 0; k < kSides; ++k) at.a[k] = -at.a[k];
         R w[3];
         for (std::size_t i = 0; i < 3; ++i) {
-            // B's points are known before A's: their products go first.
+            // B's points are known before A's, so their products go first.
             w[i] = pair.d[i];
             for (std::size_t k = 0; k < kSides; ++k) w[i] = fma(at.b[k], pair.axis_b[k][i], w[i]);
             for (std::size_t k = 0; k < kSides; ++k) w[i] = fma(at.a[k], a.axis[k][i], w[i]);
@@ -197,7 +198,7 @@ MiddleGap<R> gap_between_nearest(const SweptSpheres<R>& a, const SweptPair<R>& p
     }
 }
 
-/// Along the two faces of rectangles; the one of A is `face_a`.
+/// Returns the gap along the faces of both rectangles; `face_a` is A's.
 template <class R>
 R gap_along_faces(const SweptSpheres<R>& a, const R* face_a, const SweptPair<R>& pair,
                   const SweptRows& rows, RowPair row) noexcept {
@@ -210,19 +211,19 @@ R gap_along_faces(const SweptSpheres<R>& a, const R* face_a, const SweptPair<R>&
     return max(abs(dot(pair.d, face_a)) - reach_b, abs(dot(pair.d, face_b)) - reach_a);
 }
 
-/// How far swept spheres are apart, at least; negative: they overlap by about that.
+/// Returns a lower bound of the distance of swept spheres; negative: about the overlap.
 template <int kSides, class R>
 R swept_gap(const SweptSpheres<R>& a, const R* face_a, const SweptRows& rows,
             RowPair row) noexcept {
     const SweptPair<R> pair = swept_pair<kSides>(a, rows, row);
     const MiddleGap<R> nearest = gap_between_nearest<kSides>(a, pair);
-    // Where the middles meet, the length says nothing, and nothing is claimed.
+    // Where the middles meet, the length is meaningless, and no gap is claimed.
     R gap = nearest.along / max(root(nearest.squared_length), R(1e-15F));
     if constexpr (kSides == 2) gap = max(gap, gap_along_faces(a, face_a, pair, rows, row));
     return gap - pair.radii;
 }
 
-/// Lanes that are apart; the same bounds without a root.
+/// Returns the lanes that are apart: the same bounds without a root.
 template <int kSides, class R>
 typename R::Mask swept_apart(const SweptSpheres<R>& a, const R* face_a, const SweptRows& rows,
                              RowPair row) noexcept {
@@ -238,7 +239,7 @@ typename R::Mask swept_apart(const SweptSpheres<R>& a, const R* face_a, const Sw
     return out;
 }
 
-/// Both nodes' swept spheres, ready for rows.
+/// The swept spheres of both nodes, prepared for rows.
 template <class R>
 struct SweptNodes {
     SweptSpheres<R> a;
@@ -255,7 +256,7 @@ void load_nodes(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
     turn_swept<kSides>(unturned_b, p, nodes.b);
 }
 
-/// Half the sum of the edges of the box around each, its sides along the axes.
+/// Returns half the sum of the edges of the box around each, with sides along the axes.
 template <int kSides, class F>
 F size_of(const SweptSpheres<F>& spheres) noexcept {
     F size = spheres.radius * F(3.0F);
@@ -263,7 +264,7 @@ F size_of(const SweptSpheres<F>& spheres) noexcept {
     return size;
 }
 
-/// Keeps of the pairs what the swept spheres do not separate.
+/// Keeps the pairs that the swept spheres do not separate.
 template <int kSides, class F, class R>
 BoxPairs keep_swept(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b, BoxPairs pairs,
                     BoxSizes& sizes) noexcept {
@@ -282,8 +283,8 @@ BoxPairs keep_swept(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& 
     return kept;
 }
 
-/// The body of BoundTests::overlapping: the axis-aligned boxes go first, unless there is
-/// but one row.
+/// The body of BoundTests::overlapping. The axis-aligned boxes go first, unless there is only one
+/// row.
 template <int kSides, class F, class R>
 BoxPairs overlapping_swept_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
                               const BoxChoice& choice, BoxSizes& sizes) noexcept {
@@ -297,7 +298,7 @@ BoxPairs overlapping_swept_of(const BoxPlacement& p, const NodeBoxes& a, const N
     return pairs == 0 ? 0 : keep_swept<kSides, F, R>(p, a, b, pairs, sizes);
 }
 
-/// The bit of the pair of `pairs` that overlaps most.
+/// Returns the bit of the pair of `pairs` that overlaps most.
 template <class R>
 unsigned deepest_of(BoxPairs pairs, const BoxPairFloats& depths) noexcept {
     typename R::Deepest deepest;
@@ -309,8 +310,8 @@ unsigned deepest_of(BoxPairs pairs, const BoxPairFloats& depths) noexcept {
     return deepest.bit();
 }
 
-/// The body of BoundTests::depths. Those of the axis-aligned boxes bring a walk to its
-/// first hit sooner than how near two middles are.
+/// The body of BoundTests::depths. Depths of the axis-aligned boxes lead a walk to its first hit
+/// sooner than the distance of two middles does.
 template <int kSides, class F, class R>
 BoxPairs swept_depths_of(const BoxPlacement& p, const NodeBoxes& a, const NodeBoxes& b,
                          const BoxChoice& choice, BoxSizes& sizes, BoxDepths& depths) noexcept {

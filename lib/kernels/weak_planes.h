@@ -2,18 +2,18 @@
 // Planes between places of two models, after B has moved. Included by kernel sources alone, after
 // box_overlap.h.
 //
-// A plane was set across the direction n, fixed to A, when B's axes saw n as m: all x of A's place
-// had n.x <= p, all y of B's m.y >= q, the gap was n.t + k with k = q - p. With R and t as they
-// are now, and n' = R^T n, B's points are at n.t + n'.y, and
+// A plane was set across the direction n, fixed to A, when n was m along B's axes. All x of A's
+// place had n.x <= p, and all y of B's had m.y >= q. The gap was n.t + k with k = q - p. Let R and
+// t be the present pose and n' = R^T n. B's points are at n.t + n'.y, and
 //
 //     n'.y = m.y + (n' - m).c + (n' - m).(y - c) >= q + (n' - m).c - |n' - m| r
 //
 // where c is a middle of B's place and r its reach from there.
 //
-// Rounding. Let v = 2^-24, s_a and s_b the scales; n and m are at most 1 long, c and r at most
-// sqrt 3 s_b. n' is off by 4 v in each component, n' - m by 5 v: with c and r that is at most
-// 2 * 5 v * 3 s_b; the products, sums and the root add 8 v of (s_a + s_b + 2 |t|) at most. Together
-// below 64 v (s_a + s_b + |t|).
+// Rounding. Let v = 2^-24, and s_a and s_b the scales. n and m are at most 1 long, c and r at most
+// sqrt 3 s_b. n' is off by 4 v in each component, and n' - m by 5 v. With c and r that is at most
+// 2 * 5 v * 3 s_b. The products, sums and the root add at most 8 v of (s_a + s_b + 2 |t|). Together
+// they stay below 64 v (s_a + s_b + |t|).
 #pragma once
 
 #include <cassert>
@@ -23,7 +23,8 @@
 namespace cdprep::kernels {
 namespace {
 
-/// Times BoxPlacement::slack: for this and for what was rounded when planes were set (front.cpp).
+/// A factor of BoxPlacement::slack: for these roundings, and for those when planes were set
+/// (front.cpp).
 inline constexpr float kPlaneSlack = 3;
 
 /// The body of weak_planes().

@@ -2,7 +2,8 @@
 #include "query/cached_search.h"
 #include "walk/find_contact.h"
 
-// Apart from find_contact(), which is inlined whole where nothing else walks.
+// In another file than find_contact(): where nothing else walks, the compiler inlines the whole
+// walk.
 
 namespace cdprep {
 

@@ -8,7 +8,7 @@
 namespace cdprep {
 namespace {
 
-/// Calls `ask(pair, answer, workspace)` for every pair, by all workers.
+/// Calls `ask(pair, answer, workspace)` for every pair, on all workers.
 template <class Answer, class Ask>
 void ask_all(std::span<const Pair> pairs, std::span<Workspace> workspaces, ParallelFor parallel_for,
              std::span<Answer> answers, Ask ask) noexcept {

@@ -10,7 +10,7 @@
 
 namespace cdprep {
 
-/// Takes note of whether all of a walk found contact, and where.
+/// Stores whether a complete walk found contact, and where.
 inline void note_contact(PairCache& cache, const Model& a, const Model& b,
                          const Placement& placement, const std::optional<TreePair>& at) noexcept {
     if (at) {
@@ -23,10 +23,10 @@ inline void note_contact(PairCache& cache, const Model& a, const Model& b,
     }
 }
 
-/// Calls `found(a, b)` as for_each_contact() does, by a cache that may be null. Where the
-/// last question about the pair found nothing, the search for any contact comes first: it
-/// is spared while the gap that it proves lasts, and where it succeeds the whole walk
-/// takes much longer.
+/// Calls `found(a, b)` as for_each_contact() does, with a cache that may be null. If the last query
+/// about the pair found nothing, a search for any contact comes first. That search is not repeated
+/// while the gap that it proves lasts. If it succeeds, the complete walk takes much longer than the
+/// search did.
 template <class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
                       Workspace& workspace, const PairOptions& options, PairCache* cache,

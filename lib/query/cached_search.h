@@ -10,23 +10,23 @@
 
 namespace cdprep {
 
-/// Boxes are apart by this share of what their test was widened by: their axes are
-/// unit up to 2^-20, and a sum with it is rounded.
+/// The proved share of the amount by which a box test was widened. The axes are unit up to 2^-20,
+/// and a sum with the amount is rounded.
 inline constexpr double kProved = 1 - 0x1p-18;
 
-/// A gap is worth a proof when it lasts some questions: it is sought this many steps
-/// wide at least.
+/// The least width of a gap to be proved, in steps: a proof is worthwhile if the gap lasts several
+/// queries.
 inline constexpr double kLeastSteps = 2;
-/// Most questions that pass after proofs that failed.
+/// The number of failed proofs beyond which the wait for the next proof does not grow.
 inline constexpr std::uint32_t kMostFailures = 4;
-/// Pair units: no wider than all there is, so that float holds it.
+/// The greatest margin in pair units: no wider than all boxes together, so that float can hold it.
 inline constexpr double kGreatestMargin = 4;
 
-/// Height of the nodes around the cached pair that are searched first: 64 leaves each.
-/// Measured: one lower or higher gains less.
+/// The height of the nodes around the cached pair that are searched first: 64 leaves each. In
+/// measurements, one level lower or higher gains less.
 inline constexpr std::uint32_t kNearHeight = 2;
 
-/// Whether the cached pair of triangles, if there is one that touched, still does.
+/// Returns whether the cached pair of triangles touched and still does.
 inline bool still_touches(const PairCache& cache, const Model& a, const Model& b,
                           const Placement& placement, const PairOptions& options,
                           QueryCounts* counts) noexcept {
@@ -41,7 +41,7 @@ struct LeafPlaces {
     std::uint32_t b;
 };
 
-/// One question that starts from a cache.
+/// One query that starts from a cache.
 class CachedSearch {
 public:
     CachedSearch(const Model& a, const Model& b, const Placement& placement, Workspace& workspace,
@@ -56,19 +56,21 @@ public:
           batch_(a, b, placed_, scratch_),
           trees_(a, b, scratch_) {}
 
-    /// Whether anything touches in two leaves, or in two nodes around them.
+    /// Returns whether anything touches in two leaves, or in two nodes around them.
     bool touches_again(const LeafPlaces& held) noexcept;
-    /// Walks both hierarchies with wider boxes until that leads to a leaf; from then
-    /// on with boxes as they are. When it never does, the models are so far apart.
+    /// Returns whether anything touches. Walks both hierarchies with boxes widened by the gap to be
+    /// proved until it reaches a leaf, and with unwidened boxes from then on. If it reaches none,
+    /// the gap is proved.
     bool walk() noexcept;
 
 private:
-    /// After a hit the deepest boxes first, a leaf at a time; after a miss, when all is
-    /// likely to be looked at, in any order, leaves together. Calls `narrow()` at leaves.
+    /// Walks all. After a hit: the deepest boxes first, one leaf pair at a time. After a miss,
+    /// probably everything is visited: in any order, leaf pairs tested together. Calls `narrow()`
+    /// at leaves.
     template <class Narrow>
     bool walk_all(Narrow narrow) noexcept;
 
-    /// Also where triangles had to be tested for want of room.
+    /// Returns whether a contact was found; tests the batch when it is full.
     bool add(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
         return !trees_.each_pair(batch_, leaf_a, leaf_b, [&](const LeafView& a, const LeafView& b) {
             batch_.add(a, b);
@@ -110,7 +112,7 @@ inline bool CachedSearch::touches_again(const LeafPlaces& held) noexcept {
         scratch_, [&](const PendingPair& pair) { return !look_at(pair.a.index, pair.b.index); });
 }
 
-/// The gap to be proved, model units, or 0.
+/// Returns the gap to be proved, in model units, or 0.
 inline double next_margin(PairCache& cache) noexcept {
     if (cache.wait > 0) {
         --cache.wait;
@@ -156,7 +158,7 @@ inline bool CachedSearch::walk() noexcept {
     cache_.holds &= ~std::uint32_t{held_touch};
     const double gap = std::ldexp(margin, -placed_.exponent);
     if (margin > 0) note_proof(cache_, gap, proves);
-    // Where nothing was tried, the old place still tells how far B moves a question.
+    // If no proof was tried, the old place still gives B's motion per query.
     if (margin > 0 || (cache_.holds & held_place) == 0) {
         remember_gap(cache_, a_, b_, placement_, proves ? gap * kProved : 0);
     }

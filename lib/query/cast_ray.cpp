@@ -23,8 +23,8 @@ double largest(const Double3& p) noexcept {
     return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
 }
 
-/// The power of two that makes the direction about as long as the coordinates are
-/// large: the volumes that it spans with them are then of the size that filters expect.
+/// Returns the power of two that makes the direction about as long as the coordinates are large.
+/// The volumes that it spans with them then have the size that the filters expect.
 int stretch_for(const Model& model, const Ray& ray) noexcept {
     const format::FileHeader& header = model.header();
     const double reach = std::max({largest(ray.origin), largest(header.frame_origin),
@@ -43,10 +43,10 @@ HalfLine half_line(const Ray& ray, int stretch) noexcept {
     return {ray.origin, is_exact ? step : ray.direction, step};
 }
 
-/// Where a half-line enters boxes: a lower bound of its parameter, or infinity.
-/// Everything is taken into the frame; the boxes are widened by 2^-45 of the
-/// largest coordinate that takes part, which covers every rounding. A component of the
-/// step that moves less than that across the whole model is taken for 0.
+/// Returns a lower bound of the parameter where a half-line enters a box, or infinity. All numbers
+/// are in the frame. The boxes are widened by 2^-45 of the largest coordinate involved, which
+/// covers every rounding. A component of the step that moves less than that across the whole model
+/// counts as 0.
 class BoxEntry {
 public:
     BoxEntry(const format::FileHeader& header, const HalfLine& ray) noexcept {
@@ -88,11 +88,11 @@ public:
 
 private:
     std::array<double, 3> origin_{};
-    std::array<double, 3> per_step_{};  ///< 1 / step; 0 for none
+    std::array<double, 3> per_step_{};  ///< 1 / step; 0 for a zero component
     double slack_ = 0;
 };
 
-/// A ray among a model's triangles.
+/// A ray against a model's triangles.
 class RayQuery {
 public:
     RayQuery(const Model& model, const Ray& ray, const RayOptions& options) noexcept
@@ -101,11 +101,11 @@ public:
         if (!(options.max_t >= 0)) return;
         stretch_ = stretch_for(model, ray);
         line_ = half_line(ray, stretch_);
-        // Finite, so that boxes that are missed are beyond it.
+        // Finite, so that missed boxes, which return infinity, are beyond it.
         limit_ = std::min(std::ldexp(options.max_t, -stretch_), std::numeric_limits<double>::max());
     }
 
-    /// In lengths of the step; negative when nothing can be hit.
+    /// In lengths of the step; negative if nothing can be hit.
     [[nodiscard]] double limit() const noexcept {
         return limit_;
     }
@@ -130,8 +130,8 @@ private:
     int stretch_ = 0;
 };
 
-/// Calls found(t, triangle), t in lengths of the step and triangle in tree order, for
-/// every triangle hit, until it returns false; returns false when it did.
+/// Calls found(t, triangle) for every triangle hit, t in lengths of the step and triangle in tree
+/// order. Stops and returns false when `found` returns false.
 template <class Found>
 bool for_each_hit(const Model& model, const RayQuery& query, Workspace& workspace,
                   Found&& found) noexcept {

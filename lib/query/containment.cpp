@@ -14,16 +14,15 @@
 #include "exact/winding.h"
 #include "walk/walk_model.h"
 
-// The ray from q runs along +x: its origin o is q moved back along x alone, so a
-// box is of interest when its y and z ranges hold q's and it does not end before
-// q in x. The symbolic perturbation of o turns the ray by less than any positive
-// angle, so only triangles that touch the closed ray can count, and those lie in
-// boxes that touch it.
+// The ray from q runs along +x: its origin o is q moved back along x alone. So a box is of interest
+// if its y and z ranges contain q's and it does not end before q in x. The symbolic perturbation of
+// o rotates the ray by less than any positive angle. So only triangles that touch the closed ray
+// can count, and these lie in boxes that touch it.
 
 namespace cdprep {
 namespace {
 
-/// The boxes of a moved model, in the query's frame.
+/// The boxes of a moved model, in the query's coordinates.
 class MovedBoxes {
 public:
     explicit MovedBoxes(const MovedModel& model) noexcept
@@ -33,13 +32,13 @@ public:
         const double reach = std::max({std::fabs(o.x), std::fabs(o.y), std::fabs(o.z)}) +
                              std::ldexp(1.0, -header_.frame_exponent);
         const double shift = std::max({std::fabs(t.x), std::fabs(t.y), std::fabs(t.z)});
-        // 5 u (3 reach + shift) for the vertices, as much again for the boxes, and
-        // some: see box_placement.cpp.
+        // 5 u (3 reach + shift) for the vertices, as much for the boxes, and a margin: see
+        // box_placement.cpp.
         reach_ = reach + shift;
         slack_ = 0x1p-47 * (3 * reach + shift) + kSubnormal;
     }
 
-    /// About the largest coordinate; never 0.
+    /// Returns about the largest |coordinate|; never 0.
     [[nodiscard]] double reach() const noexcept {
         return reach_;
     }
@@ -79,7 +78,7 @@ bool ray_meets(const Double3& q, const Box3& box) noexcept {
            q.z <= box.upper.z;
 }
 
-/// Exact winding number of a closed surface around q.
+/// Returns the exact winding number of a closed surface around q.
 Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
                           Workspace::Storage& scratch) noexcept {
     const MovedBoxes boxes(model);
@@ -109,8 +108,8 @@ Inclusion exact_inclusion(const MovedModel& model, const Double3& q,
     return {winding != 0 ? Answer::yes : Answer::no, false, static_cast<double>(winding)};
 }
 
-/// Whether q lies in one of the root's boxes: outside them it is outside the
-/// model, open or not.
+/// Returns whether q lies in the box around the root's boxes. Outside it, q is outside the model,
+/// closed or open.
 bool may_be_inside(const MovedModel& model, const Double3& q) noexcept {
     const MovedBoxes boxes(model);
     const Model& m = *model.model;
@@ -125,7 +124,7 @@ bool may_be_inside(const MovedModel& model, const Double3& q) noexcept {
     return holds(all, q);
 }
 
-/// The generalised winding number, by all triangles.
+/// Returns the generalised winding number, summed over all triangles.
 Inclusion open_inclusion(const MovedModel& model, const Double3& q) noexcept {
     double angle = 0;
     for (std::uint32_t i = 0; i < model.model->triangle_count(); ++i) {
@@ -143,7 +142,7 @@ Inclusion inclusion(const MovedModel& model, const Double3& q,
                                       : open_inclusion(model, q);
 }
 
-/// Whether a component of `inner` lies inside `outer`.
+/// Returns whether a component of `inner` lies inside `outer`.
 Containment find_inside(const MovedModel& inner, const MovedModel& outer,
                         Workspace::Storage& scratch, bool a_inside_b) noexcept {
     Containment result;

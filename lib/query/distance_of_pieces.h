@@ -7,11 +7,12 @@
 
 namespace cdprep {
 
-/// distance() through Structure::pieces.
+/// As distance(), through Structure::pieces.
 [[nodiscard]] std::optional<Distance> distance_of_pieces(const Pair& pair, Workspace& workspace,
                                                          const DistanceOptions& options) noexcept;
 
-/// within() through Structure::pieces. `tolerance` is at least 0, and no model is empty.
+/// As within(), through Structure::pieces. Requires that `tolerance` is at least 0 and no model is
+/// empty.
 [[nodiscard]] bool pieces_are_within(const Pair& pair, double tolerance,
                                      Workspace& workspace) noexcept;
 

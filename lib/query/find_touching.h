@@ -19,19 +19,19 @@ inline bool is_identity(const Pose& pose) noexcept {
     return pose.rotation() == kStill && pose.translation() == Double3{0, 0, 0};
 }
 
-/// The model as a question about a shape sees it.
+/// Returns the model in the pose that a shape query gives it.
 inline MovedModel placed(const Model& model, const Pose& world_from_model) noexcept {
     return {model, is_identity(world_from_model) ? nullptr : &world_from_model};
 }
 
-/// The class that compares a shape with the boxes of a model: made from a MovedModel and the
-/// shape. judge(node) says which boxes the shape may touch and which it holds entirely;
-/// touches(corners) decides exactly. The file of each shape names its own as `Type`.
+/// The class that compares a shape with the boxes of a model; constructed from a MovedModel and the
+/// shape. judge(node) returns the boxes that the shape may touch, and those that it contains
+/// entirely. touches(corners) decides exactly. The file of each shape names its class `Type`.
 template <class S>
 struct AmongBoxesOf;
 
-/// Calls `found` with every triangle, tree order, that touches the shape, until it
-/// returns false; returns false when it did.
+/// Calls `found` with every triangle, tree order, that touches the shape. Stops and returns false
+/// when `found` returns false.
 template <class S, class Found>
 bool for_each_touching(const Model& model, const S& asked, Workspace& workspace,
                        const ShapeOptions& options, Found&& found) noexcept {

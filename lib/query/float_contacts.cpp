@@ -11,7 +11,7 @@
 namespace cdprep {
 namespace {
 
-/// As for_each_contact(), without its exact test of each pair.
+/// As for_each_contact(), without the exact test of each pair.
 template <Search kSearch>
 bool visit_by(const Pair& pair, Workspace& workspace, format::FloatEnvironment& environment,
               Visitor<FloatContact> visit) {

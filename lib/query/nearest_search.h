@@ -22,19 +22,18 @@ namespace cdprep {
 
 // Distances of two models through hierarchies of both, of any kind (walked_trees.h).
 
-/// What is known when a search begins.
+/// The quality of the limit when a search begins.
 enum class Limit : std::uint8_t {
-    poor,  ///< best first, after a dive for a better one
-    good,  ///< depth first: most of what a heap would put off is never looked at
+    poor,  ///< best first, after a dive for a better limit
+    good,  ///< depth first: most pairs that a heap would postpone are never visited
 };
 
 inline Limit limit_by(const PairCache* cache, const Model& a, const Model& b) noexcept {
     return cache != nullptr && has_pair(*cache, a, b) ? Limit::good : Limit::poor;
 }
 
-/// A branch and bound over both hierarchies, nearest boxes first. Bounds are taken
-/// in pair units and in float, each with its proven error; what they leave is
-/// measured in double.
+/// A branch and bound over both hierarchies, nearest boxes first. Bounds are computed in pair units
+/// and in float, each with its proven error. Triangle pairs that remain are measured in double.
 template <class Trees>
 class NearestSearch {
 public:
@@ -56,35 +55,37 @@ public:
         return triangle_distance(moved_a_.corners(at.a), moved_b_.corners(at.b), tight);
     }
 
-    /// What measure() tells of a pair, as well as can be.
+    /// Returns measure() of a pair, as tightly as possible.
     [[nodiscard]] TriangleDistance tightened(const TreePair& at,
                                              const TriangleDistance& found) const noexcept {
         return is_tight(found) ? found : measure(at, true);
     }
 
-    /// Where measure() cannot tell: exactly.
+    /// Decides exactly where measure() cannot decide.
     [[nodiscard]] bool is_within(const TreePair& at, double tolerance) const noexcept {
         if (scratch_.counts != nullptr) ++scratch_.counts->by_exact;
         return is_within_exactly(moved_a_.corners(at.a), moved_b_.corners(at.b), tolerance);
     }
 
-    /// Calls `near(at)` for pairs of triangles that may be at most the limit apart;
-    /// it returns the new limit, in model units, negative to end the search.
+    /// Calls `near(at)` for pairs of triangles that may be at most the limit apart. `near` returns
+    /// the new limit in model units, or a negative number to end the search.
     template <class Near>
     void run(double limit, Limit known, Near&& near) noexcept;
 
-    /// The same where a front has no plane between with more than the limit.
+    /// As above, only below those pairs of the front whose plane does not prove a gap above the
+    /// limit.
     template <class Near>
     FrontEnd run(double limit, PairFront& front, Near&& near) noexcept;
-    /// Begins a front anew where nothing is nearer than the limit, or what is was looked at.
+    /// Begins the front anew. Requires that nothing is nearer than the limit, or that it has been
+    /// visited.
     void begin(PairFront& front, double limit) noexcept;
 
-    /// Tells the search where two near points lie: most others are farther apart
-    /// along the line through them. In the query's coordinates.
+    /// Sets the direction between two near points, in the query's coordinates. Most other pairs are
+    /// farther apart along it.
     void point(const Double3& on_a, const Double3& on_b) noexcept;
 
 private:
-    /// In pair units, rounded up.
+    /// Returns the limit in pair units, rounded up.
     [[nodiscard]] float in_pair_units(double limit) const noexcept {
         assert(!(limit < 0));
         return float_reach(std::ldexp(limit, placed_.exponent));
@@ -92,7 +93,7 @@ private:
     /// Appends the children of a pair that are near enough; returns the new end.
     std::size_t push_children(const Tree& a, const Tree& b, const PendingPair& pair,
                               std::size_t end) noexcept;
-    /// These two return false when `near` ended the search.
+    /// This and the functions below return false when `near` ended the search.
     template <class Near>
     bool dive(const Tree& a, const Tree& b, Near&& near) noexcept;
     template <class Near>
@@ -117,7 +118,7 @@ template <class Trees>
 void NearestSearch<Trees>::point(const Double3& on_a, const Double3& on_b) noexcept {
     const std::array<double, 3> w = {on_b.x - on_a.x, on_b.y - on_a.y, on_b.z - on_a.z};
     const double length = length_of(w[0], w[1], w[2]);
-    // A little short of 1, so that no rounding makes it longer.
+    // Slightly below 1, so that no rounding makes the direction longer than 1.
     const double scale = (1 - 0x1p-20) / length;
     if (!std::isfinite(scale)) return;
     constexpr std::array<double, 9> kStill = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -152,7 +153,7 @@ std::size_t NearestSearch<Trees>::push_children(const Tree& a, const Tree& b,
         const auto bit = static_cast<unsigned>(std::countr_zero(pairs));
         const std::uint64_t i = bit % format::kBvhWidth;
         const std::uint64_t j = bit / format::kBvhWidth;
-        // Also where absurd boxes gave no number: what sorts must be ordered.
+        // Damaged boxes may give NaN, but sorting requires ordered bounds.
         const float bound = gaps.value[j][i] > 0 ? gaps.value[j][i] : 0;
         assert(end < scratch_.near.size());
         scratch_.near[end++] = {bound, base + (i << 32) + j};
@@ -189,9 +190,9 @@ bool NearestSearch<Trees>::look_at_views(const LeafView& in_a, const LeafView& i
     return true;
 }
 
-/// The nearest box pair first. An entry is one number: the bound's bits, which order as
-/// the bound does because it is not negative, then where the pair stands. Most pairs are
-/// never come back to: a heap holds the nearest alone, the others wait in no order.
+/// A queue of box pairs, nearest first. An entry is one number: the bits of the bound, then the
+/// index of the pair. The bits order as the bounds do, because bounds are not negative. Most pairs
+/// are never taken out again. So a heap holds only the nearest, and the others wait in no order.
 class Frontier {
 public:
     explicit Frontier(Workspace::Storage& scratch) noexcept
@@ -215,7 +216,7 @@ public:
         soon_[soon_count_++] = entry;
         std::push_heap(soon_.begin(), end_of_soon(), std::greater());
     }
-    /// The limit is how far the search will go; it shrinks.
+    /// `limit` is the reach of the search; it only shrinks.
     NearPair pop(float limit) noexcept {
         assert(!empty());
         if (soon_count_ == 0) refill(limit);
@@ -231,14 +232,14 @@ private:
     static std::uint64_t entry_of(float bound, std::uint32_t at) noexcept {
         return std::uint64_t{std::bit_cast<std::uint32_t>(bound)} << 32 | at;
     }
-    /// The last entry that a bound can have.
+    /// Returns the greatest entry with this bound.
     static std::uint64_t last_of(float bound) noexcept {
         return entry_of(bound, 0xffffffff);
     }
     [[nodiscard]] std::span<std::uint64_t>::iterator end_of_soon() const noexcept {
         return soon_.begin() + static_cast<std::ptrdiff_t>(soon_count_);
     }
-    /// Makes a heap of what waits up to twice the least bound, or the limit.
+    /// Makes a heap of the waiting entries up to twice the least bound, or up to the limit.
     void refill(float limit) noexcept {
         assert(soon_count_ == 0 && later_count_ > 0);
         const auto waiting = later_.first(later_count_);
@@ -265,8 +266,8 @@ private:
     std::uint32_t used_ = 0;
 };
 
-/// Goes straight down, each time to the nearest child: a limit from the start keeps
-/// most of the frontier out.
+/// Descends to the nearest child at each step. The limit that this finds keeps most pairs out of
+/// the frontier.
 template <class Trees>
 template <class Near>
 bool NearestSearch<Trees>::dive(const Tree& a, const Tree& b, Near&& near) noexcept {
@@ -282,7 +283,7 @@ bool NearestSearch<Trees>::dive(const Tree& a, const Tree& b, Near&& near) noexc
     return look_at_leaves(pair, near);
 }
 
-/// Depth first, nearest children first.
+/// Searches depth first, nearest children first.
 template <class Trees>
 template <class Near>
 bool NearestSearch<Trees>::look_below(std::uint64_t pair, Near&& near) noexcept {
@@ -306,8 +307,8 @@ bool NearestSearch<Trees>::look_below(std::uint64_t pair, Near&& near) noexcept 
     return true;
 }
 
-/// Best first, unless the limit is good. What the frontier has no room for is searched
-/// depth first.
+/// Searches best first, unless the limit is good. Pairs for which the frontier has no room are
+/// searched depth first.
 template <class Trees>
 template <class Near>
 void NearestSearch<Trees>::run(double limit, Limit known, Near&& near) noexcept {
@@ -325,7 +326,7 @@ void NearestSearch<Trees>::run(double limit, Limit known, Near&& near) noexcept 
     frontier.push({0, both});
     while (!frontier.empty()) {
         const NearPair top = frontier.pop(reach_.limit);
-        if (top.bound > reach_.limit) return;  // and so is all else
+        if (top.bound > reach_.limit) return;  // and so are all others
         const PendingPair pair = PendingPair::unpacked(top.pair);
         if ((pair.a.height == 0 && pair.b.height == 0) ||
             !frontier.has_room_for(std::size_t{format::kBvhWidth} * format::kBvhWidth)) {
@@ -354,7 +355,7 @@ void NearestSearch<Trees>::begin(PairFront& front, double limit) noexcept {
     (void)between.open_near(reach_.limit, [](const PendingPair& /*pair*/) { return true; });
 }
 
-/// The nearest pairs so far: those that may still turn out to be the nearest.
+/// The nearest pairs so far that may still turn out to be the nearest.
 template <class Trees>
 class Nearest {
 public:
@@ -390,7 +391,7 @@ public:
         return std::min(options_.max_distance, std::max(0.0, nearer));
     }
 
-    /// The answer once the search is over.
+    /// Returns the answer when the search has ended.
     [[nodiscard]] std::optional<Distance> answer() noexcept {
         settle();
         if (!found_ || best_.lower > options_.max_distance) return std::nullopt;
@@ -402,7 +403,7 @@ public:
     [[nodiscard]] const TreePair& nearest() const noexcept {
         return nearest_;
     }
-    /// Whether a pair may touch: then contact is to be sought.
+    /// Returns whether a pair may touch; then contact must be searched for.
     [[nodiscard]] bool may_touch() const noexcept {
         return may_touch_;
     }
@@ -413,7 +414,7 @@ private:
         TriangleDistance found;
     };
 
-    /// Measures what may be the nearest once more, as well as can be.
+    /// Measures the possible nearest pairs again, as tightly as possible.
     void settle() noexcept {
         for (std::size_t i = 0; i < count_; ++i) {
             if (contenders_[i].found.lower > upper_) continue;
@@ -463,7 +464,7 @@ template <class Trees>
 std::optional<Distance> distance_by(const Pair& pair, Workspace& workspace,
                                     const DistanceOptions& options) noexcept;
 
-/// An answer, or none by whoever was asked.
+/// The answer of a front, if it could answer.
 struct FrontDistance {
     bool answered = false;
     std::optional<Distance> distance;
@@ -476,7 +477,8 @@ inline void remember_distance(PairCache& cache, const Model& a, const Model& b,
     remember_gap(cache, a, b, placement, found.lower);
 }
 
-/// Where the models do not touch, the front is of them, and they have not jumped.
+/// Answers through the front unless the models touch or have jumped. Requires a front of these
+/// models.
 template <class Trees>
 FrontDistance distance_by_front(const Model& a, const Model& b, const Placement& placement,
                                 Workspace& workspace, const DistanceOptions& options,
@@ -495,8 +497,8 @@ FrontDistance distance_by_front(const Model& a, const Model& b, const Placement&
     return {true, found};
 }
 
-/// One solid inside the other: their distance is 0, and the witnesses are where the walls are
-/// nearest.
+/// Returns the distance if one solid is inside the other: 0. The witnesses are the nearest points
+/// of the surfaces.
 template <class Trees>
 std::optional<Distance> inside(const Pair& pair, Workspace& workspace) noexcept {
     const Pair surfaces = {pair.a, pair.b, pair.placement, {}, pair.cache, pair.front};
@@ -520,7 +522,7 @@ std::optional<Distance> distance_by(const Pair& pair, Workspace& workspace,
             if (found.answered) return found.distance;
         }
     }
-    // The cached pair of triangles must not tell which of those that touch answers.
+    // The cached pair must not decide which of several touching pairs is the answer.
     const bool apart = cache != nullptr && proven_gap(*cache, a, b, placement) > 0;
     if (!apart) {
         if (const auto at = find_contact_by<Trees>(a, b, placement, workspace, {})) {
@@ -549,7 +551,7 @@ std::optional<Distance> distance_by(const Pair& pair, Workspace& workspace,
     return found;
 }
 
-/// Of a tolerance above 0.
+/// Requires a tolerance above 0.
 template <class Trees>
 bool is_within_by(const Model& a, const Model& b, const Placement& placement, double tolerance,
                   Workspace& workspace, PairCache* cache, PairFront* front = nullptr) noexcept {

@@ -12,8 +12,8 @@
 namespace cdprep {
 namespace {
 
-/// Calls near(triangle, corners, distance) for the triangles that may be at most the
-/// limit away; it returns the new limit.
+/// Calls near(triangle, corners, distance) for the triangles that may be at most the limit away.
+/// `near` returns the new limit.
 template <class Near>
 void for_each_near(const MovedModel& model, const Corners& shape, ShapeGap& gap, double limit,
                    Workspace::Storage& scratch, Near&& near) noexcept {
@@ -35,7 +35,8 @@ void for_each_near(const MovedModel& model, const Corners& shape, ShapeGap& gap,
 
 std::optional<ShapeDistance> nearest_to_shape(const MovedModel& model, const Corners& shape,
                                               double limit, Workspace::Storage& scratch) noexcept {
-    // How near it is, as far as double can tell; then what is as near, as well as can be.
+    // First finds the distance in double. Then measures all triangles within it as tightly as
+    // possible.
     ShapeGap gap(model, shape);
     double upper = std::numeric_limits<double>::infinity();
     for_each_near(model, shape, gap, limit, scratch,

@@ -24,7 +24,7 @@ std::size_t overlaps(const Pair& pair, Workspace& workspace,
             for_each_contact(a, b, pair.placement, workspace, pair.options, pair.cache, found);
         } else if (a.triangle_count() > 0 && b.triangle_count() > 0) {
             for_each_contact<Search::all, PieceTrees>(a, b, pair.placement, workspace, pair.options,
-                                                      found);  // a triangle is in one piece
+                                                      found);  // each triangle is in one piece
         }
     });
 }

@@ -11,7 +11,7 @@ Inclusion points_inside(const Model& model, const Double3& p, Workspace& workspa
                         Structure through) noexcept {
     const format::FloatEnvironment environment;
     require(model, Ask::inside | ask_of(through));
-    // Through pieces no question about one model is asked.
+    // Pieces serve no query about one model; the BVH answers it.
     const bool by_bvh = through == Structure::bvh || through == Structure::pieces ||
                         !model.is_balanced() || model.triangle_count() == 0;
     return by_bvh ? inclusion_by_bvh(model, p, workspace)

@@ -20,10 +20,10 @@ using format::kBvhWidth;
 
 constexpr std::size_t kNumbersPerLeaf = std::size_t{3} * kBvhWidth;
 
-/// Enough for a team of threads to share evenly, few enough for a scratch each.
+/// Enough for a team of threads to share evenly, and few enough for a scratch each.
 constexpr std::size_t kParts = 128;
 
-/// Bits 8 j + i with i <= j: each pair of a node's boxes once.
+/// Returns the bits 8 j + i with i <= j: each pair of a node's boxes once.
 constexpr kernels::BoxPairs once_each() noexcept {
     kernels::BoxPairs pairs = 0;
     for (unsigned j = 0; j < kBvhWidth; ++j) {
@@ -34,7 +34,7 @@ constexpr kernels::BoxPairs once_each() noexcept {
 
 }  // namespace
 
-/// The hierarchy, as the walk reads it.
+/// The hierarchy as the walk reads it.
 class SelfWalk::Tree {
 public:
     class Batch;
@@ -193,7 +193,7 @@ void SelfWalk::run(Rest& rest, Workspace& workspace,
         environment.outside([&] { found(pair); });
     };
     Tree::Batch batch(*tree_, workspace.storage(), outside);
-    // Looks at the children of the next node pair.
+    // Visits the children of the next node pair.
     const auto step = [&] {
         const NodePair pair = rest.open_.back();
         rest.open_.pop_back();

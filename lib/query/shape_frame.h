@@ -12,17 +12,17 @@ namespace cdprep {
 /// A vector in the coordinates of a model's boxes.
 using FrameVector = std::array<double, 3>;
 
-/// Takes a shape from the world into the coordinates of a model's boxes, where the
-/// model, as stored, lies within [-1, 1].
+/// Transforms a shape from the world into the coordinates of a model's boxes. There the model, as
+/// stored, lies within [-1, 1].
 ///
-/// What lies d apart there, a stored vertex and a point of the shape, is within slack()
-/// of d apart in the world, scaled. Let r, s and t be the largest |coordinate| of the
-/// model, the shape and the translation. Unmoved, taking the shape's points over is off
-/// by u (r + s), u = 2^-53, and working with them in double by some 16 u more of it.
-/// Moved, a vertex is off its place by 5 u (3 r + t) per axis; R^T stands for the inverse
-/// of R, which it is within 3e-12, so a point of the shape is off by 3e-12 (s + t) sqrt 3
-/// and lengths by 2e-12 of themselves. Numbers that leave the range become infinite or
-/// NaN, and those prune nothing.
+/// Let a stored vertex and a point of the shape be d apart in these coordinates. Their scaled
+/// distance in the world is within slack() of d. Let r, s and t be the largest |coordinate| of the
+/// model, the shape and the translation. Let u = 2^-53. Without a pose, transforming the shape's
+/// points is off by u (r + s). Computing with them in double adds about 16 u of it. With a pose, a
+/// vertex is off its place by 5 u (3 r + t) per axis. R^T replaces the inverse of R, from which it
+/// differs by at most 3e-12. So a point of the shape is off by 3e-12 (s + t) sqrt 3, and lengths by
+/// 2e-12 of themselves. Numbers that leave the range become infinite or NaN, and those prune
+/// nothing.
 class ShapeFrame {
 public:
     ShapeFrame(const MovedModel& model, double shape_reach) noexcept
@@ -35,7 +35,7 @@ public:
         slack_ = (pose_ == nullptr ? kStillSlack : kMovedSlack) * reach;
     }
 
-    /// Frame units, > 0.
+    /// Returns the slack in frame units, > 0.
     [[nodiscard]] double slack() const noexcept {
         return slack_;
     }

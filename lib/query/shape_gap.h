@@ -10,11 +10,10 @@
 
 namespace cdprep {
 
-/// Lower bounds of the distance from a triangle, segment or point to what a search for
-/// the nearest comes upon: the gap between the boxes around both; the gap
-/// along the way from the shape to the middle of the other; and, once a near place is
-/// known, the gap along the way there. Whatever its direction, a gap along a vector of
-/// length at most 1 bounds the distance.
+/// Lower bounds of the distance from a triangle, segment or point to the boxes and triangles of a
+/// nearest search. There are three: the gap between the boxes around both; the gap along the
+/// direction from the shape to the middle of the other; and, once a near place is known, the gap
+/// along the direction to it. A gap along any vector of length at most 1 bounds the distance.
 class ShapeGap {
 public:
     ShapeGap(const MovedModel& model, const Corners& shape) noexcept
@@ -32,7 +31,7 @@ public:
         }
     }
 
-    /// Two near places, in the world: most of the rest is farther along this way.
+    /// Sets two near places, in the world: most others are farther apart along this direction.
     void point(const Double3& on_shape, const Double3& on_model) noexcept {
         const Double3 way = {on_model.x - on_shape.x, on_model.y - on_shape.y,
                              on_model.z - on_shape.z};
@@ -45,13 +44,13 @@ public:
         most_ = most_of(way_, corner_);
     }
 
-    /// A limit in what bounds of boxes are in: frame units, rounded up.
+    /// Returns a limit in the units of box bounds: frame units, rounded up.
     [[nodiscard]] double in_frame(double limit) const noexcept {
         constexpr double kInfinity = std::numeric_limits<double>::infinity();
         return std::nextafter(frame_.scaled(limit), kInfinity);
     }
 
-    /// To a box of the model, in frame units.
+    /// Returns the bound for a box of the model, in frame units.
     double operator()(const format::BvhNode& node, std::uint32_t box) const noexcept {
         double squared = 0;
         double along = -most_;
@@ -64,14 +63,15 @@ public:
             middle[i] = 0.5 * (lower + upper);
         }
         if (!is_point_) along = std::max(along, gap_towards(middle, node, box));
-        // Too far away for squares, or for the frame: bounds nothing.
+        // Too far away for squares or for the frame: no bound.
         if (!(squared < kLargestSquare)) return 0;
         const double gap = std::max(std::sqrt(squared) * (1 - kRounding), along);
         return std::max(gap - 2 * frame_.slack(), 0.0);
     }
 
-    /// To a triangle of the model, as moved, in model units. With M the largest coordinate relative
-    /// to the shape, a gap along the way is off by less than 32 u M.
+    /// Returns the bound for a triangle of the model, as moved, in model units. Let M be the
+    /// largest coordinate relative to the shape: a gap along the direction is off by less than
+    /// 32 u M.
     [[nodiscard]] double operator()(const Corners& t) const noexcept {
         const double boxes = gap_of_boxes(box_around(t));
         double least = kFar;
@@ -105,7 +105,8 @@ private:
                           const std::array<FrameVector, 3>& corner) noexcept {
         return std::max({inner(way, corner[0]), inner(way, corner[1]), inner(way, corner[2])});
     }
-    /// A little shorter than 1, so that no rounding makes it longer; 0 where it cannot be.
+    /// Returns the direction with a length slightly below 1, so that no rounding makes it longer;
+    /// 0 if it has no direction.
     static FrameVector shortened(const FrameVector& way) noexcept {
         const double scale = (1 - 0x1p-30) / std::sqrt(inner(way, way));
         if (!(scale < 0x1p400 && scale > 0x1p-400)) return {};
@@ -125,11 +126,11 @@ private:
         return keeps_digits ? std::sqrt(squared) * (1 - kRounding) : 0;
     }
 
-    /// A point of the shape near p; its nearest but for rounding (Ericson 2005, 5.1.5).
+    /// Returns a point of the shape near p: the nearest up to rounding (Ericson 2005, 5.1.5).
     static FrameVector nearest_on(const std::array<FrameVector, 3>& corner,
                                   const FrameVector& p) noexcept;
 
-    /// Along the way to the middle of a box, frame units.
+    /// Returns the gap along the direction to the middle of a box, in frame units.
     [[nodiscard]] double gap_towards(const FrameVector& middle, const format::BvhNode& node,
                                      std::uint32_t box) const noexcept {
         const FrameVector from = nearest_on(corner_, middle);
@@ -141,7 +142,7 @@ private:
         }
         return least - most_of(way, corner_);
     }
-    /// Along the way to the middle of a triangle, in the world.
+    /// Returns the gap along the direction to the middle of a triangle, in the world.
     [[nodiscard]] double gap_towards(const Corners& t) const noexcept {
         const std::array<FrameVector, 3> at = {relative(t[0]), relative(t[1]), relative(t[2])};
         const std::array<FrameVector, 3> shape = {relative(shape_[0]), relative(shape_[1]),
@@ -167,7 +168,7 @@ private:
     double most_ = 0;
     FrameVector world_way_{};
     double world_most_ = 0;
-    double size_ = 0;  ///< of the shape, from its first corner
+    double size_ = 0;  ///< of the shape, relative to its first corner
 };
 
 inline FrameVector ShapeGap::nearest_on(const std::array<FrameVector, 3>& corner,

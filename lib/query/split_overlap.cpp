@@ -13,26 +13,26 @@
 #include "core/sort_pairs.h"
 #include "walk/contact_pairs.h"
 
-// One thread goes down both hierarchies until there are enough pairs of places to
-// share out. The workers walk on from them, each with a workspace of its own, and
-// store what they find wherever room is left in the caller's span. Which pair stands
-// where depends on the threads; which pairs there are does not, nor does their order
-// once they are sorted. One thread divides them into parts, and the workers sort those.
+// One thread descends both hierarchies until there are enough pairs of places to share out. The
+// workers continue from these, each with its own workspace, and store pairs wherever room is left
+// in the caller's span. The order of the stored pairs depends on the threads. The set of pairs does
+// not, nor does their order after sorting. One thread divides them into parts, and the workers sort
+// those.
 
 namespace cdprep {
 namespace {
 
-/// Pairs of places for each worker: they differ much, and the last to end should be
-/// short.
+/// The number of pairs of places for each worker. Pairs differ much in cost, and the last to end
+/// should be short.
 constexpr std::size_t kPlacesForAWorker = 64;
 
-/// Pairs of places that are still to be walked from, breadth first.
+/// The pairs of places where walks still have to start, breadth first.
 class Places {
 public:
     explicit Places(Workspace::Storage& scratch) noexcept
         : scratch_(scratch), places_(scratch.frontier), other_(scratch.frontier_pairs) {}
 
-    /// Goes down from the roots until there are `wanted`, or as many as there is room for.
+    /// Descends from the roots until there are `wanted` pairs, or as many as there is room for.
     void find(const Tree& a, const Tree& b, const PlacedBoxes& placed, std::size_t wanted) noexcept;
 
     [[nodiscard]] std::size_t size() const noexcept {
@@ -44,8 +44,8 @@ public:
     }
 
 private:
-    /// Replaces every pair by those below it that are at most `height` high. False, and
-    /// nothing done, when there is no room.
+    /// Replaces every pair by the pairs below it that are at most `height` high. Returns false and
+    /// changes nothing if there is no room.
     bool go_down(std::uint32_t height, const Tree& a, const Tree& b,
                  const PlacedBoxes& placed) noexcept;
 
@@ -88,13 +88,13 @@ class SharedRoom {
 public:
     explicit SharedRoom(std::span<TrianglePair> room) noexcept : room_(room) {}
 
-    /// Stores the pairs where all of them fit; counts them in any case.
+    /// Stores the pairs if all of them fit; counts them in any case.
     void add(std::span<const TrianglePair> pairs) noexcept {
         const std::size_t first = count_.fetch_add(pairs.size(), std::memory_order_relaxed);
         if (first > room_.size() || pairs.size() > room_.size() - first) return;
         std::copy(pairs.begin(), pairs.end(), room_.begin() + static_cast<std::ptrdiff_t>(first));
     }
-    /// How many were added, once all workers are done.
+    /// Returns the number of pairs added; final when all workers have ended.
     [[nodiscard]] std::size_t count() const noexcept {
         return count_.load(std::memory_order_relaxed);
     }
@@ -104,7 +104,7 @@ private:
     std::atomic<std::size_t> count_ = 0;
 };
 
-/// What one worker finds, until its scratch is full.
+/// Collects the pairs that one worker finds, until its scratch is full.
 class Found {
 public:
     Found(SortScratch& scratch, SharedRoom& room) noexcept : scratch_(scratch), room_(room) {}
@@ -124,7 +124,7 @@ private:
     std::size_t count_ = 0;
 };
 
-/// A question that is shared out.
+/// A query that several workers share.
 struct Question {
     const Model& a;
     const Model& b;
@@ -133,7 +133,7 @@ struct Question {
     const PlacedBoxes& placed;
 };
 
-/// One worker's share of the walk.
+/// Performs one worker's share of the walk.
 void walk_shares(const Question& question, const Places& places, Shares& shares,
                  Workspace::Storage& scratch, SharedRoom& room) noexcept {
     const Tree a(question.a);

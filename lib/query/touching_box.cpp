@@ -22,20 +22,20 @@ Double3 at_most(const Double3& p, const Double3& limit) noexcept {
     return {std::min(p.x, limit.x), std::min(p.y, limit.y), std::min(p.z, limit.z)};
 }
 
-/// The box without what is infinite, where no vertex can be.
+/// Returns the box without its infinite parts, where no vertex can be.
 Box3 finite(const Box& box) noexcept {
     constexpr double kFar = 8 * format::kMaxCoordinate;
     return {at_least(box.lower, {-kFar, -kFar, -kFar}), at_most(box.upper, {kFar, kFar, kFar})};
 }
 
-/// The part of the box where the model may be: far ends would cost the walk precision.
+/// Returns the part of the box where the model may be: far limits would cost precision in the walk.
 Box3 clipped(const Box3& box, const MovedModel& model) noexcept {
     const format::FileHeader& header = model.model->header();
     const Double3& o = header.frame_origin;
     const Pose pose = model.pose == nullptr ? Pose() : *model.pose;
     const Double3 middle = moved_point(pose, o);
-    // A ball of sqrt 3 times the frame's size holds the model; rounding is far less
-    // than what this is larger by.
+    // A ball with radius sqrt 3 times the frame's size contains the model. The margin here is far
+    // larger than all rounding.
     const double around =
         2 * std::ldexp(1.0, -header.frame_exponent) +
         0x1p-30 * (ShapeFrame::largest(o) + ShapeFrame::largest(pose.translation()));
@@ -43,8 +43,8 @@ Box3 clipped(const Box3& box, const MovedModel& model) noexcept {
             at_most(box.upper, {middle.x + around, middle.y + around, middle.z + around})};
 }
 
-/// The part of the box that holds the points nearest to the model's: each limit as near to the
-/// model as it can be without passing it or the other limit.
+/// Returns the part of the box that contains its points nearest to the model. Each limit is as near
+/// to the model as possible without passing it or the other limit.
 Box3 facing(const Box3& box, const MovedModel& model) noexcept {
     const Box3 all = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
     const Box3 around = clipped(all, model);
@@ -52,7 +52,7 @@ Box3 facing(const Box3& box, const MovedModel& model) noexcept {
             at_most(box.upper, at_least(around.upper, box.lower))};
 }
 
-/// Two triangles on each side of a box; corners by bits: 1 for the upper x, 2 for y, 4 for z.
+/// Two triangles on each side of a box. The bits of a corner: 1 for the upper x, 2 for y, 4 for z.
 constexpr std::array<std::array<unsigned, 3>, 12> kBoxFaces = {{{0, 2, 6},
                                                                 {0, 6, 4},
                                                                 {1, 5, 7},
@@ -76,8 +76,8 @@ Corners corners_of(const Box3& box, const std::array<unsigned, 3>& face) noexcep
     return corners;
 }
 
-/// The answer for a triangle, tree order, that touches the box: a corner inside it or, where none
-/// is, a point that the triangle shares with a side.
+/// Returns the answer for a triangle, tree order, that touches the box. The witness is a corner
+/// inside the box or, if there is none, a common point of the triangle and a side.
 ShapeDistance touching_box_at(const MovedModel& model, const Box3& box,
                               std::uint32_t triangle) noexcept {
     const Corners corners = model.corners(triangle);
@@ -90,11 +90,11 @@ ShapeDistance touching_box_at(const MovedModel& model, const Box3& box,
         const Corners side = corners_of(box, face);
         if (triangles_touch(side, corners)) return touching_at(model, side, triangle);
     }
-    assert(false);  // what enters the box from outside crosses a side
+    assert(false);  // a triangle that enters the box from outside crosses a side
     return {};
 }
 
-/// A box among those of a model. Everything for the walk is in frame units.
+/// A box compared with the boxes of a model. All numbers for the walk are in frame units.
 class BoxShape {
 public:
     BoxShape(const MovedModel& model, const Box& box) noexcept
@@ -128,8 +128,8 @@ private:
     FrameVector centre_{};
     FrameVector half_{};  ///< along axis_
     double slack_ = 0;
-    FrameVector lower_{}, upper_{};              ///< of the box along the model's axes, outside
-    FrameVector inner_lower_{}, inner_upper_{};  ///< and inside; unturned boxes alone
+    FrameVector lower_{}, upper_{};              ///< of the box along the model's axes, widened
+    FrameVector inner_lower_{}, inner_upper_{};  ///< narrowed; used only without a pose
 };
 
 void BoxShape::place(const MovedModel& model, const Box3& part) noexcept {

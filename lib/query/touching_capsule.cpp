@@ -13,8 +13,9 @@
 namespace cdprep {
 namespace {
 
-/// A capsule among the boxes of a model, in frame units. A box may touch it when its
-/// segment meets the box made larger by the radius, and comes near enough to its middle.
+/// A capsule compared with the boxes of a model, in frame units. A box may touch it only if the
+/// capsule's segment meets the box enlarged by the radius, and comes near enough to the box's
+/// middle.
 class CapsuleShape {
 public:
     CapsuleShape(const MovedModel& model, const Capsule& capsule) noexcept
@@ -90,7 +91,7 @@ private:
     bool is_none_;
     FrameVector from_{};
     FrameVector along_{};
-    FrameVector per_along_{};  ///< 1 / along; 0 for none
+    FrameVector per_along_{};  ///< 1 / along; 0 for a zero component
     double per_square_ = 0;
     double outer_;
     double inner_;

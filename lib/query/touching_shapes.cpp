@@ -9,8 +9,8 @@ TouchingShape<S> touching(const S&) noexcept {
     return {};
 }
 
-/// Returns ask(shape) of the shape that is held. Shapes are trivial, so one always is; std::visit
-/// could throw.
+/// Returns ask(shape) for the shape that the variant holds. Shapes are trivial, so it always holds
+/// one. std::visit is not used, because it could throw.
 template <class Ask>
 auto ask_of_each(const Shape& shape, Ask ask) noexcept {
     if (const auto* box = std::get_if<Box>(&shape)) return ask(*box);

@@ -5,7 +5,7 @@
 
 namespace cdprep {
 
-/// touches(), touching_triangles() and visit_touching_triangles() of one shape. The file of each
+/// touches(), touching_triangles() and visit_touching_triangles() for one shape. The file of each
 /// shape instantiates them.
 template <class S>
 struct TouchingShape {
@@ -18,7 +18,7 @@ struct TouchingShape {
                       TriangleVisitor visit, const ShapeOptions& options) noexcept;
 };
 
-// shape_distance() of each shape.
+// shape_distance() for each shape.
 
 [[nodiscard]] std::optional<ShapeDistance> measure(const Model& model, const Box& box,
                                                    Workspace& workspace,

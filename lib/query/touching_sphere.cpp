@@ -13,7 +13,7 @@ double square(double x) noexcept {
     return x * x;
 }
 
-/// A ball among the boxes of a model, in frame units.
+/// A ball compared with the boxes of a model, in frame units.
 class SphereShape {
 public:
     SphereShape(const MovedModel& model, const Sphere& sphere) noexcept : sphere_(sphere) {
@@ -48,7 +48,7 @@ public:
     }
 
 private:
-    static constexpr double kRounding = 0x1p-45;     ///< of the sums of squares and the rest
+    static constexpr double kRounding = 0x1p-45;     ///< of sums of squares and other operations
     static constexpr double kLargestToHold = 1e150;  ///< squares stay finite
 
     Sphere sphere_;

@@ -11,8 +11,8 @@
 namespace cdprep {
 namespace {
 
-/// A triangle among the boxes of a model, in frame units. A box may touch it when its
-/// own box does and its plane does.
+/// A triangle compared with the boxes of a model, in frame units. A box may touch it only if it
+/// meets the triangle's box and the triangle's plane.
 class TriangleAmongBoxes {
 public:
     TriangleAmongBoxes(const MovedModel& model, const TriangleShape& triangle) noexcept
@@ -29,7 +29,7 @@ public:
             upper_[i] = std::max({corner[0][i], corner[1][i], corner[2][i]}) + frame.slack();
         }
         on_plane_ = corner[0];
-        // Each edge is off by twice the slack, which a product of two passes on.
+        // Each edge is off by twice the slack, and the product of two edges inherits this error.
         double size = 0;
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;

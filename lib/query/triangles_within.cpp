@@ -10,16 +10,15 @@
 #include "walk/smallest_pairs.h"
 #include "walk/walked_trees.h"
 
-// Both hierarchies are walked as for overlaps, with boxes that are wider by the
-// tolerance: two triangles that are within it are no farther apart along any direction.
-// Bounds in float part most triangles of the leaves that are reached; the others are
-// asked exactly.
+// Both hierarchies are walked as for overlaps, with boxes widened by the tolerance: two triangles
+// within it are at most that far apart along any direction. Bounds in float separate most triangles
+// of the leaves that are reached; the others are tested exactly.
 
 namespace cdprep {
 namespace {
 
-/// A direction of a box test is unit up to 2^-20, and a sum with the tolerance rounds a
-/// few times (BoxPlacement::tolerance).
+/// A direction of a box test is unit up to 2^-20, and a sum with the tolerance rounds a few times
+/// (BoxPlacement::tolerance).
 constexpr double kBoxRounding = 1 + 0x1p-18;
 
 /// A search for the triangles within a tolerance above 0.
@@ -39,7 +38,7 @@ public:
           batch_(a, b, placed_, scratch_),
           trees_(a, b, scratch_) {}
 
-    /// Calls `found(a, b, touch)`, tree order, until it returns false; returns false when it did.
+    /// Calls `found(a, b, touch)`, tree order. Stops and returns false when `found` returns false.
     template <class Found>
     bool run(Found&& found) noexcept;
 
@@ -50,8 +49,9 @@ private:
         return options_.degenerate == Degenerate::skip &&
                (is_marked_degenerate(a_, at_a) || is_marked_degenerate(b_, at_b));
     }
-    /// Whether two that are within touch, or nothing when they are not within. Those that may touch
-    /// and do are told at less cost than how far others are apart.
+    /// Returns whether two triangles within the tolerance touch, or nothing if they are not within
+    /// it. For pairs that may touch, the contact test comes first: it costs less than the distance
+    /// test.
     [[nodiscard]] std::optional<Touch> find_touch(std::uint32_t at_a, std::uint32_t at_b,
                                                   const kernels::TriangleGap& gap) const noexcept {
         const bool are_apart = gap.lower > 0;

@@ -7,28 +7,27 @@
 
 #include "exact/length_of.h"
 
-// Box tests run in float in the frame of A's boxes, scaled down further when B is
-// the larger model, so that all boxes lie within [-1, 1] and nothing overflows
-// whatever the two extents are. The slack that covers all rounding has two parts.
+// Box tests run in float in the frame of A's boxes. If B is the larger model, the frame is scaled
+// down further. So all boxes lie within [-1, 1], and nothing overflows for any extents. The slack
+// that covers all rounding has two parts.
 //
-// Double, in model units. Let u = 2^-53, rho the largest |coordinate| of a model
-// and |T| the largest |component| of its translation. A moved vertex is off its
-// ideal place by at most 5 u (3 rho + |T|) per axis (level E1), on either side.
-// Turning into A's axes multiplies by at most sqrt 3 and, because R^T R is the
-// identity only to 1e-12, shifts a point of A by up to 3e-12 rho when A moves. The
-// relative pose itself is rounded by at most 16 u (|Ta| + |Tb| + 3 rho_b + rho_a).
-// The shift and the places of leaves are worked out from it: 16 u more of the
-// same. Together below kDoubleSlack (rho_a + rho_b + |Ta| + |Tb|) + 4e-12 rho_a.
+// Double, in model units. Let u = 2^-53, rho the largest |coordinate| of a model and |T| the
+// largest |component| of its translation. A moved vertex is off its ideal place by at most 5 u (3
+// rho + |T|) per axis (level E1), on either side. The rotation into A's axes multiplies this by at
+// most sqrt 3. Because R^T R is the identity only to 1e-12, it also shifts a point of A by up to
+// 3e-12 rho if A moves. The relative pose itself is rounded by at most 16 u (|Ta| + |Tb| + 3
+// rho_b + rho_a). The shift and the places of leaves are computed from it, which adds 16 u of the
+// same. The sum is below kDoubleSlack (rho_a + rho_b + |Ta| + |Tb|) + 4e-12 rho_a.
 //
-// Float, in frame units, v = 2^-24. With boxes of A within s_a and of B within
-// s_b of their origins and the shift t: turning a centre costs at most 9 v s_b,
-// adding the shift 2 v (s_b + |t|), centres and half extents from lower and upper
-// 2 v (s_a + s_b), the difference and the sums 4 v (s_a + 2 s_b + |t|); along B's
-// axes the same with a and b exchanged. Together below 32 v (s_a + s_b + |t|).
+// Float, in frame units, v = 2^-24. Let boxes of A lie within s_a and boxes of B within s_b of
+// their origins, and let t be the shift. Rotating a centre costs at most 9 v s_b, and adding the
+// shift 2 v (s_b + |t|). Centres and half extents from lower and upper cost 2 v (s_a + s_b). The
+// difference and the sums cost 4 v (s_a + 2 s_b + |t|). Along B's axes the same holds with a and b
+// exchanged. The sum is below 32 v (s_a + s_b + |t|).
 //
-// Oriented boxes: the difference of two centres is off as above, and its product
-// with a unit axis by 5 v sqrt 3 of it: the same bound holds. That stored axes are
-// not quite at right angles is covered where the boxes are made.
+// Oriented boxes. The difference of two centres is off as above, and its product with a unit axis
+// by 5 v sqrt 3 of it: the same bound holds. Stored axes are not quite at right angles; the builder
+// of these boxes covers that.
 
 namespace cdprep {
 namespace {
@@ -41,7 +40,7 @@ double largest(const Double3& p) noexcept {
     return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)});
 }
 
-/// Largest |coordinate| that a vertex of the model can have.
+/// Returns the largest |coordinate| that a vertex of the model can have.
 double reach(const Double3& frame_origin, std::int32_t frame_exponent) noexcept {
     return largest(frame_origin) + two_to(-frame_exponent);
 }
@@ -54,7 +53,7 @@ Double3 rotated(const std::array<double, 9>& r, const Double3& p) noexcept {
             r[6] * p.x + r[7] * p.y + r[8] * p.z};
 }
 
-/// Not below x, which is a normal number of float.
+/// Returns a float not below x. Requires that x is a normal number of float.
 float float_above(double x) noexcept {
     return static_cast<float>(x * (1 + 0x1p-22));
 }
@@ -90,7 +89,7 @@ PlacedBoxes place_boxes(const Model& a, const Model& b, const Placement& placeme
     const double slack = vertex_slack + kFloatSlack * (scale_a + scale_b + largest(shift));
 
     PlacedBoxes placed{};
-    // Two balls of radius sqrt 3 times the scale hold all boxes.
+    // Two balls with radius sqrt 3 times the scale contain all boxes.
     placed.apart = largest(shift) > 1.7321 * (scale_a + scale_b) + slack;
     kernels::BoxPlacement& p = placed.placement;
     const std::array<double, 9>& r = a_from_b.rotation();
@@ -122,7 +121,7 @@ float float_reach(double distance) noexcept {
                                  : HUGE_VALF;
 }
 
-// Two balls of radius sqrt 3 times the scale hold all triangles, up to the slack.
+// Two balls with radius sqrt 3 times the scale contain all triangles, up to the slack.
 Outlook outlook(const PlacedBoxes& placed, double tolerance) noexcept {
     constexpr double kRounding = 0x1p-40;
     const double limit = std::ldexp(tolerance, placed.exponent);

@@ -12,25 +12,24 @@
 
 namespace cdprep {
 
-/// 2^exponent; without a call for exponents that give a normal number.
+/// Returns 2^exponent; without a library call if the result is a normal number.
 inline double two_to(int exponent) noexcept {
     constexpr int kBias = 1023;
     if (exponent <= -kBias || exponent > kBias) return std::ldexp(1.0, exponent);
     return std::bit_cast<double>(static_cast<std::uint64_t>(exponent + kBias) << 52);
 }
 
-/// x * 2^exponent in two steps, of which none leaves the range when the result does
-/// not.
+/// Returns x * 2^exponent in two steps. No step leaves the range unless the result does.
 inline double scaled(double x, int exponent) noexcept {
     return x * two_to(exponent / 2) * two_to(exponent - exponent / 2);
 }
 
-/// How the two hierarchies' boxes stand to each other, in float, with a slack
-/// that makes every box test conservative for the vertices as the query moves
-/// them: a pair that shares a point is never reported apart.
+/// The relative placement of the two hierarchies' boxes, in float. Its slack makes every box test
+/// conservative for the vertices as the query moves them: no test separates a pair that shares a
+/// point.
 struct PlacedBoxes {
     kernels::BoxPlacement placement;
-    bool apart;  ///< the root boxes are too far from each other to overlap
+    bool apart;  ///< the root boxes are too far apart to overlap
 
     /// The same map in double: pair = rotation * (scale_b * frame_b) + shift.
     std::array<double, 9> rotation;
@@ -38,36 +37,36 @@ struct PlacedBoxes {
     double scale_a;
     double scale_b;
     int exponent;  ///< of two: a pair unit is 2^-exponent model units
-    /// How far vertices of the two models may be off, relative to each other,
-    /// before any rounding to float. Pair units.
+    /// The largest relative error of vertices of the two models before any rounding to float. Pair
+    /// units.
     double double_slack;
 };
 
-/// How far vertices of the two models may be off, relative to each other, model units.
+/// Returns the largest relative error of vertices of the two models, in model units.
 [[nodiscard]] double double_slack(const Model& a, const Model& b,
                                   const Placement& placement) noexcept;
 
 [[nodiscard]] PlacedBoxes place_boxes(const Model& a, const Model& b,
                                       const Placement& placement) noexcept;
 
-/// Beyond, in pair units, squares of lengths would leave the range of float.
+/// In pair units; beyond this, squares of lengths would leave the range of float.
 inline constexpr double kMostReach = 0x1p60;
 
-/// Rounds a distance in pair units up; to infinity, which rules out nothing, where float
-/// could not tell what is farther apart.
+/// Rounds a distance in pair units up. Returns infinity, which excludes nothing, where float could
+/// not compare larger distances.
 [[nodiscard]] float float_reach(double distance) noexcept;
 
-/// What the places of two models tell of their triangles before anything is walked.
+/// The answer that the places of two models give for all their triangles before any walk.
 enum class Outlook : std::uint8_t {
     none,  ///< no two are within the tolerance
-    some,  ///< nobody knows
-    all,   ///< any two are
+    some,  ///< not known
+    all,   ///< any two are within the tolerance
 };
 
-/// Of a tolerance in model units; neither model is empty.
+/// Returns the outlook for a tolerance in model units. Requires that neither model is empty.
 [[nodiscard]] Outlook outlook(const PlacedBoxes& placed, double tolerance) noexcept;
 
-/// How the boxes of a hierarchy with this frame stand to themselves.
+/// Returns the placement of a hierarchy with this frame relative to itself.
 [[nodiscard]] PlacedBoxes place_upon_itself(const Double3& frame_origin,
                                             std::int32_t frame_exponent) noexcept;
 

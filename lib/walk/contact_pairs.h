@@ -11,8 +11,8 @@
 
 namespace cdprep {
 
-/// A triangle's number in the imported file, or in the tree order where that
-/// section is absent.
+/// Returns a triangle's number in the imported file, or in the tree order if that section is
+/// absent.
 inline std::uint32_t source_number(const Model& model, std::uint32_t triangle) noexcept {
     const auto source = model.source().triangle;
     return source.empty() ? triangle : source[triangle];
@@ -23,8 +23,8 @@ inline bool is_marked_degenerate(const Model& model, std::uint32_t triangle) noe
     return !bits.empty() && ((bits[triangle / 64] >> (triangle % 64)) & 1) != 0;
 }
 
-/// The exact decision about one pair of triangles. Neighbours in one mesh, most of
-/// what touches, are known by a common corner.
+/// Decides exactly whether one pair of triangles is in contact. Most touching pairs are neighbours
+/// in one mesh; a common corner proves their contact.
 inline bool in_contact(const Corners& a, const Corners& b, Overlap overlap,
                        QueryCounts* counts) noexcept {
     if (overlap == Overlap::closed && share_a_corner(a, b)) {
@@ -38,8 +38,8 @@ inline bool in_contact(const Corners& a, const Corners& b, Overlap overlap,
     return kind == TriangleContact::cross || kind == TriangleContact::coplanar_overlap;
 }
 
-/// What a pair of triangles that the kernels leave is asked: are they in contact as
-/// the options want it? Tree order.
+/// Decides whether a pair of triangles that the kernels report is in contact, as the options define
+/// it. Tree order.
 class ContactTest {
 public:
     ContactTest(const Model& a, const Model& b, const Placement& placement,
@@ -58,7 +58,7 @@ public:
         return true;
     }
 
-    /// Whether the pair is not to answer, whatever it does.
+    /// Returns whether the options exclude the pair from all answers.
     [[nodiscard]] bool skips(std::uint32_t at_a, std::uint32_t at_b) const noexcept {
         return options_.degenerate == Degenerate::skip &&
                (is_marked_degenerate(*a_.model, at_a) || is_marked_degenerate(*b_.model, at_b));
@@ -71,13 +71,13 @@ private:
     QueryCounts* counts_;  ///< or null
 };
 
-/// Calls `found(a, b)`, tree order, for every pair of triangles in contact until it returns false;
-/// returns false when it did.
+/// Calls `found(a, b)`, tree order, for every pair of triangles in contact. Stops and returns false
+/// when `found` returns false.
 template <Search kSearch, class Trees = TriangleTrees, class Found>
 bool for_each_contact(const Model& a, const Model& b, const Placement& placement,
                       Workspace& workspace, const PairOptions& options, Found&& found) noexcept {
     Workspace::Storage& scratch = workspace.storage();
-    // Most that do not touch are apart before any leaf is looked at.
+    // Most models that do not touch are separated before any leaf is reached.
     std::optional<ContactTest> touch;
     std::optional<LeafBatch> batch;
     const Trees trees(a, b, scratch);
@@ -101,7 +101,7 @@ bool for_each_contact(const Model& a, const Model& b, const Placement& placement
     return whole && (!batch || batch->flush(decide));
 }
 
-/// The first pair of triangles in contact that a walk meets.
+/// Returns the first pair of triangles in contact that a walk meets.
 template <class Trees>
 std::optional<TreePair> find_contact_by(const Model& a, const Model& b, const Placement& placement,
                                         Workspace& workspace, const PairOptions& options) noexcept {

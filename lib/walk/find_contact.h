@@ -14,17 +14,17 @@ struct TreePair {
     std::uint32_t b;
 };
 
-/// Whether the cache holds a pair of triangles that both models have.
+/// Returns whether the cache holds a pair of triangles that both models have.
 [[nodiscard]] bool has_pair(const PairCache& cache, const Model& a, const Model& b) noexcept;
 
 void remember_pair(PairCache& cache, const TreePair& pair) noexcept;
 
-/// The first pair of triangles in contact that a walk of both hierarchies meets.
+/// Returns the first pair of triangles in contact that a walk of both hierarchies meets.
 [[nodiscard]] std::optional<TreePair> find_contact(const Model& a, const Model& b,
                                                    const Placement& placement, Workspace& workspace,
                                                    const PairOptions& options) noexcept;
 
-/// Whether any triangles are in contact, by a cache that may be null.
+/// Returns whether any triangles are in contact. Uses the cache, which may be null.
 [[nodiscard]] bool any_contact(const Model& a, const Model& b, const Placement& placement,
                                Workspace& workspace, const PairOptions& options,
                                PairCache* cache) noexcept;

@@ -20,16 +20,16 @@ struct LeafLanes {
     std::uint8_t lanes;  ///< bit set
 };
 
-/// How the leaves of two models stand to each other.
+/// Returns the relative placement of the leaves of two models.
 [[nodiscard]] kernels::LeafPlacement place_leaves(const Model& a, const Model& b,
                                                   const PlacedBoxes& placed) noexcept;
 
-/// How the leaves of a tree stand to themselves.
+/// Returns the placement of the leaves of a tree relative to themselves.
 [[nodiscard]] kernels::LeafPlacement place_leaves(const build::Bvh& tree,
                                                   const PlacedBoxes& placed) noexcept;
 
-/// The one leaf that may hold less than eight triangles. Told without a look at the
-/// leaf, which may be far away in memory.
+/// The one leaf that may hold fewer than eight triangles. Identified without reading the leaf,
+/// which may be far away in memory.
 class LastLeaf {
 public:
     explicit LastLeaf(std::uint32_t triangles) noexcept
@@ -45,10 +45,10 @@ private:
     std::uint8_t used_;
 };
 
-/// Triangles as the kernels take them: of a leaf, or put together like one.
+/// Triangles in the form that the kernels take: those of a leaf, or gathered like one.
 struct LeafView {
     const float* leaf;
-    std::uint32_t number;  ///< tells leaves of one model apart
+    std::uint32_t number;  ///< identifies the leaf among those of its model
     std::uint8_t used;     ///< bit set of triangles
 };
 
@@ -85,7 +85,7 @@ public:
         prefetch_pair(leaf_a, leaf_b);
         set_pair(count_++, leaf_a, leaf_b);
     }
-    /// The same of some of their triangles: bit sets.
+    /// As above, for some of their triangles: bit sets.
     void add(std::uint32_t leaf_a, std::uint8_t lanes_a, std::uint32_t leaf_b,
              std::uint8_t lanes_b) noexcept {
         add(leaf_a, leaf_b);
@@ -93,7 +93,7 @@ public:
         pair.used_a &= lanes_a;
         pair.used_b &= lanes_b;
     }
-    /// Some triangles of a leaf.
+    /// Returns a view of some triangles of a leaf.
     [[nodiscard]] LeafView view_a(const LeafLanes& in_a) const noexcept {
         const auto used = static_cast<std::uint8_t>(last_a_.used_lanes(in_a.leaf) & in_a.lanes);
         return {leaves_a_[in_a.leaf].corner[0][0].data(), in_a.leaf, used};
@@ -106,7 +106,7 @@ public:
         assert(!full());
         scratch_.leaf_pairs[count_++] = pair_of(in_a, in_b);
     }
-    /// The pairs that were added since the last flush; the last flush's until then.
+    /// Returns a pair added since the last flush. Until one is added, returns a pair of that flush.
     [[nodiscard]] const kernels::LeafPair& pair(std::size_t index) const noexcept {
         assert(index < kernels::kLeafBatch);
         return scratch_.leaf_pairs[index];
@@ -114,23 +114,23 @@ public:
     [[nodiscard]] std::size_t size() const noexcept {
         return count_;
     }
-    /// Forgets what was added, for who tests it otherwise.
+    /// Forgets the pairs added, for callers that test them in another way.
     void clear() noexcept {
         if (scratch_.counts != nullptr) count_batch(*scratch_.counts, count_);
         count_ = 0;
     }
 
-    /// Calls found(triangle_a, triangle_b, certain), in tree order, for every pair
-    /// of triangles that crosses for certain or may touch, until it returns
-    /// false; empties the batch. Returns false when it did.
+    /// Empties the batch. Calls found(triangle_a, triangle_b, certain), tree order, for every pair
+    /// of triangles that certainly crosses or may touch. Stops and returns false when `found`
+    /// returns false.
     template <class Found>
     bool flush(Found&& found) noexcept {
         return flush_numbered([&](std::size_t /*pair*/, std::uint32_t at_a, std::uint32_t at_b,
                                   bool certain) { return found(at_a, at_b, certain); });
     }
 
-    /// The same by found(pair, triangle_a, triangle_b, certain) with the number of the
-    /// pair of leaves: those of one pair follow each other.
+    /// As flush(), by found(pair, triangle_a, triangle_b, certain) with the number of the pair of
+    /// leaves. Triangles of one pair of leaves are consecutive.
     template <class Found>
     bool flush_numbered(Found&& found) noexcept {
         const std::size_t contacts = kernels::active().find_contacts(
@@ -150,9 +150,9 @@ public:
         return true;
     }
 
-    /// Calls found(triangle_a, triangle_b, gap), in tree order, for every pair of
-    /// triangles that may be as near as reach.limit, until it returns false; empties the
-    /// batch. Returns false when it did.
+    /// Empties the batch. Calls found(triangle_a, triangle_b, gap), tree order, for every pair of
+    /// triangles that may be at most reach.limit apart. Stops and returns false when `found`
+    /// returns false.
     template <class Found>
     bool flush_within(const kernels::Reach& reach, Found&& found) noexcept {
         const std::size_t near = kernels::active().triangles_within(
@@ -172,11 +172,11 @@ public:
         return true;
     }
 
-    /// Triangles of parts of two leaves that may be as near as reach.limit. Valid
+    /// Returns the triangles of parts of two leaves that may be at most reach.limit apart. Valid
     /// until the next call.
     std::span<kernels::TriangleGap> near_triangles(const LeafView& in_a, const LeafView& in_b,
                                                    const kernels::Reach& reach) noexcept {
-        assert(count_ == 0);  // the batch lends its first place
+        assert(count_ == 0);  // uses the first place of the batch
         scratch_.leaf_pairs[0] = pair_of(in_a, in_b);
         ++scratch_.leaf_batch;
         if (scratch_.counts != nullptr) count_batch(*scratch_.counts, 1);

@@ -6,7 +6,7 @@
 
 namespace cdprep {
 
-/// What the search for near triangles learns of whether two touch.
+/// The result of the search for near triangles as to whether two touch.
 enum class Touch : std::uint8_t { no, yes, unknown };
 
 /// Two triangles within a tolerance, tree order.
@@ -16,8 +16,8 @@ struct NearTriangles {
     Touch touch;
 };
 
-/// visit_pairs_within() in the tree order, through Structure::pieces or, for every other
-/// structure, the hierarchies of boxes.
+/// As visit_pairs_within(), in tree order. Walks Structure::pieces or, for every other structure,
+/// the BVHs.
 bool visit_near_triangles(Structure structure, const Model& a, const Model& b,
                           const Placement& placement, double tolerance, Workspace& workspace,
                           Visitor<NearTriangles> visit, const PairOptions& options) noexcept;

@@ -17,10 +17,10 @@ namespace cdprep {
 
 /// The leaves of a model's hierarchy over pieces.
 ///
-/// Their triangles stand in two or three leaves of the boxes around triangles each, among others'.
-/// Where those leaves have the vertices without loss they are put together, once a question, as a
-/// leaf of their own: a fourth of the pairs of leaves to be tested. Else, and where there is
-/// no room, they are tested where they stand.
+/// The triangles of one such leaf are spread over two or three leaves of the BVH, among others. If
+/// the BVH leaves hold the vertices without loss, the triangles are gathered into a leaf of their
+/// own, once a query. A fourth of the leaf pairs then remains to be tested. Otherwise, or if there
+/// is no room, the triangles are tested in place.
 class PieceLeaves {
 public:
     explicit PieceLeaves(const Model& model) noexcept
@@ -41,8 +41,8 @@ public:
         return tree;
     }
 
-    /// Calls test(view) for views that together hold the leaf's triangles, until it returns
-    /// false; returns false when it did. `view_of(lanes)` is that of triangles where they stand.
+    /// Calls test(view) for views that together hold the leaf's triangles. Stops and returns false
+    /// when `test` returns false. `view_of(lanes)` is the view of triangles in place.
     template <class ViewOf, class Test>
     bool each_view(std::uint32_t number, GatheredLeaves& gathered,
                    const Workspace::Storage& scratch, ViewOf&& view_of,
@@ -70,15 +70,15 @@ public:
         return test(view_of(lanes));
     }
 
-    /// A view that outlives a test, which may have emptied the batch, is wanted by the next one
-    /// too: else its room could be given to another leaf while a pair in the batch points to it.
+    /// Marks a view as used by the current batch. A view may outlive a test that emptied the batch.
+    /// Without the mark its room could go to another leaf while a pair in the batch points to it.
     static void keep(const LeafView& view, GatheredLeaves& gathered,
                      const Workspace::Storage& scratch) noexcept {
         if ((view.number & kOwn) == 0) return;
         gathered.wanted[view.number % kernels::kLeafPlaces] = scratch.leaf_batch;
     }
 
-    /// By what a LeafBatch calls a triangle of a view: its number in the tree order.
+    /// Returns the tree-order number of the triangle to which a LeafBatch gives the number `named`.
     [[nodiscard]] std::uint32_t triangle(std::uint32_t named) const noexcept {
         const std::uint32_t number = named / format::kBvhWidth;
         if ((number & kOwn) == 0) return named;
@@ -87,12 +87,12 @@ public:
     }
 
 private:
-    /// Marks numbers of leaves that were put together. No leaf's number is as large, and eight
-    /// times one still fits.
+    /// Marks the numbers of gathered leaves. No leaf's number is as large, and eight times a marked
+    /// number still fits.
     static constexpr std::uint32_t kOwn = std::uint32_t{1} << 28;
     static_assert(format::kMaxPieceLeaves < kOwn);
 
-    /// Null where there is no room: what stands there is still to be tested.
+    /// Returns null if there is no room: the leaf in its place is still to be tested.
     const format::BvhLeaf* put_together(std::uint32_t number, GatheredLeaves& gathered,
                                         const Workspace::Storage& scratch) const noexcept {
         const std::size_t place = number % kernels::kLeafPlaces;
@@ -122,7 +122,8 @@ private:
         }
         for (std::size_t axis = 0; axis < 3; ++axis) set_middle(own, axis);
     }
-    /// As build_bvh() sets it: near the middle, and at least as far as any corner is from it.
+    /// Sets the origin and half extent as build_bvh() does: the origin near the middle, the half
+    /// extent at least the distance of any corner.
     void set_middle(format::BvhLeaf& own, std::size_t axis) const noexcept {
         float lower = own.corner[0][axis][0];
         float upper = lower;
@@ -135,7 +136,7 @@ private:
         own.origin[axis] = static_cast<float>(0.5 * double{lower} + 0.5 * double{upper});
         const double origin = double{own.origin[axis]};
         const double reach = std::max(double{upper} - origin, origin - double{lower});
-        // Twice the rounding to float, and more than that of the difference.
+        // Twice the rounding to float, and more than the rounding of the difference.
         constexpr double kEnlarged = 1 + 0x1p-22;
         const auto half = static_cast<float>(std::ldexp(reach, exponent_) * kEnlarged);
         own.half[axis] = std::max(half, std::numeric_limits<float>::min());
@@ -143,7 +144,7 @@ private:
 
     const format::PieceLeaf* leaves_;
     const std::uint32_t* triangles_;
-    const format::BvhLeaf* exact_;  ///< or null: the vertices are not in the leaves
+    const format::BvhLeaf* exact_;  ///< or null: the leaves do not hold the vertices
     std::int32_t exponent_;
     std::uint32_t count_;
 };

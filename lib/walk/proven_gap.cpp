@@ -8,19 +8,18 @@
 #include "exact/length_of.h"
 #include "walk/box_placement.h"
 
-// A gap proved in one pose holds in another, less the longest way that any point of
-// the moving model goes between the two, seen from the other model: at most the way of
-// a corner of a box around it, because the map from a point to the difference of its
-// two places is affine and a length convex. Vertices are off their ideal places by
-// double_slack() at most, in either pose: it is taken off when the gap is noted and
-// when it is asked for, then once more for the roundings here. A pose that turns A may
-// shorten lengths by its tolerance.
+// A gap that was proved in one pose holds in another, minus the longest way of any point of the
+// moving model between the two. The way is measured relative to the other model. It is at most the
+// way of a corner of a box around the model: the difference of a point's two places is affine in
+// the point, and length is convex. In either pose, vertices are off their ideal places by
+// double_slack() at most. This is subtracted when the gap is stored and when it is used, and once
+// more for the roundings here. A pose that rotates A may shorten lengths by its tolerance.
 
 namespace cdprep {
 namespace {
 
 constexpr double kTurnedLength = 1 - 4 * Pose::kRotationTolerance;
-/// Model units. Below, slacks and products might round to 0.
+/// In model units. Below this, slacks and products might round to 0.
 constexpr double kLeastGap = 0x1p-960;
 
 Pose pose_between(const Placement& placement) noexcept {
@@ -28,8 +27,8 @@ Pose pose_between(const Placement& placement) noexcept {
                                   : placement.pose_b();
 }
 
-/// At least the longest way of a point of the box from one pose to the other: of each
-/// component the most on its own.
+/// Returns an upper bound of the longest way of a point of the box from one pose to the other.
+/// Bounds each component separately.
 double longest_way(const PairCache& cache, const Pose& now) noexcept {
     const std::array<double, 9>& r0 = cache.a_from_b.rotation();
     const std::array<double, 9>& r1 = now.rotation();
@@ -49,7 +48,7 @@ double longest_way(const PairCache& cache, const Pose& now) noexcept {
     return length_of(most[0], most[1], most[2]);
 }
 
-/// The box around all of a model: that of its root's boxes.
+/// Stores the box around the whole model: the box around its root's boxes.
 void note_box(const Model& model, PairCache& cache) noexcept {
     const format::FileHeader& head = model.header();
     const format::BvhNode& root = model.bvh().nodes[0];
@@ -84,7 +83,7 @@ double proven_gap(PairCache& cache, const Model& a, const Model& b,
                   const Placement& placement) noexcept {
     if (!is_of(cache, a, b)) return 0;
     ++cache.questions;
-    if (!(cache.gap > 0) && cache.wait > 0) return 0;  // and the step is not wanted
+    if (!(cache.gap > 0) && cache.wait > 0) return 0;  // the step is not used either
     const double way = longest_way(cache, pose_between(placement));
     cache.step = way / cache.questions;
     return cache.gap > 0 ? cache.gap - way - 2 * double_slack(a, b, placement) : 0;

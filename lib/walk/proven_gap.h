@@ -10,14 +10,13 @@ namespace cdprep {
 /// Bits of PairCache::holds.
 enum Held : std::uint32_t { held_pair = 1, held_place = 2, held_touch = 4 };
 
-/// Returns a lower bound of how far the surfaces are apart in `placement`, model
-/// units: what was proved, less how far the models have moved since. 0 or less where
-/// the cache proves nothing. Counts the question.
+/// Returns a lower bound of the distance of the surfaces in `placement`, in model units: the proved
+/// gap minus the motion since. 0 or less if the cache proves nothing. Counts the query.
 [[nodiscard]] double proven_gap(PairCache& cache, const Model& a, const Model& b,
                                 const Placement& placement) noexcept;
 
-/// Takes note of the place, and that the surfaces are at least `gap` apart there, or 0
-/// when that is not known. Neither model is empty.
+/// Stores the placement and a proved lower bound `gap` of the distance there, or 0 if none is
+/// known. Requires that neither model is empty.
 void remember_gap(PairCache& cache, const Model& a, const Model& b, const Placement& placement,
                   double gap) noexcept;
 

@@ -7,8 +7,8 @@
 
 namespace cdprep {
 
-/// Keeps the smallest of all pairs, sorted, in source numbering; returns how many there
-/// are. `for_each(found)` is to call found(a, b), tree order, with each of them once.
+/// Keeps the smallest of all pairs, sorted, in source numbers; returns the number of all pairs.
+/// `for_each(found)` must call found(a, b), tree order, once for each pair.
 template <class ForEach>
 std::size_t keep_smallest_pairs(const Model& a, const Model& b, Workspace& workspace,
                                 std::span<TrianglePair> pairs, ForEach&& for_each) noexcept {

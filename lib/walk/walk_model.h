@@ -10,14 +10,13 @@
 
 namespace cdprep {
 
-/// Which boxes of a node are of interest, and which of them need no further look:
-/// bit sets.
+/// The boxes of a node that are of interest, and those of them that need no further test: bit sets.
 struct BoxVerdict {
     unsigned near = 0;
     unsigned inside = 0;
 };
 
-/// The triangles below a place, tree order.
+/// The triangles below a place, in tree order.
 struct TriangleRun {
     std::uint32_t first;
     std::uint32_t last;  ///< one past
@@ -32,10 +31,9 @@ inline TriangleRun triangles_below(const Tree& tree, const TreePlace& place) noe
             static_cast<std::uint32_t>(std::min((place.index + 1) * size, all))};
 }
 
-/// Walks one hierarchy depth first: `judge(node)` tells which of its boxes are near and
-/// which of these inside, `some(run)` handles the triangles of a leaf that is near,
-/// `whole(run)` those of a box that is inside. Either ends the walk by returning false.
-/// Returns false when it did.
+/// Walks one hierarchy depth first. `judge(node)` returns which of its boxes are near, and which of
+/// these are inside. `some(run)` handles the triangles of a near leaf, `whole(run)` those of a box
+/// inside. Stops and returns false when either returns false.
 template <class Judge, class Some, class Whole>
 bool walk_nodes(const Model& model, Workspace::Storage& scratch, Judge&& judge, Some&& some,
                 Whole&& whole) noexcept {
@@ -66,9 +64,9 @@ bool walk_nodes(const Model& model, Workspace::Storage& scratch, Judge&& judge, 
     return true;
 }
 
-/// Walks one hierarchy depth first: `enter(node, box)` tells whether a box of a
-/// node is of interest, `leaf(index)` handles a leaf whose box was, and ends the
-/// walk by returning false. Returns false when it did.
+/// Walks one hierarchy depth first. `enter(node, box)` returns whether a box of a node is of
+/// interest. `leaf(index)` handles a leaf whose box is. Stops and returns false when `leaf` returns
+/// false.
 template <class Enter, class Leaf>
 bool walk_model(const Model& model, Workspace::Storage& scratch, Enter&& enter,
                 Leaf&& leaf) noexcept {

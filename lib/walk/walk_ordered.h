@@ -10,9 +10,9 @@
 
 namespace cdprep {
 
-/// Walks one hierarchy, smallest bound first among siblings. `bound(node, box)`
-/// gives a lower bound of what the box can hold, `leaf(index)` handles a leaf
-/// and returns the bound beyond which nothing is of interest any more.
+/// Walks one hierarchy, smallest bound first among siblings. `bound(node, box)` returns a lower
+/// bound for the contents of the box. `leaf(index)` handles a leaf and returns the bound beyond
+/// which nothing is of interest any more.
 template <class Bound, class Leaf>
 void walk_ordered(const Model& model, Workspace::Storage& scratch, double limit, Bound&& bound,
                   Leaf&& leaf) noexcept {

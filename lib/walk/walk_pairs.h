@@ -15,14 +15,14 @@
 
 namespace cdprep {
 
-/// A node of the packed hierarchy, or a leaf. Height 0 is a leaf, height h > 0
-/// node `index` of level h - 1.
+/// A node of the packed hierarchy, or a leaf. Height 0 is a leaf; height h > 0 is node `index` of
+/// level h - 1.
 struct TreePlace {
     std::uint32_t height;
     std::uint32_t index;
 };
 
-/// Two places in one word: heights take four bits, indices of leaves 28.
+/// Two places packed in one word: heights take four bits, indices of leaves 28.
 struct PendingPair {
     TreePlace a;
     TreePlace b;
@@ -42,7 +42,7 @@ struct PendingPair {
     }
 };
 
-/// Whether both places of a packed pair are at most so high; leaves for 0.
+/// Returns whether both places of a packed pair are at most at `height`; 0 is the height of leaves.
 inline bool is_down_at(std::uint64_t pair, std::uint32_t height) noexcept {
     return static_cast<std::uint32_t>(pair >> 60) <= height &&
            (static_cast<std::uint32_t>(pair >> 28) & 0xf) <= height;
@@ -73,11 +73,10 @@ struct TestedBoxes {
     std::uint32_t node;     ///< index
     std::uint32_t first;    ///< box
     std::uint32_t last;     ///< one past
-    TreePlace first_below;  ///< what box 0 of the node stands for
+    TreePlace first_below;  ///< the place of box 0 of the node
 };
 
-/// The children of a place, or, when it is to stay, its own box among its
-/// siblings.
+/// Returns the children of a place. If it does not descend, returns its own box among its siblings.
 inline TestedBoxes boxes_of(const Tree& tree, const TreePlace& place, bool descend) noexcept {
     const format::BvhShape& shape = tree.shape;
     if (descend) {
@@ -98,7 +97,7 @@ inline TestedBoxes boxes_of(const Tree& tree, const TreePlace& place, bool desce
             {place.height, parent * format::kBvhWidth}};
 }
 
-/// Half the sum of the edges of a place's box, in pair units.
+/// Returns half the sum of the edges of a place's box, in pair units.
 inline float box_size(const Tree& tree, const TreePlace& place, float scale) noexcept {
     const format::BvhShape& shape = tree.shape;
     assert(place.height <= shape.levels);
@@ -113,21 +112,21 @@ inline float box_size(const Tree& tree, const TreePlace& place, float scale) noe
     return size * scale;
 }
 
-/// Which sides go a level down.
+/// The sides that descend one level.
 struct WaysDown {
     bool a;
     bool b;
 };
 
-/// Sizes of two boxes.
+/// The sizes of two boxes.
 struct SizePair {
     float a;
     float b;
 };
 
-/// Both when their boxes are of similar size, else the larger; a leaf never, a
-/// root always (it has no siblings to be tested among). `sizes()` is called when it
-/// matters.
+/// Chooses both sides if their boxes are of similar size, otherwise the larger. A leaf never
+/// descends. A root always does: it has no siblings among which it could be tested. `sizes()` is
+/// called only if it matters.
 template <class Sizes>
 WaysDown choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
                         Sizes sizes) noexcept {
@@ -139,15 +138,15 @@ WaysDown choose_descent(const Tree& a, const Tree& b, const PendingPair& pair,
         return {a_can, b_can};
     }
     if (!a_can || !b_can) return {a_can, b_can};
-    // Absolute, and asked so that absurd sizes of a damaged file (negative, not a
-    // number) still take one side down: else the walk would not end.
+    // Uses absolute values and negated comparisons. So absurd sizes of a damaged file (negative or
+    // NaN) still take one side down; otherwise the walk would not end.
     const SizePair size = sizes();
     const float size_a = std::fabs(size.a);
     const float size_b = std::fabs(size.b);
     return {!(kSimilar * size_a < size_b), !(kSimilar * size_b < size_a)};
 }
 
-/// Adds the boxes that a step tests.
+/// Adds the boxes that a step tests to the counts.
 inline void count_step(const Tree& a, const Tree& b, const PendingPair& pair,
                        const WaysDown& descent, QueryCounts& counts) noexcept {
     const TestedBoxes side_a = boxes_of(a, pair.a, descent.a);
@@ -156,15 +155,14 @@ inline void count_step(const Tree& a, const Tree& b, const PendingPair& pair,
     ++counts.node_pairs;
 }
 
-/// Of a node's swept spheres, what its kind's test reads.
+/// Prefetches the parts of a node's swept spheres that the test of its kind reads.
 inline void prefetch_swept(const format::SweptNode& node, format::SweptKind kind) noexcept {
     prefetch(&node.centre);
     prefetch(&node.radius);
     for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(kind); ++k) prefetch(&node.side[k]);
 }
 
-/// Asks ahead for what the walk will read of some children: nodes of `below`, one a
-/// bit.
+/// Prefetches the data that the walk will read for some children: nodes of `below`, one per bit.
 inline void prefetch_children(const Tree& tree, const TreePlace& below, unsigned bits) noexcept {
     if (below.height == 0) return;
     const std::uint32_t first = tree.shape.first[below.height - 1] + below.index;
@@ -180,14 +178,13 @@ inline void prefetch_children(const Tree& tree, const TreePlace& below, unsigned
     }
 }
 
-/// Which hits a walk is after.
+/// The hits that a walk searches for.
 enum class Search : std::uint8_t {
     all,    ///< every pair of leaves; oriented boxes prune
     first,  ///< deepest first, so that a hit comes early
 };
 
-/// Where the box around a place's children stands among its siblings, or null for
-/// a root.
+/// Returns the box around a place's children, stored among its siblings, or null for a root.
 inline const float* box_around(const Tree& tree, const TreePlace& place) noexcept {
     if (place.height == tree.shape.levels) return nullptr;
     const std::uint32_t node = tree.shape.first[place.height] + place.index / format::kBvhWidth;
@@ -201,14 +198,14 @@ inline kernels::NodeBoxes node_boxes(const Tree& tree, const TestedBoxes& side) 
     return {tree.nodes[side.node].lower[0].data(), oriented, swept};
 }
 
-/// Which bounds a question takes where both models have both.
+/// The bounds that a query uses where both models have both kinds.
 enum class Prefer : std::uint8_t {
     oriented,  ///< separates with less work
-    swept,     ///< comes closer to the distance
+    swept,     ///< gives bounds closer to the distance
 };
 
-/// The tests that suit what both models have: swept spheres of one kind, or else what
-/// Table's own make of the boxes.
+/// Returns the tests for the bounds that both models have: swept spheres of one kind, otherwise the
+/// table's own tests of boxes.
 inline kernels::BoundTests tests_for(const Tree& a, const Tree& b, Prefer prefer) noexcept {
     const kernels::Table& kernel = kernels::active();
     const bool oriented = a.oriented != nullptr && b.oriented != nullptr;
@@ -224,15 +221,14 @@ inline std::uint8_t chosen(const TestedBoxes& side) noexcept {
     return static_cast<std::uint8_t>((1U << side.last) - (1U << side.first));
 }
 
-/// Asks ahead for what the walk will read of a step's children.
+/// Prefetches the data that the walk will read for a step's children.
 inline void prefetch_step(const Tree& a, const Tree& b, const OpenStep& step) noexcept {
     const PendingPair below = PendingPair::unpacked(step.base);
     prefetch_children(a, below.a, kernels::boxes_of_a(step.pairs));
     prefetch_children(b, below.b, kernels::boxes_of_b(step.pairs));
 }
 
-/// Tests the children of a pair that are no two leaves. Sets `depths` with
-/// Search::first.
+/// Tests the children of a pair that is not a pair of leaves. Sets `depths` with Search::first.
 template <Search kSearch>
 void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed,
                const kernels::BoundTests& tests, const PendingPair& pair, const WaysDown& descent,
@@ -243,8 +239,9 @@ void open_step(const Tree& a, const Tree& b, const PlacedBoxes& placed,
                                        descent.a && descent.b ? box_around(a, pair.a) : nullptr};
     const kernels::NodeBoxes in_a = node_boxes(a, side_a);
     const kernels::NodeBoxes in_b = node_boxes(b, side_b);
-    // A step to the deepest pair was not foreseen, and a test comes to the oriented boxes
-    // late: meanwhile they are on their way. Those of all children would be too many.
+    // Search::first cannot predict the deepest pair, so its oriented boxes were not prefetched. The
+    // test reads them late, so a prefetch here still helps. Those of all children would be too
+    // many.
     if (kSearch == Search::first && a.oriented != nullptr && b.oriented != nullptr) {
         prefetch(&a.oriented[side_a.node]);
         prefetch(&b.oriented[side_b.node]);
@@ -260,7 +257,7 @@ inline unsigned first_of(kernels::BoxPairs pairs) noexcept {
     return static_cast<unsigned>(std::countr_zero(pairs));
 }
 
-/// The bit of the pair that overlaps most, of those that are left of a step.
+/// Returns the bit of the pair that overlaps most, among the remaining pairs of a step.
 inline unsigned deepest_of(kernels::BoxPairs pairs, const kernels::BoxPairFloats& depths) noexcept {
     unsigned deepest = first_of(pairs);
     float most = (&depths.value[0][0])[deepest];
@@ -275,14 +272,14 @@ inline unsigned deepest_of(kernels::BoxPairs pairs, const kernels::BoxPairFloats
     return deepest;
 }
 
-/// Where a walk of all begins: both roots.
+/// Returns the start of a walk of everything: both roots.
 inline PendingPair roots(const Tree& a, const Tree& b) noexcept {
     return {{a.shape.levels, 0}, {b.shape.levels, 0}};
 }
 
-/// Walks two hierarchies from `start` down, depth first, and calls `reach(pair)` for
-/// each pair of places, both at most `floor` high, that no box test separates, until
-/// it returns false. Returns false when it did. Both models need nodes and triangles.
+/// Walks two hierarchies from `start` down, depth first. Calls `reach(pair)` for each pair of
+/// places, both at most `floor` high, that no box test separates. Stops and returns false when
+/// `reach` returns false. Both models need nodes and triangles.
 template <Search kSearch, class Reach>
 bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& a, const Tree& b,
                      const PlacedBoxes& placed, Workspace::Storage& scratch,
@@ -327,8 +324,8 @@ bool walk_pairs_from(const PendingPair& start, std::uint32_t floor, const Tree& 
     }
 }
 
-/// Calls `leaf(index_a, index_b)` for each pair of leaves that no box test separates,
-/// until it returns false. Returns false when it did.
+/// Calls `leaf(index_a, index_b)` for each pair of leaves that no box test separates. Stops and
+/// returns false when `leaf` returns false.
 template <Search kSearch, class Leaf>
 bool walk_pairs(const Tree& a, const Tree& b, const PlacedBoxes& placed,
                 Workspace::Storage& scratch, Leaf&& leaf) noexcept {

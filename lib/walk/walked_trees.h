@@ -10,12 +10,12 @@
 
 namespace cdprep {
 
-// What two models are walked through: hierarchies of one shape, and which triangles their
-// leaves hold. each_pair() brings every pair of triangles of two leaves once, as the kernels
-// take them; triangle_a() and triangle_b() say by the tree order which triangles those are that
-// a LeafBatch then names.
+// The structures through which two models are walked: hierarchies of one shape, and the triangles
+// of their leaves. each_pair() passes every pair of triangles of two leaves once, in the form that
+// the kernels take. triangle_a() and triangle_b() return the tree-order numbers of the triangles
+// that a LeafBatch then reports.
 
-/// Both models' boxes around triangles.
+/// Both models' BVHs.
 struct TriangleTrees {
     static constexpr bool kHasHulls = false;
     Tree a;
@@ -24,7 +24,7 @@ struct TriangleTrees {
     TriangleTrees(const Model& of_a, const Model& of_b, Workspace::Storage& /*scratch*/) noexcept
         : a(of_a), b(of_b) {}
 
-    /// Calls test(view of a, view of b) until it returns false; returns false when it did.
+    /// Calls test(view of a, view of b). Stops and returns false when `test` returns false.
     template <class Test>
     static bool each_pair(const LeafBatch& batch, std::uint32_t leaf_a, std::uint32_t leaf_b,
                           Test&& test) noexcept {
@@ -39,7 +39,7 @@ struct TriangleTrees {
     }
 };
 
-/// Both models' hierarchies over pieces. A workspace serves those of one question.
+/// Both models' hierarchies over pieces. A workspace serves those of one query at a time.
 struct PieceTrees {
     static constexpr bool kHasHulls = true;
     PieceLeaves of_a;

@@ -13,7 +13,7 @@
 namespace cdprep {
 namespace {
 
-// Searches through cells have their memory behind the storage.
+// The memory of the cell searches follows the storage.
 constexpr std::size_t kAlignment = alignof(Workspace::Storage);
 
 constexpr std::size_t aligned(std::size_t size) noexcept {

@@ -16,8 +16,8 @@
 
 namespace cdprep {
 
-/// Most entries a depth-first walk of two hierarchies holds: each step replaces
-/// one pair by at most 64, and takes at least one side a level down.
+/// The most entries that a depth-first walk of two hierarchies holds. Each step replaces one pair
+/// by at most 64, and takes at least one side a level down.
 inline constexpr std::size_t kMaxPendingPairs =
     std::size_t{2} * (format::kMaxBvhLevels + 1) * format::kBvhWidth * format::kBvhWidth;
 
@@ -28,17 +28,17 @@ struct BoundedPlace {
     std::uint32_t index;
 };
 
-/// Most entries an ordered walk of one hierarchy holds: seven siblings a level.
+/// The most entries that an ordered walk of one hierarchy holds: seven siblings a level.
 inline constexpr std::size_t kMaxBoundedPlaces =
     std::size_t{format::kMaxBvhLevels + 1} * format::kBvhWidth;
 
-/// A pair of places with a lower bound of their distance, pair units.
+/// A pair of places with a lower bound of their distance, in pair units.
 struct NearPair {
     float bound;
     std::uint64_t pair;  ///< PendingPair::packed()
 };
 
-/// Pairs of places that a search for the nearest keeps in order.
+/// The number of pairs of places that a search for the nearest keeps in order.
 inline constexpr std::size_t kMaxFrontier = 8192;
 
 /// A pair of places of a walk with the sizes of its boxes.
@@ -48,8 +48,8 @@ struct OpenedPair {
     float size_b;
 };
 
-/// Children of one step that are still to be looked at, and where they are: box 0
-/// of either node stands for `base`.
+/// The children of one step that are still to be visited, and their places. `base` is the pair of
+/// places of box 0 of either node.
 struct OpenStep {
     std::uint64_t base;  ///< PendingPair::packed()
     kernels::BoxPairs pairs;
@@ -64,18 +64,18 @@ struct OpenStep {
     }
 };
 
-/// Leaves of pieces that are put together for a walk, by number modulo kLeafPlaces.
+/// Leaves of pieces that are gathered for a walk, by number modulo kLeafPlaces.
 struct GatheredLeaves {
     std::array<format::BvhLeaf, kernels::kLeafPlaces> leaf;
     std::array<std::uint32_t, kernels::kLeafPlaces> holds;     ///< number
-    std::array<std::uint64_t, kernels::kLeafPlaces> walk{};    ///< that put it there
-    std::array<std::uint64_t, kernels::kLeafPlaces> wanted{};  ///< until which batch is tested
+    std::array<std::uint64_t, kernels::kLeafPlaces> walk{};    ///< the walk that put the leaf there
+    std::array<std::uint64_t, kernels::kLeafPlaces> wanted{};  ///< stays until this batch's test
 };
 
-/// A step takes at least one side a level down.
+/// Each step takes at least one side a level down.
 inline constexpr std::size_t kMaxOpenSteps = std::size_t{2} * (format::kMaxBvhLevels + 1);
 
-/// Two pieces and two triangles of theirs that are near: the first that touch, or else the first.
+/// Two pieces and two near triangles of theirs: the first that touch, or else the first.
 struct NearPieces {
     std::uint64_t key;  ///< piece of A, then of B
     std::uint32_t a;    ///< tree order
@@ -83,16 +83,16 @@ struct NearPieces {
     bool touch;
 };
 
-/// Pairs of pieces that one walk gathers; twice as many as it keeps.
+/// The most pairs of pieces that one walk gathers; twice as many as it keeps.
 inline constexpr std::size_t kMaxNearPieces = 4096;
 
 struct Workspace::Storage {
-    // What begins cache lines stands first: nothing is lost between.
+    // Members aligned to cache lines come first, so no padding is lost between them.
     kernels::LeafScratch leaf_scratch;
     GatheredLeaves gathered_a;
     GatheredLeaves gathered_b;
-    std::uint64_t leaf_batch = 1;   ///< batches of leaves that were tested, and one
-    std::uint64_t piece_walks = 0;  ///< that were begun
+    std::uint64_t leaf_batch = 1;   ///< the number of tested leaf batches, plus one
+    std::uint64_t piece_walks = 0;  ///< the number of walks begun
     std::array<OpenStep, kMaxOpenSteps> open_steps;
     std::array<std::uint64_t, kMaxPendingPairs> pending;
     std::array<NearPair, kMaxPendingPairs> near;
@@ -103,10 +103,10 @@ struct Workspace::Storage {
     std::array<kernels::LeafPair, kernels::kLeafBatch> leaf_pairs;
     SortScratch sort_scratch;
     std::array<NearPieces, kMaxNearPieces> near_pieces;
-    std::array<std::uint16_t, kFrontRoom + 2 * kernels::kLanes> weak_planes;  ///< of a PairFront
-    QueryCounts* counts = nullptr;        ///< or null: nobody asked
-    const CellSearches* cells = nullptr;  ///< or null: none through octrees and tetra-trees
-    void* cell_storage = nullptr;         ///< of cells
+    std::array<std::uint16_t, kFrontRoom + 2 * kernels::kLanes> weak_planes;  ///< for a PairFront
+    QueryCounts* counts = nullptr;        ///< or null: no counts are wanted
+    const CellSearches* cells = nullptr;  ///< or null: no searches through octrees and tetra-trees
+    void* cell_storage = nullptr;         ///< scratch of cells
 };
 
 }  // namespace cdprep

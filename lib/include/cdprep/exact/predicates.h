@@ -51,7 +51,8 @@ public:
     /// Returns orient3d(a, b, c, p), exactly: negative when p lies in front.
     [[nodiscard]] int side(const Double3& p) const noexcept;
 
-    /// Returns the height of p in front of the plane times the length of the plane's normal, rounded.
+    /// Returns the height of p in front of the plane times the length of the plane's normal,
+    /// rounded.
     [[nodiscard]] double height(const Double3& p) const noexcept;
 
 private:

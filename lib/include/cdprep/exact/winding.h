@@ -25,9 +25,9 @@ namespace cdprep::exact {
 [[nodiscard]] WindingTerm winding_term(const Double3& o, const Double3& q,
                                        const Corners& t) noexcept;
 
-/// Returns an `o` for winding_term() whose ray runs from q along +x: a point `reach` before q.
-/// `reach` is about the model's size: with a much smaller step, the filter decides few triangles.
-/// Differs from q unless |q.x| is near the largest double.
+/// Returns an `o` for winding_term() whose ray runs from q along +x: a point at least
+/// `reach` before q. `reach` is about the model's size: with a much smaller step, the filter
+/// decides few triangles. Differs from q unless |q.x| is near the largest double.
 [[nodiscard]] Double3 before_along_x(const Double3& q, double reach) noexcept;
 
 }  // namespace cdprep::exact
