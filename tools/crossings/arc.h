@@ -10,11 +10,11 @@ namespace cdprep::mesh {
 
 using format::Double3;
 
-/// Rounding moves a direction by less than this: it is 4 operations away from coordinates,
+/// The bound on the rounding error of a direction. It takes 4 operations from the coordinates,
 /// each exact to 2^-53 of a number no larger than 1.
 inline constexpr double kDirectionMargin = 0x1p-46;
 
-/// The direction from one point to another, of length 1. The points differ.
+/// Returns the direction from one point to another, of length 1. The points must differ.
 inline Double3 direction(const Double3& from, const Double3& to) {
     Double3 way = {to.x - from.x, to.y - from.y, to.z - from.z};
     double size = std::max({std::fabs(way.x), std::fabs(way.y), std::fabs(way.z)});
@@ -32,9 +32,10 @@ struct Ball {
     double radius;
 };
 
-/// A triangle as seen from one of its corners is an arc of less than half a turn between two
-/// directions. Returns the ball over the chord of that arc: it holds a multiple of the way
-/// from the corner to any point of the triangle.
+/// Returns a ball that bounds a triangle as seen from one of its corners. Seen so, the triangle
+/// is an arc of less than half a turn between two directions. The ball is the one over the chord
+/// of that arc. For any point of the triangle, it holds a multiple of the vector from the corner
+/// to the point.
 inline Ball arc_ball(const Double3& corner, const Double3& p, const Double3& q) {
     const Double3 a = direction(corner, p);
     const Double3 b = direction(corner, q);

@@ -8,21 +8,21 @@
 #include <cmath>
 #include <numeric>
 
-// Take any direction d. A triangle of the star, seen along d, is a sector of the plane
-// between two rays. When all turn counter-clockwise, det(d, ray, next ray) > 0, and each
-// ray but the first and the last ends one sector and begins another, then how often a
-// point of the plane is covered changes at the first ray and at the last alone: it is
-// enough to count for one ray. The sectors that pass a ray r, or arrive at it, are those
-// with det(d, r, ray) < 0 <= det(d, r, next ray). A fan that closes is simple when one
-// does; an open one when none does for its first ray. Cones whose sectors are apart meet
-// in the vertex alone, and neighbours only above their common ray: in their common edge.
+// Take any direction d. Projected along d, a triangle of the star is a sector of the plane
+// between two rays. Let all sectors turn counter-clockwise, det(d, ray, next ray) > 0. Let each
+// ray except the first and last end one sector and begin another. Then the number of sectors
+// that cover a point changes only at the first and last ray. So it suffices to count at one ray.
+// The sectors that pass a ray r, or arrive at it, are those with det(d, r, ray) < 0 <= det(d, r,
+// next ray). A closed fan is simple if the count is one; an open fan, if it is zero at its first
+// ray. Cones with disjoint sectors meet only in the vertex. Neighbours meet only above their
+// common ray, that is in their common edge.
 //
-// All signs must be certain. Let u = 2^-53, d as computed (any will do), p and q the
-// largest components of two ways. Ways are rounded differences (u). A component of a
-// normal is at most 2 p q and off by 10 u p q; the products with d and their sums add
-// 3 u of the terms: below 20 u p q (|dx| + |dy| + |dz|) in all. The same bound holds for
-// (d x r) . s, whose terms are those of d . (r x s). Underflow moves a product by 2^-1075,
-// which d, below 1e110, cannot carry beyond 1e-213.
+// All signs must be certain. Let u = 2^-53. Let d be the computed direction (any will do). Let p
+// and q be the largest components of two edge vectors. These are rounded differences (u). A
+// component of a normal is at most 2 p q, with an error of 10 u p q. The products with d and
+// their sums add 3 u of the terms. The total is below 20 u p q (|dx| + |dy| + |dz|). The same
+// bound holds for (d x r) . s, whose terms are those of d . (r x s). Underflow changes a product
+// by 2^-1075, which d, below 1e110, cannot carry beyond 1e-213.
 
 namespace cdprep::mesh {
 namespace {
@@ -33,7 +33,8 @@ constexpr double kLeastBound = 1e-200;
 
 constexpr std::array<std::size_t, 3> kNextCorner = {1, 2, 0};
 
-/// A value whose size says what its sign is; `product` that of the two ways it is of.
+/// Returns whether the size of a value proves its sign; `product` is that of the two edge
+/// vectors.
 bool is_certain(double value, double product, double direction) {
     const double bound = kOff * direction * product;
     return bound > kLeastBound && std::fabs(value) > bound;
@@ -62,7 +63,7 @@ void Fan::find_rays(const Mesh& mesh, std::uint32_t vertex, std::span<const std:
     }
     for (std::size_t i = 0; i < count_; ++i) {
         const auto& v = mesh.triangles[star[i]].vertex;
-        // Which corner it is cannot be foreseen: without a branch.
+        // The index is unpredictable, so it is computed without a branch.
         const std::size_t corner = (v[1] == vertex ? 1U : 0U) | (v[2] == vertex ? 2U : 0U);
         from_[i] = v[kNextCorner[corner]];
         to_[i] = v[kNextCorner[kNextCorner[corner]]];

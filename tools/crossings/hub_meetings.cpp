@@ -14,7 +14,8 @@
 namespace cdprep::mesh {
 namespace {
 
-/// Triangles of a hub. With 512 around each vertex a hierarchy takes about as long.
+/// The least number of triangles of a hub. With 512 around each vertex a BVH takes about as
+/// long.
 constexpr std::size_t kHub = 512;
 constexpr std::size_t kTrianglesPerTask = 4096;
 
@@ -34,7 +35,7 @@ Double3 middle_of(const Box& box) {
             0.5 * box.lower.z + 0.5 * box.upper.z};
 }
 
-/// With room for the rounding of a centre far from the origin.
+/// Returns a ball around a box, with a margin for the rounding of a centre far from the origin.
 Ball ball_around(const Box& box) {
     double far = 0;
     for (const Double3& p : {box.lower, box.upper}) {
@@ -54,7 +55,7 @@ bool share_a_vertex(const Triangle& a, const Triangle& b) {
     });
 }
 
-/// Balls in trees by their size: those in one tree differ in radius by a factor of 2.
+/// Balls in trees by size: the radii in one tree differ by a factor of at most 2.
 class BallTrees {
 public:
     explicit BallTrees(std::vector<Ball> balls) : balls_(std::move(balls)) {
@@ -70,8 +71,8 @@ public:
         }
     }
 
-    /// Calls visit(number) for balls in boxes of centres for which enter(box, radius) says
-    /// yes, where no radius in the box is larger.
+    /// Calls visit(number) for the balls in boxes of centres that enter(box, radius) accepts. No
+    /// ball of the box has a larger radius.
     template <class Enter, class Visit>
     void visit(const Enter& enter, const Visit& visit) const {
         for (const Tree& tree : trees_) {
@@ -94,12 +95,12 @@ private:
     std::vector<Tree> trees_;
 };
 
-/// A hub and the triangles whose first hub it is.
+/// A hub, and the triangles whose first hub it is.
 struct HubStar {
     std::uint32_t vertex;
     std::vector<std::uint32_t> triangle;
     Box box;
-    BallTrees arcs;  ///< by place in `triangle`
+    BallTrees arcs;  ///< by index in `triangle`
 };
 
 }  // namespace
@@ -120,7 +121,7 @@ Hubs::Hubs(const Mesh& mesh, const VertexStars& stars) {
     }
 }
 
-/// What all jobs read.
+/// The data that all jobs read.
 class HubSearch {
 public:
     HubSearch(const Mesh& mesh, std::span<const std::uint64_t> flat, const VertexStars& stars,
@@ -134,7 +135,7 @@ public:
         boxes_ = BallTrees(std::move(around));
     }
 
-    /// Asks about one triangle and those around hubs.
+    /// Tests one triangle against the triangles around hubs.
     void ask(std::uint32_t triangle, SearchTurn& turn) const {
         if (!flat_.empty() && ((flat_[triangle / 64] >> (triangle % 64)) & 1) != 0) return;
         const Box box = box_of(corners_of(mesh_, triangle));
@@ -142,7 +143,7 @@ public:
             [&](const Box& centres, double radius) { return widened(centres, radius).meets(box); },
             [&](std::uint32_t hub) {
                 turn.count(1);
-                // Of two homes the first sees the other's triangles.
+                // Of two hubs, the first one finds the pairs with the triangles of the second.
                 const bool is_asked = hub < hubs_.home_[triangle] && !is_around(triangle, hub);
                 if (is_asked && stars_[hub].box.meets(box)) look(triangle, box, hub, turn);
             });
@@ -171,7 +172,7 @@ private:
         return std::find(v.begin(), v.end(), stars_[hub].vertex) != v.end();
     }
 
-    /// Looks from the hub at the triangle.
+    /// Tests the hub's triangles that appear, from the hub, in the direction of this one.
     void look(std::uint32_t triangle, const Box& box, std::uint32_t hub, SearchTurn& turn) const {
         const HubStar& star = stars_[hub];
         const SeenTriangle seen(mesh_.positions[star.vertex], corners_of(mesh_, triangle));
@@ -206,7 +207,7 @@ private:
 
 namespace {
 
-/// Some triangles, asked about one after the other.
+/// A range of triangles, tested one after the other.
 class HubJob {
 public:
     HubJob(const HubSearch& hubs, std::size_t first, std::size_t last)

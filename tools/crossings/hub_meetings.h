@@ -10,8 +10,8 @@
 
 namespace cdprep::mesh {
 
-/// Vertices with very many triangles. The boxes of those triangles all overlap at the
-/// vertex: a hierarchy of boxes would look at every two of them.
+/// Vertices with very many triangles. The boxes of these triangles all overlap at the vertex, so
+/// a BVH would test every two of them.
 class Hubs {
 public:
     /// References must outlive the object. O(n).
@@ -21,7 +21,7 @@ public:
         return hub_.empty();
     }
 
-    /// The triangle has a hub for a corner.
+    /// Returns whether a corner of the triangle is a hub.
     [[nodiscard]] bool has(std::uint32_t triangle) const {
         return !home_.empty() && home_[triangle] != kNowhere;
     }
@@ -30,15 +30,15 @@ private:
     friend class HubSearch;
     static constexpr std::uint32_t kNowhere = 0xffffffff;
 
-    std::vector<std::uint32_t> hub_;   ///< vertices, those with most triangles first
-    std::vector<std::uint32_t> home_;  ///< per triangle: the first of its hubs; empty: no hubs
+    std::vector<std::uint32_t> hub_;   ///< vertices, by descending number of triangles
+    std::vector<std::uint32_t> home_;  ///< by triangle: the first of its hubs; empty: no hubs
 };
 
-/// Searches the meetings of triangles that Hubs::has() with triangles that share no vertex
-/// with them. `flat` marks triangles without area, as find_degenerate() does.
+/// Searches the meetings of triangles for which Hubs::has() is true with triangles that share no
+/// vertex with them. `flat` marks triangles without area, as find_degenerate() does.
 ///
-/// Looks from the hub at each triangle that overlaps the box of the hub's triangles, and
-/// finds those of them that are seen in the same direction. O(n log k) for hubs with k
+/// Takes each triangle that overlaps the box of a hub's triangles. Finds those of the hub's
+/// triangles that appear in the same direction from the hub. O(n log k) for hubs with k
 /// triangles, and O(pairs) for those that overlap as seen from the hub.
 void search_hub_meetings(const Mesh& mesh, std::span<const std::uint64_t> flat,
                          const VertexStars& stars, const Hubs& hubs, MeetingSearch& search);

@@ -43,7 +43,7 @@ public:
         return is_stopped_ || used_.pairs >= share_.pairs || used_.steps >= share_.steps;
     }
 
-    /// Hands over the last meetings. Returns what was used.
+    /// Delivers the last meetings. Returns the work done.
     SearchLimits finish() {
         deliver();
         return used_;
@@ -51,7 +51,7 @@ public:
 
 private:
     static constexpr std::size_t kBatch = 1024;           ///< meetings
-    static constexpr std::uint64_t kStepsPerCheck = 512;  ///< below a millisecond as a rule
+    static constexpr std::uint64_t kStepsPerCheck = 512;  ///< usually below a millisecond
 
     void deliver() {
         if (found_.empty()) return;
@@ -70,9 +70,9 @@ private:
     std::vector<TriangleMeeting> found_;
 };
 
-/// Runs the jobs of a search side by side, in rounds. In each round the open jobs may use
-/// equal shares of what is left of the limits. The shares depend on the jobs alone, and
-/// so does what is found when the limits end the search, whatever the number of threads.
+/// Runs the jobs of a search in parallel, in rounds. In each round the open jobs get equal
+/// shares of the remaining limits. The shares depend only on the jobs. So if the limits end the
+/// search, the result does not depend on the number of threads.
 class MeetingSearch {
 public:
     MeetingSearch(const SearchOptions& options, const TakeMeetings& take)
@@ -89,12 +89,12 @@ public:
         return stop_;
     }
 
-    /// Every job was done to its end.
+    /// Returns whether every job was completed.
     [[nodiscard]] bool is_complete() const {
         return is_complete_;
     }
 
-    /// Runs jobs to their ends, or until the limits are used up. A Job has is_done() and
+    /// Runs jobs to completion, or until the limits are used up. A Job has is_done() and
     /// go_on(SearchTurn&), which works until the turn is over.
     template <class Job>
     void run(std::vector<Job>& jobs) {
@@ -111,8 +111,8 @@ public:
     }
 
 private:
-    /// How many jobs take part in a round: fewer as the limits come near, since each goes
-    /// beyond its share by a step of up to 64 leaf pairs.
+    /// Returns the number of jobs in a round. It falls as the limits come near, since each job
+    /// exceeds its share by a step of up to 64 leaf pairs.
     [[nodiscard]] std::size_t jobs_per_round(std::size_t open) const {
         constexpr std::uint64_t kLeastShare = 4096;  ///< pairs of triangles in such a step
         const std::uint64_t most = std::min(left_.pairs, left_.steps) / kLeastShare;

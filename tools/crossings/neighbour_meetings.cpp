@@ -16,10 +16,10 @@ namespace {
 
 constexpr std::size_t kVerticesPerTask = 4096;
 
-/// Of fewer triangles around a vertex all pairs are asked before those to ask are found.
+/// Up to this many triangles around a vertex, all pairs are tested without a search.
 constexpr std::size_t kFewAround = 64;
 
-/// The corners that two triangles share: places in either.
+/// The corners that two triangles share, as indices into each.
 struct SharedCorners {
     std::array<std::size_t, 3> in_a;
     std::array<std::size_t, 3> in_b;
@@ -43,7 +43,7 @@ Corners corners_from(const Mesh& mesh, const Triangle& triangle, std::size_t fir
     return {at(0), at(1), at(2)};
 }
 
-/// The corner that is neither of two.
+/// Returns the corner that is neither of the two.
 std::size_t third(std::size_t i, std::size_t j) {
     return 3 - i - j;
 }
@@ -63,14 +63,14 @@ std::optional<Meeting> meeting_of(const Mesh& mesh, const Triangle& a, const Tri
     }
 }
 
-/// What all jobs read.
+/// The data that all jobs read.
 struct Neighbourhood {
     const Mesh& mesh;
     const VertexStars& stars;
-    std::vector<std::uint8_t> is_flat;  ///< per vertex: its triangles lie side by side
+    std::vector<std::uint8_t> is_flat;  ///< by vertex: its triangles lie side by side
 };
 
-/// Asks pairs around some vertices that are not known to lie side by side.
+/// Tests pairs around some vertices whose triangles may not lie side by side.
 class NeighbourJob {
 public:
     NeighbourJob(const Neighbourhood& around, std::size_t first, std::size_t last)
@@ -87,7 +87,7 @@ public:
     }
 
 private:
-    /// False when all pairs around the vertex were asked.
+    /// Returns false when all pairs around the vertex are tested.
     bool ask_some(SearchTurn& turn) {
         const auto vertex = static_cast<std::uint32_t>(vertex_);
         const auto star = around_->stars.around(vertex);
@@ -115,7 +115,7 @@ private:
         const SharedCorners shared = shared_corners(in_a, in_b);
         for (std::size_t i = 0; i < shared.count; ++i) {
             const std::uint32_t other = in_a.vertex[shared.in_a[i]];
-            // Answered there, or asked there.
+            // Decided at that vertex, or tested there.
             if (around_->is_flat[other] != 0 || other < vertex) return;
         }
         const auto meeting = meeting_of(around_->mesh, in_a, in_b, shared);
@@ -125,7 +125,7 @@ private:
     const Neighbourhood* around_;
     std::size_t vertex_;
     std::size_t last_;
-    std::optional<StarPairs> pairs_;  ///< of `vertex_`, when it has many triangles
+    std::optional<StarPairs> pairs_;  ///< of `vertex_`, if it has many triangles
 };
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 namespace cdprep::mesh {
 
-/// Searches the pairs of triangles with common vertices that meet elsewhere too. Those of
-/// the stars have area.
+/// Searches the pairs of triangles with common vertices that also meet elsewhere. The triangles
+/// of the stars must have area.
 void search_neighbour_meetings(const Mesh& mesh, const VertexStars& stars, MeetingSearch& search);
 
 }  // namespace cdprep::mesh

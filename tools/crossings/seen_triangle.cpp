@@ -3,17 +3,17 @@
 
 #include "mesh/vectors.h"
 
-// Cone and ball are apart if and only if some plane through the eye has the directions of
-// the cone strictly below it and the ball above it. The best normal points from the nearest
-// point of the cone to the ball's centre. That point lies on a face or on an edge of the
-// cone, or is the eye. is_apart() tries the normals of these seven cases. Whatever the
-// normal is, separates() proves that it separates: directions are wrong by less than
-// kDirectionMargin, and a normal may be any vector.
+// Cone and ball are apart if and only if some plane through the eye separates them. The
+// directions of the cone lie strictly below it, and the ball lies above it. The best normal
+// points from the nearest point of the cone to the centre of the ball. That point lies on a face
+// or an edge of the cone, or is the eye. is_apart() tries the normals of these seven cases.
+// separates() then proves the separation, whatever the normal is. The error of directions is
+// less than kDirectionMargin, and a normal may be any vector.
 
 namespace cdprep::mesh {
 namespace {
 
-/// Of length 1; as it is when its length is next to nothing.
+/// Returns the vector with length 1; unchanged if its length is close to zero.
 Double3 normalized(const Double3& p) {
     const double length = std::sqrt(dot(p, p));
     return length > kDirectionMargin ? scaled(p, 1 / length) : p;
@@ -52,7 +52,8 @@ bool SeenTriangle::is_apart(const Double3& centre, double radius) const {
 bool SeenTriangle::separates(const Double3& normal, const Double3& centre, double radius) const {
     const double gap = dot(normal, centre) - radius;
     if (!(gap > 0)) return false;
-    // Edges of the cone lie in the plane of the nearest point: it is tilted away from them.
+    // Edges of the cone may lie in the plane of the nearest point, so it is tilted away from
+    // them.
     const Double3 tilted = minus(normal, scaled(middle_, gap / 4));
     for (const Double3& to : to_) {
         if (!(dot(tilted, to) < -kDirectionMargin)) return false;

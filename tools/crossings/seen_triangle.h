@@ -11,12 +11,12 @@ namespace cdprep::mesh {
 /// A triangle as seen from a point: the cone of all directions to it.
 class SeenTriangle {
 public:
-    /// The eye is no corner. It may lie on the triangle: then the cone is a plane or more,
-    /// and nothing is apart from it.
+    /// The eye must not be a corner. It may lie on the triangle. The cone is then a plane or
+    /// more, and nothing is apart from it.
     SeenTriangle(const Double3& eye, const Corners& triangle);
 
-    /// True only when no direction to a point of the ball is one to a point of the triangle.
-    /// False is rare for balls that are far from the cone, compared with their radius.
+    /// Returns true only if no direction to a point of the ball is a direction to a point of the
+    /// triangle. False is rare for balls far from the cone in relation to their radius.
     [[nodiscard]] bool is_apart(const Double3& centre, double radius) const;
 
 private:
@@ -25,7 +25,7 @@ private:
     std::array<Double3, 3> to_;    ///< directions to the corners, of length 1
     std::array<Double3, 3> face_;  ///< outward normals of the cone's faces, of length 1 or 0
     std::array<std::array<double, 3>, 3> cosine_;  ///< between to_[i] and to_[j]
-    Double3 middle_;                               ///< of the three directions
+    Double3 middle_;                               ///< mean of the three directions
 };
 
 }  // namespace cdprep::mesh

@@ -23,8 +23,8 @@ Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
     return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
 }
 
-/// Positions that a hierarchy can be built over, where the mesh's own are too large: its
-/// boxes need not be exact, and shrunk coordinates lose nothing that they would show.
+/// Returns smaller positions if the mesh's own are too large for a BVH; else none. The boxes
+/// need not be exact, and shrinking loses nothing that they would show.
 std::vector<Double3> shrunk_if_too_large(const Mesh& mesh) {
     const auto too_large = [](const Double3& p) {
         return std::max({std::fabs(p.x), std::fabs(p.y), std::fabs(p.z)}) >
@@ -37,14 +37,14 @@ std::vector<Double3> shrunk_if_too_large(const Mesh& mesh) {
     return shrunk;
 }
 
-/// Triangles of a mesh, ascending, and their numbers there.
+/// Triangles of a mesh, ascending, with their numbers in it.
 struct SomeTriangles {
     std::vector<Triangle> triangle;
     std::vector<std::uint32_t> number;
 };
 
-/// The triangles that a hierarchy is built over, when not all are. Flat ones stay out: those
-/// along one line would be around each other.
+/// Returns the triangles for the BVH; none if it takes all. Flat triangles stay out: those along
+/// one line would have boxes around each other.
 SomeTriangles for_hierarchy(const Mesh& mesh, const std::vector<std::uint64_t>& flat,
                             const Hubs& hubs) {
     SomeTriangles left;
@@ -58,7 +58,7 @@ SomeTriangles for_hierarchy(const Mesh& mesh, const std::vector<std::uint64_t>& 
     return left;
 }
 
-/// One part of the walk of a hierarchy against itself.
+/// A part of the walk of a BVH against itself.
 class WalkJob {
 public:
     WalkJob(const Mesh& mesh, const SelfWalk& walk, std::size_t part,
@@ -86,11 +86,11 @@ private:
 
     const Mesh* mesh_;
     const SelfWalk* walk_;
-    const std::function<std::uint32_t(std::uint32_t)>* number_;  ///< of a place of the tree
+    const std::function<std::uint32_t(std::uint32_t)>* number_;  ///< triangle at a BVH position
     SelfWalk::Rest rest_;
 };
 
-/// Searches the meetings of triangles without a common vertex, none of them at a hub.
+/// Searches the meetings of triangles without a common vertex and without a hub.
 void search_meetings_apart(const Mesh& mesh, const std::vector<std::uint64_t>& flat,
                            const Hubs& hubs, MeetingSearch& search) {
     const std::vector<Double3> shrunk = shrunk_if_too_large(mesh);
@@ -122,7 +122,7 @@ bool search_self_intersections(const Mesh& mesh, const SearchOptions& options,
     search_neighbour_meetings(mesh, *stars, search);
     const Hubs hubs(mesh, *stars);
     search_hub_meetings(mesh, flat, *stars, hubs, search);
-    stars.reset();  // before the hierarchy needs memory
+    stars.reset();  // before the BVH requires memory
     search_meetings_apart(mesh, flat, hubs, search);
     return search.is_complete();
 }

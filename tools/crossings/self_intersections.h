@@ -13,29 +13,29 @@
 
 namespace cdprep::mesh {
 
-/// How two triangles of one mesh meet where they should not: by the corners they share,
-/// whether they lie in one plane, and what else they have in common. All of them together
-/// are what CGAL's self_intersections() lists. A meeting belongs to rule 501, 502 or 503
-/// where it says so; the counts then are those of a checker that asks, edge by edge,
-/// whether an edge of one triangle runs through the inside of another.
+/// The kinds of unwanted meetings of two triangles of one mesh. They differ by the shared
+/// corners, by whether the triangles are coplanar, and by what else they share. Together they
+/// are the pairs that CGAL's self_intersections() lists. A kind with a number belongs to rule
+/// 501, 502 or 503. A checker that tests single edges gives the same counts: it asks whether an
+/// edge of one triangle passes through the interior of another.
 enum class Meeting : std::uint8_t {
-    /// No common corner, and an edge of one runs through the inside of the other. 501
+    /// No common corner, and an edge of one passes through the interior of the other. 501
     crossing,
-    /// No common corner; the insides cross, but where their common segment ends, edges or
-    /// corners of both meet. 502
+    /// No common corner; the interiors cross, but edges or corners of both meet at the ends of
+    /// their common segment. 502
     edge_crossing,
-    /// No common corner, not in one plane: they touch, and their insides do not cross. 502
+    /// No common corner, not coplanar: they touch, and their interiors do not cross. 502
     touching,
-    /// No common corner, in one plane: they touch and share no area. A corner on an edge
-    /// of a flat side, for one: see t_junction.
+    /// No common corner, coplanar: they touch but share no area. For example, a corner lies on
+    /// an edge of a flat side: see t_junction.
     flat_touching,
-    /// No common corner, in one plane: they share area. 503
+    /// No common corner, coplanar: they share area. 503
     coplanar_overlap,
-    /// One common corner, not in one plane: they meet elsewhere too. 501
+    /// One common corner, not coplanar: they also meet elsewhere. 501
     corner_crossing,
-    /// One common corner, in one plane: they share part of an edge and no area.
+    /// One common corner, coplanar: they share part of an edge but no area.
     edge_overlap,
-    /// One or two common corners, in one plane: they share area. 503
+    /// One or two common corners, coplanar: they share area. 503
     fold,
     /// The same three corners, in either winding.
     duplicate,
@@ -48,52 +48,53 @@ struct TriangleMeeting {
     friend bool operator==(const TriangleMeeting&, const TriangleMeeting&) = default;
 };
 
-/// How much a search may do at most.
+/// The limits on the work of a search.
 struct SearchLimits {
     static constexpr std::uint64_t kNone = std::numeric_limits<std::uint64_t>::max();
     std::uint64_t pairs = kNone;  ///< meetings found
-    std::uint64_t steps = kNone;  ///< pairs of triangles, of leaves or of nodes looked at
+    std::uint64_t steps = kNone;  ///< tested pairs of triangles, leaves or nodes
 };
 
-/// So many take some 3 s on one core, measured with overlapping triangles in one plane at
-/// 0.6 us a pair.
+/// The default limit on pairs: some 3 s on one core, measured with overlapping coplanar
+/// triangles at 0.6 us per pair.
 inline constexpr std::uint64_t kDefaultMaxPairs = 5'000'000;
 
-/// Enough for every mesh whose pairs stay below the limit as a rule, and some minutes at
-/// most: a step takes 20 to 100 ns, and sound meshes need 1 to 20 a triangle.
+/// Returns the default limit on steps. It usually suffices for every mesh whose pairs stay below
+/// their limit, and takes some minutes at most. A step takes 20 to 100 ns, and sound meshes use
+/// 1 to 20 steps per triangle.
 [[nodiscard]] constexpr std::uint64_t default_steps(std::uint64_t triangles) {
     return 500'000'000 + 200 * triangles;
 }
 
 struct SearchOptions {
     SearchLimits limits = {};
-    StopCheck stop = {};  ///< ends the search; what was found until then depends on the machine
+    StopCheck stop = {};  ///< ends the search; the meetings found by then depend on the machine
     ParallelFor parallel_for = serial_for;
 };
 
 /// Takes some meetings. Called from one thread at a time.
 using TakeMeetings = std::function<void(std::span<const TriangleMeeting>)>;
 
-/// Finds every pair of triangles of a mesh that have more in common than the vertices
-/// and edges they share, and hands each over once, in no order. Triangles of zero area are
-/// in none, as in CGAL's self_intersections().
+/// Finds every pair of triangles of a mesh that share more than common vertices and edges.
+/// Delivers each pair once, in no order. Triangles of zero area are in no pair, as in CGAL's
+/// self_intersections().
 ///
-/// Returns true if the search is complete. Else the limits ended it, shortly after one of
-/// them was reached: the meetings are some of all, the same for any parallel_for.
+/// Returns true if the search is complete. Otherwise a limit ended it, shortly after it was
+/// reached. The meetings are then a part of all, the same for any parallel_for.
 ///
-/// Vertices are told apart by number: no two that triangles use may be equal, as weld()
-/// leaves them. Positions must be finite. CGAL's answer is defined for meshes with at most
-/// two triangles at an edge; here more may meet there, and every two of them are asked.
+/// Vertices are distinguished by number: vertices that triangles use must have distinct
+/// positions, as weld() ensures. Positions must be finite. CGAL's answer is defined for meshes
+/// with at most two triangles at an edge. Here an edge may have more, and every two of them are
+/// tested.
 ///
-/// Exact. O(n log n), and O(pairs) for those that meet and for those whose boxes overlap,
-/// or around one vertex are seen over each other from it. Long triangles around one vertex
-/// are no such pairs: see Hubs. k copies of one triangle are k (k - 1) / 2 pairs:
-/// see Copies. Some 60 bytes of scratch a triangle, none a pair.
-/// tests/bench/self_intersections_bench measures.
+/// Exact. O(n log n), plus O(pairs) for those that meet, whose boxes overlap, or that overlap as
+/// seen from a common vertex. Long triangles around one vertex are no such pairs: see Hubs. k
+/// copies of one triangle are k (k - 1) / 2 pairs: see Copies. Uses some 60 bytes of scratch
+/// memory per triangle, none per pair. tests/bench/self_intersections_bench measures this.
 bool search_self_intersections(const Mesh& mesh, const SearchOptions& options,
                                const TakeMeetings& take);
 
-/// All of them, sorted by (a, b): 12 bytes a pair.
+/// Returns all meetings, sorted by (a, b); 12 bytes per pair.
 [[nodiscard]] std::vector<TriangleMeeting> find_self_intersections(
     const Mesh& mesh, ParallelFor parallel_for = serial_for);
 

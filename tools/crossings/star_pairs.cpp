@@ -17,17 +17,17 @@
 namespace cdprep::mesh {
 namespace {
 
-/// So many triangles at an edge are a book of its own: as seen from the edge's ends all
-/// overlap there.
+/// More triangles than this at an edge form a book: seen from the ends of the edge, all overlap
+/// there.
 constexpr std::size_t kBook = 256;
 
-/// A triangle as seen from the vertex: an arc of less than half a turn between two
-/// directions. It lies in the ball over its chord.
+/// A triangle as seen from the vertex: an arc of less than half a turn between two directions.
+/// The arc lies in the ball over its chord.
 struct Arc {
     Double3 centre;
     double radius;
     std::uint32_t triangle;
-    std::uint32_t book;  ///< kNone: in none
+    std::uint32_t book;  ///< kNone: in no book
 
     [[nodiscard]] int size_class() const {
         return std::ilogb(radius);
@@ -39,7 +39,7 @@ struct Arc {
     }
 };
 
-/// Arcs of one book, or of none, and of one size.
+/// Arcs of one size in one book, or in no book.
 struct ArcTree {
     std::uint32_t book;
     int size_class;
@@ -62,7 +62,7 @@ public:
         for (const auto& [spoke, uses] : uses_) open_book(spoke);
     }
 
-    /// First each arc, then each page.
+    /// Handles one arc per call; after the arcs, one page per call.
     bool advance(const Visit& visit) {
         if (next_arc_ < arcs_.size()) {
             for (const ArcTree& tree : trees_) ask(next_arc_, tree, visit);
@@ -92,7 +92,7 @@ private:
         return {ball.centre, ball.radius, triangle, book_of(p, q)};
     }
 
-    /// The spoke with more triangles, if there are many.
+    /// Returns the spoke with more triangles, if either has many.
     [[nodiscard]] std::uint32_t book_of(std::uint32_t p, std::uint32_t q) const {
         const auto uses = [this](std::uint32_t spoke) {
             const auto found = uses_.find(spoke);
@@ -115,7 +115,7 @@ private:
         }
     }
 
-    /// Pairs of an arc with those of a tree that are no smaller.
+    /// Visits the pairs of an arc with those arcs of a tree that are not smaller.
     void ask(std::uint32_t i, const ArcTree& tree, const Visit& visit) const {
         const Arc& arc = arcs_[i];
         const int size_class = arc.size_class();
@@ -136,7 +136,7 @@ private:
         visit(a, b);
     }
 
-    /// Lays out the pages of one book, by their angle around its edge.
+    /// Sorts the pages of one book by their angle around its edge.
     void open_book(std::uint32_t spoke) {
         std::vector<HalfEdge> uses;
         for (const Arc& arc : arcs_) {
@@ -170,7 +170,7 @@ private:
         return meeting_at_edge(corners(a), corners(b)).has_value();
     }
 
-    /// A triangle of a book, and the first at its angle.
+    /// A triangle of a book, and the first page at its angle.
     struct Page {
         HalfEdge use;
         std::size_t first;
@@ -178,7 +178,7 @@ private:
 
     const Mesh& mesh_;
     std::uint32_t vertex_;
-    std::map<std::uint32_t, std::size_t> uses_;  ///< of spokes with a book
+    std::map<std::uint32_t, std::size_t> uses_;  ///< by spoke with a book: its triangles
     std::vector<Arc> arcs_;
     std::vector<ArcTree> trees_;
     std::vector<Page> pages_;

@@ -10,13 +10,13 @@
 
 namespace cdprep::mesh {
 
-/// Visits pairs (a, b), a < b, of the triangles around a vertex, which have area: each at
-/// most once, in no order, and every two that have more in common than the corners and
-/// edges they share.
+/// Visits pairs (a, b), a < b, of the triangles around a vertex. Visits each at most once, in no
+/// order. Visits every two triangles that share more than common corners and edges. The
+/// triangles must have area.
 ///
-/// Few others where they are seen in different directions from the vertex, or share an edge
-/// and lie at different angles around it. O(k log k) for k triangles, and O(pairs) for those
-/// that overlap as seen from the vertex.
+/// Visits few other pairs if the triangles appear in different directions from the vertex. The
+/// same holds if they share an edge and lie at different angles around it. O(k log k) for k
+/// triangles, and O(pairs) for those that overlap as seen from the vertex.
 class StarPairs {
 public:
     using Visit = std::function<void(std::uint32_t, std::uint32_t)>;
@@ -27,7 +27,7 @@ public:
     StarPairs& operator=(StarPairs&&) noexcept;
     ~StarPairs();
 
-    /// Visits the pairs of one more triangle; false when there was none left.
+    /// Visits the pairs of one more triangle; returns false if there was none left.
     bool advance(const Visit& visit);
 
 private:

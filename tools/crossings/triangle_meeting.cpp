@@ -8,7 +8,8 @@ namespace {
 
 using Signs = std::array<int, 3>;
 
-/// Whether the segment runs through the inside of the triangle, neither end in its plane.
+/// Returns whether the segment passes through the interior of the triangle. No end may lie in
+/// its plane.
 bool pierces(const Double3& from, const Double3& to, const Corners& t) {
     const int e0 = exact::orient3d(from, to, t[0], t[1]);
     if (e0 == 0) return false;
@@ -24,19 +25,20 @@ bool an_edge_pierces(const Corners& a, const Corners& b) {
     return false;
 }
 
-/// Whether b lies in a's plane; a has area.
+/// Returns whether b lies in the plane of a; a must have area.
 bool in_one_plane(const Corners& a, const Corners& b) {
     return exact::plane_signs(a, b) == Signs{0, 0, 0};
 }
 
-/// Whether two points on a line through `from`, other than it, lie on one side of it.
+/// Returns whether two points on a line through `from` lie on the same side of it. Neither may
+/// equal it.
 bool same_way(const Double3& from, const Double3& p, const Double3& q) {
     if (p.x != from.x) return (p.x > from.x) == (q.x > from.x);
     if (p.y != from.y) return (p.y > from.y) == (q.y > from.y);
     return (p.z > from.z) == (q.z > from.z);
 }
 
-/// Whether edges from the common corner run along each other.
+/// Returns whether edges from the common corner overlap.
 bool edges_overlap(const Corners& a, const Corners& b) {
     for (const std::size_t i : {1, 2}) {
         for (const std::size_t j : {1, 2}) {
@@ -48,7 +50,7 @@ bool edges_overlap(const Corners& a, const Corners& b) {
 
 std::optional<Meeting> flat_meeting_at_corner(const Corners& a, const Corners& b) {
     if (exact::classify_contact(a, b) == TriangleContact::coplanar_overlap) return Meeting::fold;
-    // Sectors without common area: what is left is a common ray.
+    // The sectors share no area, so at most a ray remains.
     return edges_overlap(a, b) ? std::optional(Meeting::edge_overlap) : std::nullopt;
 }
 
@@ -76,12 +78,12 @@ std::optional<Meeting> meeting_apart(const Corners& a, const Corners& b) noexcep
     }
 }
 
-// Both planes meet in a line through the common corner v. Triangle a reaches along it,
-// from v to where its far edge meets b's plane, and b likewise: they meet elsewhere where
-// both reach the same way. Let n be the normals, from a corner v, p, q each. Going from p
-// to q, a turns counter-clockwise about n_a; where p is above b's plane and q is not
-// (counted up along n_b), it passes the line on the side of n_a x n_b, and for b with the
-// two exchanged on the side of n_b x n_a. orient3d() is positive below, for both alike.
+// Both planes meet in a line through the common corner v. Triangle a extends along it from v to
+// where its far edge meets the plane of b, and b likewise. They meet elsewhere if both extend in
+// the same direction. Let n_a and n_b be the normals, each from a corner v, p, q. From p to q, a
+// turns counter-clockwise about n_a. Let p be above the plane of b (along n_b), and q not. Then
+// a passes the line on the side of n_a x n_b. For b, with the two exchanged, it is the side of
+// n_b x n_a. orient3d() is positive below, for both alike.
 std::optional<Meeting> meeting_at_corner(const Corners& a, const Corners& b) noexcept {
     const int a1 = exact::orient3d(b[0], b[1], b[2], a[1]);
     const int a2 = exact::orient3d(b[0], b[1], b[2], a[2]);

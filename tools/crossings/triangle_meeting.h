@@ -8,18 +8,20 @@
 
 namespace cdprep::mesh {
 
-/// How two triangles without a common vertex meet, or nothing. Both have area.
+/// Returns the meeting of two triangles without a common vertex, or nothing. Both must have
+/// area.
 [[nodiscard]] std::optional<Meeting> meeting_apart(const Corners& a, const Corners& b) noexcept;
 
-/// The same of two whose insides are known to cross.
+/// Returns the same for two triangles whose interiors are known to cross.
 [[nodiscard]] Meeting meeting_across(const Corners& a, const Corners& b) noexcept;
 
-/// How two triangles whose first corners are one vertex, and no others, meet elsewhere, or
-/// nothing. Both have area.
+/// Returns the meeting of two triangles outside their common first corner, or nothing. They must
+/// share that vertex only, and both must have area.
 [[nodiscard]] std::optional<Meeting> meeting_at_corner(const Corners& a, const Corners& b) noexcept;
 
-/// How two triangles whose first two corners are the same two vertices, in either order,
-/// and whose third are not, meet elsewhere, or nothing. Both have area.
+/// Returns the meeting of two triangles outside their common edge, or nothing. Their first two
+/// corners must be the same two vertices, in either order, and their third corners must differ.
+/// Both must have area.
 [[nodiscard]] std::optional<Meeting> meeting_at_edge(const Corners& a, const Corners& b) noexcept;
 
 }  // namespace cdprep::mesh

@@ -13,29 +13,31 @@ namespace cdprep::convex {
 
 using format::Double3;
 
-/// A convex hull: of dimension 3 a closed polyhedron, 2 a polygon seen from both
-/// sides, 1 a segment, 0 a point; -1 of nothing.
+/// A convex hull. Dimension 3 is a closed polyhedron, 2 a polygon with both sides, 1 a segment,
+/// 0 a point, and -1 the hull of nothing.
 struct ConvexHull {
     int dimension = -1;
-    std::vector<Double3> points;         ///< extreme points, in order of their numbers
-    std::vector<std::uint32_t> numbers;  ///< of the input points they are; empty: none of them
-    /// Triangles of dimensions 2 and 3, numbers into `points`, counter-clockwise seen
-    /// from outside, the least number first; sorted by group. None is degenerate.
+    std::vector<Double3> points;         ///< extreme points, by ascending number
+    std::vector<std::uint32_t> numbers;  ///< in the input; empty: they are no input points
+    /// Triangles of dimensions 2 and 3, as indices into `points`. They are counter-clockwise
+    /// seen from outside, least index first, and sorted within each group. None is degenerate.
     std::vector<std::array<std::uint32_t, 3>> facets;
-    /// First facet of each maximal coplanar face, which is a fan; then the number of facets.
+    /// The first facet of each maximal coplanar face, which is a fan; at the end the number of
+    /// facets.
     std::vector<std::uint32_t> groups = {0};
 };
 
-/// Returns the convex hull, exactly: its points are those input points that are no
-/// convex combination of others. Of equal points the first one stands for all.
+/// Returns the exact convex hull. Its points are the input points that are not convex
+/// combinations of others. Of several equal points it uses the first.
 ///
-/// The same for every order of the input, up to the numbers: coplanar faces are split
-/// into the fan around their lexicographically least point (the back of a polygon: around
-/// the one before it, so that it is a closed surface too), facets of a group are sorted,
-/// and groups stand in order of their first facet. Any number of points, equal,
-/// collinear and coplanar ones too. Coordinates must be finite. Expected O(n log n), and
-/// little more than O(n) where most points are well inside; only finding out which those
-/// are uses the threads of `run`.
+/// Except for the numbers, the result is the same for every order of the input. Coplanar faces
+/// are split into a fan around their lexicographically least point. The back of a polygon has
+/// its fan around the point before it, so that it is a closed surface too. Facets of a group are
+/// sorted, and groups are in the order of their first facet.
+///
+/// Accepts any number of points, also equal, collinear and coplanar ones. Coordinates must be
+/// finite. Expected O(n log n), and little more than O(n) if most points are well inside. Only
+/// the search for these inner points uses the threads of `run`.
 [[nodiscard]] ConvexHull convex_hull(std::span<const Double3> points, ParallelFor run = serial_for);
 
 }  // namespace cdprep::convex

@@ -11,58 +11,58 @@
 
 #include "hull/exact_hull.h"
 
-// Also compiled for AVX2; which one runs is chosen while the program is loaded. The thread
-// sanitizer is not there yet by then, but is called by the choice.
+// Functions with this attribute are also compiled for AVX2; the program loader chooses the
+// version. The thread sanitizer is not yet initialised then, but the choice would call it.
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
 #define CDPREP_WITH_AVX2 [[gnu::target_clones("avx2", "default")]]
 #else
 #define CDPREP_WITH_AVX2
 #endif
 
-// Polytopes inside the hull, each with some points of the input as corners, the next with
-// the points farthest outside the facets of the one before; the first few of a sample. What is
-// strictly inside one of them is strictly inside the hull, and no corner of it; the corners
-// themselves stay, and with them the hull.
+// Points are tested against polytopes inside the hull, whose corners are input points. Each next
+// polytope adds the points farthest outside the facets of the one before. The first few use only
+// a sample. A point strictly inside a polytope is strictly inside the hull, so it is no corner
+// of the hull. The corners of the polytopes stay, and so does the hull.
 //
-// "Strictly inside" is decided in float, and certainly. Let y = (p - centre) * scale, exactly,
-// |y| <= 1 in each coordinate (`scale` is a power of two), and x the floats that stand for it:
-// the rounded difference and the rounding to float move it by less than 2^-24. Let a facet's
-// outward normal be N, exactly, as a cross product of differences of y; m the largest of its
-// coordinates as computed, and e the bound of their errors over m; n the floats for N / m.
-// Then for y in the box
+// The test for "strictly inside" uses floats, with a proof. Let y = (p - centre) * scale,
+// exactly, with |y| <= 1 in each coordinate (`scale` is a power of two). Let x be the floats for
+// y: the rounding of the difference and the rounding to float change it by less than 2^-24. Let
+// N be the exact outward normal of a facet, a cross product of differences of y. Let m be the
+// largest of its computed coordinates, and e the bound on their errors divided by m. Let n be
+// the floats for N / m. Then for y in the box
 //   |N/m y - n y| <= 3 (2^-24 + e)       |n y - n x| <= 3 (1 + 2^-24) 2^-24
 //   |n x as computed - n x| <= 8.1 * 2^-24: three products of at most 1, sums up to 2 and 3
 //   |N/m a as computed from doubles - N/m a| <= 3 e + 2^-48
-// together less than 15 * 2^-24 + 6 e. What is less than the facet's height minus 2^-19 - 8 e
-// is behind the exact facet. A normal too short to be sure of has a large e and drops nothing.
+// The sum is less than 15 * 2^-24 + 6 e. A value below the facet's height minus 2^-19 - 8 e is
+// behind the exact facet. A normal too short to be reliable has a large e and drops nothing.
 namespace cdprep::convex {
 namespace {
 
 constexpr double kMargin = 0x1p-19;
-constexpr double kNormalError = 0x1p-47;  ///< of a coordinate of N: see plane_of()
+constexpr double kNormalError = 0x1p-47;  ///< error of a coordinate of N: see plane_of()
 constexpr std::size_t kLanes = 8;
-constexpr std::size_t kChunk = 1024;  ///< points that a task takes: 16 KiB
+constexpr std::size_t kChunk = 1024;  ///< points per task: 16 KiB
 constexpr std::size_t kFewPoints = 512;
 constexpr std::size_t kSample = 1 << 14;
 constexpr std::size_t kSampleFacets = 64, kMostFacets = 256;
-/// A pass is the last one when it drops fewer than one point in this many.
+/// A pass that drops fewer than one point in this many is the last.
 constexpr std::size_t kWorthwhile = 10;
-/// Sizes whose squares and quotients are far from the ends of the range.
+/// Sizes whose squares and quotients are far from the limits of double.
 constexpr double kLeastSize = 1e-150, kLargestSize = 1e150;
 
-/// Eight points side by side.
+/// Eight points, stored by coordinate.
 struct Block {
     alignas(32) std::array<float, kLanes> x, y, z;
 };
 
 struct Plane {
     float x, y, z;
-    float height;  ///< what is lower is certainly behind the facet
+    float height;  ///< a lower point is certainly behind the facet
 };
 
 using Float3 = std::array<float, 3>;
 
-/// At most kChunk points, the last one repeated to fill its block.
+/// At most kChunk points. Copies of the last one fill its block.
 struct Chunk {
     std::vector<Block> blocks;
     std::vector<std::uint32_t> numbers;
@@ -95,10 +95,10 @@ private:
 
 using Chunks = std::vector<Chunk>;
 
-/// How input coordinates become those of the unit box.
+/// The map from input coordinates to the unit box.
 class UnitBox {
 public:
-    /// Half the largest side is less than the next power of two, and |y| at most 1.
+    /// Scales by a power of two greater than half the largest side, so that |y| is at most 1.
     UnitBox(const Double3& lower, const Double3& upper)
         : centre_{0.5 * lower.x + 0.5 * upper.x, 0.5 * lower.y + 0.5 * upper.y,
                   0.5 * lower.z + 0.5 * upper.z} {
@@ -122,7 +122,7 @@ private:
     double size_ = 0, scale_ = 1;
 };
 
-/// Four points are three vectors of four coordinates: the loop over twelve is over vectors.
+/// Four points are three vectors of four coordinates, so the loop over twelve is vectorised.
 CDPREP_WITH_AVX2
 UnitBox box_of(std::span<const Double3> points) {
     constexpr std::size_t kRow = 12;
@@ -152,8 +152,8 @@ using Lanes = float __attribute__((vector_size(4 * kLanes)));
 using LaneMask = std::int32_t __attribute__((vector_size(4 * kLanes)));
 using Flags = std::array<std::int32_t, kLanes>;
 
-/// Adds to `kept`, per point, whether the plane leaves it; returns the largest height
-/// along the plane's normal.
+/// Sets flags in `kept` for points that the plane does not prove to be behind it. Returns the
+/// largest height along the plane's normal.
 CDPREP_WITH_AVX2
 float weigh(std::span<const Block> blocks, const Plane& plane, Flags* kept) {
     Lanes most = Lanes{} - std::numeric_limits<float>::infinity();
@@ -174,7 +174,7 @@ float weigh(std::span<const Block> blocks, const Plane& plane, Flags* kept) {
     return highest;
 }
 
-/// What is left of a chunk; `highest` has a place per plane.
+/// Returns the remaining points of a chunk; sets one entry of `highest` per plane.
 Chunk kept_of(const Chunk& chunk, std::span<const Plane> planes, float* highest) {
     std::array<Flags, kChunk / kLanes> kept = {};
     for (std::size_t p = 0; p < planes.size(); ++p) {
@@ -192,10 +192,10 @@ Chunk kept_of(const Chunk& chunk, std::span<const Plane> planes, float* highest)
 
 struct Pass {
     Chunks kept;
-    std::vector<float> highest;  ///< per chunk and plane
+    std::vector<float> highest;  ///< by chunk and plane
 };
 
-/// `chunk_at` gives chunks by number.
+/// Tests all chunks against the planes; `chunk_at` returns a chunk by number.
 template <class ChunkAt>
 Pass pass_over(std::size_t chunk_count, const ChunkAt& chunk_at, std::span<const Plane> planes,
                ParallelFor run) {
@@ -207,7 +207,7 @@ Pass pass_over(std::size_t chunk_count, const ChunkAt& chunk_at, std::span<const
     return pass;
 }
 
-/// Adds, for each plane, the farthest of the points in front of it: it has been kept.
+/// Adds the farthest point in front of each plane. The pass has kept it.
 void add_farthest(const Pass& pass, std::span<const Plane> planes,
                   std::vector<std::uint32_t>& corners) {
     for (std::size_t p = 0; p < planes.size(); ++p) {
@@ -230,7 +230,7 @@ void add_farthest(const Pass& pass, std::span<const Plane> planes,
     corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
 }
 
-/// The same points in full chunks.
+/// Returns the same points in full chunks.
 Chunks joined(const Chunks& parts) {
     Chunks all;
     for (const Chunk& part : parts) {
@@ -252,22 +252,23 @@ std::size_t count_of(const Chunks& chunks) {
     return count;
 }
 
-/// Coordinates of y are off by u = 2^-53 at most, differences of two by 4 u, products of
-/// such, at most 4, by 20 u, and the difference of two products by 48 u: below 2^-47.
+/// Returns the plane of a facet. With u = 2^-53, the error of a coordinate of y is at most u,
+/// and of a difference of two 4 u. The error of a product of these, at most 4, is 20 u. That of
+/// the difference of two products is 48 u, below 2^-47.
 Plane plane_of(const Double3& a, const Double3& b, const Double3& c) {
     const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
     const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
     const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
     const double most = std::max({std::fabs(nx), std::fabs(ny), std::fabs(nz)});
     const double error = kNormalError / most;
-    // Also where `most` is 0, and the error infinite: a plane with everything in front.
+    // Also if `most` is 0 and the error infinite: such a plane has everything in front.
     if (!(error < 0.01)) return {0, 0, 0, -1};
     const double height = (nx * a.x + ny * a.y + nz * a.z) / most;
     return {static_cast<float>(nx / most), static_cast<float>(ny / most),
             static_cast<float>(nz / most), static_cast<float>(height - kMargin - 8 * error)};
 }
 
-/// The planes of the exact hull of some of the points; none when it is flat.
+/// Returns the planes of the exact hull of some of the points; none if it is flat.
 std::vector<Plane> planes_of(std::span<const Double3> points,
                              std::span<const std::uint32_t> corners, const UnitBox& unit) {
     std::vector<Double3> some;
@@ -284,7 +285,7 @@ std::vector<Plane> planes_of(std::span<const Double3> points,
     return planes;
 }
 
-/// Every `step`-th point.
+/// Returns every `step`-th point.
 Chunks sample_of(std::span<const Double3> points, std::size_t step, const UnitBox& unit) {
     Chunks sample;
     for (std::size_t i = 0; i < points.size(); i += step) {
@@ -295,7 +296,8 @@ Chunks sample_of(std::span<const Double3> points, std::size_t step, const UnitBo
     return sample;
 }
 
-/// Least and greatest along the axes: what lies in front of planes that nothing is behind.
+/// Returns the least and greatest points along the axes: all points are in front of these
+/// planes.
 std::vector<std::uint32_t> first_corners(const Chunks& sample) {
     std::vector<Plane> planes;
     for (const float sign : {-1.0F, 1.0F}) {
@@ -310,14 +312,14 @@ std::vector<std::uint32_t> first_corners(const Chunks& sample) {
     return corners;
 }
 
-/// What polytopes grown over `points` are known by.
+/// The state of polytopes grown over `points`.
 struct Grown {
     std::vector<std::uint32_t> corners;
-    std::vector<Plane> planes;  ///< of the corners' hull
-    std::vector<Plane> before;  ///< of the polytope before it
+    std::vector<Plane> planes;  ///< of the hull of the corners
+    std::vector<Plane> before;  ///< of the previous polytope
 };
 
-/// Passes over the chunks as long as they are worth it and facets few.
+/// Repeats passes over the chunks while they drop enough points and the facets are few.
 void grow(Chunks& chunks, Grown& grown, std::span<const Double3> points, const UnitBox& unit,
           std::size_t most_facets, ParallelFor run) {
     while (!grown.planes.empty() && grown.planes.size() <= most_facets) {
@@ -335,7 +337,7 @@ void grow(Chunks& chunks, Grown& grown, std::span<const Double3> points, const U
     }
 }
 
-/// The `number`-th kChunk points of the input.
+/// Returns the `number`-th run of kChunk input points.
 Chunk chunk_of(std::span<const Double3> points, std::size_t number, const UnitBox& unit) {
     const std::size_t first = number * kChunk;
     const std::size_t count = std::min(kChunk, points.size() - first);
@@ -356,7 +358,8 @@ Chunk chunk_of(std::span<const Double3> points, std::size_t number, const UnitBo
     return chunk;
 }
 
-/// Over all points; the few planes of the polytope before spare most the many of the last.
+/// Passes over all points. The few planes of the previous polytope drop most points, before the
+/// many planes of the last one.
 Chunks first_pass(std::span<const Double3> points, Grown& grown, const UnitBox& unit,
                   ParallelFor run) {
     const auto chunk_at = [&](std::size_t i) {
@@ -395,7 +398,7 @@ std::vector<std::uint32_t> cull_inside(std::span<const Double3> points, Parallel
     grown.corners = first_corners(sample);
     grown.planes = planes_of(points, grown.corners, unit);
     grow(sample, grown, points, unit, kSampleFacets, run);
-    if (step == 1) {  // the sample is all there is
+    if (step == 1) {  // the sample contains all points
         if (count_of(sample) < kFewPoints) return numbers_of(sample);
         grown.planes = planes_of(points, grown.corners, unit);
         grow(sample, grown, points, unit, kMostFacets, run);

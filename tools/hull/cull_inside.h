@@ -12,10 +12,10 @@ namespace cdprep::convex {
 
 using format::Double3;
 
-/// Returns the numbers, ascending, of points among which all extreme points are: most of
-/// those strictly inside the hull are left out, but none on its boundary. Those returned
-/// have the same hull as all; they may be all. Coordinates must be finite. O(n) a pass,
-/// of which there are at most eight.
+/// Returns the numbers, ascending, of points that include all extreme points. Most points
+/// strictly inside the hull are left out, but none on its boundary. The result has the same hull
+/// as all points, and may contain all of them. Coordinates must be finite. O(n) per pass, with
+/// at most eight passes.
 [[nodiscard]] std::vector<std::uint32_t> cull_inside(std::span<const Double3> points,
                                                      ParallelFor run);
 

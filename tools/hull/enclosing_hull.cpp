@@ -13,12 +13,13 @@
 #include "mesh/vectors.h"
 
 // K half-spaces that touch the hull contain it, and their intersection has at most 2 K - 4
-// corners. Greedily: the corner farthest from the hull is cut off by the plane through its
-// nearest point there, at right angles to the way; beginning with a box or a tetrahedron,
-// whichever ends nearer. The corners of an intersection are the
-// faces of the convex hull of the planes' poles, n / h for the plane n x = h seen from a
-// point inside. All that is in rounded numbers; what is handed back is checked exactly, and
-// the planes move outwards by more until it passes.
+// corners. The method is greedy. It cuts off the corner farthest from the hull. The plane passes
+// through the nearest point of the hull, at right angles to the way there. It starts with a box
+// and with a tetrahedron, and keeps the result with the smaller distance.
+//
+// The corners of an intersection are the faces of the convex hull of the planes' poles. The pole
+// of the plane n x = h, seen from a point inside, is n / h. All this uses rounded numbers. The
+// result is checked exactly, and the planes move outwards step by step until it passes.
 namespace cdprep::convex {
 namespace {
 
@@ -30,13 +31,13 @@ using mesh::minus;
 using mesh::plus;
 using mesh::scaled;
 
-/// In units of half the largest side: how far planes stay off at first, which is what rounding
-/// costs corners of well-shaped intersections.
+/// The first distance of planes from the hull, in units of half the largest side. It is the
+/// rounding error of the corners of well-shaped intersections.
 constexpr double kFirstSlack = 0x1p-48, kSlackGrowth = 8;
 constexpr int kSlackSteps = 20;
-/// Corners closer than this are not worth a plane.
+/// Corners closer than this do not justify a plane.
 constexpr double kClose = 0x1p-40;
-/// Heights above a facet's plane are off by less than this times its edges' lengths.
+/// The error of a height above a facet's plane is less than this times its edges' lengths.
 constexpr double kHeightError = 0x1p-45;
 
 using Facet = std::array<std::uint32_t, 3>;
@@ -45,7 +46,7 @@ bool is_finite(const Double3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// All of size 1 around a point inside: the mean of the corners.
+/// The map to coordinates of size 1 around a point inside, the mean of the corners.
 struct Frame {
     Double3 origin;
     int exponent;
@@ -77,13 +78,13 @@ struct HalfSpace {
     double height;
 };
 
-/// A corner of the intersection and the poles' facet that it is known by.
+/// A corner of the intersection, and the facet of poles that identifies it.
 struct Corner {
     Facet planes;
     Double3 at;
 };
 
-/// Where three planes meet; not finite when they do not.
+/// Returns the common point of three planes; not finite if there is none.
 Double3 meeting_point(const HalfSpace& a, const HalfSpace& b, const HalfSpace& c) {
     const Double3 bc = cross(b.normal, c.normal), ca = cross(c.normal, a.normal),
                   ab = cross(a.normal, b.normal);
@@ -96,7 +97,7 @@ double volume_of(std::span<const HalfSpace> planes, const Facet& facet) {
         dot(planes[facet[0]].normal, cross(planes[facet[1]].normal, planes[facet[2]].normal)));
 }
 
-/// The corners of the intersection, all planes moved outwards by `slack`.
+/// Returns the corners of the intersection, with all planes moved outwards by `slack`.
 std::vector<Corner> corners_of(std::vector<HalfSpace> planes, double slack) {
     std::vector<Double3> poles;
     for (HalfSpace& plane : planes) {
@@ -145,9 +146,9 @@ public:
         return {normal, height};
     }
 
-    /// The nearest point of a triangle that is seen from `p`, or of the one that is the
-    /// least behind it. Proved as far as the distance of `p` to the hull goes: its upper
-    /// bound is one for each triangle's.
+    /// Returns the nearest point of the triangles visible from `p`. If none is visible, uses the
+    /// triangles that `p` is least far behind. The upper bound is proved for the distance of `p` to
+    /// the hull, since any triangle gives such a bound.
     [[nodiscard]] PointTriangleDistance nearest(const Double3& p, const Double3& inside,
                                                 std::span<const Double3> corners) const {
         double highest = -std::numeric_limits<double>::infinity();
@@ -168,11 +169,11 @@ public:
         }
         return best;
     }
-    /// In the frame.
+    /// Takes and returns coordinates of the frame.
     [[nodiscard]] PointTriangleDistance nearest(const Double3& y) const {
         return nearest(y, y, points_);
     }
-    /// In model units.
+    /// Takes and returns model coordinates.
     [[nodiscard]] PointTriangleDistance nearest_of_model(const Double3& p) const {
         return nearest(p, frame_.inwards(p), exact_->points);
     }
@@ -194,7 +195,7 @@ const std::array<Double3, 4> kTetrahedron = {{{kDiagonal, kDiagonal, kDiagonal},
                                               {-kDiagonal, kDiagonal, -kDiagonal},
                                               {-kDiagonal, -kDiagonal, kDiagonal}}};
 
-/// The plane that cuts off the worst corner; none when all are close.
+/// Finds the plane that cuts off the worst corner; none if all corners are close.
 class Cutter {
 public:
     explicit Cutter(const Inner& inner) : inner_(&inner) {}
@@ -215,7 +216,7 @@ public:
     }
 
 private:
-    /// Most corners were there before.
+    /// Caches the results: most corners existed in the step before.
     const PointTriangleDistance& nearest_to(const Corner& corner) {
         const auto known = known_.find(corner.planes);
         if (known != known_.end()) return known->second;
@@ -232,7 +233,7 @@ std::vector<HalfSpace> chosen_planes(const Inner& inner, Normals first,
     for (const Double3& normal : first) planes.push_back(inner.touching(normal));
     Cutter cutter(inner);
     std::vector<Corner> corners = corners_of(planes, kFirstSlack);
-    // Planes that cut nothing off, by rounding, must not go on for ever.
+    // Planes that cut nothing off because of rounding must not continue forever.
     while (planes.size() < max_vertices + kTetrahedron.size()) {
         const std::optional<HalfSpace> plane = cutter.next_plane(corners);
         if (!plane) break;
@@ -259,7 +260,7 @@ bool contains(const ConvexHull& outer, std::span<const Double3> points) {
     return true;
 }
 
-/// The hull of the corners as they are stored; nothing when one is not finite.
+/// Returns the hull of the corners as stored; nothing if one is not finite.
 std::optional<ConvexHull> stored_hull(const std::vector<Corner>& corners, const Frame& frame) {
     std::vector<Double3> points;
     for (const Corner& corner : corners) {

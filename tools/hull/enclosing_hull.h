@@ -11,19 +11,19 @@ namespace cdprep::convex {
 inline constexpr std::uint32_t kFewestEnclosingVertices = 4;
 
 struct EnclosingHull {
-    ConvexHull hull;  ///< `numbers` is empty unless it is the exact one
-    /// No point of it is farther than this from the exact hull; 0 if they are one. A
-    /// proved upper bound of their Hausdorff distance, model units.
+    ConvexHull hull;  ///< `numbers` is empty unless it is the exact hull
+    /// A proved upper bound on the Hausdorff distance from the exact hull, in model units: no
+    /// point is farther from it. 0 if the hulls are equal.
     double distance = 0;
 };
 
-/// Returns a hull of at most `max_vertices` points, at least kFewestEnclosingVertices, that
-/// contains `exact`: every point of that is behind or on every facet, exactly, as the
-/// coordinates are stored. It is `exact` itself where that has few enough points; a polygon
-/// with more gets a solid around it.
+/// Returns a hull of at most `max_vertices` points that contains `exact`. Every point of `exact`
+/// is behind or on every facet, exactly, for the stored coordinates. Returns `exact` itself if
+/// that has few enough points. A polygon with more points gets a solid around it. Returns
+/// nothing if a coordinate would leave the range of double.
 ///
-/// Made of planes that touch the hull, each where the corner farthest out is cut off best.
-/// Nothing when a coordinate would leave the range of double. O(V (V + n)) for V vertices
+/// `max_vertices` must be at least kFewestEnclosingVertices. The facets are planes that touch
+/// the hull; each one is chosen to cut off the farthest corner best. O(V (V + n)) for V vertices
 /// around n points.
 [[nodiscard]] std::optional<EnclosingHull> enclosing_hull(const ConvexHull& exact,
                                                           std::uint32_t max_vertices);

@@ -29,11 +29,11 @@ bool equal(const Double3& a, const Double3& b) {
     return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-/// The input without repetitions, in lexicographic order. Numbers of distinct points,
-/// "places", are what everything below speaks of.
+/// The input without repetitions, in lexicographic order. The functions below use "places": the
+/// numbers of these distinct points.
 struct DistinctPoints {
     std::vector<Double3> at;
-    std::vector<std::uint32_t> number;  ///< the least of the input
+    std::vector<std::uint32_t> number;  ///< the least in the input
 
     [[nodiscard]] bool collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
         return exact::is_degenerate({at[a], at[b], at[c]});
@@ -90,8 +90,8 @@ Double3 normal_of(const Double3& a, const Double3& b, const Double3& c) {
     return {uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx};
 }
 
-/// Four points as far from each other as a quick look finds them: a hull that begins with
-/// a large tetrahedron has fewer points outside it.
+/// Returns four points that are far apart, by a quick search. A hull that starts with a large
+/// tetrahedron has fewer points outside it.
 std::array<std::uint32_t, 4> wide_tetrahedron(const DistinctPoints& points, const Span& span) {
     std::array<std::uint32_t, 4> wide = span.places;
     const Double3 a = points.at[wide[0]], b = points.at[wide[1]];
@@ -111,7 +111,7 @@ std::array<std::uint32_t, 4> wide_tetrahedron(const DistinctPoints& points, cons
     return points.side({wide[0], wide[1], wide[2]}, wide[3]) != 0 ? wide : span.places;
 }
 
-/// How a plane's points are looked at along an axis, so that their turns are seen.
+/// A projection of a plane's points along an axis that preserves their turns.
 struct Projection {
     int axis;
 
@@ -143,7 +143,7 @@ void add_to_chain(Polygon& chain, std::size_t first, std::uint32_t p, const Dist
     chain.push_back(p);
 }
 
-/// The hull of coplanar points by monotone chains, corners only.
+/// Returns the hull of coplanar points by monotone chains, corners only.
 Polygon polygon_of(const DistinctPoints& points, const Facet& plane) {
     const Projection flat = projection_of(points, plane);
     std::vector<std::uint32_t> order(points.at.size());
@@ -162,19 +162,19 @@ Polygon polygon_of(const DistinctPoints& points, const Facet& plane) {
     return polygon;
 }
 
-/// A polygon whose fan is around its least place.
+/// Returns a polygon whose fan is around its least place.
 Polygon least_first(Polygon polygon) {
     std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
     return polygon;
 }
 
-/// The back's fan is around another point, so that no two facets share a diagonal with
-/// facets of the other side.
+/// Returns both sides of a polygon. The fan of the back is around another point, so that no
+/// facets of the two sides share a diagonal.
 std::vector<Polygon> both_sides(const Polygon& polygon) {
     return {polygon, {polygon.rbegin(), polygon.rend()}};
 }
 
-/// A surface's triangles, whose facets are sets of coplanar ones.
+/// The facets of a surface: sets of coplanar triangles.
 class Coplanar {
 public:
     Coplanar(std::span<const HullFace> faces, const DistinctPoints& points)
@@ -189,8 +189,8 @@ public:
         }
     }
 
-    /// The corners of each set. A vertex that is none of a face's corners lies inside
-    /// the face or one of its edges, and is then none of any face's.
+    /// Returns the corners of each set. A vertex that is not a corner of its face lies inside
+    /// the face or one of its edges. It is then no corner of any face.
     [[nodiscard]] std::vector<Polygon> polygons() {
         std::vector<Polygon> all;
         std::vector<std::array<bool, 3>> seen(faces_.size());
@@ -226,7 +226,7 @@ private:
         return sets_.root_of(half.face) != sets_.root_of(faces_[half.face].across[half.edge]);
     }
 
-    /// Once around the set left of `first`, which is convex: one loop.
+    /// Returns the loop around the set left of `first`. The set is convex, so there is one loop.
     [[nodiscard]] Polygon loop(Half first, std::vector<std::array<bool, 3>>& seen) {
         Polygon around;
         Half half = first;
@@ -260,7 +260,7 @@ std::vector<Polygon> polygons_of(const DistinctPoints& points, const Span& span)
     return Coplanar(faces, points).polygons();
 }
 
-/// The places of extreme points, in order of their input numbers.
+/// Returns the places of extreme points, in order of their input numbers.
 std::vector<std::uint32_t> extreme_places(const DistinctPoints& points,
                                           const std::vector<Polygon>& polygons) {
     std::vector<std::uint32_t> places;
@@ -282,7 +282,8 @@ void add_points(ConvexHull& hull, const DistinctPoints& points,
     }
 }
 
-/// The fan around the first place, each triangle rotated to start with its least name.
+/// Returns the fan around the first place. Each triangle is rotated to start with its least
+/// name.
 std::vector<Facet> fan_of(const Polygon& polygon, std::span<const std::uint32_t> name_of) {
     std::vector<Facet> fan;
     for (std::size_t i = 2; i < polygon.size(); ++i) {
@@ -308,7 +309,7 @@ void add_facets(ConvexHull& hull, const std::vector<Polygon>& polygons,
     hull.groups.push_back(static_cast<std::uint32_t>(hull.facets.size()));
 }
 
-/// A segment's ends, or the only point: lexicographic order has them first and last.
+/// Returns the ends of a segment, or the only point: they are first and last in the order.
 std::vector<std::uint32_t> ends_of(const DistinctPoints& points) {
     if (points.at.empty()) return {};
     const auto last = static_cast<std::uint32_t>(points.at.size()) - 1;

@@ -5,7 +5,8 @@
 
 namespace cdprep::convex {
 
-/// convex_hull() of all points, with nothing in front of it: what it is for few points.
+/// Returns the convex hull without a search for inner points, as convex_hull() does for few
+/// points.
 [[nodiscard]] ConvexHull exact_hull(std::span<const Double3> points);
 
 }  // namespace cdprep::convex

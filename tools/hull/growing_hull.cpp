@@ -9,7 +9,7 @@
 namespace cdprep::convex {
 namespace {
 
-/// Sides of a plane on which points were seen.
+/// The sides of a plane that contain points.
 struct Sides {
     bool behind = false;
     bool before = false;
@@ -25,7 +25,7 @@ struct Sides {
     }
 };
 
-/// The two are on different sides of their plane, or in it.
+/// Returns whether the two are on different sides of their plane, or in it.
 bool parted(const Sides& a, const Sides& b) {
     return a.one() && !(a.behind && b.behind) && !(a.before && b.before);
 }
@@ -78,7 +78,7 @@ void GrowingHull::adopt(std::span<const Double3> points,
     points_.assign(points.begin(), points.end());
     facets_.clear();
     unused_.clear();
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> sides;  // ends of an edge, 3 f + k
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> sides;  // the ends of an edge, 3 f + k
     for (const auto& corner : triangles) {
         const auto f = static_cast<std::uint32_t>(facets_.size());
         facets_.push_back({corner, {}});
@@ -100,9 +100,9 @@ void GrowingHull::add(const Double3& point) {
     take_in(static_cast<std::uint32_t>(points_.size() - 1));
 }
 
-// Facets in whose plane the point lies are not visible: then the visible ones are whole
-// faces, a disk, and no facet between an edge of its rim and the point is degenerate: a
-// point in line with the edge would lie in the plane of the visible facet too.
+// Facets whose plane contains the point are not visible. So the visible facets are whole faces
+// and form a disk. No facet between an edge of its rim and the point is degenerate: a point in
+// line with the edge would lie in the plane of the visible facet too.
 void GrowingHull::take_in(std::uint32_t point) {
     visible_.assign(facets_.size(), 0);
     bool any = false;
@@ -112,7 +112,7 @@ void GrowingHull::take_in(std::uint32_t point) {
         any = any || visible_[f] != 0;
     }
     if (!any) return;
-    ring_.clear();  // 4 numbers an edge: from, to, the facet beyond, its edge there
+    ring_.clear();  // 4 numbers per edge: from, to, the facet beyond, its edge there
     for (std::uint32_t f = 0; f < visible_.size(); ++f) {
         if (visible_[f] == 0) continue;
         for (std::uint32_t k = 0; k < 3; ++k) {
@@ -149,11 +149,14 @@ void GrowingHull::take_in(std::uint32_t point) {
     }
 }
 
-// A hull with an inside and a triangle that has no point in it are parted by a plane. Of
-// all such planes one touches the two in three of their corners that are in no line: three
-// of the hull, then it is that of a facet; three of the triangle; or two of the one,
-// which are an edge of it or two corners of one facet, and one of the other. Each kind is
-// tried with exact signs of corners only.
+// If no point of a triangle lies inside a hull of dimension 3, a plane separates the two. One of
+// these planes touches the two in three of their corners, not collinear. The three corners are
+// of one of these kinds:
+// - Three of the hull: the plane is that of a facet.
+// - Three of the triangle.
+// - Two of one and one of the other. The two are an edge of the first, or two corners of one of its
+//   facets.
+// Each kind is tested, with exact signs of corners only.
 bool GrowingHull::has_inside(const Corners& triangle) const {
     bool has_corner_inside = false;
     if (is_parted_by_facet(triangle, has_corner_inside)) return false;

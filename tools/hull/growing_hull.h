@@ -13,35 +13,35 @@ namespace cdprep::convex {
 
 using format::Double3;
 
-/// A convex hull that takes in one point after the other, exactly: for the few points of a
-/// patch, thousands of times a second. convex_hull() is for many points.
+/// A convex hull that adds points one by one, exactly. It serves the few points of a patch,
+/// thousands of times a second. For many points use convex_hull().
 class GrowingHull {
 public:
     static constexpr std::uint32_t kDead = UINT32_MAX;
 
-    /// A triangle of the boundary, counter-clockwise from outside; none is degenerate.
+    /// A triangle of the boundary, counter-clockwise from outside; never degenerate.
     struct Facet {
-        std::array<std::uint32_t, 3> corner;  ///< numbers into points(); kDead first: unused
-        std::array<std::uint32_t, 3> across;  ///< the facet beyond the edge from corner k on
+        std::array<std::uint32_t, 3> corner;  ///< indices into points(); kDead first: unused
+        std::array<std::uint32_t, 3> across;  ///< the facet across the edge that starts at corner k
     };
 
-    /// Begins with four of the points that are in no plane, and adds the others. Points may
-    /// not be equal. Returns false, and is empty, when all are in one plane.
+    /// Builds the hull: starts with four points that are not coplanar, and adds the others.
+    /// Points must be distinct. Returns false, with an empty hull, if all points are coplanar.
     bool build(std::span<const Double3> points);
 
-    /// Takes over a hull that is known: triangles counter-clockwise from outside, a closed
-    /// surface, numbers into `points`.
+    /// Adopts a known hull. `triangles` are a closed surface, counter-clockwise from outside, as
+    /// indices into `points`.
     void adopt(std::span<const Double3> points,
                std::span<const std::array<std::uint32_t, 3>> triangles);
 
-    /// Takes in another point.
+    /// Adds another point.
     void add(const Double3& point);
 
-    /// Points in the order they came, those inside too.
+    /// The points in the order of their addition, inner points included.
     [[nodiscard]] const std::vector<Double3>& points() const noexcept {
         return points_;
     }
-    /// Those whose first corner is kDead are none.
+    /// The facets; entries whose first corner is kDead are unused.
     [[nodiscard]] const std::vector<Facet>& facets() const noexcept {
         return facets_;
     }
@@ -49,8 +49,8 @@ public:
         return facets_.empty();
     }
 
-    /// True when a point of the triangle, which may be degenerate, lies strictly inside.
-    /// Exact. Mostly O(1), O(points squared) where it is close.
+    /// Returns whether a point of the triangle lies strictly inside the hull. The triangle may
+    /// be degenerate. Exact. Usually O(1); O(points squared) in close cases.
     [[nodiscard]] bool has_inside(const Corners& triangle) const;
 
 private:
@@ -65,7 +65,7 @@ private:
 
     std::vector<Double3> points_;
     std::vector<Facet> facets_;
-    // Scratch of take_in().
+    // Scratch memory of take_in().
     std::vector<std::uint8_t> visible_;
     std::vector<std::uint32_t> unused_;
     std::vector<std::uint32_t> ring_;

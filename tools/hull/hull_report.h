@@ -10,18 +10,18 @@
 
 namespace cdprep::report {
 
-/// One hull: around all, a component or a node.
+/// One hull: around the whole mesh, a component or a node.
 struct HullFigures {
     std::string name;
     int dimension = -1;
     std::uint64_t points = 0;
     std::uint64_t facets = 0;  ///< triangles
-    std::uint64_t faces = 0;   ///< maximal coplanar ones
+    std::uint64_t faces = 0;   ///< maximal coplanar faces
     bool exact = true;
-    double distance = 0;  ///< from the exact hull at most, model units
+    double distance = 0;  ///< upper bound on the distance from the exact hull, model units
 };
 
-/// What `cdprep hull` gave.
+/// The result of `cdprep hull`.
 struct HullReport {
     std::string input;
     std::string output;
@@ -29,18 +29,18 @@ struct HullReport {
     std::uint64_t triangles = 0;
     std::uint64_t vertices = 0;
     std::vector<HullFigures> hulls;
-    double seconds = 0;  ///< of finding hulls alone
+    double seconds = 0;  ///< of the hull search only
     int exit = 0;
-    std::optional<std::string> error;  ///< the sentence, when it failed
+    std::optional<std::string> error;  ///< the message, if it failed
 };
 
-/// Returns why there is no enclosing hull; `option` asked for it.
+/// Returns the error for a missing enclosing hull, which `option` requested.
 [[nodiscard]] Error hull_beyond_range(const std::string& input, const char* option);
 
-/// For a person: a line for each hull, at most `most_lines`, and what they are together.
+/// Returns a text for people: at most `most_lines` lines of hulls, and totals.
 [[nodiscard]] std::string hull_text(const HullReport& report, std::size_t most_lines);
 
-/// One object: "hulls" has an object for each.
+/// Returns one JSON object; "hulls" has an object per hull.
 [[nodiscard]] std::string hull_json(const HullReport& report);
 
 }  // namespace cdprep::report

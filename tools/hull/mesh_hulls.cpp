@@ -65,7 +65,7 @@ std::optional<std::vector<MeshHull>> find_mesh_hulls(const mesh::Mesh& mesh,
                                                      std::span<const format::Instance> instances,
                                                      const MeshHullOptions& options) {
     const std::vector<Vertices> sets = vertex_sets(mesh, instances, options.scope);
-    // Threads share out many hulls, or the points of one.
+    // Threads work on many hulls in parallel, or on the points of a single one.
     const bool many = sets.size() > 1;
     std::vector<MeshHull> hulls(sets.size());
     std::atomic<bool> failed = false;

@@ -11,11 +11,11 @@
 
 namespace cdprep::convex {
 
-/// What hulls are around.
+/// The set of triangles that a hull encloses.
 enum class HullScope : std::uint8_t {
-    whole,      ///< all of the mesh
-    component,  ///< what shared vertices connect
-    node,       ///< each instance of the imported file; the whole where it has none
+    whole,      ///< the whole mesh
+    component,  ///< triangles connected by shared vertices
+    node,       ///< each instance of the imported file; the whole mesh if there are none
 };
 
 struct MeshHullOptions {
@@ -25,14 +25,14 @@ struct MeshHullOptions {
 };
 
 struct MeshHull {
-    /// Its numbers are vertices of the mesh; empty where it encloses the exact one.
+    /// Its numbers are vertices of the mesh; empty if it encloses the exact hull.
     ConvexHull hull;
     double distance = 0;  ///< EnclosingHull::distance, model units
 };
 
-/// Returns the hulls of a mesh: one; one per component, in order of their first triangles;
-/// or one per instance, in order. Of what has no triangles the dimension is -1. Nothing
-/// when an enclosing hull would leave the range of double.
+/// Returns the hulls of a mesh: one in total; one per component, in order of their first
+/// triangles; or one per instance, in order. A hull of no triangles has dimension -1. Returns
+/// nothing if an enclosing hull would leave the range of double.
 [[nodiscard]] std::optional<std::vector<MeshHull>> find_mesh_hulls(
     const mesh::Mesh& mesh, std::span<const format::Instance> instances,
     const MeshHullOptions& options);

@@ -8,12 +8,12 @@
 
 #include "cdprep/exact/predicates.h"
 
-// Why points in front of no new face may be dropped: let q have been in front of a removed
-// face f and be outside the new hull, in front of some face g of it. If g is not new, it was
-// there before, and q saw f and g; what q sees is connected, so q sees both faces at some
-// edge of the horizon, one removed and one kept. The new face at that edge lies in the wedge
-// between the two planes, the kept one's included: its normal is a sum of their normals, and
-// q is in front of it too.
+// Points in front of no new face can be dropped. Proof: let q have been in front of a removed
+// face f. Let q be outside the new hull, in front of one of its faces g. If g is not new, it
+// existed before, and q saw f and g. The faces that q sees are connected. So q sees both faces
+// at some edge of the horizon, one removed and one kept. The new face at that edge lies in the
+// wedge between the two planes, including the kept face's plane. Its normal is a sum of their
+// normals, so q is in front of it too.
 namespace cdprep::convex {
 namespace {
 
@@ -22,16 +22,16 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 struct Face {
     HullFace links;
     exact::Plane plane;
-    std::uint32_t outside = kNone;   ///< first of the points that are in front of this face
-    std::uint32_t farthest = kNone;  ///< of those
-    double height = 0;               ///< of that
+    std::uint32_t outside = kNone;   ///< the first point in front of this face
+    std::uint32_t farthest = kNone;  ///< of these points
+    double height = 0;               ///< of that point
     bool removed = false;
 };
 
-/// An edge between what is seen and what is not.
+/// An edge between visible and other faces.
 struct HorizonEdge {
-    std::uint32_t from, to;  ///< as the removed face has them
-    std::uint32_t kept;      ///< the face beyond
+    std::uint32_t from, to;  ///< in the direction of the removed face
+    std::uint32_t kept;      ///< the face beyond, which is kept
 };
 
 class Quickhull {
@@ -72,7 +72,7 @@ private:
         add_face(a, c, d, {0, 2, 1});
     }
 
-    /// Gives a point to the first face from `first` on that has it in front, if any.
+    /// Gives a point to the first face, from `first` on, that it is in front of, if any.
     void hand_out(std::uint32_t p, std::size_t first) {
         for (std::size_t f = first; f < faces_.size(); ++f) {
             Face& face = faces_[f];
@@ -97,7 +97,7 @@ private:
         for (const std::uint32_t seen : visible_) hand_on(seen, p, first);
     }
 
-    /// What `p` sees, beginning with a face that it does see, is marked as removed.
+    /// Marks the faces that `p` sees as removed; starts with a face that it does see.
     void find_visible(std::uint32_t f, std::uint32_t p) {
         visible_.assign(1, f);
         horizon_.clear();
@@ -106,7 +106,7 @@ private:
             const HullFace links = faces_[visible_[i]].links;
             for (std::size_t edge = 0; edge < 3; ++edge) {
                 Face& other = faces_[links.across[edge]];
-                if (other.removed) continue;  // just now: older ones are nobody's neighbours
+                if (other.removed) continue;  // just now: faces removed earlier are no neighbours
                 if (other.plane.side(points_[p]) < 0) {
                     other.removed = true;
                     visible_.push_back(links.across[edge]);
@@ -118,7 +118,7 @@ private:
         }
     }
 
-    /// The horizon is one simple ring, so that its edges are known by where they begin.
+    /// The horizon is one simple ring, so the start of an edge identifies it.
     void add_cone(std::uint32_t p) {
         const auto first = static_cast<std::uint32_t>(faces_.size());
         for (const HorizonEdge& edge : horizon_) {
@@ -137,7 +137,7 @@ private:
         }
     }
 
-    /// The points of a removed face, but for the new corner, go to the new faces.
+    /// Gives the points of a removed face, except the new corner, to the new faces.
     void hand_on(std::uint32_t seen, std::uint32_t corner, std::size_t first) {
         std::uint32_t p = std::exchange(faces_[seen].outside, kNone);
         while (p != kNone) {
@@ -148,9 +148,9 @@ private:
     }
 
     std::span<const Double3> points_;
-    std::vector<Face> faces_;               ///< removed ones too: a face's number stays
-    std::vector<std::uint32_t> next_;       ///< per point, of the same face
-    std::vector<std::uint32_t> face_from_;  ///< per point, new face at the edge that begins there
+    std::vector<Face> faces_;               ///< with removed faces: a face's number never changes
+    std::vector<std::uint32_t> next_;       ///< by point: the next one of the same face
+    std::vector<std::uint32_t> face_from_;  ///< by point: the new face at the edge from it
     std::vector<std::uint32_t> visible_;
     std::vector<HorizonEdge> horizon_;
 };

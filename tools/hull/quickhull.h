@@ -15,15 +15,15 @@ using format::Double3;
 /// A triangle of a closed surface.
 struct HullFace {
     std::array<std::uint32_t, 3> corner;  ///< counter-clockwise from outside
-    std::array<std::uint32_t, 3> across;  ///< face beyond the edge from corner i to the next
+    std::array<std::uint32_t, 3> across;  ///< the face across the edge from corner i to the next
 };
 
-/// Returns the convex hull of points of which `first` are four that do not lie in one plane.
+/// Returns the convex hull of points; `first` are four of them that are not coplanar.
 ///
-/// Exact: no point is in front of any face, and no face is degenerate. A face's neighbours
-/// may be coplanar with it, and its corners inside coplanar faces or on straight edges.
-/// Barber, Dobkin and Huhdanpaa's algorithm with exact signs: what lies in a face's plane is
-/// not in front of it, and none of their repairs is needed. Expected O(n log n).
+/// Exact: no point is in front of any face, and no face is degenerate. Neighbouring faces may be
+/// coplanar. Corners may lie inside coplanar faces or on straight edges. The algorithm is that
+/// of Barber, Dobkin and Huhdanpaa, with exact signs. A point in a face's plane is not in front
+/// of it, and their repairs are unnecessary. Expected O(n log n).
 [[nodiscard]] std::vector<HullFace> quickhull(std::span<const Double3> points,
                                               const std::array<std::uint32_t, 4>& first);
 

@@ -11,24 +11,25 @@ namespace cdprep::mesh {
 /// Sorts triangles that share an edge by their angle around it, exactly.
 class AroundEdge {
 public:
-    /// Angles are counted from the first triangle with area among `uses`.
+    /// Measures angles from the first triangle with area among `uses`.
     AroundEdge(std::span<const Double3> positions, std::span<const Triangle> triangles,
                std::span<const HalfEdge> uses);
-    /// Angles are counted from `reference`, a point that is not in line with the edge.
+    /// Measures angles from `reference`, a point that is not collinear with the edge.
     AroundEdge(std::span<const Double3> positions, std::span<const Triangle> triangles,
                HalfEdge use, const Double3& reference);
 
-    /// By ascending angle, seen from the upper vertex of the edge, counter-clockwise; of
-    /// one angle, those that close a wedge of solid before those that open one: two sides
-    /// of a sheet are no wedge.
+    /// Returns the uses by ascending angle, counter-clockwise as seen from the upper vertex of
+    /// the edge. At equal angles, those that close a wedge of solid come before those that open
+    /// one: two sides of a sheet are no wedge.
     [[nodiscard]] std::vector<HalfEdge> sorted(std::span<const HalfEdge> uses) const;
 
-    /// With rising angle, the solid begins at a half-edge from the upper vertex.
+    /// Returns whether the solid begins at this half-edge, by ascending angle: it starts at the
+    /// upper vertex.
     [[nodiscard]] bool opens(HalfEdge h) const;
 
 private:
-    /// 0: the angle of the reference, or no angle at all; 1: less than half a turn from
-    /// it; 2: half a turn; 3: more.
+    /// Returns 0 for the angle of the reference, or without an angle; 1 for less than half a
+    /// turn from it; 2 for half a turn; 3 for more.
     [[nodiscard]] int sector(HalfEdge h) const;
     [[nodiscard]] const Double3& apex(HalfEdge h) const;
     bool refer_to(const Double3& p);
@@ -38,8 +39,8 @@ private:
     std::uint32_t lower_;
     std::uint32_t upper_;
     Double3 reference_{};
-    int plane_ = 3;  ///< coordinate plane in which the reference turns; 3: there is none
-    int turn_ = 0;   ///< and which way it turns there
+    int plane_ = 3;  ///< coordinate plane in which the reference turns; 3: none
+    int turn_ = 0;   ///< the direction of that turn
 };
 
 }  // namespace cdprep::mesh

@@ -17,12 +17,11 @@ namespace {
 
 /// Finds the points that are at most `distance` apart, by cells of space.
 ///
-/// A cell is 0.55 distances wide. So any two points of one cell are close (its
-/// diagonal is 0.953 distances), and a close pair is never more than two cells
-/// apart along an axis. No coordinate is more than 2^45 cells from 0, so the
-/// rounding of x / width, at most 2^-8, cannot break either. Where that needs
-/// wider cells (a distance of a few hundred ulp), points of one cell need not be
-/// close, and all pairs are looked at.
+/// A cell is 0.55 distances wide. So any two points of one cell are close (its diagonal is 0.953
+/// distances). A close pair is at most two cells apart along each axis. No coordinate is more
+/// than 2^45 cells from 0. So the rounding of x / width, at most 2^-8, cannot break either
+/// claim. This limit requires wider cells for a distance of a few hundred ulp. Points of one cell
+/// may then not be close, and all pairs are tested.
 class CloseGroups {
 public:
     CloseGroups(const std::vector<Double3>& points, double distance)
@@ -33,7 +32,7 @@ public:
         }
         constexpr double kCellShare = 0.55;
         constexpr int kMostCellsExponent = 45;
-        constexpr double kCellDiagonal = 1.75;  // sqrt(3), and room for rounding
+        constexpr double kCellDiagonal = 1.75;  // sqrt(3), with a margin for rounding
         width_ = std::max(kCellShare * distance, std::ldexp(largest, -kMostCellsExponent));
         cells_are_close_ = kCellDiagonal * width_ <= distance;
         fill_cells();
@@ -86,7 +85,7 @@ private:
         }
     }
 
-    /// Each pair of cells once: the later of the two in the order of x, y, z.
+    /// Visits each pair of cells once, from the earlier one in the order of x, y, z.
     void join_neighbours(std::uint32_t cell) {
         constexpr int kReach = 2;  // cells along an axis
         const Double3 place = cells_[cell];
@@ -107,7 +106,7 @@ private:
             for (const std::uint32_t j : b) {
                 if (!(distance_between(points_[i], points_[j]) <= distance_)) continue;
                 groups_.unite(i, j);
-                if (cells_are_close_) return;  // then everything in both is joined
+                if (cells_are_close_) return;  // then all points of both are joined
             }
         }
     }

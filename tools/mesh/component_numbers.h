@@ -8,7 +8,7 @@ namespace cdprep::mesh {
 
 using build::ComponentNumbers;
 
-/// Numbers the components. Every vertex is used. O(n).
+/// Numbers the components. Every vertex must be used. O(n).
 [[nodiscard]] ComponentNumbers number_components(const Mesh& mesh);
 
 }  // namespace cdprep::mesh

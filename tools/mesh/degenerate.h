@@ -9,8 +9,8 @@
 
 namespace cdprep::mesh {
 
-/// Returns one bit per triangle, 64 a word, set where the corners are exactly
-/// collinear; no words at all when none is.
+/// Returns one bit per triangle, 64 per word, set if its corners are exactly collinear. Returns
+/// no words if no triangle is degenerate.
 [[nodiscard]] std::vector<std::uint64_t> find_degenerate(const Mesh& mesh,
                                                          ParallelFor parallel_for);
 

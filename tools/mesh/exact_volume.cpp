@@ -12,7 +12,7 @@ namespace {
 __extension__ typedef unsigned __int128 Uint128;  // NOLINT(modernize-use-using)
 
 constexpr int kLimbBits = 64;
-constexpr int kLeastExponent = -1074;  // of the least subnormal
+constexpr int kLeastExponent = -1074;  // of the least subnormal number
 
 /// |value| = mantissa * 2^(exponent - 1074).
 struct Whole {
@@ -86,7 +86,7 @@ ExactVolume::Limbs ExactVolume::difference(const Limbs& larger, const Limbs& sma
     std::uint64_t borrow = 0;
     for (std::size_t i = 0; i < kLimbs; ++i) {
         const std::uint64_t taken = smaller[i] + borrow;
-        // taken wraps to 0 only when the borrow goes on as it is.
+        // `taken` wraps to 0 only if the borrow propagates unchanged.
         const bool wrapped = borrow != 0 && taken == 0;
         result[i] = larger[i] - taken;
         borrow = wrapped || larger[i] < taken ? 1 : 0;
@@ -97,7 +97,7 @@ ExactVolume::Limbs ExactVolume::difference(const Limbs& larger, const Limbs& sma
 double ExactVolume::as_double(const Limbs& sum) {
     std::size_t top = kLimbs;
     while (top > 0 && sum[top - 1] == 0) --top;
-    // Two limbs hold more than a double does.
+    // Two limbs hold more digits than a double.
     double value = 0;
     for (std::size_t i = 0; i < std::min<std::size_t>(top, 2); ++i) {
         value = value * 0x1p64 + static_cast<double>(sum[top - 1 - i]);

@@ -9,22 +9,22 @@
 
 namespace cdprep::mesh {
 
-/// Six times the volume under triangles, added up exactly: the determinants of their
-/// corners, products of three doubles, as integers in units of 2^-3222. Of a balanced
-/// surface it is six times its volume. Any finite coordinates, up to 2^31 triangles. Never
-/// allocates; a microsecond a triangle.
+/// Six times the volume under triangles, summed exactly. The terms are the determinants of the
+/// corners, products of three doubles, as integers in units of 2^-3222. For a balanced surface
+/// the sum is six times its volume. Accepts any finite coordinates, and up to 2^31 triangles.
+/// Never allocates. Takes a microsecond per triangle.
 class ExactVolume {
 public:
     void add(const format::Double3& a, const format::Double3& b, const format::Double3& c);
 
-    /// -1, 0 or 1.
+    /// Returns -1, 0 or 1.
     [[nodiscard]] int sign() const;
 
-    /// The volume (a sixth of the sum), rounded; the largest double where it is beyond.
+    /// Returns the volume (a sixth of the sum), rounded; the largest double if it is larger.
     [[nodiscard]] double volume() const;
 
 private:
-    // Bits: 3 * 2098 of products of three, 34 of their number.
+    // Bits: 3 * 2098 for products of three, 34 for their number.
     static constexpr std::size_t kLimbs = 100;
     using Limbs = std::array<std::uint64_t, kLimbs>;
 

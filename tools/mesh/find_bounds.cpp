@@ -24,8 +24,8 @@ Eigen::AlignedBox3d box_of(const mesh::Mesh& mesh) {
     return box;
 }
 
-/// Brings the mesh to about unit size around 0, by a power of two, so that no
-/// square over- or underflows.
+/// Scales the mesh to about unit size around 0, by a power of two. No square then overflows or
+/// underflows.
 struct Normalization {
     Eigen::Vector3d centre;
     int exponent;
@@ -43,7 +43,7 @@ Normalization normalization_for(const Eigen::AlignedBox3d& box) {
     return {centre, size > 0 ? -std::ilogb(size) : 0};
 }
 
-/// Axes of the area-weighted covariance, columns, right-handed.
+/// Returns the axes of the area-weighted covariance as columns, right-handed.
 Eigen::Matrix3d principal_axes(const mesh::Mesh& mesh, const Normalization& normalized) {
     double area = 0;
     Eigen::Vector3d first = Eigen::Vector3d::Zero();
@@ -67,7 +67,7 @@ Eigen::Matrix3d principal_axes(const mesh::Mesh& mesh, const Normalization& norm
     return axes;
 }
 
-/// Box along the axes, in normalized coordinates.
+/// Returns the box along the axes, in normalized coordinates.
 Eigen::AlignedBox3d box_along(const mesh::Mesh& mesh, const Normalization& normalized,
                               const Eigen::Matrix3d& axes) {
     Eigen::AlignedBox3d box;
@@ -77,8 +77,8 @@ Eigen::AlignedBox3d box_along(const mesh::Mesh& mesh, const Normalization& norma
     return box;
 }
 
-/// The oriented box from one along the axes. All coordinates are at most 4, the
-/// axes unit to a few ulp: 2^-46 covers each projection and the way back.
+/// Sets the oriented box from a box along the axes. All coordinates are at most 4, and the axes
+/// have length 1 up to a few ulp. So 2^-46 covers each projection and the way back.
 void set_oriented(format::Bounds& bounds, const Normalization& normalized,
                   const Eigen::Matrix3d& axes, const Eigen::AlignedBox3d& box) {
     constexpr double kSlack = 0x1p-46;
@@ -89,15 +89,15 @@ void set_oriented(format::Bounds& bounds, const Normalization& normalized,
                               normalized.centre.y() + back(middle.y()),
                               normalized.centre.z() + back(middle.z())};
     for (int i = 0; i < 3; ++i) bounds.axis[static_cast<std::size_t>(i)] = double3(axes.col(i));
-    // The centre was rounded at the coordinates' own size, or to a multiple of the
-    // smallest double.
+    // The centre was rounded at the size of the coordinates, or to a multiple of the smallest
+    // double.
     const double rounding = 0x1p-50 * normalized.centre.cwiseAbs().maxCoeff() +
                             8 * std::numeric_limits<double>::denorm_min();
     bounds.half_extent = {back(half.x()) + rounding, back(half.y()) + rounding,
                           back(half.z()) + rounding};
 }
 
-/// The axis-aligned box as an oriented one.
+/// Sets the axis-aligned box as the oriented box.
 void set_aligned(format::Bounds& bounds) {
     const Eigen::Vector3d lower = vector_of(bounds.lower);
     const Eigen::Vector3d upper = vector_of(bounds.upper);

@@ -5,13 +5,12 @@
 
 namespace cdprep::convex {
 
-/// Returns the exact axis-aligned box of all vertices and an oriented box that
-/// contains them too.
+/// Returns the exact axis-aligned box of all vertices, and an oriented box that contains them
+/// too.
 ///
-/// The oriented box follows the axes of the area-weighted covariance of the
-/// triangles, widened so that rounding loses no vertex; where it would not be
-/// smaller than the axis-aligned one, it is that one. An empty mesh has zeros.
-/// O(n).
+/// The oriented box follows the axes of the area-weighted covariance of the triangles. It is
+/// widened so that rounding loses no vertex. If it would not be smaller than the axis-aligned
+/// box, it is that box. An empty mesh has zeros. O(n).
 [[nodiscard]] format::Bounds find_bounds(const mesh::Mesh& mesh);
 
 }  // namespace cdprep::convex

@@ -25,9 +25,8 @@ struct Integrals {
     Eigen::Matrix3d second_120 = Eigen::Matrix3d::Zero();  ///< 120 times integral of x x^T
 };
 
-/// Over a tetrahedron (0, a, b, c) of determinant d and corner sum s: the
-/// integral of x is d s / 24, that of x x^T is d (a a^T + b b^T + c c^T + s s^T)
-/// / 120.
+/// Integrates over the tetrahedra (0, a, b, c). For determinant d and corner sum s, the integral
+/// of x is d s / 24. The integral of x x^T is d (a a^T + b b^T + c c^T + s s^T) / 120.
 Integrals integrate(const mesh::Mesh& mesh, const Eigen::Vector3d& origin) {
     Integrals sum;
     for (const mesh::Triangle& triangle : mesh.triangles) {

@@ -15,19 +15,19 @@ namespace cdprep::mesh {
 using format::Double3;
 using format::Triangle;
 
-/// Where an import found a number that no mesh may hold. Data, not an error:
-/// bake refuses, validate reports.
+/// The place of an invalid number in an import. This is data, not an error: bake refuses it,
+/// validate reports it.
 struct BadNumber {
     enum class Kind : std::uint8_t {
         not_finite,         ///< vertex `vertex` has a coordinate that is NaN or infinite
         index_out_of_range  ///< triangle `triangle` uses vertex `found` of `limit`
     };
     Kind kind;
-    std::uint32_t vertex = 0;    ///< number in the file's order
+    std::uint32_t vertex = 0;    ///< number in file order
     std::uint32_t triangle = 0;  ///< source number
-    std::int64_t found = 0;      ///< the index as the file has it
-    std::int64_t limit = 0;      ///< how many vertices there are
-    std::int64_t first = 0;      ///< the number of the first vertex, as the format counts
+    std::int64_t found = 0;      ///< the index in the file
+    std::int64_t limit = 0;      ///< the number of vertices
+    std::int64_t first = 0;      ///< the number of the first vertex in this format
 };
 
 /// Named runs over source triangles: groups or materials. Names are UTF-8.
@@ -38,41 +38,41 @@ struct NamedRuns {
 
 /// A file that an import read.
 struct InputFile {
-    std::string name;        ///< relative to the folder of the file asked for
+    std::string name;        ///< relative to the folder of the requested file
     std::uint64_t hash = 0;  ///< format::checksum() of its bytes
 };
 
-/// What a mesh file held: corners as the file gave them, flattened to one list.
+/// The content of a mesh file: corners as in the file, flattened to one list.
 ///
-/// Triangles stand in source order: nodes depth first, faces in file order, the
-/// triangles of an n-gon one after the other; a triangle's place is its source
-/// number. A triangle with a corner out of range is kept in its place with all
-/// corners set to vertex 0, and is listed in `bad_numbers`.
+/// Triangles are in source order: nodes depth first, faces in file order, the triangles of an
+/// n-gon one after the other. The position of a triangle is its source number. A triangle with a
+/// corner out of range keeps its position; all its corners are vertex 0, and `bad_numbers` lists
+/// it.
 struct TriangleSoup {
     std::vector<Double3> positions;   ///< model units, node transforms applied
     std::vector<Triangle> triangles;  ///< source order
-    std::vector<std::uint32_t> face;  ///< per triangle, face within its instance; empty: 0, 1, 2...
-    /// Every coordinate is a float without loss (PRODUCT 3): either it was a
-    /// binary float, or a text number of at most 9 significant digits that the
-    /// nearest float prints the same. Positions then hold those floats.
+    std::vector<std::uint32_t> face;  ///< by triangle, face within its instance; empty: 0, 1, 2...
+    /// Every coordinate is a float without loss. It was a binary float, or a text number of at
+    /// most 9 significant digits. The nearest float prints as the same number. Positions then
+    /// hold those floats.
     bool single_precision = false;
     std::vector<format::Instance> instances;
     std::vector<std::string> instance_names;  ///< node paths, "root/arm/hand"
     NamedRuns groups;
     NamedRuns materials;
-    std::uint64_t source_hash = 0;       ///< format::checksum() of the file asked for
-    std::vector<InputFile> other_files;  ///< that it refers to and that were read, by name
-    double metres_per_unit = 0;          ///< 0: nobody says
+    std::uint64_t source_hash = 0;       ///< format::checksum() of the requested file
+    std::vector<InputFile> other_files;  ///< files that it refers to and that were read, by name
+    double metres_per_unit = 0;          ///< 0: unknown
     format::UpAxis up_axis = format::UpAxis::unknown;
-    std::vector<BadNumber> bad_numbers;  ///< at most 1000, lowest first
-    std::uint64_t bad_number_count = 0;  ///< all of them
+    std::vector<BadNumber> bad_numbers;  ///< the first 1000 at most, lowest first
+    std::uint64_t bad_number_count = 0;  ///< of all bad numbers
 };
 
-/// Shared vertices: every stored vertex is used, no two are equal.
+/// A mesh with shared vertices: every stored vertex is used, and no two are equal.
 struct Mesh {
     std::vector<Double3> positions;
     std::vector<Triangle> triangles;           ///< source order
-    std::vector<std::uint32_t> source_vertex;  ///< per vertex: lowest source number it stands for
+    std::vector<std::uint32_t> source_vertex;  ///< per vertex: lowest source number it represents
     bool single_precision = false;
 };
 

@@ -17,9 +17,9 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// From where a ray runs through q along x, upwards: as far before the box as it is wide,
-/// which keeps the numbers ordinary. From the lowest double it runs downwards, where nothing
-/// is left to meet.
+/// Returns the origin of a ray through q in direction +x. It is as far before the box as the box
+/// is wide, which keeps the numbers in range. If q.x is the lowest double, the ray runs in
+/// direction -x, where it meets nothing.
 Double3 behind(const Double3& q, const Box& box) {
     const double before = box.lower.x - (box.upper.x - box.lower.x);
     if (before < q.x && std::isfinite(before)) return {before, q.y, q.z};
@@ -27,12 +27,12 @@ Double3 behind(const Double3& q, const Box& box) {
     return {std::isfinite(next) ? next : std::nextafter(q.x, 0.0), q.y, q.z};
 }
 
-/// What the triangles of one component add up to around a point.
+/// The sum of winding terms of one component's triangles around a point.
 struct Around {
     int winding = 0;
     bool on_surface = false;
 
-    /// The point, from where its ray comes, and a triangle.
+    /// Adds the term of a triangle; q is the point, o the origin of its ray.
     void add(const Double3& q, const Double3& o, const Corners& t) {
         const WindingTerm term = exact::winding_term(o, q, t);
         winding += term.crossings;
@@ -86,8 +86,8 @@ private:
         around_.resize(asking_.size());
     }
 
-    /// Each triangle is asked about the points in whose rays it may stand, and that its
-    /// component's box holds.
+    /// Finds the components inside `outer`. Tests each triangle with the points whose rays it
+    /// may meet, and which lie in its component's box.
     void find_within(std::uint32_t outer) {
         touched_.clear();
         for (std::uint32_t k = first_[outer]; k < first_[outer + 1]; ++k) {
@@ -112,7 +112,8 @@ private:
         }
     }
 
-    /// The lowest vertex off the other's surface; on it when there is none.
+    /// Returns the sum around the lowest vertex off the other's surface; on_surface if there is
+    /// none.
     Around ask_other_vertices(std::uint32_t inner, std::uint32_t outer) {
         Around around;
         around.on_surface = true;
@@ -128,7 +129,7 @@ private:
         return around;
     }
 
-    /// Ascending.
+    /// Returns the vertices in ascending order.
     [[nodiscard]] std::vector<std::uint32_t> vertices_of(std::uint32_t component) const {
         std::vector<std::uint32_t> vertices;
         for (std::uint32_t k = first_[component]; k < first_[component + 1]; ++k) {
@@ -160,8 +161,8 @@ private:
     std::vector<std::uint32_t> triangle_;  ///< by component
     std::vector<std::uint32_t> asking_;    ///< components whose point is in the tree
     std::optional<PointTree> tree_;
-    std::vector<Around> around_;          ///< by asking component, of one outer component
-    std::vector<std::uint32_t> touched_;  ///< of those, some more than once
+    std::vector<Around> around_;          ///< by asking component, for one outer component
+    std::vector<std::uint32_t> touched_;  ///< the entries in use, some more than once
     std::vector<Nested> nested_;
 };
 

@@ -9,20 +9,21 @@
 
 namespace cdprep::mesh {
 
-/// A component that lies in another.
+/// A component that lies inside another.
 struct Nested {
     std::uint32_t inner;
     std::uint32_t outer;
     int winding;  ///< of `outer` around `inner`, not 0
 };
 
-/// Finds which balanced components lie in which: the winding number of the one around the
-/// lowest vertex of the other that is not on its surface. Sorted by inner, then outer.
-/// Those that cross are looked at no closer. Exact.
+/// Returns the pairs of balanced components with one inside the other, sorted by inner, then
+/// outer. The test is the winding number of the outer one around a vertex of the inner one. That
+/// vertex is the lowest one off the outer one's surface. The test ignores crossings of the two.
+/// Exact.
 ///
-/// One ray from each component along x. O(n log c) for c components, and O(pairs of a
-/// component within another's box and a triangle of that which its ray may meet): k shells,
-/// each in the next, are k (k - 1) / 2 pairs.
+/// Casts one ray along x from each component. Takes O(n log c) for c components, plus O(pairs).
+/// A pair is a component within another one's box, and a triangle of the other that its ray may
+/// meet. k shells, each inside the next, are k (k - 1) / 2 pairs.
 [[nodiscard]] std::vector<Nested> find_nested(const Mesh& mesh, const ComponentNumbers& components,
                                               const std::vector<bool>& balanced);
 

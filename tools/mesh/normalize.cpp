@@ -28,8 +28,8 @@ Box box_of_used(const TriangleSoup& soup) {
     return box;
 }
 
-/// The plain formula, because the shared poses were made with it; where its
-/// squares leave the range of double, one that does not.
+/// Returns the diagonal by the plain formula, since the shared poses were made with it. If its
+/// squares leave the range of double, uses std::hypot().
 double diagonal_of(const Box& box) {
     const double x = box.upper.x - box.lower.x;
     const double y = box.upper.y - box.lower.y;

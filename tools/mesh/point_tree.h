@@ -17,7 +17,7 @@ namespace cdprep::mesh {
 
 using format::Double3;
 
-/// A box with its sides along the axes, closed; empty at first.
+/// A closed axis-aligned box; initially empty.
 struct Box {
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Double3 lower{kInfinity, kInfinity, kInfinity};
@@ -40,10 +40,10 @@ struct Box {
     }
 };
 
-/// Points in boxes within boxes, halved along the longest axis.
+/// A hierarchy of boxes around points, halved along the longest axis.
 class PointTree {
 public:
-    /// Keeps the points.
+    /// Takes ownership of the points.
     explicit PointTree(std::vector<Double3> points)
         : points_(std::move(points)), order_(points_.size()) {
         std::iota(order_.begin(), order_.end(), 0U);
@@ -54,8 +54,8 @@ public:
         return points_[number];
     }
 
-    /// Calls visit(number) for the points of all lowest boxes for which enter(box) says
-    /// yes; it may look at boxes that are around others first. No order.
+    /// Calls visit(number) for the points of all leaf boxes that enter(box) accepts. It tests
+    /// boxes from the top, and skips all boxes below a rejected one. The order is unspecified.
     template <class Enter, class Visit>
     void visit(const Enter& enter, const Visit& visit) const {
         for (std::uint32_t i = 0; i < nodes_.size();) {
@@ -70,11 +70,11 @@ public:
     }
 
 private:
-    /// In the order of a walk that goes down first.
+    /// The nodes are in depth-first order.
     struct Node {
         Box box;
-        std::uint32_t next;   ///< after all that is below
-        std::uint32_t first;  ///< of its points, when it is lowest; else first == last
+        std::uint32_t next;   ///< after all nodes below
+        std::uint32_t first;  ///< of its points if it is a leaf; otherwise first == last
         std::uint32_t last;
     };
 

@@ -15,7 +15,8 @@ Stars collect_stars(const Mesh& mesh) {
     }
     std::partial_sum(stars.first.begin(), stars.first.end(), stars.first.begin());
     stars.corner.resize(3 * mesh.triangles.size());
-    // first[v + 1] is where the next corner of v goes, and at the end where v ends.
+    // first[v + 1] is the position of the next corner of v; finally it is the end of v's
+    // corners.
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const auto [a, b, c] = mesh.triangles[i].vertex;
         stars.corner[stars.first[a + 1]++] = {i, c, b};
@@ -27,11 +28,11 @@ Stars collect_stars(const Mesh& mesh) {
 }
 
 bool is_one_closed_fan(std::span<const StarCorner> star) {
-    constexpr std::size_t kMost = 24;  // beyond, sorting is faster than looking at all pairs
+    constexpr std::size_t kMost = 24;  // for more, sorting is faster than testing all pairs
     if (star.size() > kMost) return false;
-    // Walks from corner to corner across the edge after each. A walk that sees every
-    // corner once is one cycle, and so each edge is the `before` of exactly one corner
-    // and the `after` of exactly one.
+    // Walks from corner to corner across each corner's `after` edge. A walk that visits every
+    // corner once is one cycle. So each edge is the `before` of exactly one corner and the
+    // `after` of exactly one.
     std::size_t at = 0;
     for (std::size_t step = 1; step <= star.size(); ++step) {
         const std::uint32_t wanted = star[at].after;

@@ -5,8 +5,9 @@
 
 namespace cdprep::mesh {
 
-/// Asked now and then during long work: true gives it up, and is true from then on. Empty
-/// never does. May be called from several threads at once; must not throw.
+/// A function that long work calls from time to time. If it returns true, the work ends; it then
+/// returns true forever. An empty function never ends the work. Several threads may call it at
+/// once; it must not throw.
 using StopCheck = std::function<bool()>;
 
 [[nodiscard]] inline bool is_stopped(const StopCheck& stop) {

@@ -8,7 +8,7 @@ namespace cdprep::mesh {
 
 using build::Topology;
 
-/// As build::find_topology().
+/// Returns build::find_topology() of the mesh.
 [[nodiscard]] Topology find_topology(const Mesh& mesh);
 
 }  // namespace cdprep::mesh

@@ -8,15 +8,14 @@
 
 namespace cdprep::mesh {
 
-/// A mesh rearranged for the hierarchy.
+/// A mesh in the order of the BVH.
 struct TreeOrdered {
     Mesh mesh;  ///< triangles in tree order, vertices in the order of their first use
-    std::vector<std::uint32_t> new_vertex;  ///< where each vertex of the old mesh went
+    std::vector<std::uint32_t> new_vertex;  ///< the new number of each vertex of the old mesh
 };
 
-/// Puts triangle order[i] at place i and renumbers vertices by first use, so
-/// that neighbours in the tree are neighbours in memory. `order` is a
-/// permutation of the triangles.
+/// Moves triangle order[i] to position i, and renumbers vertices by first use. Neighbours in the
+/// tree are then neighbours in memory. `order` must be a permutation of the triangles.
 [[nodiscard]] TreeOrdered in_tree_order(const Mesh& mesh, std::span<const std::uint32_t> order);
 
 }  // namespace cdprep::mesh

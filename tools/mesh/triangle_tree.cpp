@@ -9,8 +9,8 @@
 
 #include "mesh/vectors.h"
 
-// Also compiled for AVX2; which one runs is chosen while the program is loaded. The thread
-// sanitizer is not there yet by then, but is called by the choice.
+// Functions with this attribute are also compiled for AVX2; the program loader chooses the
+// version. The thread sanitizer is not yet initialised then, but the choice would call it.
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
 #define CDPREP_WITH_AVX2 [[gnu::target_clones("avx2", "default")]]
 #else
@@ -25,29 +25,29 @@ using mesh::cross;
 using mesh::dot;
 using mesh::minus;
 
-constexpr std::size_t kLeafSize = 8;       ///< triangles, at most
-constexpr std::size_t kChunk = 1U << 14U;  ///< triangles handed to a thread at once
+constexpr std::size_t kLeafSize = 8;       ///< triangles at most
+constexpr std::size_t kChunk = 1U << 14U;  ///< triangles per task
 constexpr std::size_t kLeavesAtOnce = kChunk / kLeafSize;
 
-// With coordinates between -1 and 1 a box's sides and a point's coordinates are rounded to
-// float by at most 2^-25 each; a point's coordinate farther out, where the distance along
-// that axis is at least half of it, by 2^-24 of it. What kMargin leaves and the roundings of
-// differences, squares and sums make a computed square at most 1 + 2^-21 of the true one.
-constexpr float kMargin = 0x1p-22F;       ///< by which boxes are larger on each side
-constexpr double kFurther = 1 + 0x1p-19;  ///< of a square: no box that is farther is nearer
-constexpr double kMostSquare = 1e38;      ///< that floats hold
-constexpr float kNowhere = 1e30F;         ///< sides of empty boxes, turned around
-constexpr double kOutside = 4;            ///< as good as any coordinate farther out
+// Coordinates between -1 and 1, of a box's sides or of a point, are rounded to float by at most
+// 2^-25 each. A coordinate of a point farther out is rounded by at most 2^-24 of itself; the
+// distance along that axis is at least half of it. After kMargin, and with the rounding of
+// differences, squares and sums, a computed square is at most 1 + 2^-21 times the true one.
+constexpr float kMargin = 0x1p-22F;       ///< boxes are larger by this on each side
+constexpr double kFurther = 1 + 0x1p-19;  ///< factor of a square: a box beyond it is not nearer
+constexpr double kMostSquare = 1e38;      ///< so that floats hold it
+constexpr float kNowhere = 1e30F;         ///< sides of empty boxes, reversed
+constexpr double kOutside = 4;            ///< equivalent to any coordinate farther out
 
 using Floats = float __attribute__((vector_size(32)));
 using Mask = std::int32_t __attribute__((vector_size(32)));
 
-// By reference: what these would return has no place in a call without AVX.
+// By reference: without AVX, a call has no register for such return values.
 [[gnu::always_inline]] inline void load(const std::array<float, 8>& lanes, Floats& x) {
     std::memcpy(&x, lanes.data(), sizeof x);
 }
 
-/// Bit k is that of lane k, which is 0 or -1.
+/// Returns bit k from lane k, which is 0 or -1.
 [[gnu::always_inline]] inline unsigned bits_of(const Mask& mask) {
     Mask lanes = mask & Mask{1, 2, 4, 8, 16, 32, 64, 128};
     lanes |= __builtin_shufflevector(lanes, lanes, 4, 5, 6, 7, 0, 1, 2, 3);
@@ -56,7 +56,7 @@ using Mask = std::int32_t __attribute__((vector_size(32)));
     return static_cast<unsigned>(lanes[0]);
 }
 
-/// How far beyond an interval a number is, squared, lane by lane.
+/// Adds, by lane, the square of a number's distance to an interval.
 [[gnu::always_inline]] inline void add_square_beyond(const Floats& lower, float at,
                                                      const Floats& upper, Floats& sum) {
     const Floats before = lower - at;
@@ -96,15 +96,16 @@ double square_to_needle(const Double3& p, const Corners& t) {
                      square_to_segment(p, t[2], t[0])});
 }
 
-/// From the point where its foot is known to be: a + v ab + w ac.
+/// Returns the squared distance from the foot point a + v ab + w ac.
 double square_to_foot(const Double3& ap, const Double3& ab, double v, const Double3& ac, double w) {
     return square(
         {ap.x - v * ab.x - w * ac.x, ap.y - v * ab.y - w * ac.y, ap.z - v * ab.z - w * ac.z});
 }
 
-/// Rounded; what it names is bounded by point_triangle_distance() where it counts. By the
-/// region that the foot is in (Ericson, Real-Time Collision Detection, 5.1.5), which takes
-/// one division; needles, whose regions rounding confuses, by plane and sides.
+/// Returns the squared distance, rounded. Callers bound the result with
+/// point_triangle_distance() where it matters. Selects the region of the foot point (Ericson,
+/// Real-Time Collision Detection, 5.1.5), which takes one division. Rounding blurs the regions
+/// of needles, so these use plane and sides.
 double square_to_triangle(const Double3& p, const Corners& t) {
     constexpr double kNeedle = 0.01;  // of the square of its sine at the first corner
     const Double3 ab = minus(t[1], t[0]);
@@ -188,7 +189,7 @@ void TriangleTree::split_level(std::size_t level, std::span<const Double3> middl
         const auto at = [&](std::size_t i) {
             return order_.begin() + static_cast<std::ptrdiff_t>(i);
         };
-        // Ties by number: the same order with any standard library's selection, as a set.
+        // Breaks ties by number, so that any standard library selects the same set.
         std::nth_element(at(begin), at(middle), at(end), [&](std::uint32_t a, std::uint32_t b) {
             const double of_a = middles[a].*axis;
             const double of_b = middles[b].*axis;
@@ -198,7 +199,7 @@ void TriangleTree::split_level(std::size_t level, std::span<const Double3> middl
     parallel_for(level, split);
 }
 
-/// What a selection leaves in a leaf is a set; its order is the standard library's.
+/// Sorts the leaves: a selection determines only the set in a leaf, not its order.
 void TriangleTree::sort_leaves(ParallelFor parallel_for) {
     const auto sort = [&](std::size_t chunk) {
         const std::size_t last = std::min((chunk + 1) * kLeavesAtOnce, leaf_count_);
@@ -210,7 +211,7 @@ void TriangleTree::sort_leaves(ParallelFor parallel_for) {
     parallel_for((leaf_count_ + kLeavesAtOnce - 1) / kLeavesAtOnce, sort);
 }
 
-/// Where floats are those of, so that all corners lie between -1 and 1.
+/// Chooses the origin and unit of the floats, so that all corners lie between -1 and 1.
 void TriangleTree::choose_unit(std::span<const Double3> positions,
                                std::span<const Triangle> triangles) {
     for (const Triangle& t : triangles) {
@@ -293,7 +294,7 @@ unsigned TriangleTree::which_meet(const Lanes& lanes, const FloatBox& box) {
 CDPREP_WITH_AVX2
 TriangleTree::Nearest TriangleTree::nearest(const Double3& p, std::uint32_t hint) const {
     double least = std::numeric_limits<double>::infinity();
-    float limit = std::numeric_limits<float>::max();  // boxes that are farther are not looked at
+    float limit = std::numeric_limits<float>::max();  // boxes farther away are skipped
     std::uint32_t found = 0;
     std::uint32_t looks = 0;
     const auto look_at = [&](std::size_t place) {
@@ -329,7 +330,7 @@ TriangleTree::Nearest TriangleTree::nearest(const Double3& p, std::uint32_t hint
         }
         std::array<float, kWidth> square;
         std::memcpy(square.data(), &squares, sizeof square);
-        // The nearest last: it is on top of the stack then.
+        // The nearest last, so that it is on top of the stack.
         std::array<std::uint8_t, kWidth> order;
         std::size_t count = 0;
         for (unsigned near = bits_of(squares <= limit); near != 0; near &= near - 1) {

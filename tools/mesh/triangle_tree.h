@@ -19,25 +19,25 @@ using format::Double3;
 using format::Triangle;
 using Corners = std::array<Double3, 3>;
 
-/// Triangles in boxes within boxes, for very many questions about points while pieces are
-/// searched: the nearest triangle, and those along a ray.
+/// A BVH of triangles for very many point queries during the search for pieces: the nearest
+/// triangle, and the triangles along a ray.
 ///
-/// Each node has eight boxes side by side, of floats, in coordinates in which all lie
-/// between -1 and 1; they are larger than what they hold by more than rounding does to
-/// them and to a point, so that nothing is missed.
+/// Each node has eight boxes, stored by coordinate as floats. The coordinates are scaled so that
+/// all lie between -1 and 1. The boxes are enlarged by more than the rounding of boxes and query
+/// points, so that nothing is missed.
 class TriangleTree {
 public:
-    /// Copies the corners. O(n log n). The same for any parallel_for. Fourth powers of the
-    /// box's sides are within the range of doubles.
+    /// Copies the corners. O(n log n). The result is the same for any parallel_for. Fourth
+    /// powers of the box's sides must be within the range of double.
     TriangleTree(std::span<const Double3> positions, std::span<const Triangle> triangles,
                  ParallelFor parallel_for);
 
     struct Nearest {
         std::uint32_t triangle;  ///< number in the span
-        double distance;         ///< rounded; the true one to some 1e-12 of the model
-        std::uint32_t looks;     ///< at nodes and triangles: many where many are as near
+        double distance;         ///< rounded; true to some 1e-12 of the model
+        std::uint32_t looks;     ///< tested nodes and triangles; many if many are as near
 
-        /// As how many questions of the usual kind it counts, by what it took: 1, mostly.
+        /// Returns the cost in units of a usual query; mostly 1.
         [[nodiscard]] std::size_t weight() const {
             return looks <= kUsualLooks ? 1 : looks / kLooksOfQuestion;
         }
@@ -47,9 +47,9 @@ public:
         static constexpr std::uint32_t kLooksOfQuestion = 64;
     };
 
-    /// The triangle nearest to p, as far as double can tell. There is at least one.
-    /// `hint` is the number of a triangle that may be near, or any other number: it changes
-    /// the time, and which of several at the same distance is named.
+    /// Returns the triangle nearest to p, up to rounding in double. There must be at least one
+    /// triangle. `hint` is the number of a triangle that may be near, or any other number. It
+    /// affects the time, and the choice among triangles at equal distance.
     [[nodiscard]] Nearest nearest(
         const Double3& p, std::uint32_t hint = std::numeric_limits<std::uint32_t>::max()) const;
 
@@ -97,15 +97,15 @@ private:
     static constexpr std::size_t kWidth = 8;
     static constexpr std::size_t kMostWaiting = 11 * (kWidth - 1) + 1;  ///< 2^33 triangles
 
-    /// Boxes side by side; empty ones are met by nothing.
+    /// Eight boxes, stored by coordinate; nothing meets an empty one.
     struct Lanes {
         alignas(32) std::array<std::array<float, kWidth>, 3> lower, upper;
     };
     struct FloatBox {
         std::array<float, 3> lower, upper;
     };
-    /// A node: on level 0 its boxes are of the triangles of a leaf, else of nodes on the
-    /// level below, of which node i has those from 8 i on.
+    /// A node. On level 0 its boxes are those of the triangles of a leaf. On other levels they
+    /// are those of nodes on the level below; node i has those from 8 i on.
     struct Place {
         std::uint32_t level;
         std::uint32_t index;
@@ -131,13 +131,13 @@ private:
 
     std::size_t leaf_count_ = 1;  ///< a power of two
     std::vector<std::uint32_t> order_;
-    std::vector<std::uint32_t> place_;  ///< of each triangle in the order
+    std::vector<std::uint32_t> place_;  ///< position of each triangle in the order
     std::vector<Corners> corners_;      ///< in the order
     mesh::Box box_;
-    Double3 centre_{};  ///< of the box; floats are of (p - centre) * scale
+    Double3 centre_{};  ///< of the box; the floats are (p - centre) * scale
     double scale_ = 1;  ///< a power of two
     std::vector<Lanes> nodes_;
-    std::vector<std::size_t> first_of_level_;  ///< of the nodes; the last one is their number
+    std::vector<std::size_t> first_of_level_;  ///< first node of each level; then their number
 };
 
 }  // namespace cdprep::convex

@@ -12,11 +12,11 @@ namespace {
 
 using Corners = std::array<std::uint32_t, 3>;
 
-// Edge tests that one polygon may cost. A second of work; polygons of a few
-// thousand corners stay far below.
+// The limit on edge tests per polygon. They take about a second; polygons of a few thousand
+// corners stay far below.
 constexpr std::uint64_t kMaxSteps = 200'000'000;
 
-/// Twice the vector area, of the outline scaled to about one.
+/// Returns twice the vector area of the outline, scaled to about one.
 Double3 area_vector(std::span<const Double3> outline) {
     const Double3& o = outline[0];
     double extent = 0;
@@ -41,8 +41,8 @@ Double3 area_vector(std::span<const Double3> outline) {
     return sum;
 }
 
-/// The outline seen along its main axis, so that it runs counter-clockwise.
-/// Leaves out one coordinate and swaps the others if need be: exact.
+/// Returns the outline projected along its main axis, counter-clockwise. Drops one coordinate
+/// and may swap the others, which is exact.
 std::vector<Double2> project(std::span<const Double3> outline) {
     const Double3 area = area_vector(outline);
     const double x = std::fabs(area.x);
@@ -73,7 +73,7 @@ bool less(const Double2& a, const Double2& b) {
     return a.x < b.x || (a.x == b.x && a.y < b.y);
 }
 
-/// Every turn is strictly to the left, and all together go round once.
+/// Returns whether every turn is strictly to the left, and the turns sum to one revolution.
 bool is_strictly_convex(std::span<const Double2> flat) {
     const std::size_t n = flat.size();
     int direction_changes = 0;
@@ -87,7 +87,7 @@ bool is_strictly_convex(std::span<const Double2> flat) {
     return direction_changes == 2;
 }
 
-/// For three points on a line: b lies strictly between a and c.
+/// Returns whether b lies strictly between a and c; the points must be collinear.
 bool is_between(const Double2& a, const Double2& b, const Double2& c) {
     return (less(a, b) && less(b, c)) || (less(c, b) && less(b, a));
 }
@@ -106,13 +106,13 @@ bool overlap(const Box& a, const Box& b) {
            b.lower.y <= a.upper.y;
 }
 
-/// A positively turning triangle.
+/// A triangle that turns counter-clockwise.
 struct Ear {
     Double2 a, b, c;
 };
 
-/// True when segment pq meets the inside of the ear. Two convex sets in the plane
-/// are apart exactly when a line along an edge of one of them parts them.
+/// Returns whether segment pq meets the interior of the ear. Two convex sets in the plane are
+/// apart exactly if a line along an edge of one of them separates them.
 bool enters(const Ear& ear, const Double2& p, const Double2& q) {
     const auto outside = [&](const Double2& from, const Double2& to) {
         return exact::orient2d(from, to, p) <= 0 && exact::orient2d(from, to, q) <= 0;
@@ -127,10 +127,10 @@ bool enters(const Ear& ear, const Double2& p, const Double2& q) {
 
 /// Clips ears off a weakly simple polygon that runs counter-clockwise.
 ///
-/// An ear is a left turn whose triangle no edge of the rest enters. Ears whose
-/// cut runs through a third corner come last: clipping them may leave corners on
-/// a line. Spikes (paths that turn back on themselves) and repeated positions go
-/// first, as triangles without area: an ear beside a spike might lie outside.
+/// An ear is a left turn whose triangle no other edge enters. Ears whose cut passes through a
+/// third corner come last: clipping them may leave collinear corners. Spikes (paths that turn
+/// back on themselves) and repeated positions come first, as triangles without area: an ear
+/// beside a spike might lie outside.
 class EarClipper {
 public:
     EarClipper(std::span<const Double2> flat, std::vector<Corners>& triangles)
@@ -159,7 +159,7 @@ public:
 private:
     enum class Cut : std::uint8_t { clear, any };
 
-    /// Clips the first corner, going round from where the last one went.
+    /// Clips the first suitable corner, starting after the last clipped one.
     template <class Test>
     bool clip_first(Test&& may_go) {
         std::uint32_t corner = at_;

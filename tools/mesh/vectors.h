@@ -27,7 +27,7 @@ using format::Double3;
 [[nodiscard]] inline Double3 cross(const Double3& a, const Double3& b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-/// Does not overflow.
+/// Returns the middle of two points. Does not overflow.
 [[nodiscard]] inline Double3 middle_of(const Double3& a, const Double3& b) {
     return {a.x / 2 + b.x / 2, a.y / 2 + b.y / 2, a.z / 2 + b.z / 2};
 }

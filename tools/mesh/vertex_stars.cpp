@@ -20,7 +20,7 @@ VertexStars::VertexStars(const Mesh& mesh, std::span<const std::uint64_t> marked
     std::uint32_t end = 0;
     for (std::uint32_t& first : first_) first = end += first;
     triangles_.resize(end);
-    // From behind: each entry begins at the end of its star.
+    // From the back: each entry ends at the beginning of its star.
     for (std::uint32_t triangle = count; triangle-- > 0;) {
         if (is_marked(marked, triangle)) continue;
         for (const std::uint32_t vertex : mesh.triangles[triangle].vertex) {

@@ -12,8 +12,8 @@ namespace cdprep::mesh {
 /// The triangles around each vertex, ascending.
 class VertexStars {
 public:
-    /// Of the triangles that are not marked (one bit each, or no words at all), none of
-    /// which may repeat a corner.
+    /// Uses the triangles that are not marked (one bit each, or no words at all). None of these
+    /// may repeat a corner.
     VertexStars(const Mesh& mesh, std::span<const std::uint64_t> marked);
 
     [[nodiscard]] std::span<const std::uint32_t> around(std::size_t vertex) const {

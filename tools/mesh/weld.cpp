@@ -17,7 +17,7 @@ std::vector<bool> used_vertices(const TriangleSoup& soup) {
     return used;
 }
 
-/// Renames every vertex to its representative; those keep their order.
+/// Renames every vertex to its representative. The representatives keep their order.
 void keep_representatives(Mesh& mesh, const std::vector<std::uint32_t>& representative) {
     std::vector<std::uint32_t> renamed(mesh.positions.size(), kNone);
     std::uint32_t next = 0;
@@ -38,7 +38,7 @@ bool repeats_corner(const Triangle& t) {
     return t.vertex[0] == t.vertex[1] || t.vertex[1] == t.vertex[2] || t.vertex[2] == t.vertex[0];
 }
 
-/// Joins equal points and leaves out unused ones.
+/// Joins equal points and drops unused ones.
 Mesh weld_equal(const TriangleSoup& soup, WeldReport& report) {
     const std::vector<bool> used = used_vertices(soup);
     std::vector<std::uint32_t> renamed(soup.positions.size(), kNone);

@@ -23,7 +23,7 @@ using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Flat = Kernel::Point_2;
 
-/// The number of the exact point that a vertex of a flat triangulation stands for.
+/// The number of the exact point that a vertex of a flat triangulation represents.
 struct Number {
     std::uint32_t value = kNone;
 };
@@ -47,7 +47,7 @@ Flat flat(const Point& p, int dropped) {
     return {p[(dropped + 1) % 3], p[(dropped + 2) % 3]};
 }
 
-/// The axis along which a triangle is seen best; seen so it has area.
+/// Returns the axis along which the projection of a triangle is best; the projection has area.
 int best_axis(const Corners& c) {
     const Double3 u{c[1].x - c[0].x, c[1].y - c[0].y, c[1].z - c[0].z};
     const Double3 v{c[2].x - c[0].x, c[2].y - c[0].y, c[2].z - c[0].z};
@@ -67,12 +67,12 @@ int best_axis(const Corners& c) {
     return axes[0];
 }
 
-/// Exact points by number: first the mesh's vertices, then what cuts make.
+/// Exact points by number: first the vertices of the mesh, then the points that cuts make.
 class ExactPoints {
 public:
     explicit ExactPoints(const std::vector<Double3>& positions) : positions_(positions) {}
 
-    /// Of a vertex of the mesh.
+    /// Registers a vertex of the mesh.
     void know(std::uint32_t vertex) {
         numbers_.try_emplace(exact(positions_[vertex]), vertex);
     }
@@ -92,7 +92,7 @@ private:
     std::vector<Point> added_;
 };
 
-/// One triangle, cut along what other triangles have in common with it.
+/// A triangle that is cut along its intersections with other triangles.
 class CutTriangle {
 public:
     CutTriangle(const RepairMesh& mesh, std::uint32_t t, ExactPoints& points)
@@ -128,7 +128,7 @@ public:
         }
     }
 
-    /// The pieces, wound as the triangle.
+    /// Returns the pieces, with the winding of the triangle.
     std::vector<Triangle> pieces() {
         for (auto v = flat_.finite_vertices_begin(); v != flat_.finite_vertices_end(); ++v) {
             if (v->info().value == kNone) v->info().value = points_.number_of(lifted(v->point()));
@@ -155,7 +155,7 @@ private:
         flat_.insert_constraint(insert(a), insert(b));
     }
 
-    /// The point of the triangle's plane that is seen at p.
+    /// Returns the point of the triangle's plane that projects to p.
     [[nodiscard]] Point lifted(const Flat& p) const {
         const Flat a = flat(corner_[0], axis_), b = flat(corner_[1], axis_),
                    c = flat(corner_[2], axis_);
@@ -177,7 +177,7 @@ bool is_allowed(const TriangleMeeting& meeting) {
     return meeting.meeting == Meeting::duplicate;
 }
 
-/// Equal positions joined; triangles without area left out.
+/// Returns the mesh with equal positions joined, without triangles of zero area.
 RepairMesh joined(RepairMesh mesh) {
     mesh = weld_vertices(std::move(mesh), 0).mesh;
     std::vector<bool> kept(mesh.triangles.size());
@@ -189,7 +189,7 @@ RepairMesh joined(RepairMesh mesh) {
     return mesh;
 }
 
-/// Replaces every triangle of a meeting by its pieces, in its place. Nothing when stopped.
+/// Replaces each triangle of a meeting by its pieces, in place. Returns nothing if stopped.
 std::optional<RepairMesh> cut_once(RepairMesh mesh, const std::vector<TriangleMeeting>& meetings,
                                    const StopCheck& stop) {
     std::vector<std::vector<std::uint32_t>> others(mesh.triangles.size());
@@ -223,7 +223,7 @@ std::optional<RepairMesh> cut_once(RepairMesh mesh, const std::vector<TriangleMe
         origins.insert(origins.end(), pieces.size(), origin);
     }
     for (const Point& p : points.added()) {
-        const auto& q = p.exact();  // so that the double does not depend on how p came about
+        const auto& q = p.exact();  // so that the double does not depend on the history of p
         mesh.positions.push_back(
             {CGAL::to_double(q.x()), CGAL::to_double(q.y()), CGAL::to_double(q.z())});
         mesh.vertex_origin.push_back({kNone, RepairStep::resolve_self_intersections});
@@ -251,7 +251,7 @@ CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search, const StopCh
             cut.left.reset();
             if (worst == meetings.end()) break;
             cut.left = *worst;
-            // Rounded cuts that make as many meetings as they end go on for ever.
+            // Rounded cuts that create as many meetings as they remove would continue forever.
             if (round == kMostRounds || meetings.size() >= before) break;
             before = meetings.size();
             std::optional<RepairMesh> pieces = cut_once(std::move(mesh), meetings, stop);

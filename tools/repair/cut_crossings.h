@@ -10,17 +10,17 @@ namespace cdprep::mesh {
 
 struct CutMesh {
     RepairMesh mesh;
-    /// A pair that still meets, when rounding kept making new ones.
+    /// A pair that still meets because rounding kept creating new meetings.
     std::optional<TriangleMeeting> left;
     std::string failed;  ///< why there is no mesh, as a clause; empty: there is one
 };
 
-/// Cuts triangles along each other until any two have nothing in common but corners and
-/// edges, or are the same.
+/// Cuts triangles along each other. Afterwards any two share only corners and edges, or are
+/// equal.
 ///
-/// Cuts are made in exact arithmetic, then their ends are rounded to doubles; what meets
-/// after that is cut again, a few times. Triangles without area are left out: their edges
-/// are cut by the others. Equal positions become one vertex.
+/// Cuts are made in exact arithmetic; then their ends are rounded to doubles. Triangles that
+/// meet after that are cut again, a few times. Triangles of zero area are left out: other
+/// triangles cut their edges. Equal positions become one vertex.
 [[nodiscard]] CutMesh cut_crossings(RepairMesh mesh, const SearchOptions& search,
                                     const StopCheck& stop);
 

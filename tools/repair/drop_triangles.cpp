@@ -14,7 +14,7 @@ bool is_finite(const Double3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// Leaves out the triangles that `reason_for` gives a reason for.
+/// Drops the triangles for which `reason_for` returns a reason.
 template <class ReasonFor>
 void drop(RepairMesh& mesh, StepReport& report, ReasonFor reason_for) {
     std::vector<bool> kept(mesh.triangles.size(), true);
@@ -46,7 +46,7 @@ Stepped drop_bad_numbers(RepairMesh mesh, std::span<const std::uint32_t> out_of_
         }
         return std::nullopt;
     });
-    // Vertices that are not finite cannot be welded, and nothing uses them any more.
+    // Vertices that are not finite cannot be welded, and no triangle uses them any more.
     const bool all_finite = std::all_of(mesh.positions.begin(), mesh.positions.end(), is_finite);
     if (!all_finite) drop_unused_vertices(mesh, report.unused);
     return {std::move(mesh), std::move(report)};
@@ -107,7 +107,7 @@ Stepped drop_repeated_corners(RepairMesh mesh) {
 Stepped drop_duplicates(RepairMesh mesh) {
     StepReport report(RepairStep::drop_duplicates);
     struct Key {
-        std::array<std::uint32_t, 3> corners;  ///< from the lowest, in the order of winding
+        std::array<std::uint32_t, 3> corners;  ///< from the lowest, in winding order
         std::uint32_t triangle;
         auto operator<=>(const Key&) const = default;
     };

@@ -14,8 +14,8 @@ Corners corners_of(const RepairMesh& mesh, std::uint32_t t) {
     return {mesh.positions[v[0]], mesh.positions[v[1]], mesh.positions[v[2]]};
 }
 
-/// Of collinear corners the one between the others: along the first axis on which they
-/// differ, which orders points of a line exactly. 3 when two are the same point.
+/// Returns the middle one of three collinear corners; 3 if two of them coincide. Compares along
+/// the first axis on which they differ, which orders the points of a line exactly.
 std::size_t middle_corner(const Corners& c) {
     if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) return 3;
     const auto less = [](const Double3& a, const Double3& b) {
@@ -34,7 +34,7 @@ std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
     return (std::uint64_t{std::min(a, b)} << 32U) | std::max(a, b);
 }
 
-/// Uses of the edges around triangles without area; filled where it is looked at.
+/// The uses of every edge of the mesh, updated with each change.
 class LocalEdges {
 public:
     explicit LocalEdges(const RepairMesh& mesh) {
@@ -62,7 +62,8 @@ public:
     ZeroAreaDrop(RepairMesh& mesh, StepReport& report)
         : mesh_(mesh), report_(report), edges_(mesh), kept_(mesh.triangles.size(), true) {}
 
-    /// Passes over those left, as long as one is mended: a neighbour may have got area.
+    /// Repeats passes while each repairs at least one triangle: a neighbour may have gained
+    /// area.
     void run(std::vector<std::uint32_t> flat) {
         while (!flat.empty()) {
             report_.refused.clear();
@@ -77,7 +78,7 @@ public:
     }
 
 private:
-    /// False when it was refused.
+    /// Repairs one triangle; returns false if this is refused.
     bool mend(std::uint32_t t) {
         const std::size_t middle = middle_corner(corners_of(mesh_, t));
         if (middle == 3) return refuse(t, "has two corners at one place; weld joins them");
@@ -104,7 +105,7 @@ private:
         return true;
     }
 
-    /// The neighbour (b, a, d) becomes (b, v, d), and t becomes (v, a, d).
+    /// Replaces the neighbour (b, a, d) by (b, v, d), and t by (v, a, d).
     bool flip(std::uint32_t t, std::uint32_t v, std::uint32_t a, std::uint32_t b, HalfEdge other) {
         const std::uint32_t d = apex_of(mesh_.triangles, other);
         if (d == v || !edges_.of(v, d).empty()) {

@@ -18,16 +18,16 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Edge = std::pair<std::uint32_t, std::uint32_t>;
 
-constexpr std::size_t kMostForCubic = 500;  ///< vertices: CGAL's full search takes n^3 steps
+constexpr std::size_t kMostForCubic = 500;  ///< vertices; the full search of CGAL takes n^3 steps
 
 Edge edge_of(std::uint32_t a, std::uint32_t b) {
     return {std::min(a, b), std::max(a, b)};
 }
 
-/// A loop of vertices in the order in which new triangles run through its edges.
+/// A loop of vertices, in the order in which new triangles use its edges.
 using Loop = std::vector<std::uint32_t>;
 
-/// Follows edges of one triangle, backwards, from each that was not followed yet.
+/// Returns the boundary loops; follows each boundary edge backwards, once.
 std::vector<Loop> find_loops(const RepairMesh& mesh, const EdgeUses& edges) {
     std::map<std::uint32_t, std::uint32_t> before;  // end to start of a boundary half-edge
     for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
@@ -52,7 +52,7 @@ std::vector<Loop> find_loops(const RepairMesh& mesh, const EdgeUses& edges) {
     return loops;
 }
 
-/// The triangles that CGAL proposes, by places in the loop; none when it has no proposal.
+/// Returns the triangles that CGAL proposes, as indices into the loop; none if it fails.
 std::vector<Triangle> propose(const RepairMesh& mesh, const Loop& loop) {
     std::vector<Kernel::Point_3> points;
     for (const std::uint32_t vertex : loop) {
@@ -65,7 +65,7 @@ std::vector<Triangle> propose(const RepairMesh& mesh, const Loop& loop) {
             points, std::back_inserter(proposed),
             CGAL::parameters::do_not_use_cubic_algorithm(loop.size() > kMostForCubic));
     } catch (const std::exception&) {
-        return {};  // the loop is filled around its middle instead
+        return {};  // the loop is then filled around its middle
     }
     std::vector<Triangle> triangles;
     for (const auto& t : proposed) {
@@ -127,7 +127,7 @@ public:
         }
     }
 
-    /// Takes back patches that meet the surface or each other.
+    /// Removes patches that meet the surface or each other.
     void take_back(const SearchOptions& options) {
         std::map<std::uint32_t, TriangleMeeting> bad;
         search_meetings(mesh_, options, [&](std::span<const TriangleMeeting> some) {
@@ -152,9 +152,9 @@ public:
     }
 
 private:
-    /// Keeps the lowest meeting of each patch.
+    /// Records the lowest meeting of each patch.
     void note(const TriangleMeeting& meeting, std::map<std::uint32_t, TriangleMeeting>& bad) const {
-        // Of two patches the later goes.
+        // If two patches meet, the later one is removed.
         const std::uint32_t later = patch_of_[meeting.b];
         const std::uint32_t patch = later == kNone ? patch_of_[meeting.a] : later;
         if (patch == kNone) return;
@@ -187,7 +187,7 @@ private:
         }
     }
 
-    /// Whether every diagonal is a new edge; then it is one of the mesh from now on.
+    /// Returns whether every diagonal is a new edge, and if so adds the diagonals to the edges.
     bool take_edges(const Loop& loop, const std::vector<Triangle>& proposed) {
         std::set<Edge> diagonals;
         for (const Triangle& t : proposed) {
@@ -206,7 +206,7 @@ private:
         return true;
     }
 
-    /// Whether the loop is all the edges of one triangle: another would lie upon it.
+    /// Returns whether the loop consists of the edges of one triangle: a patch would cover it.
     [[nodiscard]] bool is_lone(const Loop& loop) const {
         std::array<std::uint32_t, 3> corners = {loop[0], loop[1], loop[2]};
         std::sort(corners.begin(), corners.end());
@@ -246,8 +246,8 @@ private:
     StepReport& report_;
     std::vector<Loop> loops_;
     std::set<Edge> edges_;
-    std::set<std::array<std::uint32_t, 3>> lone_;  ///< corners of triangles of three boundary edges
-    std::vector<std::uint32_t> patch_of_;          ///< per triangle the loop it fills, or kNone
+    std::set<std::array<std::uint32_t, 3>> lone_;  ///< triangles of three boundary edges
+    std::vector<std::uint32_t> patch_of_;          ///< by triangle: the loop it fills, or kNone
 };
 
 }  // namespace
@@ -258,7 +258,7 @@ Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits, const SearchOption
         limits.crossing == Crossing::resolved_later || has_meetings(mesh, search);
     HoleFilling filling(mesh, report);
     filling.run(limits, search.stop);
-    // Where triangles meet already, a patch that meets one makes nothing worse.
+    // If triangles meet already, a patch that meets one makes nothing worse.
     if (!may_cross && report.added_triangles > 0) {
         filling.take_back(search);
     }

@@ -8,23 +8,24 @@
 
 namespace cdprep::mesh {
 
-/// search_self_intersections() of the mesh. Vertices with equal positions count as one: what
-/// was parted touches, and is no finding.
+/// Runs search_self_intersections() on the mesh. Vertices with equal positions count as one:
+/// separated copies touch, but are no finding.
 bool search_meetings(const RepairMesh& mesh, const SearchOptions& options,
                      const TakeMeetings& take);
 
-/// Any two triangles meet. False also when a limit or a stop ended the search before.
+/// Returns whether any two triangles meet. Also false if a limit or a stop ended the search
+/// first.
 [[nodiscard]] bool has_meetings(const RepairMesh& mesh, const SearchOptions& options);
 
 struct Meetings {
     std::vector<TriangleMeeting> pairs;  ///< sorted by (a, b)
-    bool is_complete;                    ///< else there are more
+    bool is_complete;                    ///< false: there may be more
 };
 
-/// All of them: 12 bytes a pair.
+/// Returns all meetings; 12 bytes per pair.
 [[nodiscard]] Meetings find_meetings(const RepairMesh& mesh, const SearchOptions& options);
 
-/// "triangle 17", or that a step made it.
+/// Returns "triangle 17", or that a step made the triangle.
 [[nodiscard]] std::string triangle_in_words(const RepairMesh& mesh, std::uint32_t triangle);
 
 }  // namespace cdprep::mesh

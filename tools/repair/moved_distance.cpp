@@ -27,14 +27,14 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
 
 constexpr double kRelative = 1e-4;
 constexpr double kOfModel = 1e-9;
-constexpr std::size_t kMostPieces = 200'000;  ///< over all triangles of one direction
+constexpr std::size_t kMostPieces = 200'000;  ///< for all triangles of one direction
 
 Kernel::Point_3 point(const Double3& p) {
     return {p.x, p.y, p.z};
 }
 
-/// Names a triangle near a point. The tree rounds: what it names need not be the nearest,
-/// but the surface is no farther than that. A lower bound may then be too large, by the
+/// Finds a triangle near a point. The tree rounds, so this may not be the nearest triangle; but
+/// the surface is at most as far as it. A lower bound may therefore be too large by the
 /// rounding.
 class Surface {
 public:
@@ -58,8 +58,8 @@ public:
 private:
     using Hint = std::pair<Kernel::Point_3, Primitive::Id>;
 
-    /// First corners, each place once: CGAL's own hints, one a triangle, are cut in two
-    /// until the stack ends where many are one point.
+    /// Returns one first corner per position. CGAL's own hints, one per triangle, are split in
+    /// two recursively; many at one point overflow the stack.
     std::vector<Hint> hints_for_queries() {
         std::vector<Hint> hints;
         for (auto shape = shapes_.begin(); shape != shapes_.end(); ++shape) {
@@ -88,7 +88,8 @@ struct Piece {
     }
 };
 
-/// At least the distance of a point and a triangle; 0 exactly where the point is on it.
+/// Returns an upper bound on the distance between a point and a triangle; 0 exactly if the point
+/// is on it.
 double distance_at_most(const Double3& p, const Corners& t) {
     const PointTriangleDistance found = exact::point_triangle_distance(p, t);
     return found.lower == 0 && exact::is_within({&p, 1}, t, 0) ? 0 : found.upper;
@@ -108,8 +109,8 @@ bool less_corners(const Corners& a, const Corners& b) {
                                         lexicographically_less);
 }
 
-/// The triangle; without area the segment that it is, as a triangle whose last two corners
-/// are one: of collinear points the first and the last are its ends.
+/// Returns the sorted triangle. A triangle of zero area becomes its segment, as a triangle whose
+/// last two corners are equal: its ends are the first and last of the sorted points.
 Corners shape_of(const Corners& c) {
     const Corners sorted = ordered(c);
     return exact::is_degenerate(c) ? Corners{sorted[0], sorted[2], sorted[2]} : sorted;
@@ -122,9 +123,10 @@ std::vector<Corners> cut_in_middles(const Corners& c) {
     return {{c[0], ab, ca}, {ab, c[1], bc}, {ca, bc, c[2]}, {ab, bc, ca}};
 }
 
-/// Bounds a piece. The distance to one triangle is convex: it is largest at a corner of the
-/// piece, for each of the triangles that are nearest to a corner. Where they are far apart,
-/// no point of the piece is farther from some corner than its longest side.
+/// Bounds the distance of a piece from the surface. The distance to one triangle is convex, so
+/// it is largest at a corner of the piece. The bound is the least over the triangles nearest to
+/// the corners. If these are far apart, the longest side bounds better: no point of the piece is
+/// farther than that from some corner.
 Piece bounded(const Corners& corners, const Surface& surface, double& lower) {
     double most = 0;
     std::array<Corners, 3> near;
@@ -147,7 +149,7 @@ Piece bounded(const Corners& corners, const Surface& surface, double& lower) {
     return {corners, upper};
 }
 
-/// Cuts the piece with the largest bound until it is close to what some point attains.
+/// Splits the piece with the largest bound until that bound is close to an attained distance.
 MovedDistance farthest(const std::vector<Corners>& triangles, const Surface& surface,
                        double diagonal) {
     MovedDistance distance;
@@ -170,15 +172,15 @@ MovedDistance farthest(const std::vector<Corners>& triangles, const Surface& sur
         }
         left -= std::min<std::size_t>(left, 4);
     }
-    // Middles are rounded: their pieces leave out less than this.
+    // Middles are rounded: the gaps between their pieces are smaller than this.
     distance.upper = pieces.top().upper;
     if (left < kMostPieces) distance.upper += 1e-15 * diagonal;
     distance.lower = std::min(distance.lower, distance.upper);
     return distance;
 }
 
-/// Which source triangles have a place. Those with a corner out of range are marked by an
-/// import, and stand at vertex 0 as if it were theirs.
+/// Returns the source triangles that have a place. An import marks those with a corner out of
+/// range, and stores vertex 0 for their corners.
 std::vector<bool> find_placed(const TriangleSoup& soup) {
     std::vector<bool> placed(soup.triangles.size());
     for (std::size_t t = 0; t < placed.size(); ++t) {
@@ -203,8 +205,9 @@ bool same_corners(const Corners& a, const Corners& b) {
     return std::is_permutation(a.begin(), a.end(), b.begin());
 }
 
-/// Shapes of source triangles that are not in the output as they were, and how far each is
-/// from it where that is known of a triangle that has it as itself, a side or a corner.
+/// The shapes of source triangles that are not in the output as they were. Bounds the distance
+/// of a shape to the output if a triangle with a known bound has it as itself, a side or a
+/// corner.
 class MissingShapes {
 public:
     void add(const Corners& triangle) {
@@ -213,7 +216,7 @@ public:
     [[nodiscard]] bool empty() const {
         return shapes_.empty();
     }
-    /// After the last add().
+    /// Call this after the last add().
     void sort() {
         const auto less = [](const Shape& a, const Shape& b) {
             return less_corners(a.corners, b.corners);
@@ -230,7 +233,7 @@ public:
     [[nodiscard]] bool has_corner(const Double3& p) const {
         return std::binary_search(corners_.begin(), corners_.end(), p, lexicographically_less);
     }
-    /// Nothing of the triangle is farther than `upper` from the output.
+    /// Records that no point of the triangle is farther than `upper` from the output.
     void know(const Corners& triangle, double upper) {
         const Corners c = ordered(triangle);
         know_shape(c, upper);
@@ -240,7 +243,7 @@ public:
             know_shape({c[low], c[high], c[high]}, upper);
         }
     }
-    /// The bound of those that are known; the others go to `rest`.
+    /// Returns the largest known bound; shapes without one go to `rest`.
     [[nodiscard]] double find_known(std::vector<Corners>& rest) const {
         double most = 0;
         for (const Shape& shape : shapes_) {
@@ -272,8 +275,8 @@ private:
     std::vector<Double3> corners_;
 };
 
-/// The edges that an odd number of pieces has, by position, followed around from the first
-/// corner of the triangle that they are pieces of. Empty when they are not one loop.
+/// Returns the outline: the edges, by position, that an odd number of pieces has. It starts at
+/// the first corner of the triangle that was cut. Empty if the edges are not one loop.
 std::vector<Double3> find_outline(const std::vector<Corners>& pieces, const Double3& first) {
     using Edge = std::array<Double3, 2>;
     const auto less = [](const Edge& a, const Edge& b) {
@@ -286,7 +289,7 @@ std::vector<Double3> find_outline(const std::vector<Corners>& pieces, const Doub
         edges.insert(edges.end(), {{c[0], c[1]}, {c[1], c[2]}, {c[0], c[2]}});
     }
     std::sort(edges.begin(), edges.end(), less);
-    std::vector<Edge> outline;  // either way
+    std::vector<Edge> outline;  // in both directions
     for (const Edge& edge : edges) {
         if (!outline.empty() && outline.back() == Edge{edge[1], edge[0]}) {
             outline.resize(outline.size() - 2);
@@ -312,19 +315,20 @@ std::vector<Double3> find_outline(const std::vector<Corners>& pieces, const Doub
     return 2 * loop.size() == outline.size() ? loop : std::vector<Double3>{};
 }
 
-/// How far a triangle is from its pieces at most; nothing where some may be missing.
+/// Returns a bound on the distance from a triangle to its pieces; nothing if some may be
+/// missing.
 ///
-/// They are all there when the edges of an odd number of them make one loop through the
-/// three corners. For seen along the normal that loop, and so the pieces, go around every
-/// point of the triangle that is farther from its sides than the loop is; and what covers
-/// it there is not higher than a corner of a piece. A point nearer to a side than that has
-/// the loop, which passes beside all of the side, within twice as much.
+/// No piece is missing if the edges of an odd number of pieces form one loop through the three
+/// corners. Proof: seen along the normal, the loop surrounds every point of the triangle that is
+/// farther from its sides than the loop is. So the pieces cover that point, and their height
+/// there is at most that of a corner of a piece. Any other point is nearer to a side than the loop.
+/// The loop passes along that whole side, so the point is within twice that distance of the loop.
 std::optional<double> distance_to_pieces(const Corners& whole, const std::vector<Corners>& pieces) {
     const std::vector<Double3> loop = find_outline(pieces, whole[0]);
     const auto second = std::find(loop.begin(), loop.end(), whole[1]);
     const auto third = std::find(loop.begin(), loop.end(), whole[2]);
     if (second == loop.end() || third == loop.end()) return std::nullopt;
-    // In the order of the loop: from corner to corner.
+    // In loop order: from corner to corner.
     const std::array<Double3, 4> corner = second < third
                                               ? std::array{whole[0], whole[1], whole[2], whole[0]}
                                               : std::array{whole[0], whole[2], whole[1], whole[0]};
@@ -345,7 +349,7 @@ std::optional<double> distance_to_pieces(const Corners& whole, const std::vector
     return farthest;
 }
 
-/// For each source triangle of which all pieces are there, its distance to them.
+/// Returns for each source triangle the bound on the distance to its pieces, if none is missing.
 std::vector<std::optional<double>> find_pieces(const TriangleSoup& soup,
                                                const std::vector<bool>& placed,
                                                const RepairMesh& mesh) {
@@ -374,7 +378,7 @@ std::vector<std::optional<double>> find_pieces(const TriangleSoup& soup,
     return bounds;
 }
 
-/// Tells of what is in the output, whole or in all its pieces.
+/// Records the bounds of the triangles that the output contains, whole or in pieces.
 void know_output(const TriangleSoup& soup, const RepairMesh& mesh,
                  const std::vector<std::optional<double>>& pieces, MissingShapes& missing) {
     std::vector<bool> is_corner(mesh.positions.size());
@@ -419,9 +423,9 @@ double diagonal_of(const std::vector<Corners>& triangles) {
     return apart(lower, upper);
 }
 
-/// How far output triangles that are not their source are from it: no inner point is
-/// farther than a corner, since the distance to one triangle is convex. Those without a
-/// source go to `made`. Sources that are there whole are marked in `found`.
+/// Bounds the distance of changed output triangles from their sources. No inner point is farther
+/// than a corner, since the distance to one triangle is convex. Triangles without a source go to
+/// `made`. Sources that are present unchanged are marked in `found`.
 double bound_by_sources(const TriangleSoup& soup, const std::vector<bool>& placed,
                         const RepairMesh& mesh, std::vector<bool>& found,
                         std::vector<Corners>& made) {
@@ -446,8 +450,8 @@ double bound_by_sources(const TriangleSoup& soup, const std::vector<bool>& place
     return upper;
 }
 
-/// How far source triangles of which all pieces are there are from them. The others that
-/// are not `found` go to `missing`.
+/// Bounds the distance of source triangles from their pieces, if none is missing. Other
+/// triangles that are not `found` go to `missing`.
 double bound_by_pieces(const TriangleSoup& soup, const std::vector<bool>& placed,
                        const std::vector<bool>& found,
                        const std::vector<std::optional<double>>& pieces, MissingShapes& missing) {

@@ -10,14 +10,17 @@ struct MovedDistances {
     MovedDistance output_to_input;
 };
 
-/// How far a repair moved the surface: the one-sided Hausdorff distances both ways.
+/// Returns bounds on the distance that a repair moved the surface: the one-sided Hausdorff
+/// distances in both directions. The upper bounds are proved.
 ///
-/// Triangles with the corners of their source are 0 away; pieces are bounded by the distance
-/// of their corners to their source, and where all are there, the source by that. What was
-/// left out but is there as another triangle, a side or a corner, is where that is. The rest
-/// is measured: corners against the other surface, and their inside by cutting them until the bound
-/// is within 1e-4 of itself, or 1e-9 of the model. The upper bounds are proved. Source triangles
-/// with a corner that is not finite or out of range have no place and are left out.
+/// Triangles with the corners of their source have distance 0. The distance of a piece is
+/// bounded by that of its corners from the source. If all pieces are present, the same bounds
+/// the source. A dropped triangle that is still present as another triangle, side or corner has
+/// the bound of that one.
+///
+/// All other distances are measured: at corners, and inside triangles by splitting them until
+/// the bound is within 1e-4 of itself, or 1e-9 of the model. Source triangles without a place
+/// are left out: those with a corner that is not finite or out of range.
 [[nodiscard]] MovedDistances find_moved_distances(const TriangleSoup& soup, const RepairMesh& mesh);
 
 }  // namespace cdprep::mesh

@@ -6,7 +6,7 @@
 namespace cdprep::mesh {
 namespace {
 
-/// Across edges of two triangles: the half-edge on the other side, whatever its direction.
+/// Returns for each half-edge the other one of an edge of two triangles, in either direction.
 std::vector<HalfEdge> find_neighbours(const RepairMesh& mesh) {
     const EdgeUses edges = find_edge_uses(mesh.triangles, mesh.positions.size());
     std::vector<HalfEdge> across(3 * mesh.triangles.size(), kNone);
@@ -29,7 +29,7 @@ bool are_all_wound_alike(const RepairMesh& mesh, const std::vector<HalfEdge>& ac
 
 enum class Winding : std::uint8_t { unknown, kept, turned };
 
-/// Winds the patch of `seed`, breadth first, and returns its triangles.
+/// Winds the patch of `seed` breadth first, and returns its triangles.
 std::vector<std::uint32_t> wind_patch(const RepairMesh& mesh, const std::vector<HalfEdge>& across,
                                       std::uint32_t seed, std::vector<Winding>& winding) {
     std::vector<std::uint32_t> patch = {seed};

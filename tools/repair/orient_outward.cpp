@@ -36,7 +36,7 @@ bool contains(const Box& outer, const Box& inner) {
            outer.upper.y > inner.upper.y && outer.upper.z > inner.upper.z;
 }
 
-/// Whether p lies within the component: an odd winding number. False on its surface.
+/// Returns whether p lies inside the component: an odd winding number. False on its surface.
 bool is_within(const RepairMesh& mesh, const StoredComponent& component, const Double3& p) {
     int winding = 0;
     for (const std::uint32_t t : component.triangles) {
@@ -68,7 +68,7 @@ Stepped orient_outward(RepairMesh mesh) {
             if (j == i || !components[j].balanced || !contains(boxes[j], boxes[i])) continue;
             if (is_within(mesh, components[j], p)) ++around;
         }
-        if (around % 2 == 0) turned.push_back(i);  // an odd number: a cavity, wound as one
+        if (around % 2 == 0) turned.push_back(i);  // an odd number: a cavity, already wound as one
     }
     for (const std::size_t i : turned) {
         for (const std::uint32_t t : components[i].triangles) {

@@ -8,8 +8,8 @@
 
 namespace cdprep::mesh {
 
-/// winding_term() of the ray from p along +x. Exact; most triangles are passed by without
-/// exact signs, since the ray, perturbed or not, comes nowhere near their box.
+/// Returns winding_term() of the ray from p along +x. Exact. Most triangles take no exact signs,
+/// because the ray, perturbed or not, is far from their box.
 [[nodiscard]] inline WindingTerm winding_term_along_x(const Double3& p, const Corners& t) {
     const auto misses = [](double a, double b, double c, double at) {
         return std::min({a, b, c}) > at || std::max({a, b, c}) < at;

@@ -35,8 +35,8 @@ RepairMesh as_repair_mesh(const TriangleSoup& soup) {
     return mesh;
 }
 
-/// The soup as an import gives it: triangles with a corner out of range have all corners at
-/// vertex 0, and are listed. Nothing where no such corner is left.
+/// Returns the soup as an import would: triangles with a corner out of range are listed and have
+/// all corners at vertex 0. Returns nothing if there are no such corners.
 std::optional<TriangleSoup> marked(const TriangleSoup& soup) {
     const std::size_t limit = soup.positions.size();
     std::optional<TriangleSoup> result;
@@ -71,18 +71,18 @@ SearchOptions search_of(const RepairOptions& options, const StopCheck& stop) {
     return {{options.max_pairs, SearchLimits::kNone}, stop, options.parallel_for};
 }
 
-/// Takes steps, and undoes those that make the verdict worse.
+/// Runs steps, and undoes those that make the verdict worse.
 class Repair {
 public:
     /// `stop` ends resolve_self_intersections().
     Repair(const TriangleSoup& soup, const RepairOptions& options, const StopCheck& stop)
         : options_(options), stop_(stop), bad_(out_of_range(soup)), mesh_(as_repair_mesh(soup)) {
-        // What is wrong is said of the mesh as find_defects() sees it.
+        // The first verdict is on the mesh as find_defects() sees it.
         joined_ = weld_vertices(drop_bad_numbers(mesh_, bad_).mesh, 0).mesh;
         before_ = verdict_of(joined_);
     }
 
-    /// Takes each step once.
+    /// Runs each step once.
     void run_round() {
         reports_.clear();
         take(RepairStep::drop_bad_numbers,
@@ -144,7 +144,7 @@ public:
     [[nodiscard]] const StoredVerdict& after() {
         return verdict();
     }
-    /// Another number for every mesh that the steps came to.
+    /// Returns a number that differs for every mesh that the steps produced.
     [[nodiscard]] std::uint64_t revision() const {
         return revision_;
     }
@@ -153,8 +153,9 @@ public:
     }
 
 private:
-    /// False where the mesh is 2-manifold and oriented as it is stored, and joined positions
-    /// would give no boundary edge a partner: then copies of a vertex were parted on purpose.
+    /// Returns whether joining equal positions improves the mesh. False if the stored mesh is
+    /// 2-manifold and oriented, and joining gives no boundary edge a partner. Copies of a vertex
+    /// were then made on purpose.
     [[nodiscard]] bool joining_equal_positions_gains() {
         const StoredVerdict& stored = verdict();
         constexpr std::uint32_t kBoth = format::verdict_two_manifold | format::verdict_oriented;
@@ -172,7 +173,7 @@ private:
         return options_.steps.test(static_cast<std::size_t>(step));
     }
 
-    /// What a step said of a mesh that it left as it was.
+    /// The report of a step on a mesh that it did not change.
     struct Known {
         std::uint64_t revision = std::numeric_limits<std::uint64_t>::max();
         StepReport report{RepairStep::drop_bad_numbers};
@@ -187,7 +188,8 @@ private:
         if (!asked(name) || is_stopped(options_.interrupted)) return;
         if (known.revision != revision_) {
             Stepped stepped = step(mesh_);
-            // Joining equal positions says what the mesh is: before_ was found so.
+            // Joining equal positions may worsen the verdict: before_ already describes the
+            // joined mesh.
             const bool may = name <= RepairStep::weld && stepped.report.moved == 0;
             known.report = std::move(stepped.report);
             const bool taken =
@@ -199,7 +201,7 @@ private:
         }
     }
 
-    /// Goes on with the mesh, or says that the step is undone: then false.
+    /// Adopts the mesh; or marks the step as undone and returns false.
     bool accept(RepairMesh mesh, bool may_be_worse, StepReport& report) {
         std::optional<StoredVerdict> found;
         if (!may_be_worse) {
@@ -229,15 +231,15 @@ private:
     std::vector<std::uint32_t> bad_;
     RepairMesh mesh_;
     std::uint64_t revision_ = 0;
-    /// Of each step, and of weld() within a distance.
+    /// By step; the last is for weld() within a distance.
     std::array<Known, kRepairStepCount + 1> known_;
     RepairMesh joined_;                     ///< the input, finite, with equal positions joined
-    StoredVerdict before_;                  ///< of joined_
-    std::optional<StoredVerdict> verdict_;  ///< of mesh_
+    StoredVerdict before_;                  ///< the verdict on joined_
+    std::optional<StoredVerdict> verdict_;  ///< the verdict on mesh_
     std::vector<StepReport> reports_;
 };
 
-/// Triangles without any vertex, which no import gives: all are dropped.
+/// Drops all triangles of a soup without vertices. No import returns such a soup.
 Repaired without_vertices(const TriangleSoup& soup) {
     Repaired empty;
     StepReport step(RepairStep::drop_bad_numbers);
@@ -267,7 +269,7 @@ RepairCounts count(const TriangleSoup& soup, const RepairMesh& mesh) {
         ++pieces[source];
         if (mesh.triangle_origin[t].step) continue;
         whole[source] = true;
-        // Corners go by position: numbers change with every join and parting.
+        // Corners are compared by position: numbers change with every join and split.
         const auto& was = soup.triangles[source].vertex;
         const auto& is = mesh.triangles[t].vertex;
         reversed[source] = !(soup.positions[was[1]] == mesh.positions[is[1]] &&
@@ -317,7 +319,8 @@ Repaired repair_once(const TriangleSoup& soup, const RepairOptions& options,
         report.settled = revision == work.revision() ||
                          (positions == work.mesh().positions && triangles == work.mesh().triangles);
         for (const StepReport& step : work.reports()) {
-            // A round that changed nothing in the end still says what it refused.
+            // A round without changes still reports its refusals; the rounds before it already
+            // did.
             if (report.settled && round > 0) continue;
             report.steps.push_back(step);
         }
@@ -360,7 +363,8 @@ Repaired repair(const TriangleSoup& bare, const RepairOptions& options) {
     Repaired mended = repair_once(soup, options, stop);
     constexpr auto kResolve = static_cast<std::size_t>(RepairStep::resolve_self_intersections);
     if (!options.steps.test(kResolve) || is_stopped(options.interrupted)) return mended;
-    // Patches were let cross, to be resolved. Where that was refused, none may cross.
+    // Patches could cross because that was to be resolved. If resolving was refused, none may
+    // cross.
     const SearchOptions search = search_of(options, options.interrupted);
     if (!has_meetings(mended.mesh, search)) return mended;
     const RepairMesh finite = drop_bad_numbers(as_repair_mesh(soup), out_of_range(soup)).mesh;

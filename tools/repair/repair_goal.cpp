@@ -16,9 +16,9 @@
 namespace cdprep::mesh {
 namespace {
 
-constexpr std::size_t kSourcePairs = std::size_t{1} << 22;  ///< told apart: 100 MB
+constexpr std::size_t kSourcePairs = std::size_t{1} << 22;  ///< distinct pairs: 100 MB
 
-/// Triangles that can be searched, and which are copies.
+/// The triangles that can be searched, and their copies.
 class SoundSurface {
 public:
     explicit SoundSurface(const TriangleSoup& soup) {
@@ -46,7 +46,7 @@ bool are_apart(Meeting meeting) {
            meeting == Meeting::coplanar_overlap;
 }
 
-/// Counts pairs, and calls look(pair, crossing) for each meeting of distinct triangles.
+/// Counts pairs; calls look(pair, crossing) for each meeting of distinct triangles.
 template <class Look>
 SelfCrossing search(const SoundSurface& surface, const SearchOptions& options, const Look& look) {
     const Copies& copies = surface.copies();
@@ -72,7 +72,7 @@ SelfCrossing search(const SoundSurface& surface, const SearchOptions& options, c
     return crossing;
 }
 
-/// What the triangles of an output were in the input.
+/// The source triangles of an output's triangles.
 class SourceTriangles {
 public:
     SourceTriangles(const TriangleSoup& input, const RepairMesh& output)
@@ -90,7 +90,7 @@ public:
         });
     }
 
-    /// Adds the pair of sources of two triangles of the output, unless they are neighbours.
+    /// Adds the pair of sources of two output triangles, unless the sources are neighbours.
     void add(std::uint32_t a, std::uint32_t b, ComponentPairs& pairs) const {
         const auto [low, high] = std::minmax({source_of(a), source_of(b)});
         if (low == high || are_neighbours(low, high)) return;
@@ -98,7 +98,7 @@ public:
     }
 
 private:
-    /// New triangles get numbers behind those of the input.
+    /// New triangles have numbers above those of the input.
     [[nodiscard]] std::uint32_t source_of(std::uint32_t triangle) const {
         const std::uint32_t source = output_.triangle_origin[triangle].source;
         if (source != kNone) return lowest_[source];
@@ -113,11 +113,11 @@ private:
     }
 
     const RepairMesh& output_;
-    std::vector<std::uint32_t> lowest_;  ///< of the copies of a source triangle
-    std::vector<Triangle> corners_;      ///< of a source triangle, equal positions joined
+    std::vector<std::uint32_t> lowest_;  ///< the lowest copy of a source triangle
+    std::vector<Triangle> corners_;      ///< of a source triangle, with equal positions joined
 };
 
-/// "3 edges have more than two triangles", each that is above 0, with commas.
+/// A text such as "3 edges have more than two triangles": all counts above 0, with commas.
 class Flaws {
 public:
     void add(std::uint64_t count, const char* one, const char* several) {

@@ -18,7 +18,7 @@ std::string number(double value, const char* pattern) {
     return text.data();
 }
 
-/// Of none every fact is true, and means nothing.
+/// Returns whether there are triangles. Without any, all facts are true but meaningless.
 bool has_triangles(const mesh::StoredVerdict& found) {
     return found.verdict.triangle_count > found.repeated_corners;
 }
@@ -173,7 +173,7 @@ Json to_json(const mesh::StepReport& step) {
     return json;
 }
 
-/// How many of each.
+/// Returns the count of each kind of change.
 Json summary(const mesh::StepReport& step) {
     Json json = {{"step", mesh::name_of(step.step)},
                  {"dropped", step.dropped.size()},
@@ -189,7 +189,7 @@ Json summary(const mesh::StepReport& step) {
     return json;
 }
 
-/// The source number of each, or -1, and the step that made or cut it, or null.
+/// Adds the source numbers, or -1, and the steps that made or cut each, or null.
 void add_origins(Json& json, const char* source, const char* step,
                  const std::vector<mesh::Origin>& origins) {
     json[source] = Json::array();

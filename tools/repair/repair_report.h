@@ -11,7 +11,7 @@
 
 namespace cdprep::report {
 
-/// What repairing one file gave.
+/// The result of repairing one file.
 struct RepairFileReport {
     std::string input;
     std::string output;
@@ -20,26 +20,26 @@ struct RepairFileReport {
     std::uint64_t vertices = 0;
     std::vector<mesh::Origin> triangle_origin;  ///< of each output triangle
     std::vector<mesh::Origin> vertex_origin;
-    std::optional<mesh::SelfCrossing> crossing_before;  ///< of the input, where asked
+    std::optional<mesh::SelfCrossing> crossing_before;  ///< of the input, if computed
     std::optional<mesh::SelfCrossing> crossing_after;   ///< of the output
-    std::optional<bool> goal;  ///< the output is what the preset promises; nothing without preset
-    std::string missed;        ///< what it lacks, in words
+    std::optional<bool> goal;  ///< the output keeps the preset's promise; nothing without a preset
+    std::string missed;        ///< the broken promises, in words
     double seconds = 0;
     int exit = 0;                      ///< exit code for this file
-    std::optional<std::string> error;  ///< the sentence, when it failed
+    std::optional<std::string> error;  ///< the message, if it failed
 };
 
-/// A screen for a person: verdicts, what each step changed, what it refused, at most
-/// `most_refusals` of a step in words.
+/// Returns one screen of text: verdicts, the changes of each step, and the refusals. Lists at
+/// most `most_refusals` refusals per step in words.
 [[nodiscard]] std::string repair_text(const RepairFileReport& report, std::size_t most_refusals);
 
-/// One object, with every change by number: "triangle_source" and "vertex_source" have an
-/// entry for each of the output, -1 for those that a step made. A distance that is infinite
-/// and what was not asked are null.
+/// Returns one JSON object with every change by number. "triangle_source" and "vertex_source"
+/// have an entry for each output triangle and vertex, -1 for those that a step made. An infinite
+/// distance is null, and so is a value that was not requested.
 [[nodiscard]] std::string repair_json(const RepairFileReport& report);
 
-/// What a baked file keeps: one object with the numbers of what was changed, step by step,
-/// without lists.
+/// Returns the summary that a baked file keeps: one object with the counts of changes, step by
+/// step, without lists.
 [[nodiscard]] std::string repair_summary_json(const mesh::RepairReport& repair);
 
 }  // namespace cdprep::report

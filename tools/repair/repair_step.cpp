@@ -82,10 +82,10 @@ void part_fans(RepairMesh& mesh, std::span<const HalfEdge> twins,
                std::vector<std::uint32_t>& parted, RepairStep step) {
     const std::vector<std::uint32_t> fans = find_fans(twins);
     std::vector<bool> taken(mesh.positions.size(), false);
-    std::vector<std::uint32_t> vertex_of(fans.size(), kNone);  // by lowest corner
+    std::vector<std::uint32_t> vertex_of(fans.size(), kNone);  // by the lowest corner
     for (HalfEdge h = 0; h < fans.size(); ++h) {
         std::uint32_t& vertex = mesh.triangles[h / 3].vertex[h % 3];
-        if (fans[h] == h) {  // the lowest of a fan comes before the others
+        if (fans[h] == h) {  // the lowest corner of a fan comes first
             if (taken[vertex]) {
                 mesh.positions.push_back(Double3(mesh.positions[vertex]));
                 mesh.vertex_origin.push_back({mesh.vertex_origin[vertex].source, step});

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kMadeName = "repair";
 
-/// Run by run, the triangles whose source lies in it; `from` is in ascending order.
+/// Sets each run to the triangles whose source lies in it; `from` must be ascending.
 template <class Run>
 void recount(std::vector<Run>& runs, const std::vector<std::uint32_t>& from) {
     std::uint32_t next = 0;
@@ -27,7 +27,7 @@ std::uint32_t add_name(std::vector<std::string>& names) {
     return static_cast<std::uint32_t>(names.size() - 1);
 }
 
-/// The run of the triangles without a source, after all others.
+/// Adds the run of the triangles without a source, after all others.
 template <class Run>
 void add_made(std::vector<Run>& runs, std::vector<std::string>& names, std::uint32_t first,
               std::uint32_t count, Run made) {
@@ -47,7 +47,7 @@ format::Instance made_instance(const std::vector<format::Instance>& instances) {
     return made;
 }
 
-/// Faces of the sources; of those without one, their running number.
+/// Returns the faces of the sources; triangles without a source get running numbers.
 std::vector<std::uint32_t> faces_of(const std::vector<std::uint32_t>& face,
                                     const std::vector<std::uint32_t>& from) {
     std::vector<std::uint32_t> faces;

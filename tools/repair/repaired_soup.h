@@ -9,16 +9,16 @@
 
 namespace cdprep::mesh {
 
-/// A repaired mesh as if it had been imported so.
+/// A repaired mesh in the form of an import.
 struct RepairedSoup {
     TriangleSoup soup;
-    std::vector<std::uint32_t> triangle_from;  ///< of each triangle its source, or kNone: made
-    std::vector<std::uint32_t> vertex_from;    ///< likewise of each vertex
+    std::vector<std::uint32_t> triangle_from;  ///< the source of each triangle, or kNone: made
+    std::vector<std::uint32_t> vertex_from;    ///< likewise for each vertex
 };
 
-/// Puts the triangles in the order of their sources, pieces of one together, and those
-/// without a source last. Nodes, groups, materials and faces follow from the sources;
-/// triangles without one make an instance and runs of their own, named "repair".
+/// Orders the triangles by their sources, with pieces of one source together. Those without a
+/// source come last. Nodes, groups, materials and faces follow from the sources. Triangles
+/// without a source form an instance and runs of their own, named "repair".
 [[nodiscard]] RepairedSoup as_soup(const TriangleSoup& source, RepairMesh repaired);
 
 }  // namespace cdprep::mesh

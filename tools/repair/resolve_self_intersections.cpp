@@ -14,12 +14,13 @@
 namespace cdprep::mesh {
 namespace {
 
-constexpr std::size_t kMostTestPoints = 256;  ///< of a component, to find one off the others
+constexpr std::size_t kMostTestPoints = 256;  ///< per component, to find one off the others
 
-/// One triangle for all with the same corners: how many more are wound like it than not.
+/// One triangle for all with the same corners. The count is the number of those with its winding
+/// minus the number of the others.
 struct Facet {
     Triangle triangle;
-    std::uint32_t first;  ///< the lowest of the mesh
+    std::uint32_t first;  ///< the lowest triangle of the mesh
     std::uint32_t last;   ///< the highest
     int count = 0;
 };
@@ -55,12 +56,12 @@ std::vector<Facet> join_facets(const std::vector<Triangle>& triangles) {
     return facets;
 }
 
-/// The winding number on either side of every facet of a mesh without crossings.
+/// The winding numbers on both sides of every facet of a mesh without crossings.
 ///
-/// Around each edge the side of one facet is the side of the next: so sides join to cells,
-/// of one number each. Across a facet the number changes by its count. What is left open,
-/// a number for each part of the mesh that hangs together by edges, is found outside of
-/// the part: where the edge of its outline lies, the number is that of the other parts.
+/// Around each edge, neighbouring facets bound a common wedge. Their sides there belong to one
+/// cell, and each cell has one number. Across a facet the number changes by the facet's count.
+/// One number per part (facets connected by edges) is then still open. It is determined at the
+/// part's outer side, where it equals the winding number of the other parts.
 class Windings {
 public:
     Windings(const std::vector<Double3>& positions, const std::vector<Facet>& facets)
@@ -74,7 +75,7 @@ public:
         join_sides();
     }
 
-    /// False when the counts of the facets around some edge do not cancel, or when stopped.
+    /// Returns false if the counts around some edge do not cancel, or if stopped.
     bool find(const StopCheck& stop) {
         std::vector<std::vector<std::uint32_t>> members(facets_.size());
         for (std::uint32_t f = 0; f < facets_.size(); ++f) members[parts_.lowest(f)].push_back(f);
@@ -85,7 +86,7 @@ public:
         return true;
     }
 
-    /// In front of a facet, where its normal points, and behind it.
+    /// Return the number in front of a facet, where its normal points, and behind it.
     [[nodiscard]] int front(std::uint32_t facet) const {
         return number_[std::size_t{2} * facet];
     }
@@ -94,8 +95,8 @@ public:
     }
 
 private:
-    /// The side of a half-edge's facet that comes after it, with rising angle: the front of
-    /// one that closes, the back of one that opens.
+    /// Returns the side of a half-edge's facet that follows it by ascending angle. It is the
+    /// front of a facet that closes, and the back of one that opens.
     static std::uint32_t side_after(const AroundEdge& around, HalfEdge h) {
         return 2 * (h / 3) + (around.opens(h) ? 1 : 0);
     }
@@ -116,7 +117,7 @@ private:
         }
     }
 
-    /// For each cell the facets that have a side in it.
+    /// Collects the facet sides of each cell.
     void collect_links() {
         links_.resize(2 * facets_.size());
         for (std::uint32_t side = 0; side < 2 * facets_.size(); ++side) {
@@ -136,7 +137,7 @@ private:
             queue.pop_front();
             for (const std::uint32_t side : links_[cell]) {
                 number_[side] = *known[cell];
-                // Behind a facet the number is higher by its count than in front of it.
+                // The number behind a facet exceeds the number in front by the facet's count.
                 const int change = facets_[side / 2].count * (side % 2 == 0 ? 1 : -1);
                 const std::uint32_t across = cells_.lowest(side ^ 1U);
                 if (!known[across]) {
@@ -150,8 +151,8 @@ private:
         return true;
     }
 
-    /// A side from which the outside of the part is seen. Of the part's lowest vertex the
-    /// edge is taken that bounds its outline as seen along z; beyond it there is nothing.
+    /// Returns a side that faces the outside of the part. At the part's lowest vertex, takes the
+    /// edge that bounds the outline as projected along z. Beyond this edge there is nothing.
     std::uint32_t outer_side(const std::vector<std::uint32_t>& part) const {
         const auto less = [&](std::uint32_t a, std::uint32_t b) {
             const Double3 &p = positions_[a], &q = positions_[b];
@@ -183,7 +184,7 @@ private:
         }
         const Double2 at = seen(lowest), there = seen(to);
         const Double3& p = positions_[lowest];
-        // To the right of the outline's edge, along which everything lies to the left.
+        // To the right of the outline's edge; the whole part lies to its left.
         const Double3 beyond{p.x + (there.y - at.y), p.y - (there.x - at.x), p.z};
         return first_side_from(outline, beyond, part);
     }
@@ -202,7 +203,7 @@ private:
         return side_before(around, around.sorted(uses).front());
     }
 
-    /// The winding number of all other parts at this one.
+    /// Returns the winding number of all other parts at this one.
     int number_of_others(const std::vector<std::uint32_t>& part, const StopCheck& stop) {
         const std::uint32_t own = parts_.lowest(part[0]);
         std::size_t left = kMostTestPoints;
@@ -233,8 +234,8 @@ private:
     std::vector<Triangle> triangles_;
     EdgeUses edges_;
     Groups cells_;             ///< of sides: 2 f is the front of facet f, 2 f + 1 its back
-    Groups parts_;             ///< of facets that hang together by edges
-    std::vector<int> number_;  ///< of each side
+    Groups parts_;             ///< facets connected by edges
+    std::vector<int> number_;  ///< by side
     std::vector<std::vector<std::uint32_t>> links_;
     std::vector<std::optional<int>> known_;  ///< by the lowest side of a cell
 };
@@ -246,7 +247,7 @@ Stepped refused(RepairMesh mesh, const std::string& sentence,
     return {std::move(mesh), std::move(report)};
 }
 
-/// The sentence for a pair, and its numbers.
+/// Refuses with a message about a pair, and its numbers.
 Stepped refused_pair(RepairMesh mesh, const RepairMesh& pieces, std::uint32_t a, std::uint32_t b,
                      const std::string& why) {
     return refused(std::move(mesh),
@@ -255,7 +256,7 @@ Stepped refused_pair(RepairMesh mesh, const RepairMesh& pieces, std::uint32_t a,
                    pieces.positions[pieces.triangles[a].vertex[0]]);
 }
 
-/// A limit or an interrupt ended the search for pairs.
+/// Refuses because a limit or an interrupt ended the search for pairs.
 Stepped refused_search(RepairMesh mesh, const Meetings& some) {
     return refused(std::move(mesh),
                    "at least " + std::to_string(some.pairs.size()) +
@@ -263,7 +264,7 @@ Stepped refused_search(RepairMesh mesh, const Meetings& some) {
                    {}, {});
 }
 
-/// The facets between winding number 0 and another, wound outwards.
+/// Returns the facets between winding number 0 and another, wound outwards.
 RepairMesh keep_boundary(const RepairMesh& mesh, const std::vector<Facet>& facets,
                          const Windings& windings) {
     std::vector<std::optional<Triangle>> kept(mesh.triangles.size());
@@ -279,7 +280,8 @@ RepairMesh keep_boundary(const RepairMesh& mesh, const std::vector<Facet>& facet
     boundary.triangle_origin.clear();
     for (std::size_t t = 0; t < kept.size(); ++t) {
         if (!kept[t]) continue;
-        // Corners as they were, where the winding is: the first is no other.
+        // Keeps the order of the corners if the winding is the same; the first corner always
+        // stays.
         Triangle triangle = mesh.triangles[t];
         const auto& v = kept[t]->vertex;
         const auto at = std::find(v.begin(), v.end(), triangle.vertex[0]) - v.begin();
@@ -291,7 +293,7 @@ RepairMesh keep_boundary(const RepairMesh& mesh, const std::vector<Facet>& facet
     return boundary;
 }
 
-/// What of `before` is not in `after`, and what is in pieces there.
+/// Records the triangles of `before` that are missing in `after`, and those that are in pieces.
 void account(const RepairMesh& before, const RepairMesh& after, StepReport& report) {
     std::uint32_t most = 0;
     for (const Origin& origin : before.triangle_origin) {

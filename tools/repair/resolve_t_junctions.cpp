@@ -11,7 +11,7 @@
 namespace cdprep::mesh {
 namespace {
 
-constexpr int kMostPasses = 16;  ///< one cuts each triangle along one edge
+constexpr int kMostPasses = 16;  ///< a pass cuts each triangle along one edge
 
 using Box = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const std::uint32_t*>;
 
@@ -31,7 +31,7 @@ public:
     TJunctions(RepairMesh& mesh, double width, StepReport& report)
         : mesh_(mesh), width_(width), report_(report) {}
 
-    /// Cuts each triangle along at most one edge. False when there was nothing to cut.
+    /// Cuts each triangle along at most one edge. Returns false if there is nothing to cut.
     bool run_pass() {
         find_boundary();
         std::map<HalfEdge, std::vector<std::uint32_t>> cuts = find_cuts();
@@ -97,7 +97,7 @@ private:
         return cuts;
     }
 
-    /// Fans the triangle from its apex over the vertices on its edge.
+    /// Splits the triangle into a fan from its apex to the vertices on its edge.
     bool cut(HalfEdge h, std::vector<std::uint32_t>& vertices) {
         const std::uint32_t t = h / 3;
         const std::uint32_t a = start_of(mesh_.triangles, h), b = end_of(mesh_.triangles, h);
@@ -129,7 +129,7 @@ private:
     RepairMesh& mesh_;
     double width_;
     StepReport& report_;
-    std::vector<HalfEdge> edges_;          ///< of one triangle
+    std::vector<HalfEdge> edges_;          ///< boundary half-edges
     std::vector<std::uint32_t> vertices_;  ///< their ends
 };
 

@@ -9,10 +9,10 @@
 namespace cdprep::mesh {
 namespace {
 
-constexpr std::size_t kMostPasses = 64;  ///< over edges that pairs share: two do, in practice
+constexpr std::size_t kMostPasses = 64;  ///< over edges that pairs share; two suffice in practice
 
-/// Joins uses as brackets do, around the edge: each that opens with the next that closes
-/// and is not taken by one between them.
+/// Pairs uses around the edge like brackets. Each opening use pairs with the next closing one
+/// that no use in between takes.
 void pair_around(const RepairMesh& mesh, std::span<const HalfEdge> uses,
                  std::vector<HalfEdge>& twins) {
     const AroundEdge around(mesh.positions, mesh.triangles, uses);
@@ -40,8 +40,8 @@ std::vector<HalfEdge> pair_all(const RepairMesh& mesh, const EdgeUses& edges) {
     return twins;
 }
 
-/// Cuts the triangle of h at a vertex on h. The half that keeps the triangle's number has
-/// the start of h, and h keeps its number too.
+/// Cuts the triangle of h at a vertex on h. The half that contains the start of h keeps the
+/// numbers of the triangle and of h.
 void cut_at(RepairMesh& mesh, std::vector<HalfEdge>& twins, HalfEdge h, std::uint32_t middle) {
     const HalfEdge next = next_in_triangle(h);
     const auto added = static_cast<HalfEdge>(mesh.triangles.size());
@@ -61,7 +61,7 @@ void cut_at(RepairMesh& mesh, std::vector<HalfEdge>& twins, HalfEdge h, std::uin
     twins[far_cut] = next;
 }
 
-/// Cuts h, and what it is joined to, in its middle. False when the middle is an end.
+/// Cuts h and its twin in the middle. Returns false if the middle rounds to an end.
 bool cut_in_middle(RepairMesh& mesh, std::vector<HalfEdge>& twins, HalfEdge h, StepReport& report) {
     const Double3 a = mesh.positions[start_of(mesh.triangles, h)];
     const Double3 b = mesh.positions[end_of(mesh.triangles, h)];
@@ -87,7 +87,7 @@ bool cut_in_middle(RepairMesh& mesh, std::vector<HalfEdge>& twins, HalfEdge h, S
     return true;
 }
 
-/// One half-edge for each pair or boundary among the uses, but the first of them.
+/// Returns one half-edge for each pair or boundary among the uses, except the first.
 std::vector<HalfEdge> all_but_first_pair(std::span<const HalfEdge> uses,
                                          const std::vector<HalfEdge>& twins) {
     std::vector<HalfEdge> rest;
@@ -98,7 +98,7 @@ std::vector<HalfEdge> all_but_first_pair(std::span<const HalfEdge> uses,
     return rest;
 }
 
-/// Where pairs still share both vertices of an edge, all but one get a vertex in between.
+/// Cuts the edges that several pairs still share: all pairs but one get a vertex in the middle.
 bool cut_shared_edges(RepairMesh& mesh, std::vector<HalfEdge>& twins, StepReport& report) {
     const EdgeUses edges = find_edge_uses(mesh.triangles, mesh.positions.size());
     const std::size_t old_count = mesh.triangles.size();
@@ -109,7 +109,7 @@ bool cut_shared_edges(RepairMesh& mesh, std::vector<HalfEdge>& twins, StepReport
         if (uses.size() == 1 || (uses.size() == 2 && twins[uses[0]] == uses[1])) continue;
         for (const HalfEdge h : all_but_first_pair(uses, twins)) {
             const HalfEdge other = twins[h];
-            // A cut triangle has other half-edges now: it waits for the next pass.
+            // A cut triangle has new half-edges: it waits for the next pass.
             if (touched[h / 3] ||
                 (other != kNone && (other / 3 >= old_count || touched[other / 3]))) {
                 cut = true;
@@ -124,7 +124,7 @@ bool cut_shared_edges(RepairMesh& mesh, std::vector<HalfEdge>& twins, StepReport
     return cut;
 }
 
-/// The later of two triangles with the same corners is cut from its middle.
+/// Cuts the later one of two triangles with the same corners from its middle.
 void cut_twin_triangles(RepairMesh& mesh, StepReport& report) {
     struct Key {
         std::array<std::uint32_t, 3> corners;
@@ -157,8 +157,8 @@ void cut_twin_triangles(RepairMesh& mesh, StepReport& report) {
     }
 }
 
-/// Whether every edge has one triangle, or two that `twins` joins and that have not all
-/// corners in common.
+/// Returns whether every edge has one triangle, or two that `twins` joins. The two must not have
+/// all corners in common.
 bool are_edges_sound(const RepairMesh& mesh, const EdgeUses& edges,
                      const std::vector<HalfEdge>& twins) {
     for (std::size_t edge = 0; edge < edges.edge_count(); ++edge) {
@@ -177,7 +177,7 @@ Stepped split_non_manifold(RepairMesh mesh) {
     const EdgeUses edges = find_edge_uses(mesh.triangles, mesh.positions.size());
     std::vector<HalfEdge> twins = pair_all(mesh, edges);
     part_fans(mesh, twins, report.parted, report.step);
-    // Where no fan was parted, edges are as they were.
+    // If no fan was split, the edges have not changed.
     if (report.parted.empty() && are_edges_sound(mesh, edges, twins))
         return {std::move(mesh), std::move(report)};
     for (std::size_t pass = 0; pass < kMostPasses; ++pass) {

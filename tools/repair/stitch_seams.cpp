@@ -7,7 +7,7 @@
 namespace cdprep::mesh {
 namespace {
 
-/// Vertices at the ends of edges that one triangle uses.
+/// Returns the vertices at the ends of edges with one triangle.
 std::vector<std::uint32_t> find_boundary_vertices(const RepairMesh& mesh) {
     const EdgeUses edges = find_edge_uses(mesh.triangles, mesh.positions.size());
     std::vector<std::uint32_t> vertices;
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> find_boundary_vertices(const RepairMesh& mesh) {
 Stepped stitch_seams(RepairMesh mesh, double width) {
     StepReport report(RepairStep::stitch_seams);
     const std::vector<std::uint32_t> boundary = find_boundary_vertices(mesh);
-    // Welds a mesh of the boundary's vertices alone: a point is a triangle with one corner.
+    // Welds a mesh of boundary vertices only: each point is a triangle that repeats one corner.
     RepairMesh points;
     for (const std::uint32_t vertex : boundary) {
         const auto number = static_cast<std::uint32_t>(points.positions.size());

@@ -27,8 +27,8 @@ std::int64_t balance_of(std::span<const Triangle> triangles, std::span<const Hal
     return balance;
 }
 
-/// How many triangles have the corners of one before them. Each is looked at from the edge
-/// of its two lower corners: there its apex is the highest.
+/// Counts the triangles that have the corners of an earlier one. Each is examined at the edge of
+/// its two lower corners, where its apex is the highest corner.
 std::uint64_t count_duplicates(std::span<const Triangle> triangles, const EdgeUses& edges) {
     std::uint64_t duplicates = 0;
     std::vector<std::uint32_t> apexes;
@@ -48,8 +48,8 @@ std::uint64_t count_duplicates(std::span<const Triangle> triangles, const EdgeUs
     return duplicates;
 }
 
-/// Vertices that several fans meet in. Here a fan goes across every edge, however many
-/// triangles share it.
+/// Counts vertices with several fans. Here a fan continues across every edge, whatever its
+/// number of triangles.
 std::uint64_t count_parted_vertices(std::span<const Triangle> triangles, const EdgeUses& edges,
                                     std::size_t vertex_count) {
     Groups corners(3 * triangles.size());
@@ -95,7 +95,8 @@ double area_of(const Double3& a, const Double3& b, const Double3& c) {
     return std::hypot(u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x) / 2;
 }
 
-/// Six times the volume between a triangle and o, and the sum of its terms' sizes.
+/// Six times the volume between a triangle and o, and the sum of the absolute values of its
+/// terms.
 struct Volume6 {
     double volume, size;
 };
@@ -117,12 +118,12 @@ void measure_volume(StoredComponent& component, std::span<const Double3> positio
     for (const std::uint32_t t : component.triangles) {
         const auto& v = triangles[t].vertex;
         const Volume6 part = volume_6(positions[v[0]], positions[v[1]], positions[v[2]], o);
-        component.volume += part.volume;  // six times: whole numbers stay exact
+        component.volume += part.volume;  // six times the volume: integers stay exact
         size += part.size / 6;
     }
     component.volume /= 6;
-    // Each term is off by 8 u of its size, u = 2^-53, and every addition by u of what is
-    // summed so far, which is at most the sum of all sizes.
+    // The error of each term is 8 u times its size, with u = 2^-53. The error of each addition
+    // is at most u times the sum so far, which is at most the sum of all sizes.
     constexpr double kUnit = 1.1102230246251565e-16;
     component.volume_error = kUnit * (16 + static_cast<double>(component.triangles.size())) * size;
 }

@@ -17,7 +17,7 @@ Error unreadable(const std::string& name, const std::string& why) {
                                        ". Write one with 'cdprep validate --format json -o FILE'."};
 }
 
-/// Rules of a newer program are skipped: nothing here can be compared with them.
+/// Skips the rules of a newer program: this program has nothing to compare with them.
 void add_finding(KnownMesh& mesh, const json& finding) {
     const auto rule = mesh::find_rule(finding.at("rule").get<std::string>());
     if (!rule) return;
@@ -50,7 +50,7 @@ Result<Baseline> Baseline::parse(std::string_view text, const std::string& name)
     try {
         const json report = json::parse(text);
         if (!report.is_object() || report.value("report", "") != kValidationReportName) {
-            return unreadable(name, "it is JSON, but no report of 'cdprep validate'");
+            return unreadable(name, "it is JSON, but not a report of 'cdprep validate'");
         }
         if (const int version = report.at("version").get<int>();
             version != kValidationReportVersion) {
@@ -59,9 +59,8 @@ Result<Baseline> Baseline::parse(std::string_view text, const std::string& name)
                                         std::to_string(kValidationReportVersion));
         }
         if (!report.at("baseline").is_null()) {
-            return unreadable(name,
-                              "it was made with --baseline, and so lacks what was known "
-                              "before it");
+            return unreadable(
+                name, "it was made with --baseline, so it lacks the findings of its own baseline");
         }
         Baseline baseline;
         for (const json& mesh : report.at("meshes")) {
@@ -72,7 +71,7 @@ Result<Baseline> Baseline::parse(std::string_view text, const std::string& name)
         return unreadable(
             name, "byte " + std::to_string(error.byte) + " is where it stops being a JSON report");
     } catch (const json::exception&) {
-        return unreadable(name, "it is not as tools/validate/validation.schema.json says");
+        return unreadable(name, "it does not follow tools/validate/validation.schema.json");
     }
 }
 

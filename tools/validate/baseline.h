@@ -13,34 +13,34 @@
 
 namespace cdprep::report {
 
-/// What an older report says of one rule on one mesh.
+/// An older report's finding of one rule on one mesh.
 struct KnownFinding {
     std::uint64_t count = 0;
-    std::vector<std::uint64_t> fingerprints;  ///< ascending; fewer than count when cut short
+    std::vector<std::uint64_t> fingerprints;  ///< ascending; fewer than count if the list was cut
 
     [[nodiscard]] bool is_complete() const noexcept {
         return fingerprints.size() == count;
     }
 };
 
-/// What an older report says of one mesh.
+/// An older report's findings on one mesh.
 struct KnownMesh {
     bool is_unreadable = false;
     std::map<mesh::Rule, KnownFinding> findings;
 
-    /// Most findings of one rule.
+    /// Returns the largest count of a finding.
     [[nodiscard]] std::uint64_t largest_count() const noexcept;
 };
 
-/// An older JSON report, to compare with.
+/// An older JSON report to compare with.
 class Baseline {
 public:
-    /// `name` stands in sentences. Fails with `unreadable` when the text is not a report
-    /// of ours, and when it was itself made against a baseline and so lacks what was
-    /// known then.
+    /// Parses a report; `name` is its name in error messages. Fails with `unreadable` if the
+    /// text is not a report of this program. Fails likewise if the report was itself made
+    /// against a baseline: it then lacks the findings known at that time.
     [[nodiscard]] static Result<Baseline> parse(std::string_view text, const std::string& name);
 
-    /// What it says of the mesh with this file_uri(); null when nothing.
+    /// Returns the entry for the mesh with this file_uri(); null if there is none.
     [[nodiscard]] const KnownMesh* find(const std::string& uri) const;
 
 private:

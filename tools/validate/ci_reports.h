@@ -9,21 +9,21 @@
 
 namespace cdprep::report {
 
-/// A JUnit report is the head, the files, and the tail.
+/// The parts of a JUnit report: the head, the files, the tail.
 ///
-/// A file is a test suite and each rule a test case in it: a failure when it found
-/// something that makes the run fail, passed with its findings as output when it found
-/// less, skipped when it is off. A file that could not be read is an error.
+/// A file is a test suite, and each rule is a test case in it. A test case fails if its findings
+/// make the run fail. With lesser findings it passes and lists them as output. It is skipped if
+/// the rule is off. A file that could not be read is an error.
 [[nodiscard]] std::string junit_head();
 [[nodiscard]] std::string junit_suite(const ValidationReport& report, const ValidationRun& run);
 [[nodiscard]] std::string junit_tail();
 
-/// A SARIF 2.1.0 log, in pieces: the head, then one file after the other, then the tail.
+/// A SARIF 2.1.0 log in pieces: the head, then one file after the other, then the tail.
 ///
-/// A place is a result with the file as artifact and its node, triangles and vertices as
-/// logical locations; there are no lines to name. Of a finding with more places than are
-/// kept, one result more says how many. A file that could not be read is a notification
-/// of the invocation.
+/// Each place of an error or warning is a result. Its artifact is the file; its node, triangles and
+/// vertices are logical locations. There are no line numbers. If a finding has more places than are
+/// kept, one more result gives the number of the rest. A note is one result, with its count. A file
+/// that could not be read is a notification of the invocation.
 class Sarif {
 public:
     explicit Sarif(ValidationRun run) : run_(std::move(run)) {}
@@ -34,9 +34,9 @@ public:
 
 private:
     ValidationRun run_;
-    bool is_first_ = true;                    ///< result
-    std::vector<std::string> artifacts_;      ///< one a file
-    std::vector<std::string> notifications_;  ///< of files that could not be read, and remarks
+    bool is_first_ = true;                    ///< no result written yet
+    std::vector<std::string> artifacts_;      ///< one per file
+    std::vector<std::string> notifications_;  ///< files that could not be read, and remarks
 };
 
 }  // namespace cdprep::report

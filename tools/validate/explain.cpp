@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kLineLength = 78;
 constexpr std::size_t kLabel = 10;  ///< columns
 
-/// A paragraph behind its label, broken at blanks.
+/// Returns a paragraph after its label, broken at spaces.
 std::string paragraph(std::string label, std::string_view text) {
     label.resize(kLabel, ' ');
     std::string result = label;

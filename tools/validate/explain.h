@@ -8,13 +8,13 @@
 
 namespace cdprep::report {
 
-/// What a rule means, why it matters, what mends it, how it is decided: for people.
+/// Returns a text for people: definition, effect, repair and method of decision of a rule.
 [[nodiscard]] std::string explain_text(const mesh::RuleText& rule);
 
-/// A line a rule: id, severity, name, title.
+/// Returns one line per rule: id, severity, name, title.
 [[nodiscard]] std::string rule_list_text(std::span<const mesh::RuleText> rules);
 
-/// {"rules": [...]}: all of it.
+/// Returns all texts as JSON: {"rules": [...]}.
 [[nodiscard]] std::string explain_json(std::span<const mesh::RuleText> rules);
 
 }  // namespace cdprep::report

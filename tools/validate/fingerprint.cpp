@@ -22,14 +22,14 @@ constexpr int kHexadecimal = 16;
 
 using Point = std::array<std::uint64_t, 3>;
 
-/// One pattern for each number: both zeros are one, and so are all NaN.
+/// Returns one bit pattern per value: both zeros share one, and so do all NaNs.
 std::uint64_t bits_of(double coordinate) {
     if (coordinate == 0) return 0;
     if (std::isnan(coordinate)) coordinate = std::numeric_limits<double>::quiet_NaN();
     return std::bit_cast<std::uint64_t>(coordinate);
 }
 
-/// A number that leads to no vertex stands for itself.
+/// Returns the position of a vertex; an out-of-range number represents itself.
 Point point_of(const mesh::TriangleSoup& soup, std::uint32_t vertex) {
     if (vertex >= soup.positions.size()) return {vertex, ~std::uint64_t{0}, 0};
     const mesh::Double3& p = soup.positions[vertex];
@@ -48,7 +48,7 @@ std::array<double, 3> coordinates(const mesh::Double3& p) {
     return {p.x, p.y, p.z};
 }
 
-/// The soup as welding wants it: what is not finite becomes the origin.
+/// Returns the soup with vertices that are not finite moved to the origin, as welding requires.
 mesh::TriangleSoup finite_part(const mesh::TriangleSoup& soup) {
     mesh::TriangleSoup part;
     part.positions = soup.positions;
@@ -117,8 +117,8 @@ std::uint64_t Fingerprints::of(mesh::Rule rule, const mesh::Place& place) {
     }
     std::sort(triangles.begin(), triangles.end());
     std::sort(vertices.begin(), vertices.end());
-    // A walk along a hole that touches itself passes some vertex twice, and which one
-    // depends on where it begins.
+    // A walk along a hole that touches itself passes some vertex twice. Its start determines
+    // which.
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     std::vector<std::uint64_t> words = {static_cast<std::uint64_t>(rule), triangles.size()};
     for (const auto& corners : triangles) {

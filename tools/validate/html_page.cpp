@@ -23,24 +23,24 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t kLeastPlaces = 10;      // of a finding, on any page
-constexpr std::size_t kMostPlaces = 1000;     // of a finding
-constexpr std::size_t kPlaceNumbers = 100;    // triangles or vertices named of a place
-constexpr std::size_t kPartsAPlace = 20;      // segments or triangles drawn, on average
+constexpr std::size_t kLeastPlaces = 10;      // per finding, on any page
+constexpr std::size_t kMostPlaces = 1000;     // per finding
+constexpr std::size_t kPlaceNumbers = 100;    // triangles or vertices listed per place
+constexpr std::size_t kPartsAPlace = 20;      // segments or triangles drawn per place, on average
 constexpr std::size_t kComponents = 5000;     // on the page; each mesh has at least 5
-constexpr std::size_t kMostComponents = 200;  // of a mesh
+constexpr std::size_t kMostComponents = 200;  // per mesh
 constexpr std::size_t kLongestName = 300;     // bytes of a file's or node's name
-constexpr double kGhostTriangles = 400'000;   // about; stand-ins, on the page
+constexpr double kGhostTriangles = 400'000;   // about; triangles of coarse surfaces, on the page
 
-/// What each mesh and finding may take, so that the page stays bounded.
+/// The limits per mesh and finding, so that the page stays bounded.
 struct Limits {
-    std::vector<std::size_t> triangles;  ///< one a mesh
-    std::size_t places;                  ///< of a finding
-    std::size_t components;              ///< of a mesh
+    std::vector<std::size_t> triangles;  ///< one per mesh
+    std::size_t places;                  ///< per finding
+    std::size_t components;              ///< per mesh
     std::uint32_t ghost_cells;
 };
 
-/// Shares the triangles so that no mesh gets less than an even share unless it needs less.
+/// Shares the triangles. No mesh gets less than an even share unless it has fewer triangles.
 std::vector<std::size_t> share_triangles(std::span<const PageMesh> meshes, std::size_t left) {
     std::vector<std::size_t> by_size(meshes.size());
     std::iota(by_size.begin(), by_size.end(), 0);
@@ -75,7 +75,7 @@ std::string packed(const std::vector<T>& values) {
     return base64(std::as_bytes(std::span(values)));
 }
 
-/// A name cut to a length, between characters of UTF-8.
+/// Returns a name cut to a length, between UTF-8 characters.
 std::string shortened(const std::string& name) {
     if (name.size() <= kLongestName) return name;
     std::size_t end = kLongestName;
@@ -83,12 +83,13 @@ std::string shortened(const std::string& name) {
     return name.substr(0, end) + "...";
 }
 
-/// Names of nodes as the places use them, each once.
+/// Names of the nodes that places use, each once.
 class NodeNames {
 public:
     explicit NodeNames(const ValidationReport& report) : report_(report) {}
 
-    /// Its number among those used; nothing when the file names no nodes.
+    /// Returns the index of the place's node among the used ones; nothing if the file has no
+    /// nodes.
     [[nodiscard]] std::optional<std::size_t> number(const mesh::Place& place) {
         if (place.triangles.empty() || report_.first_triangle.empty()) return std::nullopt;
         const auto& first = report_.first_triangle;
@@ -210,9 +211,9 @@ json frame_json(const std::optional<PageFrame>& frame) {
             {"exponent", shown.exponent}};
 }
 
-/// The triangles of a mesh as elements, and what the page is to know of them.
+/// The triangles of a mesh as elements, and the facts about them for the page.
 struct Drawing {
-    json facts;  ///< null when there is nothing to draw
+    json facts;  ///< null if there is nothing to draw
     std::string elements;
 };
 

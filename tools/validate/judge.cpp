@@ -17,7 +17,8 @@ void keep_first(mesh::Finding& finding, Judgement& judgement, std::size_t count)
     judgement.fingerprints.resize(count);
 }
 
-/// Which places are not known, one for one; `known` ascends.
+/// Returns for each place whether it is new: one known fingerprint matches one place. `known`
+/// must be ascending.
 std::vector<bool> find_fresh(const std::vector<std::uint64_t>& fingerprints,
                              const std::vector<std::uint64_t>& known) {
     std::vector<std::size_t> order(fingerprints.size());
@@ -51,12 +52,12 @@ void keep_fresh_places(mesh::Finding& finding, Judgement& judgement,
 std::string compared_by_count(const mesh::Finding& finding, const KnownFinding& known) {
     const std::string kept =
         known.is_complete()
-            ? "there are too many now to tell each place"
+            ? "there are too many places now to compare each one"
             : "the baseline has " + std::to_string(known.fingerprints.size()) + " of its places";
     return mesh::id_of(finding.rule) + " was compared by number, " + std::to_string(finding.count) +
            " now and " + std::to_string(known.count) + " before, since " + kept +
-           "; places listed as new may be old ones. A baseline with a larger --max-issues tells "
-           "them apart.";
+           "; places listed as new may be old. A baseline with a larger --max-issues distinguishes "
+           "them.";
 }
 
 void compare(mesh::Finding& finding, Judgement& judgement, const KnownFinding& known,

@@ -12,22 +12,22 @@ namespace cdprep::report {
 
 struct JudgeOptions {
     const RuleSettings& rules;
-    const KnownMesh* known;  ///< null: nothing is known, all is new
-    std::size_t max_places;  ///< kept of each finding; writers may list fewer
+    const KnownMesh* known;  ///< null: no baseline, all findings are new
+    std::size_t max_places;  ///< kept per finding; writers may list fewer
 };
 
-/// Gives each finding its severity and fingerprints, leaves out those whose rule is off
-/// and, with a baseline, what it has too. Returns whether what is left makes the run
-/// fail.
+/// Gives each finding its severity and fingerprints. Removes findings whose rule is off and,
+/// with a baseline, those that the baseline contains. Returns whether the remaining findings
+/// make the run fail.
 ///
-/// Places are compared where the baseline has every place of a rule and the report
-/// too; else numbers are, which a remark says. The report should keep as many places as
-/// the baseline has and max_places more, so that enough new ones are among them.
+/// Compares places if baseline and report both have every place of the rule; otherwise compares
+/// counts and adds a remark. The report should keep all places of the baseline plus max_places.
+/// It then contains enough new places.
 [[nodiscard]] bool judge(ValidationReport& report, const mesh::TriangleSoup& soup,
                          const JudgeOptions& options);
 
-/// Whether the run fails when triangles cross, touch or overlap. Then it also fails when a
-/// limit ended the search for them.
+/// Returns whether crossing, touching or overlapping triangles make the run fail. The run then
+/// also fails if a limit ended the search for them.
 [[nodiscard]] bool fails_on_pairs(const RuleSettings& rules);
 
 }  // namespace cdprep::report

@@ -21,7 +21,7 @@ using pugi::xml_node;
 
 constexpr const char* kReplacement = "\xEF\xBF\xBD";  ///< U+FFFD
 
-/// Replaces characters that XML 1.0 forbids: control characters, U+FFFE and U+FFFF.
+/// Returns the text with U+FFFD for what XML 1.0 forbids: control characters, U+FFFE and U+FFFF.
 std::string xml_text(std::string_view text) {
     std::string valid = valid_utf8(text);
     for (const std::string_view unwanted : {"\xEF\xBF\xBE", "\xEF\xBF\xBF"}) {
@@ -41,7 +41,7 @@ std::string xml_text(std::string_view text) {
     return result;
 }
 
-/// Readers turn line breaks of attributes into blanks.
+/// Sets an attribute; line breaks become spaces, since readers would replace them.
 void set(xml_node element, const char* attribute, std::string_view value) {
     std::string text = xml_text(value);
     std::replace(text.begin(), text.end(), '\n', ' ');
@@ -87,7 +87,7 @@ xml_node add_test_case(xml_node suite, const ValidationReport& report, std::stri
     return test_case;
 }
 
-/// XML's decimals have no exponent.
+/// Returns a decimal without an exponent, as XML requires.
 std::string decimal(double seconds) {
     constexpr std::size_t kLongest = 64;
     constexpr int kPlaces = 6;

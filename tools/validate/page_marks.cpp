@@ -12,9 +12,9 @@ namespace {
 using Float3 = std::array<float, 3>;
 using mesh::Rule;
 
-constexpr std::size_t kNormalTriangles = 64;  // looked at for the normal of a place
+constexpr std::size_t kNormalTriangles = 64;  // examined for the normal of a place
 
-/// Collects the marks of one place after the other.
+/// Collects the marks of places, one place at a time.
 class MarkMaker {
 public:
     MarkMaker(std::span<const mesh::Double3> positions, std::span<const mesh::Triangle> triangles,
@@ -85,7 +85,7 @@ private:
         marks_.places.push_back(radius);
     }
 
-    /// The direction that the triangles of the place look in together, or zero.
+    /// Returns the common direction of the triangles of the place, or zero.
     [[nodiscard]] Float3 normal_of(const mesh::Place& place) const {
         std::array<double, 3> sum{};
         const std::size_t count = std::min(place.triangles.size(), kNormalTriangles);
@@ -122,7 +122,7 @@ private:
     std::span<const mesh::Triangle> triangles_;
     const PageFrame& frame_;
     std::size_t parts_left_;
-    std::vector<Float3> reached_;  ///< points drawn for the present place
+    std::vector<Float3> reached_;  ///< points drawn for the current place
     Marks marks_;
 };
 

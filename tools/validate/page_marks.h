@@ -12,24 +12,24 @@
 
 namespace cdprep::report {
 
-/// How the places of a rule are drawn.
+/// The shape that marks the places of a rule.
 enum class MarkShape : std::uint8_t {
     point,     ///< a pin at the position
-    path,      ///< a closed line along the vertices; of two, one segment
+    path,      ///< a closed line along the vertices; one segment for two vertices
     triangle,  ///< the triangles, filled, and a pin
 };
 
 struct MarkStyle {
     MarkShape shape;
-    bool pins;        ///< a pin at each position too
-    bool wide;        ///< drawn wide, to show beneath the lines of another rule
+    bool pins;        ///< also a pin at each position
+    bool wide;        ///< drawn wide, to remain visible under lines of another rule
     const char* hue;  ///< name of its colour in page.css
 };
 
 [[nodiscard]] MarkStyle mark_style(mesh::Rule rule) noexcept;
 
-/// What is drawn for the places of one finding, page units. *_ends say per place where
-/// its own end, counted from the first of all.
+/// The marks of one finding's places, in page units. For each place, *_ends hold the end of its
+/// range, counted from the start of the list.
 struct Marks {
     std::vector<float> places;     ///< seven each: position, normal (0: none), radius
     std::vector<float> segments;   ///< six each
@@ -38,9 +38,9 @@ struct Marks {
     std::vector<std::uint32_t> triangle_ends;
 };
 
-/// The marks of these places. At most `max_parts` segments and triangles in all; of a
-/// place beyond that, the position only. What cannot be drawn (a coordinate that is not
-/// finite) is left out; such a place has NaN for its position.
+/// Returns the marks of these places, with at most `max_parts` segments and triangles in total.
+/// Places beyond that have only a position. Parts with a coordinate that is not finite are left
+/// out; a place with such a position has NaN for it.
 [[nodiscard]] Marks make_marks(std::span<const mesh::Double3> positions,
                                std::span<const mesh::Triangle> triangles, const PageFrame& frame,
                                mesh::Rule rule, std::span<const mesh::Place> places,

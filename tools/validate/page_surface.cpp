@@ -11,7 +11,7 @@ namespace {
 
 using Float3 = std::array<float, 3>;
 
-constexpr double kFarthest = 1099511627776.0;  // 2^40 page units: floats still multiply there
+constexpr double kFarthest = 1099511627776.0;  // 2^40 page units: floats can still multiply
 constexpr int kFinestGrid = 256;               // cells along an axis
 
 bool is_finite(const mesh::Double3& point) noexcept {
@@ -44,13 +44,13 @@ std::optional<Box> box_of(std::span<const mesh::Double3> positions,
     return box;
 }
 
-/// Cells of a cube around the box, each marked or not.
+/// The cells of a cube around the box; each cell is marked or not.
 class Grid {
 public:
     explicit Grid(int cells)
         : cells_(cells), marked_(static_cast<std::size_t>(cells) * cells * cells) {}
 
-    /// Marks the cell of the point and those around it.
+    /// Marks the cell of the point and the cells around it.
     void mark(const Float3& point) {
         const std::array<int, 3> at = cell_of(point);
         for (int x = at[0] - 1; x <= at[0] + 1; ++x) {
@@ -91,7 +91,7 @@ private:
     std::vector<bool> marked_;
 };
 
-/// What the places of findings name, to be drawn before all else.
+/// The parts that findings name; these are drawn first.
 struct Named {
     std::vector<bool> triangles;
     std::vector<Float3> spots;  ///< page units
@@ -117,7 +117,7 @@ Named name_places(std::span<const mesh::Double3> positions,
     return named;
 }
 
-/// Those that are named or have a corner in a marked cell; one more than `limit` at most.
+/// Returns the triangles that are named or have a corner in a marked cell, at most limit + 1.
 std::vector<std::uint32_t> gather(std::span<const mesh::Double3> positions,
                                   std::span<const mesh::Triangle> triangles, const PageFrame& frame,
                                   const Named& named, const Grid* grid, std::size_t limit) {
@@ -143,7 +143,7 @@ std::vector<std::uint32_t> all_drawable(std::span<const mesh::Double3> positions
     return chosen;
 }
 
-/// Vertices as they are first used, each with its number among the drawn.
+/// The drawn vertices in order of first use, with their numbers.
 class Vertices {
 public:
     [[nodiscard]] std::uint32_t number(std::uint64_t key, const Float3& point) {
@@ -188,12 +188,12 @@ std::optional<PageFrame> find_page_frame(std::span<const mesh::Double3> position
     std::array<double, 3> centre{};
     std::array<double, 3> half{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        // Halves first: the sum of two doubles can be infinite.
+        // Halves first: the sum of two doubles may be infinite.
         centre[axis] = box->lower[axis] / 2 + box->upper[axis] / 2;
         half[axis] = std::max(box->upper[axis] - centre[axis], centre[axis] - box->lower[axis]);
     }
     PageFrame frame{{centre[0], centre[1], centre[2]}, 0, {}};
-    // A mesh that is a point is drawn at its size: there is nothing to scale by.
+    // A mesh that is a single point has exponent 0: it has no size to scale by.
     const double longest = *std::ranges::max_element(half);
     if (longest > 0) std::frexp(longest, &frame.exponent);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -264,7 +264,7 @@ DrawnTriangles coarse_triangles(std::span<const mesh::Double3> positions,
         if (cell[0] == cell[1] || cell[1] == cell[2] || cell[2] == cell[0]) continue;
         std::array<std::uint32_t, 3> corners{};
         for (std::size_t k = 0; k < 3; ++k) corners[k] = vertices.number(cell[k], point[k]);
-        // The lowest first, so that equal triangles of equal winding are equal.
+        // The lowest corner first, so that equal triangles of equal winding compare equal.
         std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
         kept.push_back(corners);
     }

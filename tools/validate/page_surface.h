@@ -13,50 +13,50 @@
 
 namespace cdprep::report {
 
-/// Where a page draws a mesh: so that floats serve for every extent, the box of the
-/// drawn triangles is moved to the origin and scaled by a power of two, which loses
-/// nothing, until its longest half side lies in [0.5, 1).
+/// The map from model units to page units. It moves the box of the drawn triangles to the
+/// origin, and scales it by a power of two, which is exact. The longest half side then lies in
+/// [0.5, 1), so that floats suffice for every extent.
 struct PageFrame {
     mesh::Double3 centre{};           ///< of the box, model units
     int exponent = 0;                 ///< a page unit is 2^exponent model units
     std::array<float, 3> half_box{};  ///< page units
 
-    /// The point in page units, to the nearest float; beyond 2^40 it stays there.
+    /// Returns the point in page units, as the nearest float; clamped at 2^40.
     [[nodiscard]] std::array<float, 3> from_model(const mesh::Double3& point) const noexcept;
 };
 
-/// Whether the triangle can be drawn: corners that exist and are finite.
+/// Returns whether the triangle can be drawn: its corners exist and are finite.
 [[nodiscard]] bool is_drawable(std::span<const mesh::Double3> positions,
                                const mesh::Triangle& triangle) noexcept;
 
-/// The frame of a mesh; nothing when no triangle of it can be drawn.
+/// Returns the frame of a mesh; nothing if none of its triangles can be drawn.
 [[nodiscard]] std::optional<PageFrame> find_page_frame(std::span<const mesh::Double3> positions,
                                                        std::span<const mesh::Triangle> triangles);
 
-/// Triangles as a page draws them: three floats a vertex, three indices a triangle.
+/// The triangles as a page draws them: three floats per vertex, three indices per triangle.
 struct DrawnTriangles {
     std::vector<float> positions;
     std::vector<std::uint32_t> indices;
 };
 
-/// Those triangles (source numbers) of the mesh, with the vertices that they use.
+/// Returns these triangles of the mesh (source numbers), with the vertices that they use.
 [[nodiscard]] DrawnTriangles draw_triangles(std::span<const mesh::Double3> positions,
                                             std::span<const mesh::Triangle> triangles,
                                             const PageFrame& frame,
                                             std::span<const std::uint32_t> chosen);
 
-/// The drawable triangles if they are at most `limit`; else at most `limit` of them that
-/// lie nearest around the places of the findings, within cells as large as the limit
-/// allows. Source numbers, ascending.
+/// Returns the drawable triangles if they are at most `limit`. Otherwise returns at most `limit`
+/// of them near the places of the findings, within the largest cells that the limit allows. The
+/// result holds source numbers, ascending.
 [[nodiscard]] std::vector<std::uint32_t> choose_triangles(std::span<const mesh::Double3> positions,
                                                           std::span<const mesh::Triangle> triangles,
                                                           const PageFrame& frame,
                                                           std::span<const mesh::Finding> findings,
                                                           std::size_t limit);
 
-/// A coarse stand-in for all triangles but those left out (ascending): vertices in one cell of a
-/// grid become one, with `cells` (half as many at least) along the longest side. Some cells^2
-/// triangles for a plain surface.
+/// Returns a coarse surface for all triangles except those left out (ascending). The vertices in
+/// one cell of a grid become one. The grid has `cells` cells along the axes; the longest side
+/// spans at least half of them. A plain surface gives about cells^2 triangles.
 [[nodiscard]] DrawnTriangles coarse_triangles(std::span<const mesh::Double3> positions,
                                               std::span<const mesh::Triangle> triangles,
                                               const PageFrame& frame,

@@ -8,7 +8,7 @@
 namespace cdprep::report {
 namespace {
 
-/// "triangle 17", "vertices 3, 4 and 98 more", or "" for none.
+/// Returns "triangle 17", "vertices 3, 4 and 98 more", or "" for none.
 std::string numbers_text(const char* one, const char* many,
                          const std::vector<std::uint32_t>& numbers, std::size_t most) {
     if (numbers.empty()) return "";

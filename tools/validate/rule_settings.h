@@ -12,25 +12,25 @@
 
 namespace cdprep::report {
 
-/// The sentence for a word that is no rule, with the nearest.
+/// Returns the message for a word that is not a rule, with the nearest rule.
 [[nodiscard]] std::string unknown_rule(std::string_view word);
 
-/// How severe each rule is in a run, and which make it fail.
+/// The severity of each rule in a run, and the rules that make the run fail.
 class RuleSettings {
 public:
-    /// Every rule as severe as its text says; errors make the run fail.
+    /// Every rule has its default severity; errors make the run fail.
     RuleSettings() = default;
 
-    /// `rules` are "RULE=off|note|warn|error", the last word on a rule wins; `fail_on`
-    /// are "error", "warning" or "note", the lowest wins, or rules. A rule is an id or a
-    /// name. Fails with bad_argument on other words, and when a rule is off and is to
-    /// make the run fail.
+    /// Parses the settings. `rules` are "RULE=off|note|warn|error"; the last setting of a rule
+    /// wins. `fail_on` holds rules, or "error", "warning" or "note", of which the lowest wins. A
+    /// rule is an id or a name. Fails with bad_argument on other words, and if a rule is off but
+    /// is to make the run fail.
     [[nodiscard]] static Result<RuleSettings> parse(const std::vector<std::string>& rules,
                                                     const std::vector<std::string>& fail_on);
 
     [[nodiscard]] mesh::Severity severity(mesh::Rule rule) const;
 
-    /// Whether a finding of the rule makes the run fail.
+    /// Returns whether a finding of the rule makes the run fail.
     [[nodiscard]] bool fails(mesh::Rule rule) const;
 
 private:
@@ -38,7 +38,7 @@ private:
     [[nodiscard]] Result<Done> add_fail_on(const std::string& word);
 
     std::map<mesh::Rule, mesh::Severity> severity_;
-    mesh::Severity fail_on_ = mesh::Severity::error;  ///< off: no severity makes it fail
+    mesh::Severity fail_on_ = mesh::Severity::error;  ///< off: no severity makes the run fail
     std::set<mesh::Rule> fail_on_rules_;
 };
 

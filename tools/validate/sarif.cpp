@@ -20,9 +20,9 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kSchema =
     "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json";
 constexpr const char* kFingerprint = "cdprepPlace/v1";
-constexpr std::size_t kMostNumbers = 8;  ///< logical locations of a kind, and in the message
+constexpr std::size_t kMostNumbers = 8;  ///< logical locations per kind; numbers per message
 
-/// SARIF calls a rule that is off "none" and not enabled.
+/// Returns the SARIF level. SARIF calls a rule that is off "none", and not enabled.
 const char* level_of(mesh::Severity severity) {
     return severity == mesh::Severity::off ? "none" : severity_name(severity);
 }
@@ -46,7 +46,7 @@ Json rule_json(const mesh::RuleText& rule) {
         {"properties", {{"decided", rule.decided}}}};
 }
 
-/// Where the run's severities differ from those of the rules.
+/// Returns the severities of the run that differ from the rules' own.
 Json overrides_json(const RuleSettings& settings) {
     Json overrides = Json::array();
     for (const mesh::RuleText& rule : mesh::all_rules()) {
@@ -70,7 +70,7 @@ void add_elements(Json& locations, const char* kind, const std::string& node,
     const auto end = numbers.begin() + static_cast<std::ptrdiff_t>(shown);
     const std::string above = node.empty() ? "" : node + "/";
     for (auto at = numbers.begin(); at != end; ++at) {
-        // A triangle may repeat a corner; SARIF wants each location once.
+        // A triangle may repeat a corner; SARIF requires distinct locations.
         if (std::find(numbers.begin(), at, *at) != at) continue;
         const std::string name = std::string(kind) + " " + std::to_string(*at);
         locations.push_back({{"name", name}, {"fullyQualifiedName", above + name}, {"kind", kind}});
@@ -87,7 +87,7 @@ Json logical_locations(const ValidationReport& report, const mesh::Place& place)
     return locations;
 }
 
-/// What a place and the rest of a finding have in common.
+/// Returns the members shared by the results of a finding.
 Json result_json(const ValidationReport& report, std::size_t i, const std::string& text) {
     const mesh::Finding& finding = report.defects.findings[i];
     return {{"ruleId", mesh::id_of(finding.rule)},
@@ -124,8 +124,8 @@ Json rest_json(const ValidationReport& report, std::size_t i, std::uint64_t coun
     return result;
 }
 
-/// A note is one result however many places it has: services list errors and warnings place by
-/// place, and hundreds of notes would hide them.
+/// Returns one result for a note, whatever its number of places. Services list errors and
+/// warnings place by place, and hundreds of notes would hide them.
 Json note_json(const ValidationReport& report, std::size_t i, const Json& artifact) {
     const std::uint64_t count = report.judgements[i].fresh;
     Json result = result_json(report, i, counted(count, "place", "places") + ".");

@@ -8,10 +8,10 @@
 
 namespace cdprep::report {
 
-/// "off", "note", "warning" or "error".
+/// Returns "off", "note", "warning" or "error".
 [[nodiscard]] const char* severity_name(mesh::Severity severity) noexcept;
 
-/// The severity of that name, "warn" among them; nothing for another word.
+/// Returns the severity of that name, also for "warn"; nothing for another word.
 [[nodiscard]] std::optional<mesh::Severity> find_severity(std::string_view word) noexcept;
 
 }  // namespace cdprep::report

@@ -21,7 +21,7 @@ double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-/// Runs one stage and notes its time.
+/// Runs one stage and records its time.
 template <class Work>
 auto timed(ValidationReport& report, const char* stage,
            const std::function<void(const char*)>& begins, Work work) {
@@ -46,7 +46,7 @@ void fail(ValidationReport& report, const Error& error, const report::KnownMesh*
     report.exit = report.known_error ? 0 : static_cast<int>(exit_for(error.code));
 }
 
-/// Import names triangles, reports name nodes.
+/// Adds the nodes: imports list triangles per node, reports list nodes per triangle.
 void add_nodes(ValidationReport& report, const mesh::TriangleSoup& soup) {
     for (const format::Instance& instance : soup.instances) {
         report.first_triangle.push_back(instance.first_triangle);
@@ -103,7 +103,7 @@ Validation validate(const Input& input, const ValidationOptions& options, const 
     } catch (const std::bad_alloc&) {
         result = named(name);
         fail(result.report,
-             {ErrorCode::over_budget, name + ": needs more memory than the machine gives."}, known);
+             {ErrorCode::over_budget, name + ": needs more memory than the machine has."}, known);
     } catch (const std::exception& error) {
         result = named(name);
         fail(result.report,

@@ -15,21 +15,20 @@
 namespace cdprep::cli {
 
 struct ValidationOptions {
-    mesh::DefectOptions defects;  ///< without max_places and parallel_for, which follow
+    mesh::DefectOptions defects;  ///< max_places, stop and parallel_for are set by validate()
     import::ImportOptions import;
     report::ValidationRun run;
-    std::size_t kept_places = 0;                 ///< of each finding, for what is written later
-    const report::Baseline* baseline = nullptr;  ///< null: all is new
+    std::size_t kept_places = 0;                 ///< per finding, for reports written later
+    const report::Baseline* baseline = nullptr;  ///< null: all findings are new
 };
 
 struct Validation {
     report::ValidationReport report;
-    mesh::TriangleSoup soup;  ///< what was validated; empty for a file that could not be read
+    mesh::TriangleSoup soup;  ///< the validated soup; empty for a file that could not be read
 };
 
-/// Validates one file: import, find defects, judge them. Calls back with the name of each
-/// stage as it begins. Never fails: what went wrong stands in the report, with the exit
-/// code for this file.
+/// Validates one file: imports it, finds defects, judges them. Calls `begins` with the name of
+/// each stage. Never fails: the report contains the error, and the exit code for this file.
 [[nodiscard]] Validation validate(const Input& input, const ValidationOptions& options,
                                   const Threads& threads,
                                   const std::function<void(const char*)>& begins);

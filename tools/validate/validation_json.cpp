@@ -51,11 +51,11 @@ constexpr std::array<CountName, 25> kCounts = {{
 }};
 static_assert(sizeof(mesh::DefectCounts) == kCounts.size() * sizeof(std::uint64_t));
 
-/// A hole may have a million vertices; the report of it need not.
+/// A hole may have a million vertices; its report lists only the first.
 constexpr std::size_t kMostNumbers = 100;
 
-/// The first numbers under `name`, and under `count_name` how many there are when that
-/// is more.
+/// Adds the first numbers under `name`. If there are more, adds their full count under
+/// `count_name`.
 void add_numbers(Json& json, const char* name, const char* count_name,
                  const std::vector<std::uint32_t>& numbers) {
     const auto shown = static_cast<std::ptrdiff_t>(std::min(numbers.size(), kMostNumbers));
@@ -63,7 +63,7 @@ void add_numbers(Json& json, const char* name, const char* count_name,
     if (numbers.size() > kMostNumbers) json[count_name] = numbers.size();
 }
 
-/// Paths of the nodes of a place's triangles, each once, in the triangles' order.
+/// Returns the paths of the nodes of a place's triangles, each once, in triangle order.
 std::vector<std::string> nodes_of(const ValidationReport& report, const mesh::Place& place) {
     std::vector<std::string> nodes;
     const std::size_t shown = std::min(place.triangles.size(), kMostNumbers);
@@ -159,7 +159,7 @@ Json mesh_json(const ValidationReport& report, const ValidationRun& run) {
     return json;
 }
 
-/// One member of an object, without the comma after it.
+/// Returns one member of an object, without the comma after it.
 std::string member(const char* name, const Json& value) {
     return compact(name) + ":" + laid_out(value, 1);
 }

@@ -10,16 +10,16 @@
 
 namespace cdprep::cli {
 
-/// The page of --html: holds every mesh of the run until it is written.
+/// The page of --html. It holds every mesh of the run until it is written.
 class ValidationPage {
 public:
-    /// Begins the file, so that a place where none can be is said before the work. Fails
-    /// with `unwritable`.
+    /// Creates the file, so that an unwritable place is reported before the work. Fails with
+    /// `unwritable`.
     [[nodiscard]] static Result<ValidationPage> open(const std::filesystem::path& path);
 
     void add(Validation validation);
 
-    /// Call once, after the last mesh. Without it no file appears.
+    /// Writes the page. Call it once, after the last mesh; otherwise no file appears.
     [[nodiscard]] Result<Done> finish();
 
 private:

@@ -11,36 +11,36 @@
 
 namespace cdprep::report {
 
-/// What a run's settings and baseline make of one finding.
+/// The judgement of one finding by a run's settings and baseline.
 struct Judgement {
     mesh::Severity severity = mesh::Severity::warning;
-    std::uint64_t fresh = 0;                  ///< those that the baseline lacks; without one: all
-    std::vector<std::uint64_t> fingerprints;  ///< one a place
+    std::uint64_t fresh = 0;                  ///< not in the baseline; without a baseline: all
+    std::vector<std::uint64_t> fingerprints;  ///< one per place
 };
 
-/// What validating one file gave. With a baseline, `defects.findings` has only what is
-/// new; `defects.counts` and `defects.verdicts` always tell of the whole mesh.
+/// The result of validating one file. With a baseline, `defects.findings` holds only the new
+/// findings. `defects.counts` and `defects.verdicts` always describe the whole mesh.
 struct ValidationReport {
     std::string input;
     std::uint64_t triangles = 0;
     std::uint64_t vertices = 0;
     mesh::DefectReport defects;
-    std::vector<Judgement> judgements;  ///< one a finding
-    std::uint64_t known = 0;            ///< findings that the baseline has too
-    std::vector<std::string> remarks;   ///< sentences on limits, and on how they were compared
-    std::vector<std::string> node_of_triangle_run;  ///< node paths, one an instance
+    std::vector<Judgement> judgements;  ///< one per finding
+    std::uint64_t known = 0;            ///< findings that the baseline also contains
+    std::vector<std::string> remarks;   ///< sentences on limits, and on comparisons by count
+    std::vector<std::string> node_of_triangle_run;  ///< node paths, one per instance
     std::vector<std::uint32_t> first_triangle;      ///< of each instance, ascending
     double seconds = 0;
     std::vector<StageTime> stages;
     int exit = 0;                      ///< exit code for this file
-    std::optional<std::string> error;  ///< the sentence, when it could not be read
-    bool known_error = false;          ///< the baseline says so too
+    std::optional<std::string> error;  ///< the message, if the file could not be read
+    bool known_error = false;          ///< the baseline has this error too
 };
 
-/// A report that knows a mesh and its nodes, and nothing yet of what is wrong with it.
+/// Returns a report with the mesh and its nodes, without findings.
 [[nodiscard]] ValidationReport report_on(const std::string& input, const mesh::TriangleSoup& soup);
 
-/// Adds the sentence that says where a limit ended the search for pairs, if one did.
+/// Adds a remark for each search that a limit ended.
 void remark_on_limits(ValidationReport& report, const mesh::DefectOptions& options);
 
 }  // namespace cdprep::report

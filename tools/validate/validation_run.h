@@ -11,31 +11,31 @@
 
 namespace cdprep::report {
 
-/// What all reports of one run share.
+/// The data that all reports of one run share.
 struct ValidationRun {
     std::string tool_version;
     RuleSettings rules;
-    std::string baseline;          ///< its name; empty without one
+    std::string baseline;          ///< name of the baseline; empty without one
     std::filesystem::path folder;  ///< absolute; references are relative to it
-    std::size_t max_places = 0;    ///< listed of each finding, and of the components
+    std::size_t max_places = 0;    ///< listed per finding, and of the components
     double weld_distance = 0;      ///< model units
     double seam_width = 0;         ///< model units
     bool crossings = true;
-    std::uint64_t max_pairs = mesh::kDefaultMaxPairs;  ///< pairs that end the search for more
-    bool coloured = false;                             ///< text, by the codes of terminals
-    bool timings = false;  ///< show how long each file took; without, equal runs write equal bytes
+    std::uint64_t max_pairs = mesh::kDefaultMaxPairs;  ///< limit that ends the search for pairs
+    bool coloured = false;                             ///< text with terminal colour codes
+    bool timings = false;  ///< report the time of each file; if false, equal runs write equal bytes
 };
 
-/// Sums over the files of a run. With a baseline, findings are the new ones.
+/// Sums over the files of a run. With a baseline, only new findings count.
 struct ValidationTotals {
     std::uint64_t files = 0;
-    std::uint64_t failed = 0;      ///< by what was found
-    std::uint64_t unreadable = 0;  ///< those that the baseline knows so among them
+    std::uint64_t failed = 0;      ///< because of their findings
+    std::uint64_t unreadable = 0;  ///< including those that the baseline knows
     std::uint64_t errors = 0;
     std::uint64_t warnings = 0;
     std::uint64_t notes = 0;
-    std::uint64_t known = 0;  ///< findings and unreadable files that the baseline has too
-    int exit = 0;             ///< the highest
+    std::uint64_t known = 0;  ///< findings and unreadable files that the baseline contains
+    int exit = 0;             ///< the highest one
     bool interrupted = false;
 
     void add(const ValidationReport& report);

@@ -13,7 +13,7 @@
 namespace cdprep::report {
 namespace {
 
-constexpr std::size_t kMostNumbers = 8;  ///< of triangles or vertices in a line
+constexpr std::size_t kMostNumbers = 8;  ///< triangles or vertices per line
 
 enum class Colour : std::uint8_t { red = 31, green = 32, yellow = 33, cyan = 36 };
 
@@ -32,7 +32,7 @@ std::string findings_text(std::uint64_t errors, std::uint64_t warnings, std::uin
            ", " + counted(notes, "note", "notes");
 }
 
-/// "  warning CDP0301 Edge with one triangle: 12 (boundary-edge)".
+/// Returns "  warning CDP0301 Edge with one triangle: 12 (boundary-edge)".
 std::string finding_line(const mesh::Finding& finding, const Judgement& judgement,
                          const ValidationRun& run) {
     const mesh::RuleText& rule = mesh::text_of(finding.rule);
@@ -85,7 +85,7 @@ std::string head_line(const ValidationReport& report, const ValidationRun& run) 
            counted(report.vertices, "vertex", "vertices") + "\n";
 }
 
-/// The findings by severity, errors first, each in the order of the rules.
+/// Returns the findings by severity, errors first, then in the order of the rules.
 std::vector<std::size_t> worst_first(const ValidationReport& report) {
     std::vector<std::size_t> order(report.judgements.size());
     std::iota(order.begin(), order.end(), std::size_t{0});

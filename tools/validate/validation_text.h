@@ -7,14 +7,14 @@
 
 namespace cdprep::report {
 
-/// What was found in one file, for people.
+/// Returns a text for people about the findings in one file.
 [[nodiscard]] std::string validation_text(const ValidationReport& report, const ValidationRun& run);
 
-/// At most this many places of one finding, a line each, and how many more there are.
+/// Returns at most `most` places of one finding, one per line, and the number of the rest.
 [[nodiscard]] std::string places_text(const ValidationReport& report, std::size_t finding,
                                       std::size_t most, const std::string& indent);
 
-/// One line on all files.
+/// Returns one line about all files.
 [[nodiscard]] std::string totals_text(const ValidationTotals& totals);
 
 }  // namespace cdprep::report

@@ -11,8 +11,8 @@ namespace cdprep::report {
 
 enum class ValidationFormat : std::uint8_t { text, json, ndjson, sarif, junit };
 
-/// Writes the report of a run file by file, so that no more than one is held: each call
-/// returns the next bytes of it.
+/// Writes the report of a run file by file, so that only one is in memory. Each call returns the
+/// next bytes.
 class ValidationWriter {
 public:
     ValidationWriter(ValidationFormat format, ValidationRun run)
@@ -21,10 +21,11 @@ public:
     [[nodiscard]] std::string head() const;
     [[nodiscard]] std::string add(const ValidationReport& report);
 
-    /// Call once, after the last file. The exit code is the highest of the files'.
+    /// Returns the end of the report. Call it once, after the last file. The exit code is the
+    /// highest of the files.
     [[nodiscard]] std::string tail();
 
-    /// Tells the tail that not all files were looked at.
+    /// Records for tail() that not all files were examined.
     void set_interrupted(int exit);
 
     [[nodiscard]] const ValidationTotals& totals() const noexcept {

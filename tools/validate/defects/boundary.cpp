@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-/// Numbers the ends of edges in the order of the mesh.
+/// Numbers the end vertices of the edges in mesh order.
 void list_ends(const Mesh& mesh, Boundary& boundary) {
     std::vector<std::uint32_t>& end = boundary.end_of_vertex;
     end.assign(mesh.positions.size(), kNone);
@@ -42,7 +42,7 @@ void list_edges_at_ends(Boundary& boundary) {
     for_each_end([&](std::uint32_t end, std::uint32_t i) { boundary.edges_at[next[end]++] = i; });
 }
 
-/// Walks along loops to name their vertices in order.
+/// Walks along loops and lists their vertices in order.
 class LoopWalk {
 public:
     explicit LoopWalk(const Boundary& boundary) : boundary_(boundary) {
@@ -56,8 +56,9 @@ public:
         });
     }
 
-    /// The edges of a loop, one behind the other as far as they go; loops in ascending
-    /// order. Calls visit(edge, vertex) with where each begins.
+    /// Walks the edges of a loop, each followed by a connected one where possible. Calls
+    /// visit(edge, vertex) with the vertex at which the walk enters the edge. Call this for
+    /// loops in ascending order.
     template <class Visit>
     void walk(std::uint32_t loop, Visit visit) {
         for (; next_ < by_loop_.size() && boundary_.loop_of[by_loop_[next_]] == loop; ++next_) {
@@ -73,7 +74,7 @@ public:
     }
 
 private:
-    /// The lowest edge at the vertex that has not been walked, first one that leads on.
+    /// Returns the lowest unused edge at the vertex; edges that begin there come first.
     std::uint32_t unused_at(std::uint32_t vertex) {
         const std::uint32_t end = boundary_.end_at(vertex);
         const std::uint32_t leading = next_of(
@@ -82,8 +83,8 @@ private:
         return next_of(end, seen_[end], [](const FlawedEdge&) { return true; });
     }
 
-    /// The lowest edge at an end that is of a kind and has not been walked. `seen` says how
-    /// many at its beginning are not, and never will be: no edge is passed twice.
+    /// Returns the lowest unused edge of a kind at an end. The first `seen` edges of the end do
+    /// not qualify and never will: no edge is examined twice.
     template <class OfKind>
     std::uint32_t next_of(std::uint32_t end, std::uint32_t& seen, OfKind of_kind) const {
         const std::span<const std::uint32_t> edges = boundary_.edges_of(end);
@@ -95,7 +96,7 @@ private:
 
     const Boundary& boundary_;
     std::vector<bool> used_;
-    std::vector<std::uint32_t> leading_seen_;  ///< by end, as next_of() says
+    std::vector<std::uint32_t> leading_seen_;  ///< by end; see next_of()
     std::vector<std::uint32_t> seen_;
     std::vector<std::uint32_t> by_loop_;
     std::size_t next_ = 0;

@@ -15,22 +15,22 @@ namespace cdprep::mesh {
 
 /// A connected set of boundary edges.
 struct BoundaryLoop {
-    std::uint32_t first_edge;  ///< the lowest of Boundary::edge
+    std::uint32_t first_edge;  ///< the lowest index into Boundary::edge
     std::uint32_t edges;
     Box box;
 };
 
-/// The edges that one triangle uses, and what they form.
+/// The edges that exactly one triangle uses, and the loops they form.
 struct Boundary {
     std::vector<FlawedEdge> edge;              ///< by ascending triangle
-    std::vector<std::uint32_t> loop_of;        ///< of each edge
-    std::vector<std::uint32_t> vertex;         ///< of the mesh, ascending: all ends
-    std::vector<std::uint32_t> end_of_vertex;  ///< of the mesh: where it stands there, if it does
-    std::vector<std::uint32_t> first_at;       ///< one more than those
-    std::vector<std::uint32_t> edges_at;       ///< that end there, ascending: from first_at
-    std::vector<BoundaryLoop> loop;            ///< by lowest edge
+    std::vector<std::uint32_t> loop_of;        ///< the loop of each edge
+    std::vector<std::uint32_t> vertex;         ///< the mesh numbers of all end vertices, ascending
+    std::vector<std::uint32_t> end_of_vertex;  ///< by mesh vertex: its index in `vertex`
+    std::vector<std::uint32_t> first_at;       ///< by end: its first in edges_at; one more
+    std::vector<std::uint32_t> edges_at;       ///< the edges at each end, ascending
+    std::vector<BoundaryLoop> loop;            ///< in order of the lowest edge
 
-    /// Where a vertex of the boundary stands in `vertex`.
+    /// Returns the index in `vertex` of a boundary vertex.
     [[nodiscard]] std::uint32_t end_at(std::uint32_t mesh_vertex) const {
         return end_of_vertex[mesh_vertex];
     }
@@ -41,17 +41,17 @@ struct Boundary {
 
 [[nodiscard]] Boundary find_boundary(const Mesh& mesh, std::vector<FlawedEdge> edges);
 
-/// CDP0301 and 0302.
+/// Lists boundary edges and loops (CDP0301, CDP0302).
 void list_boundary(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
                    FindingList& findings);
 
-/// CDP0307: O(n log n) for edges that pass few vertices, and O(pairs) for those that do, up to
-/// a number of vertices looked at that is linear in the boundary. Returns false when that or
-/// `stop` ended the search: the count is then a lower bound.
+/// Finds T-junctions (CDP0307). Takes O(n log n) if edges pass few vertices, else O(pairs). The
+/// number of vertices examined is limited, linearly in the size of the boundary. Returns false
+/// if this limit or `stop` ended the search; the count is then a lower bound.
 bool find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
                       const StopCheck& stop, FindingList& findings, DefectCounts& counts);
 
-/// CDP0308, for a width above 0. O(pairs within the width).
+/// Finds seams with a gap (CDP0308), for a width above 0. Takes O(pairs within the width).
 void find_near_seams(const TriangleSoup& soup, const SoundMesh& sound, const Boundary& boundary,
                      double width, FindingList& findings, DefectCounts& counts);
 

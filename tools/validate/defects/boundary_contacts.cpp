@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the boundary comes near itself: T-junctions and seams with a gap.
+// Boundary parts that come near each other: T-junctions and seams with a gap.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -19,9 +19,9 @@
 namespace cdprep::mesh {
 namespace {
 
-/// A segment that tells which boxes come within a margin of it. Never says no where the
-/// answer is yes: the separating axes are those of the box and their products with the
-/// segment, and what rounding may have done is added to the margin.
+/// A test of the boxes that come within a margin of a segment. It is conservative: it never
+/// rejects a box within the margin. The separating axes are those of the box and their cross
+/// products with the segment. The margin grows by a bound on the rounding error.
 class SegmentReach {
 public:
     SegmentReach(const Double3& p, const Double3& q, double margin)
@@ -45,9 +45,9 @@ public:
     }
 
 private:
-    static constexpr double kRounding = 0x1p-48;  // 32 ulp: a few dozen operations at most
+    static constexpr double kRounding = 0x1p-48;  // 32 ulp; at most a few dozen operations
 
-    /// Half a box's width with the margin, and with what coordinates may be off.
+    /// Returns half the box's width plus the margin and the possible error of coordinates.
     [[nodiscard]] double grown(double half, double centre) const {
         const double coordinate = std::fabs(centre) + std::fabs(half) + largest_middle();
         return half + margin_ + kRounding * (coordinate + margin_) +
@@ -77,13 +77,13 @@ Box box_of(const Double3& a, const Double3& b) {
     return box;
 }
 
-/// Exactly on the segment, ends among it.
+/// Returns whether p lies exactly on the segment, ends included.
 bool lies_on(const Double3& p, const Double3& a, const Double3& b) {
     return box_of(a, b).contains(p) && exact::is_degenerate({a, p, b});
 }
 
 struct OnSegment {
-    double share;  ///< from 0 to 1, of the nearest point
+    double share;  ///< of the nearest point, from 0 to 1
     double distance;
 };
 
@@ -91,7 +91,7 @@ OnSegment nearest_on(const Double3& p, const Double3& a, const Double3& b) {
     const Double3 u = minus(b, a);
     const Double3 v = minus(p, a);
     const double length = std::hypot(u.x, u.y, u.z);
-    // Unit steps: squares of lengths may leave the range of double.
+    // A unit direction: squares of lengths may leave the range of double.
     const Double3 unit = {u.x / length, u.y / length, u.z / length};
     const double along = dot(v, unit);
     const double share = std::clamp(along / length, 0.0, 1.0);
@@ -105,19 +105,19 @@ PointTree tree_of(const Mesh& mesh, const Boundary& boundary) {
     return PointTree(std::move(points));
 }
 
-/// T-junctions: so many looks from an edge at a vertex take some 5 s, at 0.1 us each.
+/// The basic limit on tests of an edge against a vertex; 0.1 us each makes some 5 s.
 constexpr std::uint64_t kLooksAtVertices = 50'000'000;
-constexpr std::uint64_t kLooksPerEdge = 200;  ///< sound boundaries need 10 to 30
+constexpr std::uint64_t kLooksPerEdge = 200;  ///< sound boundaries use 10 to 30
 constexpr std::uint32_t kEdgesPerCheck = 256;
 
-/// An end of the boundary and an edge it does not belong to.
+/// An end of the boundary, and an edge that it does not belong to.
 struct Contact {
-    std::uint32_t end;  ///< of Boundary::vertex
+    std::uint32_t end;  ///< index into Boundary::vertex
     std::uint32_t edge;
     OnSegment nearest;
 };
 
-/// All that are within a width of each other, but for those on an edge.
+/// Returns all contacts within a width, without the ends that lie on the edge.
 std::vector<Contact> contacts_within(const Mesh& mesh, const Boundary& boundary, double width) {
     const PointTree tree = tree_of(mesh, boundary);
     std::vector<Contact> contacts;
@@ -126,7 +126,7 @@ std::vector<Contact> contacts_within(const Mesh& mesh, const Boundary& boundary,
         const Double3& from = mesh.positions[edge.from];
         const Double3& to = mesh.positions[edge.to];
         tree.visit(SegmentReach(from, to, width), [&](std::uint32_t end) {
-            // Surface lies between a corner and the edges of its triangle, no gap.
+            // Between a corner and the edges of its triangle lies surface, not a gap.
             const auto& corners = mesh.triangles[edge.triangle].vertex;
             const std::uint32_t vertex = boundary.vertex[end];
             if (std::find(corners.begin(), corners.end(), vertex) != corners.end()) return;
@@ -138,11 +138,11 @@ std::vector<Contact> contacts_within(const Mesh& mesh, const Boundary& boundary,
     return contacts;
 }
 
-/// How far apart along the boundary, in seam widths, two sides of a gap are: neighbours
-/// around a corner are near each other without one.
+/// The least distance along the boundary between two sides of a gap, in seam widths. Neighbours
+/// around a corner are near each other without a gap.
 constexpr double kFarAlong = 4;
 
-/// The ends that are at most a length away along the boundary.
+/// The ends within a given length along the boundary.
 class NearAlong {
 public:
     NearAlong(const Mesh& mesh, const Boundary& boundary, std::uint32_t end, double length)
@@ -166,7 +166,7 @@ public:
         }
     }
 
-    /// Whether an end of the edge is among them.
+    /// Returns whether an end of the edge is among them.
     [[nodiscard]] bool reaches(std::uint32_t edge) const {
         return ends_.contains(boundary_.end_at(boundary_.edge[edge].from)) ||
                ends_.contains(boundary_.end_at(boundary_.edge[edge].to));
@@ -209,7 +209,7 @@ bool find_t_junctions(const TriangleSoup& soup, const SoundMesh& sound, const Bo
         ends.clear();
         const Box around = box_of(from, to);
         const SegmentReach reach(from, to, 0);
-        // Most boxes are told by comparing alone.
+        // Plain comparisons decide most boxes.
         const auto enter = [&](const Box& box) {
             return around.meets(box) && (box.contains(from) || reach(box));
         };

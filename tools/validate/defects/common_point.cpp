@@ -14,7 +14,7 @@ Double3 between(const Double3& a, const Double3& b, double share) {
     return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), a.z + share * (b.z - a.z)};
 }
 
-/// How far above a plane through `on` two points are decides where a line between meets it.
+/// Returns where a segment meets the plane through `on`, from the heights of its ends above it.
 Double3 meets_plane(const Double3& from, const Double3& to, const Double3& on,
                     const Double3& normal) {
     const double above_from = dot(minus(from, on), normal);
@@ -29,7 +29,8 @@ Double3 end_of(const PiercingEdge& edge, const Corners& a, const Corners& b) {
                        cross(minus(plane[1], plane[0]), minus(plane[2], plane[0])));
 }
 
-/// The middle of the corners of a, cut by the sides of b (Sutherland and Hodgman 1974).
+/// Returns the mean of the corners of `a` clipped by the sides of `b` (Sutherland and Hodgman
+/// 1974).
 Double3 middle_of_overlap(const Corners& a, const Corners& b) {
     std::vector<Double3> polygon(a.begin(), a.end());
     const Double3 normal = cross(minus(b[1], b[0]), minus(b[2], b[0]));
@@ -53,7 +54,7 @@ Double3 middle_of_overlap(const Corners& a, const Corners& b) {
     return {sum.x / count, sum.y / count, sum.z / count};
 }
 
-/// x, or the nearest to it that both have; between them where there is none.
+/// Returns x clamped to both ranges; the middle between the ranges if they are disjoint.
 double in_both(double x, double a0, double a1, double a2, double b0, double b1, double b2) {
     const double lower = std::max(std::min({a0, a1, a2}), std::min({b0, b1, b2}));
     const double upper = std::min(std::max({a0, a1, a2}), std::max({b0, b1, b2}));

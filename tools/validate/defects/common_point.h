@@ -5,9 +5,9 @@
 
 namespace cdprep::mesh {
 
-/// Returns a point that two triangles that meet have in common, rounded: the middle of their
-/// common segment, or of the area they share in a plane. For pictures; in their boxes at any
-/// rate.
+/// Returns a common point of two triangles that meet, rounded. The point is the middle of their
+/// common segment, or of their common area if they are coplanar. It always lies in the boxes of
+/// both. It is meant for pictures.
 [[nodiscard]] Double3 common_point(const Corners& a, const Corners& b);
 
 }  // namespace cdprep::mesh

@@ -8,7 +8,7 @@
 namespace cdprep::mesh {
 namespace {
 
-/// Few enough for their memory not to count, enough to make merging them cheap.
+/// Small enough to use little memory, large enough to make merges cheap.
 constexpr std::size_t kLeastWaiting = 1 << 16;
 
 bool comes_before(const ComponentPair& x, const ComponentPair& y) {
@@ -26,7 +26,7 @@ void unite(ComponentPair& pair, const ComponentPair& more) {
                  std::pair(more.first_triangle, more.second_triangle));
 }
 
-/// Sorts, and leaves each pair once.
+/// Sorts the pairs and merges equal ones.
 void sort_and_unite(std::vector<ComponentPair>& pairs) {
     std::sort(pairs.begin(), pairs.end(), comes_before);
     std::size_t last = 0;
@@ -43,7 +43,8 @@ void sort_and_unite(std::vector<ComponentPair>& pairs) {
 }  // namespace
 
 void ComponentPairs::add(const ComponentPair& pair) {
-    // A pair above those kept was or will be left out: lower ones only increase in number.
+    // A pair above the kept ones is left out, now or later: the number of lower pairs only
+    // grows.
     if (kept_.size() == most_ && (most_ == 0 || comes_before(kept_.back(), pair))) {
         is_complete_ = false;
         return;
@@ -64,7 +65,7 @@ void ComponentPairs::settle() {
     waiting_.clear();
 }
 
-/// Moves what waits into the pairs that are kept already; the rest goes on waiting.
+/// Adds waiting pairs to equal pairs already kept; the others keep waiting.
 void ComponentPairs::absorb_known() {
     std::size_t left = 0;
     auto at = kept_.begin();
@@ -79,11 +80,11 @@ void ComponentPairs::absorb_known() {
     waiting_.resize(left);
 }
 
-/// Merges from behind, in place: another list would double the memory.
+/// Merges from the back, in place: a second list would double the memory.
 void ComponentPairs::merge_new() {
     std::size_t from = kept_.size();
     std::size_t more = waiting_.size();
-    // Pages that are reserved and not written to cost nothing; moving to a larger array does.
+    // Reserved pages without writes cost nothing; a move to a larger array does.
     if (kept_.capacity() < from + more) kept_.reserve(std::max(from + more, 4 * from));
     kept_.resize(from + more);
     while (more > 0) {

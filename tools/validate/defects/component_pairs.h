@@ -11,24 +11,24 @@ namespace cdprep::mesh {
 struct ComponentPair {
     std::uint32_t a;  ///< a < b
     std::uint32_t b;
-    std::uint32_t first_triangle;  ///< the lowest pair of them, of the mesh
+    std::uint32_t first_triangle;  ///< of the lowest meeting pair; numbers of the mesh
     std::uint32_t second_triangle;
     std::uint64_t meetings;
 };
 
-/// Adds up meetings by the components of their triangles, in bounded memory: it keeps the
-/// lowest pairs of components by (a, b), at most `most` of them. The result does not depend
-/// on the order of add(). 24 bytes a pair that is kept.
+/// Sums up meetings by the components of their triangles, in bounded memory. Keeps the lowest
+/// pairs of components by (a, b), at most `most` of them. The result does not depend on the
+/// order of add(). Takes 24 bytes per kept pair.
 class ComponentPairs {
 public:
     explicit ComponentPairs(std::size_t most) : most_(most) {}
 
     void add(const ComponentPair& pair);
 
-    /// Sorted by (a, b).
+    /// Returns the kept pairs, sorted by (a, b).
     [[nodiscard]] std::vector<ComponentPair> take();
 
-    /// No pair was left out. Asked after take().
+    /// Returns whether no pair was left out. Call it after take().
     [[nodiscard]] bool is_complete() const {
         return is_complete_;
     }
@@ -41,7 +41,7 @@ private:
     std::size_t most_;
     bool is_complete_ = true;
     std::vector<ComponentPair> kept_;     ///< sorted, each pair of components once
-    std::vector<ComponentPair> waiting_;  ///< added since, in any order
+    std::vector<ComponentPair> waiting_;  ///< added since the last merge, in any order
 };
 
 }  // namespace cdprep::mesh

@@ -13,8 +13,8 @@ bool comes_before(const TriangleMeeting& x, const TriangleMeeting& y) {
     return std::tie(x.a, x.b) < std::tie(y.a, y.b);
 }
 
-/// The pairs that one meeting stands for, one after the other by (a, b). Merges both lists
-/// of copies: all that is left of one is above what comes next of the other.
+/// The pairs of one meeting, in order of (a, b). Merges both lists of copies: the rest of one
+/// list lies above the next element of the other.
 class PairStream {
 public:
     PairStream(const TriangleMeeting& meeting, const Copies& copies)
@@ -24,7 +24,7 @@ public:
         return {left_[next_left_], right_[partner_], meeting_};
     }
 
-    /// Goes to the next; false after the last.
+    /// Goes to the next pair; returns false after the last.
     bool advance() {
         if (++partner_ < right_.size()) return true;
         if (++next_left_ == left_.size()) return false;
@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    CopyList left_;  ///< the list that the pair's lower triangle is of
+    CopyList left_;  ///< the list of the pair's lower triangle
     CopyList right_;
     Meeting meeting_;
     std::size_t next_left_ = 0;
@@ -88,7 +88,7 @@ bool search_distinct_meetings(const Mesh& mesh, const Copies& copies, const Sear
     std::vector<TriangleMeeting> renumbered;
     const auto renumber = [&](std::span<const TriangleMeeting> some) {
         renumbered.clear();
-        // Ascending numbers keep a < b.
+        // The numbers ascend, so a < b still holds.
         for (const TriangleMeeting& meeting : some) {
             renumbered.push_back({left[meeting.a], left[meeting.b], meeting.meeting});
         }
@@ -104,8 +104,7 @@ std::vector<TriangleMeeting> first_pairs(std::span<const TriangleMeeting> distin
     };
     std::priority_queue<PairStream, std::vector<PairStream>, decltype(later)> open(later);
     std::vector<TriangleMeeting> pairs;
-    // A meeting's own pair is the lowest that it stands for: no stream is opened before
-    // that pair is the next.
+    // A meeting's own pair is its lowest. So a stream opens only when that pair is the next.
     std::size_t next = 0;
     while (pairs.size() < most && (next < distinct.size() || !open.empty())) {
         if (next < distinct.size() &&

@@ -12,8 +12,8 @@
 
 namespace cdprep::mesh {
 
-/// A triangle and its copies, the triangles with the same three corners in either winding,
-/// by ascending number. Valid as long as what it is of.
+/// A triangle and its copies by ascending number. Copies have the same three corners in either
+/// winding. Valid while the Copies object exists.
 class CopyList {
 public:
     CopyList(std::uint32_t lowest, std::span<const RepeatedTriangle> others)
@@ -31,20 +31,20 @@ private:
     std::span<const RepeatedTriangle> others_;
 };
 
-/// Which triangles of a mesh are copies of a lower one. k copies of one triangle make
-/// k (k - 1) / 2 meetings, and multiply those with others: kept apart, they cost O(k).
+/// The triangles of a mesh that are copies of a lower one. A triangle with k copies in all makes
+/// k (k - 1) / 2 meetings, and multiplies the meetings with others. Kept apart, they cost O(k).
 class Copies {
 public:
     Copies() = default;
-    /// From EdgeFlaws::repeated, in any order. O(c log c) for c copies.
+    /// Takes EdgeFlaws::repeated, in any order. O(c log c) for c copies.
     explicit Copies(std::vector<RepeatedTriangle> repeated);
 
-    /// There are none.
+    /// Returns whether there are no copies.
     [[nodiscard]] bool empty() const {
         return repeated_.empty();
     }
 
-    /// Of a triangle that is no copy itself. O(log c).
+    /// Returns the copies of a triangle that is no copy itself. O(log c).
     [[nodiscard]] CopyList of(std::uint32_t lowest) const;
 
     /// Calls visit(CopyList) for each triangle that has copies.
@@ -57,22 +57,21 @@ public:
         }
     }
 
-    /// The numbers of the triangles that are no copies, of so many; ascending.
+    /// Returns those of the numbers below `triangles` that are not copies, ascending.
     [[nodiscard]] std::vector<std::uint32_t> left_of(std::size_t triangles) const;
 
 private:
     std::vector<RepeatedTriangle> repeated_;  ///< by `first`, then `triangle`
 };
 
-/// search_self_intersections() among the triangles that are no copies: each meeting stands
-/// for one of every copy of `a` with every copy of `b`. Copies of one triangle are in
-/// none with each other. Takes no longer for any number of copies than they take to leave
-/// out.
+/// Runs search_self_intersections() on the triangles that are no copies. Each meeting represents
+/// one meeting of every copy of `a` with every copy of `b`. Copies of one triangle never form a
+/// meeting with each other. Copies cost only the time to leave them out.
 bool search_distinct_meetings(const Mesh& mesh, const Copies& copies, const SearchOptions& options,
                               const TakeMeetings& take);
 
-/// The first `most` of all pairs that meetings of distinct triangles stand for, by (a, b);
-/// the meetings are sorted so. O((most + meetings) log most).
+/// Returns the first `most` pairs that the meetings of distinct triangles represent, by (a, b).
+/// The meetings must be sorted by (a, b). O((most + meetings) log most).
 [[nodiscard]] std::vector<TriangleMeeting> first_pairs(std::span<const TriangleMeeting> distinct,
                                                        const Copies& copies, std::size_t most);
 

@@ -10,7 +10,7 @@
 namespace cdprep::mesh {
 namespace {
 
-/// The lowest triangle of each fan: corners with a common edge are of one.
+/// Returns the lowest triangle of each fan. Corners with a common edge belong to one fan.
 std::vector<std::uint32_t> fans_of(std::span<const StarCorner> star,
                                    const std::vector<EdgeUse>& uses) {
     DisjointSets fans(star.size());
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> fans_of(std::span<const StarCorner> star,
     return lowest;
 }
 
-/// Looks at one star after the other; keeps its scratch.
+/// Examines one star after the other; reuses its scratch memory.
 class StarReader {
 public:
     explicit StarReader(EdgeFlaws& flaws) : flaws_(flaws) {}
@@ -34,7 +34,7 @@ public:
         for (std::size_t i = 0; i < uses_.size();) {
             std::size_t end = i;
             while (end < uses_.size() && uses_[end].other == uses_[i].other) ++end;
-            // Each edge is told at its lower end.
+            // Each edge is read at its lower end.
             if (uses_[i].other > vertex) {
                 read_edge(vertex, star, std::span(uses_).subspan(i, end - i));
             }
@@ -60,7 +60,7 @@ private:
         if (uses.size() == 2 && balance != 0) flaws_.inconsistent.push_back(edge);
     }
 
-    /// Each triangle is looked at from its lowest corner.
+    /// Finds repeated triangles; examines each triangle at its lowest corner.
     void find_repeated(std::uint32_t vertex, std::span<const StarCorner> star) {
         const auto key = [](const StarCorner& c) {
             return std::make_tuple(std::min(c.before, c.after), std::max(c.before, c.after),
@@ -98,7 +98,7 @@ EdgeFlaws find_edge_flaws(const Stars& stars) {
     StarReader reader(flaws);
     for (std::uint32_t vertex = 0; vertex + 1 < stars.first.size(); ++vertex) {
         const std::span<const StarCorner> star = stars.at(vertex);
-        // Two triangles back to back are a closed fan too.
+        // Two triangles back to back form a closed fan too.
         if (star.size() > 2 && is_one_closed_fan(star)) continue;
         reader.read(vertex, star);
     }

@@ -11,10 +11,10 @@ namespace cdprep::mesh {
 
 /// An edge that is not used by two triangles in opposite directions. Numbers of the mesh.
 struct FlawedEdge {
-    std::uint32_t triangle;  ///< the lowest that uses it
-    std::uint32_t from;      ///< as that triangle runs through it
+    std::uint32_t triangle;  ///< the lowest triangle that uses it
+    std::uint32_t from;      ///< in the direction of that triangle
     std::uint32_t to;
-    std::uint32_t uses;  ///< how many triangles
+    std::uint32_t uses;  ///< the number of triangles that use it
 };
 
 /// A vertex whose triangles form more than one fan.
@@ -26,11 +26,11 @@ struct PinchedVertex {
 /// A triangle with the corners of a lower one.
 struct RepeatedTriangle {
     std::uint32_t triangle;
-    std::uint32_t first;  ///< the lowest with these corners
-    bool opposite;        ///< wound the other way than that
+    std::uint32_t first;  ///< the lowest triangle with these corners
+    bool opposite;        ///< its winding is opposite to that of `first`
 };
 
-/// All that is wrong with edges and stars, in no useful order. Nothing here of a closed,
+/// All flaws of edges and stars, in unspecified order. All lists are empty for a closed,
 /// 2-manifold, oriented surface.
 struct EdgeFlaws {
     std::vector<FlawedEdge> boundary;      ///< used by one triangle
@@ -42,10 +42,10 @@ struct EdgeFlaws {
     std::vector<RepeatedTriangle> repeated;
 };
 
-/// O(n), and O(d log d) around vertices with d triangles where something is wrong.
+/// Returns the flaws. O(n), and O(d log d) around vertices with d triangles and a flaw.
 [[nodiscard]] EdgeFlaws find_edge_flaws(const Stars& stars);
 
-/// Returns for each fan of a star its lowest triangle, ascending.
+/// Returns the lowest triangle of each fan of a star, ascending.
 [[nodiscard]] std::vector<std::uint32_t> lowest_of_fans(std::span<const StarCorner> star);
 
 }  // namespace cdprep::mesh

@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kLargestFloat = std::numeric_limits<float>::max();
 
-/// Asks one rule, or a few that see the same, after the other, and keeps what later ones
-/// need.
+/// Applies the rules in order, related ones together, and keeps the results that later rules
+/// use.
 class DefectFinder {
 public:
     DefectFinder(const TriangleSoup& soup, const DefectOptions& options)
@@ -55,7 +55,7 @@ private:
         return report_.counts;
     }
 
-    /// CDP0103.
+    /// Lists extents beyond float (CDP0103).
     void list_large_extents() {
         const std::vector<Double3>& points = sound_.mesh.positions;
         for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -87,7 +87,7 @@ private:
         });
     }
 
-    /// CDP0106: those that welding would join.
+    /// Lists the vertices that welding would join (CDP0106).
     void list_near_vertices() {
         if (!(options_.weld_distance > 0)) return;
         const std::vector<Double3>& points = sound_.mesh.positions;
@@ -104,7 +104,7 @@ private:
         }
     }
 
-    /// CDP0204, 0205, 0303 to 0306.
+    /// Lists flaws of edges (CDP0204, CDP0205, CDP0303 to CDP0306).
     void find_flaws_of_edges() {
         const Stars stars = collect_stars(sound_.mesh);
         flaws_ = find_edge_flaws(stars);
@@ -157,7 +157,7 @@ private:
 
     void list_pinched(const Stars& stars) {
         counts().non_manifold_vertices = flaws_.pinched.size();
-        // Read star by star, and so in ascending order.
+        // The stars are read in order, so the vertices ascend.
         for (const PinchedVertex& pinched : flaws_.pinched) {
             findings_.add(Rule::non_manifold_vertex, [&] {
                 Place place;
@@ -184,7 +184,7 @@ private:
         }
     }
 
-    /// CDP0301, 0302, 0307, 0308.
+    /// Lists flaws of the boundary (CDP0301, CDP0302, CDP0307, CDP0308).
     void find_flaws_of_boundary() {
         boundary_ = find_boundary(sound_.mesh, std::move(flaws_.boundary));
         counts().boundary_edges = boundary_.edge.size();
@@ -195,13 +195,13 @@ private:
         find_near_seams(soup_, sound_, boundary_, options_.seam_width, findings_, counts());
     }
 
-    /// CDP0202, 0203.
+    /// Measures areas and volumes; lists triangles of zero area and slivers (CDP0202, CDP0203).
     void measure() {
         measures_ = measure_surface(sound_, components_, balanced_, options_.sliver_ratio,
                                     findings_, counts());
     }
 
-    /// CDP0401, 0404.
+    /// Lists components (CDP0401, CDP0404).
     void list_components() {
         first_triangle_.assign(components_.count, std::numeric_limits<std::uint32_t>::max());
         std::vector<std::uint32_t> triangles(components_.count, 0);
@@ -228,7 +228,7 @@ private:
         return {{sound_.source_triangle[triangle]}, {}, corner_of(triangle), measure};
     }
 
-    /// CDP0402, 0403, 0501 to 0503, and the verdicts.
+    /// Lists pairs (CDP0402, CDP0403, CDP0501 to CDP0503), and makes the verdicts.
     void judge() {
         const std::vector<Nested> nested = find_nested(sound_.mesh, components_, balanced_);
         ComponentMeetings meetings;
@@ -239,7 +239,7 @@ private:
                                      findings_, counts());
         }
         report_.crossings_complete = options_.crossings && meetings.is_complete;
-        // Two components of which not all pairs were examined may overlap.
+        // Two components may overlap if not all their pairs of triangles were examined.
         if (meetings.is_complete) list_nested(nested, meetings);
         report_.verdicts =
             make_verdicts({sound_, components_, flaws_, boundary_, non_orientable_, balanced_,
@@ -278,7 +278,7 @@ private:
     std::vector<bool> balanced_;  ///< per component: the oriented uses of every edge cancel
     Boundary boundary_;
     SurfaceMeasures measures_;
-    std::vector<std::uint32_t> first_triangle_;  ///< of each component
+    std::vector<std::uint32_t> first_triangle_;  ///< the first triangle of each component
 };
 
 }  // namespace

@@ -12,13 +12,13 @@
 
 namespace cdprep::mesh {
 
-/// Counts what is found and keeps the first places of each rule.
+/// Counts occurrences and keeps the first places of each rule.
 class FindingList {
 public:
     explicit FindingList(std::size_t max_places) : max_places_(max_places) {}
 
-    /// One more; `make()` gives its Place, and is called only while there is room. Places
-    /// come in source order.
+    /// Adds one occurrence. Calls make() for its Place only while there is room. Call this in
+    /// source order.
     template <class Make>
     void add(Rule rule, Make&& make) {
         Finding& finding = finding_of(rule);
@@ -26,13 +26,12 @@ public:
         if (finding.places.size() < max_places_) finding.places.push_back(make());
     }
 
-    /// Those of `found` that are not added one by one; they come after the others.
+    /// Counts occurrences without places; call it after the add() calls.
     void count_more(Rule rule, std::uint64_t found) {
         if (found > 0) finding_of(rule).count += found;
     }
 
-    /// Adds a place for each record, in the order of `before`. Sorts no more of them than
-    /// are kept.
+    /// Adds a place for each record, in the order of `before`. Sorts only the records to keep.
     template <class Record, class Before, class Make>
     void add_sorted(Rule rule, std::vector<Record>& records, Before before, Make make) {
         const auto kept =
@@ -44,7 +43,7 @@ public:
         count_more(rule, static_cast<std::uint64_t>(records.end() - kept));
     }
 
-    /// There may be more of the rule than were added, if any were.
+    /// Marks a rule's count as a lower bound, if the rule found anything.
     void mark_lower_bound(Rule rule) {
         const auto found = findings_.find(rule);
         if (found != findings_.end()) found->second.is_lower_bound = true;
@@ -54,7 +53,7 @@ public:
         return max_places_;
     }
 
-    /// All findings, by ascending id.
+    /// Returns all findings, by ascending id.
     [[nodiscard]] std::vector<Finding> take() {
         std::vector<Finding> all;
         for (auto& [rule, finding] : findings_) all.push_back(std::move(finding));

@@ -31,7 +31,7 @@ Place place_of(const SoundMesh& sound, const TriangleMeeting& meeting, double me
             measure};
 }
 
-/// The lowest meetings by (a, b) of all that were added, in any order.
+/// The lowest meetings by (a, b) among those added in any order.
 class LowestMeetings {
 public:
     explicit LowestMeetings(std::size_t most) : most_(most) {}
@@ -42,7 +42,7 @@ public:
         if (kept_.size() >= 2 * most_ + kRoom) shrink();
     }
 
-    /// Sorted.
+    /// Returns the lowest meetings, sorted.
     [[nodiscard]] std::vector<TriangleMeeting> take() {
         std::sort(kept_.begin(), kept_.end(), comes_before);
         kept_.resize(std::min(kept_.size(), most_));
@@ -50,13 +50,13 @@ public:
     }
 
 private:
-    static constexpr std::size_t kRoom = 1024;  ///< few places are not worth shrinking to
+    static constexpr std::size_t kRoom = 1024;  ///< shrinking to few places is not worth the time
 
     static bool comes_before(const TriangleMeeting& x, const TriangleMeeting& y) {
         return std::tie(x.a, x.b) < std::tie(y.a, y.b);
     }
 
-    /// Leaves the lowest, and remembers the bound that a lower one is below.
+    /// Keeps the lowest meetings and sets the bound; later meetings must lie below it.
     void shrink() {
         const auto end = kept_.begin() + static_cast<std::ptrdiff_t>(most_);
         std::nth_element(kept_.begin(), end, kept_.end(), comes_before);
@@ -71,15 +71,15 @@ private:
     std::vector<TriangleMeeting> kept_;
 };
 
-/// What is found of a rule about pairs.
+/// The result of one rule about pairs.
 struct PairsOfRule {
     PairsOfRule(Rule of, std::size_t most) : rule(of), first(most) {}
     Rule rule;
     std::uint64_t pairs = 0;
-    LowestMeetings first;  ///< distinct ones, as many as places are kept
+    LowestMeetings first;  ///< distinct meetings, up to the number of places
 };
 
-/// So many pairs of components are told apart at least: some 75 MB.
+/// At least this many pairs of components are distinguished: some 75 MB.
 constexpr std::size_t kComponentPairs = std::size_t{3} << 20;
 constexpr std::size_t kComponentPairsPerTriangle = 4;
 
@@ -102,7 +102,7 @@ public:
         result_.overlapping.resize(nested_.size());
     }
 
-    /// A meeting of distinct triangles.
+    /// Adds a meeting of distinct triangles.
     void add(const TriangleMeeting& meeting) {
         const std::uint64_t pairs = copies_.of(meeting.a).size() * copies_.of(meeting.b).size();
         counts_.self_intersecting_pairs += pairs;
@@ -119,7 +119,7 @@ public:
         pairs_.add({a, b, meeting.a, meeting.b, pairs});
     }
 
-    /// A triangle with its copies: CDP0204 and 0205 tell of them.
+    /// Counts the pairs of copies of a triangle. CDP0204 and CDP0205 report the copies.
     void add_copies(const CopyList& list) {
         if (exact::is_degenerate(corners_of(sound_.mesh, list[0]))) return;
         counts_.self_intersecting_pairs += list.size() * (list.size() - 1) / 2;

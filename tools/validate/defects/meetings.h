@@ -15,7 +15,7 @@
 
 namespace cdprep::mesh {
 
-/// What meetings of triangles say of components.
+/// The facts about components that follow from meetings of triangles.
 struct ComponentMeetings {
     std::vector<bool> self_crossing;  ///< per component: two of its triangles meet
     std::vector<bool> overlapping;    ///< per nested pair: the two components overlap
@@ -23,7 +23,7 @@ struct ComponentMeetings {
     bool is_complete = true;          ///< all pairs of triangles were examined
 };
 
-/// What the meetings are of, and what is asked about them. References must outlive the use.
+/// The inputs of list_meetings(). References must outlive the use.
 struct MeetingGrounds {
     const Copies& copies;
     const SoundMesh& sound;
@@ -31,10 +31,10 @@ struct MeetingGrounds {
     const std::vector<Nested>& nested;  ///< sorted by inner, then outer
 };
 
-/// CDP0403 and CDP0501 to 0503, and the counts of pairs. Counts and lists what
-/// find_self_intersections() would find, pair by pair, at the cost of the distinct meetings
-/// and of the places that are kept; if the limits end the search, what it found until then.
-/// Memory is linear in the mesh and in the places, whatever the number of pairs.
+/// Lists CDP0403 and CDP0501 to CDP0503, and counts the pairs. Counts and lists the same pairs
+/// as find_self_intersections(). The cost depends only on the distinct meetings and on the kept
+/// places. If the limits end the search, the result covers the part done until then. Memory is
+/// linear in the mesh and in the places, whatever the number of pairs.
 [[nodiscard]] ComponentMeetings list_meetings(const MeetingGrounds& grounds,
                                               const SearchOptions& options, FindingList& findings,
                                               DefectCounts& counts);

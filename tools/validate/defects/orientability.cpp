@@ -8,15 +8,15 @@
 namespace cdprep::mesh {
 namespace {
 
-/// Disjoint sets of triangles, each with whether it is turned against its root.
+/// Disjoint sets of triangles; each triangle is marked if its winding is opposite to its root's.
 class TurnedSets {
 public:
     explicit TurnedSets(std::size_t count) : parent_(count), turned_(count, 0) {
         std::iota(parent_.begin(), parent_.end(), 0U);
     }
 
-    /// Joins two that are turned against each other, or not. False when they already are
-    /// joined the other way.
+    /// Joins two triangles with opposite windings, or with equal ones. Returns false if they are
+    /// already joined the other way.
     bool join(std::uint32_t a, std::uint32_t b, bool against) {
         const Root root_a = root_of(a);
         const Root root_b = root_of(b);
@@ -38,7 +38,7 @@ private:
         bool turned = false;
         while (parent_[number] != number) {
             const std::uint32_t up = parent_[number];
-            turned_[number] ^= turned_[up];  // the root's is 0
+            turned_[number] ^= turned_[up];  // the root's value is 0
             parent_[number] = parent_[up];
             turned ^= turned_[number] != 0;
             number = parent_[number];
@@ -50,7 +50,7 @@ private:
     std::vector<std::uint8_t> turned_;
 };
 
-/// The first edge at the vertex that cannot be satisfied.
+/// Returns the first edge at the vertex whose condition cannot hold; joins the others.
 std::optional<NonOrientable> join_at(std::uint32_t vertex, std::span<const StarCorner> star,
                                      std::vector<EdgeUse>& uses, TurnedSets& sets) {
     sort_edge_uses(star, uses);

@@ -9,16 +9,17 @@
 
 namespace cdprep::mesh {
 
-/// A component that no choice of windings orients, and an edge of two triangles at which
-/// the attempt failed: which one depends on the order of the vertices.
+/// A component that no choice of windings orients, and an edge of two triangles at which the
+/// attempt failed. The order of the vertices determines which edge this is.
 struct NonOrientable {
     std::uint32_t component;
-    std::uint32_t first_triangle;  ///< at that edge
+    std::uint32_t first_triangle;  ///< of that edge
     std::uint32_t second_triangle;
 };
 
-/// Finds them, by ascending component. Only edges of exactly two triangles bind. O(n) for
-/// the components that have inconsistent edges; the others are oriented already.
+/// Returns the non-orientable components, in ascending order. Only edges of exactly two
+/// triangles matter. O(n) for the components with inconsistent edges; the others are already
+/// oriented.
 [[nodiscard]] std::vector<NonOrientable> find_non_orientable(const Stars& stars,
                                                              const ComponentNumbers& components,
                                                              const EdgeFlaws& flaws);

@@ -11,9 +11,8 @@ namespace cdprep::mesh {
 
 enum class Severity : std::uint8_t { off, note, warning, error };
 
-/// What can be found wrong with a mesh, or worth knowing of it. The number is the
-/// id, "CDP0203" for 203; it is never given to another rule. RULES.md has the
-/// definitions.
+/// The rules: defects of a mesh and notes about it. The number is the id, "CDP0203" for 203. An
+/// id is never reused for another rule. RULES.md has the definitions.
 enum class Rule : std::uint16_t {
     non_finite_coordinate = 101,
     index_out_of_range = 102,
@@ -21,7 +20,7 @@ enum class Rule : std::uint16_t {
     unreferenced_vertex = 104,
     duplicate_vertex = 105,  ///< equal positions
     near_vertex = 106,       ///< within the weld distance, not equal
-    empty_mesh = 107,        ///< no triangle is left to ask
+    empty_mesh = 107,        ///< no triangle is left to query
     repeated_corner = 201,
     zero_area = 202,
     sliver = 203,
@@ -44,28 +43,28 @@ enum class Rule : std::uint16_t {
     coplanar_overlap = 503,
 };
 
-/// A rule in words. The texts are whole sentences for people.
+/// The text of a rule. The texts are whole sentences for people.
 struct RuleText {
     Rule rule;
-    const char* name;  ///< as the enumerator, with hyphens: "repeated-corner"
+    const char* name;  ///< the enumerator with hyphens: "repeated-corner"
     Severity severity;
     const char* title;    ///< "Triangle repeats a corner"
-    const char* meaning;  ///< what it is, exactly
-    const char* why;      ///< why it matters for collision
-    const char* remedy;   ///< what mends it
-    const char* decided;  ///< "exact", or how it was decided
-    const char* measure;  ///< what Place::measure is, with its unit; "" when it has none
+    const char* meaning;  ///< the exact definition
+    const char* why;      ///< its effect on collision queries
+    const char* remedy;   ///< the repair
+    const char* decided;  ///< "exact", or the method of decision
+    const char* measure;  ///< the meaning of Place::measure, with its unit; "" if there is none
 };
 
-/// All rules, by ascending id.
+/// Returns all rules, by ascending id.
 [[nodiscard]] std::span<const RuleText> all_rules() noexcept;
 
 [[nodiscard]] const RuleText& text_of(Rule rule) noexcept;
 
-/// "CDP0203".
+/// Returns the id, such as "CDP0203".
 [[nodiscard]] std::string id_of(Rule rule);
 
-/// The rule with this id or name, in any case of letters; nothing when there is none.
+/// Returns the rule with this id or name, in any case of letters; nothing if there is none.
 [[nodiscard]] std::optional<Rule> find_rule(std::string_view id_or_name) noexcept;
 
 }  // namespace cdprep::mesh

@@ -14,13 +14,13 @@ bool is_finite(const Double3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-/// The position, with 0 for what is no number.
+/// Returns the position with coordinates that are not finite set to 0.
 Double3 drawable(const Double3& p) {
     const auto number = [](double x) { return std::isfinite(x) ? x : 0.0; };
     return {number(p.x), number(p.y), number(p.z)};
 }
 
-/// For each vertex of the file the lowest with its position; kNone where it has none.
+/// Returns for each vertex of the file the lowest one with its position; kNone if it has none.
 std::vector<std::uint32_t> join_equal(const TriangleSoup& soup, FindingList& findings,
                                       DefectCounts& counts) {
     std::vector<std::uint32_t> joined(soup.positions.size());
@@ -43,8 +43,9 @@ std::vector<std::uint32_t> join_equal(const TriangleSoup& soup, FindingList& fin
     return joined;
 }
 
-/// Tells the triangles with a corner out of range. Those of an import have all corners set
-/// to vertex 0, and the first thousand are listed; the rest are the next with such corners.
+/// A test for triangles with a corner out of range. An import sets all corners of such a
+/// triangle to vertex 0, and lists the first thousand. The others are the next triangles with
+/// such corners.
 class OutOfRange {
 public:
     OutOfRange(const TriangleSoup& soup, std::uint64_t non_finite) : soup_(soup) {
@@ -58,10 +59,11 @@ public:
         }
     }
 
-    /// Triangles come in ascending order. Sets the number that the file has.
+    /// Returns whether the triangle is out of range, and sets the vertex number of the file.
+    /// Call this in ascending order of triangles.
     bool is(std::uint32_t triangle, double& index) {
         bool is_listed = false;
-        // A triangle is listed once, or once for each of its corners.
+        // A triangle is listed once, or once per corner.
         for (; next_ < listed_.size() && listed_[next_]->triangle <= triangle; ++next_) {
             is_listed = true;
             index = static_cast<double>(listed_[next_]->found);
@@ -85,10 +87,10 @@ private:
     std::uint64_t unlisted_ = 0;
 };
 
-/// Bits of what is known of a vertex of the file.
+/// Bits of the uses of a vertex of the file.
 enum Use : std::uint8_t { used = 1, used_soundly = 2 };
 
-/// Sorts triangles into sound ones, by the lowest vertices of their corners, and others.
+/// Separates sound triangles from others, by the lowest equal vertices of their corners.
 class TriangleSieve {
 public:
     TriangleSieve(const TriangleSoup& soup, const std::vector<std::uint32_t>& joined,
@@ -148,7 +150,7 @@ private:
         }
     }
 
-    /// Numbers the vertices of sound triangles in the order of the file.
+    /// Numbers the vertices of sound triangles in file order.
     void renumber() {
         std::vector<std::uint32_t> number(use_.size());
         for (std::uint32_t i = 0; i < use_.size(); ++i) {

@@ -12,19 +12,19 @@ namespace cdprep::mesh {
 /// A triangle that repeats a corner.
 struct RepeatedCorner {
     std::uint32_t triangle;  ///< source number
-    std::uint32_t vertex;    ///< of the mesh: its first corner that sound triangles use
-    bool connected;          ///< there is one
+    std::uint32_t vertex;    ///< of the mesh: the first corner that sound triangles use
+    bool connected;          ///< such a corner exists
 };
 
-/// What is left for the rules about shape: triangles with three different corners.
+/// The input of the rules about shape: triangles with three different corners.
 struct SoundMesh {
     Mesh mesh;                                   ///< vertices with equal positions joined
-    std::vector<std::uint32_t> source_triangle;  ///< of each triangle, ascending
-    std::vector<RepeatedCorner> repeated;        ///< left out, ascending
+    std::vector<std::uint32_t> source_triangle;  ///< by triangle, ascending
+    std::vector<RepeatedCorner> repeated;        ///< the triangles left out, ascending
 };
 
-/// Finds what can be said of single vertices and of triangles without looking at shape
-/// (CDP0101, 0102, 0104, 0105, 0201), and leaves those triangles out. O(n).
+/// Applies the rules that ignore shape (CDP0101, CDP0102, CDP0104, CDP0105, CDP0201). Leaves out
+/// the triangles with such errors. O(n).
 [[nodiscard]] SoundMesh find_sound_mesh(const TriangleSoup& soup, FindingList& findings,
                                         DefectCounts& counts);
 

@@ -7,22 +7,21 @@
 
 namespace cdprep::mesh {
 
-/// Numbers of vertices or triangles in one place, at most: what runs along a long hole is
-/// cut there.
+/// The limit on vertices or triangles of one place: the path along a long hole is cut there.
 inline constexpr std::size_t kMaxPlaceNumbers = 1000;
 
-/// Returns the file's number of a vertex of the mesh, as the triangle has it for a corner.
+/// Returns the file's number of a mesh vertex, as the triangle uses it for a corner.
 [[nodiscard]] std::uint32_t source_corner(const TriangleSoup& soup, const SoundMesh& sound,
                                           std::uint32_t triangle, std::uint32_t vertex);
 
-/// The middle of two points.
+/// Returns the middle of two points.
 [[nodiscard]] Double3 middle_of(const Double3& a, const Double3& b);
 
-/// The place of an edge: its lowest triangle, its ends, its middle.
+/// Returns the place of an edge: its lowest triangle, its ends, its middle.
 [[nodiscard]] Place place_of_edge(const TriangleSoup& soup, const SoundMesh& sound,
                                   const FlawedEdge& edge, double measure);
 
-/// In the order of the lowest triangle.
+/// Compares edges by their lowest triangle.
 [[nodiscard]] bool comes_before(const FlawedEdge& a, const FlawedEdge& b);
 
 }  // namespace cdprep::mesh

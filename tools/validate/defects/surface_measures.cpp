@@ -13,13 +13,13 @@
 namespace cdprep::mesh {
 namespace {
 
-/// The double nearest to it that is finite.
+/// Returns the nearest finite double.
 double finite(double value) {
     constexpr double kLargest = std::numeric_limits<double>::max();
     return std::isnan(value) ? 0 : std::clamp(value, -kLargest, kLargest);
 }
 
-/// One component of a cross product, and whether it is surely not zero.
+/// A component of a cross product; `certain` if it is proved not to be zero.
 struct Minor {
     double value;
     bool certain;
@@ -28,9 +28,9 @@ struct Minor {
 Minor minor(double a, double b, double c, double d) {
     const double left = a * d;
     const double right = b * c;
-    // Each difference is off by a factor 1 + u, u = 2^-53, each product by 1 + 3u, and
-    // the subtraction by 1 + u: 4u in all, taken double. Above the least value nothing
-    // that underflow loses counts.
+    // Relative errors, with u = 2^-53: u for each difference, 3u for each product, u for the
+    // subtraction. The sum is 4u; the bound is twice that. Above kLeast, losses by underflow do
+    // not matter.
     constexpr double kBound = 8 * 0x1p-53;
     constexpr double kLeast = 1e-290;
     const double value = left - right;
@@ -38,12 +38,12 @@ Minor minor(double a, double b, double c, double d) {
     return {value, std::fabs(value) > bound && std::fabs(value) > kLeast};
 }
 
-/// Numbers that do not depend on where a triangle is.
+/// Measures of a triangle that do not depend on its place.
 struct Shape {
     double double_area = 0;
     double longest_squared = 0;
-    bool has_area = false;  ///< surely; else it is not known
-    int exponent = 0;       ///< the true lengths are 2^exponent times as long
+    bool has_area = false;  ///< proved; false: unknown
+    int exponent = 0;       ///< the true lengths are 2^exponent times these
 };
 
 Shape shape_of_edges(const Double3& u, const Double3& v) {
@@ -59,7 +59,8 @@ Shape shape_of_edges(const Double3& u, const Double3& v) {
     return shape;
 }
 
-/// Where squares of squares would leave the range of double: at the scale of its edges.
+/// Returns the shape at the scale of the edges, where fourth powers would leave the range of
+/// double.
 Shape shape_far_out(const Corners& t) {
     constexpr int kRoom = 2;  // for sums of coordinates
     const double place = std::max({largest_of(t[0]), largest_of(t[1]), largest_of(t[2])});
@@ -72,7 +73,7 @@ Shape shape_far_out(const Corners& t) {
     const double length = std::max(largest_of(u), largest_of(v));
     if (length == 0) return {};
     const int second = std::ilogb(length);
-    // Two steps: 2^-second alone may be no double.
+    // In two steps: 2^-second alone may not be a double.
     const auto near_one = [second](const Double3& p) {
         return scaled(scaled(p, std::ldexp(1.0, -second / 2)), std::ldexp(1.0, second / 2 - second));
     };
@@ -90,10 +91,10 @@ Shape shape_of(const Corners& t) {
     return in_range ? shape : shape_far_out(t);
 }
 
-/// Six times a volume as a running sum of doubles, and what bounds its error.
+/// Six times a volume as a running sum of doubles, with a bound on its error.
 struct VolumeSum {
     double six_volume = 0;
-    double permanent = 0;  ///< the same sum of absolute values
+    double permanent = 0;  ///< the same sum, of absolute values
     std::uint32_t terms = 0;
 
     void add(const Double3& u, const Double3& v, const Double3& w) {
@@ -107,8 +108,8 @@ struct VolumeSum {
         ++terms;
     }
 
-    /// Each term is off by less than 16u times its permanent, each addition by u times
-    /// what has been added up so far.
+    /// The error of each term is less than 16u times its permanent. The error of each addition
+    /// is at most u times the sum so far.
     [[nodiscard]] bool sign_is_certain() const {
         constexpr double kTermBound = 16;
         constexpr double kLeast = 1e-280;
@@ -206,7 +207,7 @@ private:
                      [&] { return place_of(source, t, area / shape.longest_squared); });
     }
 
-    /// Goes through the triangles of those components once more, component by component.
+    /// Sums the triangles of these components once more, exactly, one component after the other.
     void decide_exactly(const std::vector<std::uint32_t>& uncertain) {
         std::vector<std::uint32_t> order(mesh_.triangles.size());
         std::iota(order.begin(), order.end(), 0U);
@@ -251,7 +252,7 @@ private:
 
     const Mesh& mesh_;
     const ComponentNumbers& components_;
-    std::vector<Double3> anchor_;  ///< a corner of each component: volumes are taken about it
+    std::vector<Double3> anchor_;  ///< a corner of each component, the origin of its volume
     std::vector<VolumeSum> sums_;
     SurfaceMeasures measures_;
 };

@@ -9,11 +9,11 @@
 
 namespace cdprep::mesh {
 
-/// Of a component, or of all.
+/// The area and volume of a component, or of the whole mesh.
 struct SurfaceMeasure {
     double area = 0;
-    double volume = 0;    ///< signed; means something only where the surface is balanced
-    int volume_sign = 0;  ///< exact for those
+    double volume = 0;    ///< signed; meaningful only if the surface is balanced
+    int volume_sign = 0;  ///< exact for balanced surfaces
 };
 
 struct SurfaceMeasures {
@@ -21,9 +21,9 @@ struct SurfaceMeasures {
     std::vector<SurfaceMeasure> component;
 };
 
-/// Adds up areas and volumes, and finds triangles of zero area and slivers (CDP0202, 0203)
-/// on the way. Sums are rounded, and cut to the largest double; the sign of a volume is
-/// exact for components where `balanced`, and of the whole where all are. O(n).
+/// Computes areas and volumes, and finds triangles of zero area and slivers (CDP0202, CDP0203).
+/// Sums are rounded, and limited to the largest double. The sign of a volume is exact for
+/// components where `balanced` is true; that of the whole is exact if all are. O(n).
 [[nodiscard]] SurfaceMeasures measure_surface(const SoundMesh& sound,
                                               const ComponentNumbers& components,
                                               const std::vector<bool>& balanced,

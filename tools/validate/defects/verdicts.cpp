@@ -8,7 +8,7 @@ namespace {
 
 using format::Verdict;
 
-/// What is counted of a component, or of all.
+/// The counts of a component, or of the whole mesh.
 struct Tally {
     std::int64_t vertices = 0;
     std::int64_t triangles = 0;
@@ -23,9 +23,9 @@ struct Tally {
     bool orientable = true;
     bool balanced = true;
     bool self_crossing = false;
-    int winding_outside = 0;  ///< of all other components around it
+    int winding_outside = 0;  ///< the sum over all other components around it
 
-    /// All uses are of edges with one, two or more of them.
+    /// Returns the number of edges. Every use belongs to an edge with one, two or more uses.
     [[nodiscard]] std::int64_t edges() const {
         const std::int64_t used_twice = (3 * triangles - boundary - non_manifold_uses) / 2;
         return boundary + non_manifold + used_twice;
@@ -94,7 +94,7 @@ private:
         const auto fact = [&verdict](VerdictFacts bit, bool is_true) {
             if (is_true) verdict.facts |= bit;
         };
-        // Of no triangles all of it is true, and means nothing.
+        // Without triangles all facts would hold, but mean nothing.
         if (tally.triangles > 0) {
             fact(verdict_closed, tally.boundary == 0);
             fact(verdict_two_manifold, tally.non_manifold == 0 && tally.pinched == 0);
@@ -116,7 +116,7 @@ private:
         return verdict;
     }
 
-    /// All pairs were: where none was found there is none.
+    /// Returns whether all pairs were examined: no pair found then means that none exists.
     [[nodiscard]] bool is_examined() const {
         return g_.meetings != nullptr && g_.meetings->is_complete;
     }
@@ -148,7 +148,7 @@ private:
             add(sum, tally_[i]);
             genus += verdicts[i + 1].genus;
         }
-        // Those of no component too.
+        // Includes those without a component.
         sum.repeated = static_cast<std::int64_t>(g_.sound.repeated.size());
         sum.first_triangle = tally_.empty() ? 0 : tally_.front().first_triangle;
         sum.self_crossing = g_.meetings != nullptr && g_.meetings->any;
@@ -171,7 +171,8 @@ private:
         sum.balanced = sum.balanced && more.balanced;
     }
 
-    /// The winding number is 0 or 1 on both sides of every component, if none cross.
+    /// Returns whether the winding number is 0 or 1 on both sides of every component, if no
+    /// components cross.
     [[nodiscard]] bool windings_are_simple(const std::vector<Verdict>& verdicts) const {
         for (std::size_t i = 0; i < tally_.size(); ++i) {
             const bool inverted = (verdicts[i + 1].facts & format::verdict_inverted) != 0;

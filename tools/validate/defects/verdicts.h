@@ -15,11 +15,11 @@
 
 namespace cdprep::mesh {
 
-/// All that verdicts are made of. References must outlive the call.
+/// The inputs of make_verdicts(). References must outlive the call.
 struct VerdictGrounds {
     const SoundMesh& sound;
     const ComponentNumbers& components;
-    const EdgeFlaws& flaws;  ///< its boundary may have moved to `boundary`
+    const EdgeFlaws& flaws;  ///< its list of boundary edges may have moved to `boundary`
     const Boundary& boundary;
     const std::vector<NonOrientable>& non_orientable;
     const std::vector<bool>& balanced;
@@ -28,8 +28,8 @@ struct VerdictGrounds {
     const ComponentMeetings* meetings;  ///< null: not examined
 };
 
-/// Returns the verdict on the whole, then on each component. Triangles that repeat a
-/// corner count with the component of their first vertex that has one.
+/// Returns the verdict on the whole, then on each component. A triangle that repeats a corner
+/// counts with the component of its first vertex that has one.
 [[nodiscard]] std::vector<format::Verdict> make_verdicts(const VerdictGrounds& grounds);
 
 }  // namespace cdprep::mesh
