@@ -14,8 +14,8 @@ using format::Double3;
 
 /// Returns the numbers, ascending, of points that include all extreme points. Most points
 /// strictly inside the hull are left out, but none on its boundary. The result has the same hull
-/// as all points, and may contain all of them. Coordinates must be finite. O(n) per pass, with
-/// at most eight passes.
+/// as all points, and may contain all of them. Coordinates must be finite. Takes O(n) time: a pass
+/// over the rest follows only if the last one dropped a tenth of it.
 [[nodiscard]] std::vector<std::uint32_t> cull_inside(std::span<const Double3> points,
                                                      ParallelFor run);
 

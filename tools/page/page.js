@@ -317,7 +317,7 @@ function write_detail() {
   }
   const explained = make('dl', {class: 'explained'});
   for (const [name, text] of [['What it is', rule.meaning], ['Why it matters', rule.why],
-                              ['What mends it', rule.remedy], ['Decided', rule.decided]]) {
+                              ['Remedy', rule.remedy], ['Decided', rule.decided]]) {
     explained.append(make('dt', {}, name), make('dd', {}, text));
   }
   holder.replaceChildren(

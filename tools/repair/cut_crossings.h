@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "repair/mesh_meetings.h"
 #include "mesh/stop.h"
+#include "repair/mesh_meetings.h"
 
 namespace cdprep::mesh {
 

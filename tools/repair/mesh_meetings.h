@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "repair/repair_step.h"
 #include "crossings/self_intersections.h"
+#include "repair/repair_step.h"
 
 namespace cdprep::mesh {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "cdprep/advanced/parallel_for.h"
-#include "repair/repair_step.h"
 #include "crossings/self_intersections.h"
 #include "mesh/stop.h"
+#include "repair/repair_step.h"
 #include "repair/stored_verdict.h"
 
 namespace cdprep::mesh {

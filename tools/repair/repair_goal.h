@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "crossings/self_intersections.h"
 #include "mesh/mesh.h"
 #include "repair/repair_step.h"
-#include "crossings/self_intersections.h"
 #include "repair/stored_verdict.h"
 
 namespace cdprep::mesh {

@@ -25,7 +25,7 @@ enum class RepairStep : std::uint8_t {
     split_non_manifold,     ///< split edges of more than two triangles, vertices of several fans
     drop_zero_area,         ///< triangles whose corners are exactly collinear
     fill_holes,             ///< close boundary loops with new triangles
-    orient_outward,         ///< wind closed components so that their volume is positive
+    orient_outward,         ///< wind balanced components so that their volume is positive
     resolve_self_intersections,  ///< keep the boundary of the solid, cut where triangles cross
     drop_components,             ///< components of few triangles
 };

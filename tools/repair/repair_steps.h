@@ -2,8 +2,8 @@
 #pragma once
 
 #include "cdprep/advanced/build_bvh.h"
-#include "repair/repair_step.h"
 #include "crossings/self_intersections.h"
+#include "repair/repair_step.h"
 
 /// The steps of repair(). Each is a function from a mesh to a mesh and a report of its changes.
 /// All but the first require finite positions, and corners that are in range.
@@ -69,8 +69,8 @@ struct HoleLimits {
 [[nodiscard]] Stepped fill_holes(RepairMesh mesh, const HoleLimits& limits,
                                  const SearchOptions& search);
 
-/// Reverses closed components of negative volume, except cavities. The box and the first vertex
-/// of a cavity lie within an odd number of other closed components.
+/// Reverses balanced components of negative volume, except cavities. The box and the first vertex
+/// of a cavity lie within an odd number of other balanced components.
 [[nodiscard]] Stepped orient_outward(RepairMesh mesh);
 
 /// Keeps the boundary of the solid. Cuts triangles where they cross, touch or overlap. Keeps

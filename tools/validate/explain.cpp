@@ -42,7 +42,7 @@ std::string explain_text(const mesh::RuleText& rule) {
     std::string text = mesh::id_of(rule.rule) + " " + rule.name + " (" +
                        severity_name(rule.severity) + "): " + rule.title + "\n\n";
     text += paragraph("Means", rule.meaning) + paragraph("Matters", rule.why) +
-            paragraph("Mended by", rule.remedy) + paragraph("Decided", rule.decided);
+            paragraph("Remedy", rule.remedy) + paragraph("Decided", rule.decided);
     return *rule.measure == '\0' ? text : text + paragraph("Measure", rule.measure);
 }
 

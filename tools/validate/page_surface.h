@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "validate/defects/finding.h"
 #include "mesh/mesh.h"
+#include "validate/defects/finding.h"
 
 namespace cdprep::report {
 
@@ -45,9 +45,9 @@ struct DrawnTriangles {
                                             const PageFrame& frame,
                                             std::span<const std::uint32_t> chosen);
 
-/// Returns the drawable triangles if they are at most `limit`. Otherwise returns at most `limit`
-/// of them near the places of the findings, within the largest cells that the limit allows. The
-/// result holds source numbers, ascending.
+/// Returns all drawable triangles of a mesh of at most `limit` triangles. Otherwise returns at most
+/// `limit` of them near the places of the findings, within the largest cells that the limit allows.
+/// The result holds source numbers, ascending.
 [[nodiscard]] std::vector<std::uint32_t> choose_triangles(std::span<const mesh::Double3> positions,
                                                           std::span<const mesh::Triangle> triangles,
                                                           const PageFrame& frame,

@@ -181,8 +181,8 @@ constexpr std::array kRules = {
              "the winding number of the outer component around the inner one"},
     RuleText{Rule::overlapping_components, "overlapping-components", Severity::warning,
              "Components overlap",
-             "Two components with triangles that cross or share area in a plane (CDP0501, "
-             "CDP0503). Examined only if crossings are.",
+             "Two components with triangles that cross (CDP0501, or CDP0502 where an edge crosses "
+             "an edge) or share area in a plane (CDP0503). Examined only if crossings are.",
              "Volume and inertia count the common part twice.",
              "Remove self-intersections, or bake the components as separate models.", kExact,
              "the number of pairs of triangles"},

@@ -42,7 +42,7 @@ std::string section_of(const RuleText& text) {
     section += std::string("- What it is: ") + text.meaning + "\n";
     section += std::string("- Decided: ") + text.decided + "\n";
     section += std::string("- Why it matters: ") + text.why + "\n";
-    section += std::string("- What mends it: ") + text.remedy + "\n";
+    section += std::string("- Remedy: ") + text.remedy + "\n";
     section += std::string("- Measure: ") + (*text.measure != 0 ? text.measure : "none") + "\n";
     return section;
 }
