@@ -11,8 +11,8 @@
 
 namespace cdprep::test {
 
-/// Bytes at a cache line's start, in an allocation of exactly their number: a
-/// sanitizer sees a read of one byte too many.
+/// Bytes at the start of a cache line, in an allocation of exactly their size. A
+/// sanitizer therefore reports a read of one byte too many.
 class AlignedBytes {
 public:
     AlignedBytes() = default;

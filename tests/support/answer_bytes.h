@@ -17,8 +17,8 @@
 
 namespace cdprep::test {
 
-/// Answers as bytes, without padding. Takes them as they are: no arithmetic, which a mode would
-/// change.
+/// Query results as bytes, without padding. It copies values without arithmetic, which a
+/// floating-point mode would change.
 class AnswerBytes {
 public:
     template <class Number>
@@ -131,13 +131,13 @@ public:
     void add(const std::optional<format::Damage>& damage) {
         add(damage.has_value());
     }
-    /// The first of a list, as many as were found.
+    /// Adds `count` and the first `count` elements of a list, or all if there are fewer.
     template <class Answer>
     void add(const std::vector<Answer>& list, std::size_t count) {
         add(count);
         for (std::size_t i = 0; i < std::min(count, list.size()); ++i) add(list[i]);
     }
-    /// Elements as they are stored: of structs without padding.
+    /// Adds the stored bytes of elements. The type must have no padding.
     template <class Element>
     void add_stored(const std::vector<Element>& list) {
         const auto bytes = std::as_bytes(std::span(list));

@@ -12,7 +12,7 @@
 
 namespace cdprep::test {
 
-/// Corners of triangle `index` after moving, by the formula of the contract.
+/// Returns the corners of triangle `index` after moving them by transform_point().
 inline Corners corners_of(const TestMesh& mesh, std::size_t index, const Pose* pose) {
     Corners corners{};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -31,7 +31,7 @@ inline Corners corners_of(const TestMesh& mesh, std::size_t index, const Pose* p
     return surface;
 }
 
-/// Every overlapping pair, by all n m six-segment tests: no box, no tree.
+/// Returns every overlapping pair from all n m six-segment tests, without boxes or trees.
 inline std::vector<TrianglePair> brute_force_pairs(const TestMesh& a, const TestMesh& b,
                                                    const Placement& placement) {
     const Pose* pose_a = placement.a_is_moved() ? &placement.pose_a() : nullptr;
@@ -55,8 +55,8 @@ inline Box3 box_of(const Corners& t) {
     return {{x0, y0, z0}, {x1, y1, z1}};
 }
 
-/// Every pair of which `touch(a, b)` is true, asked where the boxes of two triangles
-/// meet: for meshes too large for brute_force_pairs() or a slower test.
+/// Returns every pair for which `touch(a, b)` is true. Calls it only if the boxes of the two
+/// triangles meet. Serves meshes too large for brute_force_pairs(), and slower tests.
 template <class Touch>
 std::vector<TrianglePair> boxed_pairs(const TestMesh& a, const TestMesh& b,
                                       const Placement& placement, Touch&& touch) {
@@ -79,7 +79,7 @@ std::vector<TrianglePair> boxed_pairs(const TestMesh& a, const TestMesh& b,
     return pairs;
 }
 
-/// The answer of the product, with all pairs.
+/// Returns all pairs that the library finds.
 inline std::vector<TrianglePair> all_pairs(const Model& a, const Model& b,
                                            const Placement& placement, Workspace& workspace,
                                            const PairOptions& options = {}) {

@@ -10,7 +10,7 @@
 
 namespace cdprep::test {
 
-/// Less than the square of the distance of two boxes, rounding included.
+/// Returns a lower bound of the square of the distance between two boxes, rounding included.
 inline long double below_squared_gap(const Box3& a, const Box3& b) {
     const auto gap = [](double low, double high, double other_low, double other_high) {
         return std::max({0.0L, static_cast<long double>(low) - other_high,
@@ -22,8 +22,8 @@ inline long double below_squared_gap(const Box3& a, const Box3& b) {
     return (x * x + y * y + z * z) * (1 - 1e-9L);
 }
 
-/// The square of the distance of two small meshes in rational numbers: all pairs but
-/// those whose boxes are farther apart than triangles seen before.
+/// Returns the square of the distance between two small meshes in rational numbers. Tests all
+/// pairs except those whose boxes are farther apart than earlier triangles.
 inline ExactRational brute_force_distance(const TestMesh& a, const TestMesh& b,
                                           const Placement& placement) {
     const Pose* pose_a = placement.a_is_moved() ? &placement.pose_a() : nullptr;

@@ -14,12 +14,12 @@ namespace cdprep::test {
 
 inline ExactNumber in_frame(double x, double origin, std::int32_t exponent) {
     ExactNumber value = ExactNumber(x) - ExactNumber(origin);
-    // Two steps: neither power of two leaves the range of double.
+    // Two steps, so that neither power of two leaves the range of double.
     value = value * ExactNumber(std::ldexp(1.0, exponent / 2));
     return value * ExactNumber(std::ldexp(1.0, exponent - exponent / 2));
 }
 
-/// Whether box `box` of a node holds one triangle, in exact arithmetic.
+/// Returns true if box `box` of a node contains one triangle, in exact arithmetic.
 inline bool box_holds(const format::BvhNode& node, std::uint32_t box, const TestMesh& mesh,
                       std::uint32_t triangle, const build::Frame& frame) {
     const double origin[3] = {frame.origin.x, frame.origin.y, frame.origin.z};
@@ -35,8 +35,8 @@ inline bool box_holds(const format::BvhNode& node, std::uint32_t box, const Test
     return true;
 }
 
-/// Whether every used box of every level holds every triangle below it, and no triangle
-/// has been lost.
+/// Returns true if every used box of every level contains every triangle below it, and no
+/// triangle is missing.
 inline bool boxes_hold_all(const TestMesh& mesh, const build::Bvh& bvh) {
     const auto count = static_cast<std::uint32_t>(bvh.order.size());
     const format::BvhShape shape = format::bvh_shape(count);

@@ -12,8 +12,8 @@
 
 namespace cdprep::test {
 
-/// A model that is open through the C API; ends the test program when that fails. The bytes
-/// outlive it.
+/// A model that is opened through the C API. Ends the test program on failure. The bytes must
+/// outlive the model.
 class CModel {
 public:
     explicit CModel(std::span<const std::byte> bytes, std::uint32_t ask = 0) {
@@ -41,7 +41,7 @@ private:
     cdprep_model* model_ = nullptr;
 };
 
-/// Options for building this mesh, of which they keep the arrays' places.
+/// Returns options for building this mesh. They point to the mesh's arrays.
 inline cdprep_build_options build_options_of(const TestMesh& mesh) {
     cdprep_build_options options;
     cdprep_build_options_init(&options, sizeof options);
@@ -54,7 +54,7 @@ inline cdprep_build_options build_options_of(const TestMesh& mesh) {
     return options;
 }
 
-/// A model that was built through the C API; ends the test program when that fails.
+/// A model that is built through the C API. Ends the test program on failure.
 class CBuilt {
 public:
     CBuilt(const cdprep_build_options& options, cdprep_workspace* workspace) {

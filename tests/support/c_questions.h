@@ -9,27 +9,27 @@
 
 #include "cdprep/cdprep.h"
 
-// Every question of the C API in one form, for tests that ask all of them.
+// Every query of the C API in one form, for tests that run all of them.
 
 namespace cdprep::test {
 
-/// Two models, of which B is moved, and what a question is asked with.
+/// Two models, of which B is moved, and the workspace for a query.
 struct CScene {
     const cdprep_model* a;
     const cdprep_model* b;
-    double x;  ///< B is moved by
+    double x;  ///< the distance by which B is moved along x
     cdprep_workspace* workspace;
 };
 
-/// What a question said.
+/// The result of a query.
 struct CAnswer {
     int code = 0;
     int why = 0;
-    bool is_unknown = false;  ///< nothing is claimed
-    std::string bytes;        ///< of the answer; equal answers have equal bytes
+    bool is_unknown = false;  ///< the query makes no statement
+    std::string bytes;        ///< of the result; equal results have equal bytes
 };
 
-/// A question and what both models must serve.
+/// A query, and the queries that both models must serve.
 struct CQuestion {
     const char* name;
     std::uint32_t needs;
@@ -62,7 +62,7 @@ CAnswer told(int code, const cdprep_error& error, bool is_unknown, const T& answ
 
 inline constexpr std::size_t kRoom = 512;
 
-/// Asks for a list: its count and what is in it.
+/// Runs a query for a list; returns its count and its items.
 template <class Item, class List, class Ask>
 CAnswer told_list(Ask&& ask) {
     static Item items[kRoom];
@@ -81,7 +81,7 @@ CAnswer told_list(Ask&& ask) {
     return answer;
 }
 
-/// A visitor that adds up what it is called with, which does not depend on the order.
+/// A visitor that adds up its arguments. The sum does not depend on the order.
 inline int add_to(void* sum, std::uint64_t value) {
     *static_cast<std::uint64_t*>(sum) += value;
     return 1;
@@ -186,7 +186,7 @@ CAnswer hulls(const CScene& scene) {
 
 }  // namespace detail
 
-/// Each question once, and through each structure.
+/// Returns each query once, and through each structure.
 inline const std::vector<CQuestion>& c_questions() {
     using namespace detail;
     static const std::vector<CQuestion> questions = {
@@ -336,7 +336,7 @@ inline const std::vector<CQuestion>& c_questions() {
              cdprep_error error;
              const int code = cdprep_hull_find(scene.a, CDPREP_HULL_WHOLE, 0, &found, &error);
              const bool is_unknown = found.model == nullptr;
-             found.model = nullptr;  // an address is no answer
+             found.model = nullptr;  // an address is not part of the result
              return told(code, error, is_unknown, found);
          }},
         {"hulls collide", CDPREP_ASK_HULLS,

@@ -12,13 +12,13 @@
 
 namespace cdprep::test {
 
-// Files of which one section is not what it was, and else sound.
+// Files with one changed section that are otherwise sound.
 
 [[nodiscard]] inline format::SectionEntry entry_of(const AlignedBytes& file, format::SectionId id) {
     return format::find_section(file.span(), id).value();
 }
 
-/// Element `index` of a section.
+/// Returns element `index` of a section.
 template <class T>
 [[nodiscard]] T element(const AlignedBytes& file, format::SectionId id, std::uint64_t index) {
     T value;
@@ -27,7 +27,7 @@ template <class T>
     return value;
 }
 
-/// The file with other bytes at a place of a section, sealed again.
+/// Returns the file with other bytes at a place of a section, and with correct checksums.
 template <class T>
 [[nodiscard]] AlignedBytes with(const AlignedBytes& file, format::SectionId id, std::uint64_t at,
                                 const T& value) {
@@ -37,7 +37,7 @@ template <class T>
     return changed;
 }
 
-/// The file with two elements of a section in each other's place, sealed again.
+/// Returns the file with two elements of a section exchanged, and with correct checksums.
 template <class T>
 [[nodiscard]] AlignedBytes exchanged(const AlignedBytes& file, format::SectionId id,
                                      std::uint64_t i, std::uint64_t j) {
@@ -46,7 +46,8 @@ template <class T>
     return with(with(file, id, i * sizeof(T), second), id, j * sizeof(T), first);
 }
 
-/// The file after `change` of a section's bytes, or without the section when that returns false.
+/// Returns the file after `change` of a section's bytes, or without the section if `change`
+/// returns false.
 template <class Change>
 [[nodiscard]] AlignedBytes with_changed(const AlignedBytes& file, format::SectionId id,
                                         Change change) {

@@ -7,15 +7,15 @@
 #include <cstring>
 #include <new>
 
-// Counts what a program allocates. It replaces the operators new and delete of the program, so
-// cdprep_add_tests() must list the test under ALONE.
+// Counts the bytes that a program allocates. It replaces the operators new and delete of the
+// program, so cdprep_add_tests() must list the test under ALONE.
 
 namespace cdprep::test {
 
 inline std::size_t used = 0;  ///< bytes that are allocated now
-inline std::size_t most = 0;  ///< that were so at one time
+inline std::size_t most = 0;  ///< the maximum of `used`
 
-/// In front of each block: its size. As large as any alignment that is needed.
+/// The bytes in front of each block, which hold its size. They keep every required alignment.
 inline constexpr std::size_t kFront = alignof(std::max_align_t);
 
 inline void* counted(std::size_t size) noexcept {
@@ -46,7 +46,7 @@ void* operator new(std::size_t size) {
 void* operator new[](std::size_t size) {
     return cdprep::test::counted(size);
 }
-// The library's own would call the first, but sanitizers bring theirs.
+// The standard library's own versions would call the first operator, but sanitizers replace them.
 void* operator new(std::size_t size, const std::nothrow_t& /*tag*/) noexcept {
     return cdprep::test::counted(size);
 }

@@ -12,15 +12,15 @@
 #include "cdprep/cells/level_of_detail.h"
 #include "cdprep/cells/overlap_through.h"
 
-// Every question of the C++ API in one form, for tests that ask all of them.
+// Every query of the C++ API in one form, for tests that run all of them.
 
 namespace cdprep::test {
 
-/// Two models, of which B is moved, and what a question is asked with.
+/// Two models, of which B is moved, and the workspace for a query.
 struct Scene {
     const Model& a;
     const Model& b;
-    double x;  ///< B is moved by
+    double x;  ///< the distance by which B is moved along x
     Workspace& workspace;
 
     [[nodiscard]] Pair pair(const PairOptions& options = {}) const {
@@ -29,7 +29,8 @@ struct Scene {
     }
 };
 
-/// A question and what both models must serve. The name is the function's, then a variant.
+/// A query, and the queries that both models must serve. The name is that of the function,
+/// followed by a variant.
 struct Question {
     const char* name;
     Ask needs;
@@ -49,7 +50,7 @@ AnswerBytes told(const Answer& answer) {
     return bytes;
 }
 
-/// Asks for a list: its count and what is in it.
+/// Runs a query for a list; returns its count and its items.
 template <class Item, class Lister>
 AnswerBytes told_list(Lister&& list) {
     std::vector<Item> room(kRoom);
@@ -59,7 +60,7 @@ AnswerBytes told_list(Lister&& list) {
     return bytes;
 }
 
-/// How many were visited: the order is not part of the answer.
+/// Returns the number of visited items. Their order is not part of the result.
 template <class Item, class Visit>
 AnswerBytes told_count(Visit&& visit) {
     std::size_t count = 0;
@@ -70,7 +71,7 @@ AnswerBytes told_count(Visit&& visit) {
     return bytes;
 }
 
-/// A batch of one, by two workers.
+/// Runs a batch of one pair with two workers.
 template <class Answer, class Batch>
 AnswerBytes told_batch(const Scene& scene, Batch&& batch) {
     std::vector<Workspace> workspaces(2);
@@ -105,7 +106,7 @@ AnswerBytes inside_by(const Scene& scene) {
 
 }  // namespace in_cpp
 
-/// Each question once, and through each structure.
+/// Returns each query once, and through each structure.
 inline const std::vector<Question>& questions() {
     using namespace in_cpp;
     constexpr Body kSurface = Body::surface, kSolid = Body::solid;

@@ -10,9 +10,9 @@
 
 namespace cdprep::test {
 
-/// A mesh with one thing wrong with it, and all that must be found: what is wrong brings
-/// other findings with it. Known by hand. Coordinates are multiples of 1/8 below 2^36, so
-/// that moving and scaling lose nothing.
+/// A mesh with one defect, and all expected findings: a defect causes other findings too. They
+/// are known by hand. Coordinates are multiples of 1/8 below 2^36, so that moving and scaling
+/// are exact.
 struct ZooAnimal {
     std::string name;
     TestMesh mesh;
@@ -20,20 +20,21 @@ struct ZooAnimal {
     std::uint64_t components = 1;
 };
 
-/// What near vertices and seams in the zoo are looked for with.
+/// The distance for the search for near vertices and seams in the zoo.
 inline constexpr double kZooWidth = 0.25;
 
-/// Every defect alone, and a sound one.
+/// Returns a mesh for every single defect, and a sound mesh.
 [[nodiscard]] std::vector<ZooAnimal> defect_zoo();
 
-/// Both, the second beside the first: everything is found of each, and nothing between.
+/// Returns both, the second beside the first. The findings are those of each, with none between
+/// them.
 [[nodiscard]] ZooAnimal side_by_side(const ZooAnimal& first, const ZooAnimal& second);
 
-/// Every coordinate multiplied by 2^exponent.
+/// Returns the mesh with every coordinate multiplied by 2^exponent.
 [[nodiscard]] ZooAnimal scaled_by(ZooAnimal animal, int exponent);
 
-/// A closed strip of `count` pieces with half a twist, of two triangles each, in
-/// multiples of 1/8. `count` >= 8.
+/// Returns a closed strip with half a twist, of `count` pieces of two triangles each.
+/// Coordinates are multiples of 1/8. `count` must be at least 8.
 [[nodiscard]] TestMesh moebius_strip(int count);
 
 }  // namespace cdprep::test

@@ -25,18 +25,18 @@ inline std::string name_of(Structure structure) {
     return kNames.at(static_cast<std::size_t>(structure));
 }
 
-/// How far structures divide what they hold.
+/// The depth to which structures divide their triangles.
 struct Division {
     std::uint32_t level = 3;
     std::uint32_t threshold = 1;
-    bool boxes = false;  ///< around what octrees' cells hold
+    bool boxes = false;  ///< boxes bound the triangles in each octree cell
 };
 
-/// A baked file with every structure that a question can go through.
+/// Returns the baked file with every structure that a query can use.
 [[nodiscard]] AlignedBytes with_every_structure(const AlignedBytes& file,
                                                 const Division& division = {});
 
-/// Bakes and opens it, in double precision.
+/// Bakes such a file in double precision and opens it.
 [[nodiscard]] OpenModel open_with_every_structure(const TestMesh& mesh,
                                                   const Division& division = {});
 

@@ -6,8 +6,8 @@
 
 namespace cdprep::test {
 
-/// Whether the triangle and the solid box have a common point: the triangle is cut at
-/// each face's plane, in exact numbers, and something is left. The box is finite.
+/// Returns true if the triangle and the solid box have a common point. Clips the triangle at the
+/// plane of each face, in exact numbers, and tests that something remains. The box must be finite.
 [[nodiscard]] bool touches_box_by_cutting(const Corners& t, const Box3& box);
 
 }  // namespace cdprep::test

@@ -12,10 +12,9 @@ namespace cdprep::test {
 
 using ExactPoint = std::array<ExactRational, 3>;
 
-/// What of the triangle lies in the closed cone, less the centre: the corners of the
-/// polygon that is left when the triangle is cut at the planes through the centre and two
-/// generators each, in exact numbers; none when nothing is left. A segment or a point is a
-/// polygon too.
+/// Returns the corners of the part of the triangle that lies in the closed cone, minus the centre.
+/// Clips the triangle in exact numbers at the planes through the centre and two generators each.
+/// Returns no corners if nothing remains. A segment or a point counts as a polygon too.
 [[nodiscard]] std::vector<ExactPoint> cut_by_cone(const Corners& t, const Double3& centre,
                                                   const TetraCone& cone);
 

@@ -10,14 +10,14 @@
 
 namespace cdprep::test {
 
-// How two triangles stand to each other, from the definition and for any exact
-// number type: std::int64_t for small integers, ExactNumber for doubles.
+// The contact of two triangles, from the definition and for any exact number type:
+// std::int64_t for small integers, ExactNumber for doubles.
 //
-// Two convex sets have a common point exactly when their Minkowski difference
-// holds the origin. For triangles that is the hull of the nine differences of
-// corners; by Caratheodory the origin lies in it exactly when it lies in the
-// simplex of at most four of them. Nothing here knows of planes or edges, so no
-// mistake can be shared with the library's two tests.
+// Two convex sets have a common point exactly when their Minkowski difference contains the
+// origin. For triangles this difference is the hull of the nine differences of corners. By
+// Caratheodory's theorem the origin lies in it exactly when it lies in the simplex of at most
+// four of them. This code uses neither planes nor edges, so it can share no mistake with the
+// library's two tests.
 
 template <class Number>
 using ExactPoint = std::array<Number, 3>;
@@ -63,18 +63,18 @@ bool has_area(const ExactTriangle<Number>& t) {
     return !is_zero(cross(minus(t[1], t[0]), minus(t[2], t[0])));
 }
 
-/// True when the signs are not all zero and none contradicts another: weights
-/// of a point within a simplex.
+/// Returns true if the signs are not all zero and no two are opposite. They are then the signs
+/// of the weights of a point within a simplex.
 template <std::size_t N>
 bool agree(const std::array<int, N>& signs) {
     const auto [least, most] = std::minmax_element(signs.begin(), signs.end());
     return *least * *most >= 0 && (*least != 0 || *most != 0);
 }
 
-/// Where the origin stands to the hull of nine points.
+/// The position of the origin relative to the hull of nine points.
 enum class Origin : std::uint8_t { outside, boundary, inside };
 
-/// For points that all lie on a line through the origin.
+/// Returns the position for points that all lie on a line through the origin.
 template <class Number>
 Origin origin_on_line(const std::array<ExactPoint<Number>, 9>& points) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -89,7 +89,7 @@ Origin origin_on_line(const std::array<ExactPoint<Number>, 9>& points) {
     return Origin::inside;
 }
 
-/// For points that span a plane through the origin, seen along `axis`.
+/// Returns the position for points that span a plane through the origin, projected along `axis`.
 template <class Number>
 Origin origin_in_plane(const std::array<ExactPoint<Number>, 9>& points, std::size_t axis) {
     const std::size_t u = (axis + 1) % 3;
@@ -115,7 +115,7 @@ Origin origin_in_plane(const std::array<ExactPoint<Number>, 9>& points, std::siz
     return supported ? Origin::boundary : Origin::inside;
 }
 
-/// For points that span space.
+/// Returns the position for points that span space.
 inline Origin origin_in_space(const std::array<std::array<std::array<int, 9>, 9>, 9>& volume) {
     bool within = false;
     bool supported = false;

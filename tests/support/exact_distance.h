@@ -11,11 +11,11 @@ inline ExactRational square(double x) {
     return {ExactNumber(x) * ExactNumber(x), 1.0};
 }
 
-/// The square of the distance from q to the closed triangle, without rounding.
+/// Returns the square of the distance from q to the closed triangle, without rounding.
 /// Corners may be collinear or equal.
 [[nodiscard]] ExactRational exact_squared_distance(const Double3& q, const Corners& corners);
 
-/// The square of the distance between two closed triangles, without rounding.
+/// Returns the square of the distance between two closed triangles, without rounding.
 [[nodiscard]] ExactRational exact_squared_distance(const Corners& a, const Corners& b);
 
 }  // namespace cdprep::test

@@ -10,17 +10,17 @@
 
 namespace cdprep::test {
 
-// How far two convex hulls are apart, and how deep in each other, from the definitions
+// The distance between two convex hulls, and their penetration depth, from the definitions
 // and for any exact number type: Integer128 for small integers, ExactNumber for doubles.
 //
-// A - B, the set of all differences, is a polytope whose faces are sums of a face of A
-// and one of -B. Any direction d proves a distance of min d.(a - b) / |d|; the greatest
-// such proof is by the point x of A - B nearest to the origin, which stands at right
-// angles on a face: a corner (d = a - b), an edge of A or of B seen from a corner of the
-// other, or something flat, whose normal is that of a face or of two edges. Any direction
-// also lets A be drawn out of B by max d.(a - b) / |d|; the least such way is along the
-// normal of a face of A - B. All three points and all two are taken for faces and edges:
-// the more directions, the more proofs.
+// A - B, the set of all differences, is a polytope. Each of its faces is the sum of a face of
+// A and a face of -B. Any direction d proves a distance of min d.(a - b) / |d|. The best proof
+// comes from the point x of A - B nearest to the origin. The vector x is perpendicular to a
+// face of A - B. That face is a corner (d = a - b), an edge, or flat. An edge belongs to one
+// hull and meets a corner of the other. The normal of a flat face is that of a face or of two
+// edges. Any direction also separates A from B by a translation of max d.(a - b) / |d|. The
+// shortest such translation is along the normal of a face of A - B. All triples and pairs of
+// points count as faces and edges: more directions only add proofs.
 
 __extension__ typedef __int128 Integer128;  // NOLINT(modernize-use-using)
 
@@ -55,7 +55,7 @@ public:
     ExactHullPair(std::span<const Double3> a, std::span<const Double3> b)
         : a_(converted(a)), b_(converted(b)) {}
 
-    /// Nothing when they have a common point.
+    /// Returns the square of the distance; nothing if the hulls have a common point.
     [[nodiscard]] std::optional<Squared> squared_distance() const {
         std::optional<Squared> best;
         const auto prove = [&](const Point& d) {
@@ -80,8 +80,8 @@ public:
         return best;
     }
 
-    /// Of hulls that have a common point: the square of the shortest way that takes them
-    /// out of each other.
+    /// Returns the square of the shortest translation that separates the hulls. They must have a
+    /// common point.
     [[nodiscard]] Squared squared_depth() const {
         std::optional<Squared> best;
         const auto draw_out = [&](const Point& d) {
@@ -93,7 +93,7 @@ public:
             draw_out(n);
             draw_out(minus(Point{Number(0), Number(0), Number(0)}, n));
         });
-        return best ? *best : Squared{Number(0), Number(1)};  // all lies on a line
+        return best ? *best : Squared{Number(0), Number(1)};  // all points lie on a line
     }
 
 private:
@@ -154,7 +154,7 @@ private:
     std::vector<Point> b_;
 };
 
-/// The sign of length - sqrt(squared), for length >= 0.
+/// Returns the sign of length - sqrt(squared), for length >= 0.
 template <class Number>
 int compare_length(double length, const SquaredLength<Number>& squared) {
     return (ExactNumber(length) * ExactNumber(length) * exact_number(squared.denominator) -

@@ -11,17 +11,17 @@
 
 namespace cdprep::test {
 
-/// How two triangles stand, by the definition in exact numbers: whether their Minkowski
-/// difference holds the origin. No predicate of the library is asked.
+/// Returns the contact of two triangles, by the definition in exact numbers: does their Minkowski
+/// difference contain the origin? Calls no predicate of the library.
 [[nodiscard]] TriangleContact exact_contact(const Corners& a, const Corners& b);
 
-/// Which triangles of two meshes overlap, in the order of (a, b).
+/// The overlapping triangles of two meshes, in the order of (a, b).
 struct ExactPairs {
-    std::vector<TrianglePair> closed;  ///< that have a common point
-    std::vector<TrianglePair> proper;  ///< that cross, or share area in one plane
+    std::vector<TrianglePair> closed;  ///< pairs with a common point
+    std::vector<TrianglePair> proper;  ///< pairs that cross, or share area in one plane
 };
 
-/// Every overlapping pair: for each two triangles whose boxes meet, exact_contact().
+/// Returns every overlapping pair. Calls exact_contact() for each two triangles whose boxes meet.
 [[nodiscard]] ExactPairs exact_pairs(const TestMesh& a, const TestMesh& b,
                                      const Placement& placement);
 

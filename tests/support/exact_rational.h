@@ -8,14 +8,14 @@
 namespace cdprep::test {
 
 /// A number magnitude * 2^exponent of any size: sums, differences and products
-/// of doubles, without rounding. Slow, and as schoolbooks teach it.
+/// of doubles, without rounding. Uses schoolbook arithmetic, so it is slow.
 class ExactNumber {
 public:
     ExactNumber() = default;    ///< zero
     ExactNumber(double value);  // NOLINT: implicit on purpose; finite
 
     [[nodiscard]] int sign() const;
-    /// The nearest power of two's error apart: within 2^-62 relative.
+    /// Returns an approximation with a relative error within 2^-62.
     [[nodiscard]] long double approximation() const;
 
     friend ExactNumber operator-(ExactNumber a);
@@ -30,7 +30,7 @@ public:
     }
 
 private:
-    /// Drops zero digits at both ends.
+    /// Removes zero digits at both ends.
     void normalise();
 
     std::vector<std::uint32_t> magnitude_;  ///< least digit first; empty is zero
@@ -43,7 +43,7 @@ class ExactRational {
 public:
     ExactRational() : ExactRational(0.0) {}
     ExactRational(double value) : ExactRational(value, 1.0) {}  // NOLINT: implicit on purpose
-    /// `denominator` is not zero.
+    /// Makes numerator / denominator. `denominator` must not be zero.
     ExactRational(ExactNumber numerator, ExactNumber denominator);
 
     [[nodiscard]] int sign() const {

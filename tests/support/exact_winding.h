@@ -8,9 +8,9 @@
 
 namespace cdprep::test {
 
-/// The winding number of a closed surface around q, or nothing when q lies on a
-/// triangle. Counts what a ray crosses, in exact numbers; a ray that meets an
-/// edge or a corner is thrown away and another drawn.
+/// Returns the winding number of a closed surface around q, or nothing if q lies on a triangle.
+/// Counts the crossings of a ray, in exact numbers. A ray that meets an edge or a corner is
+/// discarded for another random ray.
 [[nodiscard]] std::optional<int> exact_winding(std::span<const Corners> surface, const Double3& q);
 
 }  // namespace cdprep::test

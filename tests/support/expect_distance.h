@@ -9,8 +9,9 @@
 
 namespace cdprep::test {
 
-/// Of hulls that are `truth` apart: bounds hold it and are narrow, and the witnesses are as far
-/// apart as is said. A - B reaches no farther than 14.
+/// Expects three facts of hulls at the distance `truth`. The bounds contain it, the bounds are
+/// narrow, and the distance between the witnesses is the upper bound. A - B must lie within 14
+/// of the origin.
 template <class Number, class Found>
 void expect_distance(const Found& found, const SquaredLength<Number>& truth) {
     constexpr double kReach = 14;

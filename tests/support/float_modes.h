@@ -16,8 +16,8 @@ struct FloatMode {
     std::uint64_t control;  ///< as format::float_control() returns it
 };
 
-/// Returns the default and then modes that programs are known to set. A processor without
-/// modes has the default alone.
+/// Returns the default, then modes that programs are known to set. A processor without
+/// modes has only the default.
 [[nodiscard]] inline std::span<const FloatMode> float_modes() {
 #if defined(__x86_64__) || defined(_M_X64)
     static constexpr std::array<FloatMode, 6> kModes = {{{"default", 0x1F80},
@@ -38,7 +38,7 @@ struct FloatMode {
     return kModes;
 }
 
-/// Bits of a control register that say how to compute; the others are flags of the past.
+/// Returns the bits of a control register that control arithmetic. The others are status flags.
 [[nodiscard]] constexpr std::uint64_t control_bits(std::uint64_t control) {
 #if defined(__x86_64__) || defined(_M_X64)
     return control & 0xFFC0;
@@ -47,8 +47,8 @@ struct FloatMode {
 #endif
 }
 
-/// Returns the bits of the environment that `call` leaves behind when it is run in `mode`. The
-/// test itself goes on in its own environment.
+/// Returns the bits of the environment that `call` leaves after it runs in `mode`. Restores the
+/// test's own environment afterwards.
 template <class Call>
 [[nodiscard]] std::uint64_t run_in(const FloatMode& mode, Call&& call) {
     const std::uint64_t own = format::float_control();

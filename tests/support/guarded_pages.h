@@ -15,8 +15,8 @@
 
 namespace cdprep::test {
 
-/// A file, sections of which begin pages of their own, on read-only pages; those that are
-/// not `wanted` are closed to every access.
+/// A file on read-only pages. Each section must begin a page of its own. Sections that are not
+/// `wanted` are closed to every access.
 class GuardedPages {
 public:
     GuardedPages(std::span<const std::byte> file, format::SectionSet wanted) {

@@ -12,26 +12,26 @@
 
 namespace cdprep::test {
 
-/// Two meshes that are hard to measure.
+/// Two meshes whose distance is hard to compute.
 struct HardDistance {
-    std::string id;  ///< of the catalogue: X01 ... X09, with what is special
+    std::string id;  ///< number in the catalogue, X01 ... X09, and a description
     TestMesh a;
     TestMesh b;
     Placement placement = Placement::b_moves(Pose());
-    std::optional<double> gap{};  ///< exactly, where known by hand; else rationals say
-    bool is_nested = false;       ///< as solids they are not apart
+    std::optional<double> gap{};  ///< exact, if known by hand; else from rationals
+    bool is_nested = false;       ///< as solids their distance is 0
 };
 
-/// The catalogue's X01 to X09.
+/// Returns X01 to X09 of the catalogue.
 [[nodiscard]] std::vector<HardDistance> hard_distances();
 
-/// The square of the distance: as known by hand, or of all pairs in rational numbers.
+/// Returns the square of the distance, known by hand or from all pairs in rational numbers.
 [[nodiscard]] ExactRational squared_distance_of(const HardDistance& hard);
 
-/// X05: four tips, each as near to a plate below as the others.
+/// X05: four tips at equal distances from a plate below.
 [[nodiscard]] TestMesh four_tips();
 
-/// X01: the unit cube, and one beside it whose face x = 1 + gap is towards it.
+/// X01: a cube beside the unit cube; its face x = 1 + gap is towards that cube.
 [[nodiscard]] TestMesh cube_beside(double gap);
 
 }  // namespace cdprep::test

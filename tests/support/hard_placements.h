@@ -12,24 +12,25 @@
 
 namespace cdprep::test {
 
-/// Two meshes that touch, nearly touch or nearly miss, where libraries in use
-/// report pairs that are none or lose pairs.
+/// Two meshes that touch, nearly touch or nearly miss. Existing libraries report false pairs or
+/// lose pairs here.
 struct HardPlacement {
     std::string name;
     TestMesh a;
     TestMesh b;
     Placement placement;
-    std::size_t pairs;  ///< that overlap, touching included: by exact arithmetic
+    std::size_t pairs;  ///< number of overlapping pairs, touching included, by exact arithmetic
 };
 
-/// Cubes, octahedra, sheets and needles.
+/// Returns placements of cubes, octahedra, sheets and needles.
 [[nodiscard]] std::vector<HardPlacement> hard_placements();
 
-/// The horse on itself and snapped to a grid; `horse` as seed_mesh() gives it.
+/// Returns the horse on itself, and the horse snapped to a grid. `horse` is a result of
+/// seed_mesh().
 [[nodiscard]] std::vector<HardPlacement> hard_placements_of(const TestMesh& horse);
 
-/// The armadillo and the horse as they come, scaled, and far from the origin: the
-/// first is the control, the others have the same pairs.
+/// Returns the armadillo and the horse unchanged, scaled, and far from the origin. The first
+/// placement is the control; the others have the same pairs.
 [[nodiscard]] std::vector<HardPlacement> hard_placements_of(const TestMesh& armadillo,
                                                             const TestMesh& horse);
 

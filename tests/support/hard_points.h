@@ -9,32 +9,32 @@
 
 namespace cdprep::test {
 
-/// A point, and what must be said of it.
+/// A point and the expected results for it.
 struct HardPoint {
     Double3 at;
     bool is_on_surface = false;
-    /// Of a closed mesh an integer, exactly; of an open one the generalised winding number,
-    /// up to 1e-12, or nothing where that is not known.
+    /// For a closed mesh the exact integer. For an open mesh the generalised winding number, up to
+    /// 1e-12, or nothing if it is not known.
     std::optional<double> winding = 0;
-    bool is_unknown = false;  ///< the mesh is open, and nothing may be guessed
+    bool is_unknown = false;  ///< the mesh is open, so the result must be "unknown"
 };
 
-/// A mesh and points that are hard to tell from inside.
+/// A mesh and points that are hard to classify as inside or outside.
 struct HardPoints {
-    std::string id;  ///< of the catalogue: P01 ... P09, with what is special
+    std::string id;  ///< number in the catalogue, P01 ... P09, and a description
     TestMesh mesh;
     std::vector<HardPoint> points;
 };
 
-/// The catalogue's P01 to P09: known by hand, by counting shells, or by rays in exact numbers
-/// (exact_winding.h).
+/// Returns P01 to P09 of the catalogue. Results are known by hand, from counted shells, or from
+/// rays in exact numbers (exact_winding.h).
 [[nodiscard]] std::vector<HardPoints> hard_points();
 
-/// [low, high]^3.
+/// Returns the cube [low, high]^3.
 [[nodiscard]] TestMesh cube_at(double low, double high);
 
-/// A closed surface around a corner that is folded: rays from below leave through it where
-/// rules that count once for each sign fail.
+/// Returns a closed surface around a folded corner. Rays from below leave through that corner;
+/// rules that count once for each sign fail there.
 [[nodiscard]] TestMesh folded_corner();
 
 }  // namespace cdprep::test

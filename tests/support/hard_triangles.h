@@ -11,36 +11,37 @@
 
 namespace cdprep::test {
 
-/// Two triangles that stand awkwardly, and what must be said of them.
+/// Two triangles in a difficult position, and the expected results.
 struct HardPair {
-    std::string id;  ///< of the catalogue: T01 ... T23, with what is special
+    std::string id;  ///< number in the catalogue, T01 ... T23, and a description
     Corners a;
     Corners b;
     bool closed;  ///< they have a common point
-    bool proper;  ///< their insides cross, or they share area in one plane
+    bool proper;  ///< their interiors cross, or they share area in one plane
 };
 
-/// The catalogue's pairs T01 to T23 at their own size. T15, T17 and T18 are
-/// scaled() and shifted() ones of the others, T20 is relabelled(). Answers are
-/// written down by hand where the catalogue gives them, and otherwise found by
-/// the definition in exact numbers.
+/// Returns the pairs T01 to T23 of the catalogue at their own size. T15, T17 and T18 are
+/// scaled() and shifted() versions of the others; T20 is relabelled(). The catalogue gives
+/// some results, which are entered by hand. The others come from the definition in exact
+/// numbers.
 [[nodiscard]] std::vector<HardPair> hard_triangles();
 
-/// All coordinates times 2^exponent; nothing when one of them cannot be held.
+/// Returns the pair with all coordinates times 2^exponent; nothing if a double cannot hold one.
 [[nodiscard]] std::optional<HardPair> scaled(const HardPair& pair, int exponent);
-/// Every point times a matrix, row by row, which is not singular: what touches, crosses or shares
-/// area still does. Nothing when a coordinate cannot be held.
+/// Returns the pair with every point multiplied by a matrix, given row by row. The matrix must not
+/// be singular; `closed` and `proper` then stay the same. Returns nothing if a double cannot hold a
+/// coordinate.
 [[nodiscard]] std::optional<HardPair> mapped(const HardPair& pair,
                                              const std::array<double, 9>& matrix);
-/// All coordinates plus `shift`; nothing when one of them cannot be held.
+/// Returns the pair with `shift` added to all coordinates; nothing if a double cannot hold one.
 [[nodiscard]] std::optional<HardPair> shifted(const HardPair& pair, double shift);
 
 inline constexpr std::size_t kRelabellings = 72;
-/// Corners in another order, 6 x 6, and a and b exchanged.
+/// Returns the pair with corners in another order, 6 x 6, and with a and b exchanged or not.
 [[nodiscard]] HardPair relabelled(const HardPair& pair, std::size_t number);
 
 inline constexpr std::size_t kAxisTurns = 48;
-/// Axes permuted and reversed: rotations and reflections of the cube.
+/// Returns the pair with axes permuted and reversed: rotations and reflections of the cube.
 [[nodiscard]] HardPair turned(const HardPair& pair, std::size_t number);
 
 }  // namespace cdprep::test

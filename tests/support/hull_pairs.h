@@ -15,7 +15,7 @@ namespace cdprep::test {
 
 using Points = std::vector<Double3>;
 
-/// Turns by which integers stay integers.
+/// Returns a random rotation that maps integers to integers.
 inline std::array<double, 9> quarter_turns(std::mt19937& random) {
     std::array<std::size_t, 3> axis = {0, 1, 2};
     std::shuffle(axis.begin(), axis.end(), random);
@@ -37,7 +37,7 @@ inline Pose pose_of(const std::array<double, 9>& r, const Double3& t) {
         .value();
 }
 
-/// 1 to 6 points of a grid, most often 5 or 6; every fifth set lies in a plane.
+/// Returns 1 to 6 points of a grid, most often 5 or 6. About every fifth set lies in a plane.
 inline Points grid_points(std::mt19937& random) {
     std::uniform_int_distribution<int> coordinate(-4, 4), number(1, 16);
     Points points(static_cast<std::size_t>(std::min(number(random), 6)));
@@ -61,7 +61,7 @@ inline const Double3& extreme(const Points& points, const Double3& d) {
     });
 }
 
-/// Where B goes: anywhere, or so that the two touch along a random direction.
+/// Returns a translation of B: anywhere, or so that the two touch along a random direction.
 inline Double3 grid_shift(const Points& a, const Points& b, std::mt19937& random) {
     std::uniform_int_distribution<int> coordinate(-5, 5), direction(-2, 2);
     if (random() % 3 != 0) {
@@ -74,7 +74,7 @@ inline Double3 grid_shift(const Points& a, const Points& b, std::mt19937& random
     return {p.x - q.x, p.y - q.y, p.z - q.z};
 }
 
-/// Two sets of points, how B is moved, and where that puts it.
+/// Two sets of points, the pose of B, and the points of B in that pose.
 struct HullPair {
     Points a;
     Points b;
@@ -82,7 +82,7 @@ struct HullPair {
     Points placed;
 };
 
-/// On a grid: apart, touching and overlapping.
+/// Returns a pair on a grid: apart, touching or overlapping.
 inline HullPair grid_pair(std::mt19937& random) {
     const Points a = grid_points(random);
     const Points b = grid_points(random);
@@ -92,8 +92,8 @@ inline HullPair grid_pair(std::mt19937& random) {
     return {a, b, pose, moved_points(b, pose)};
 }
 
-/// Anywhere and turned by any angle; every other pair all but touches: a point of each is
-/// brought together, up to rounding, where the two are farthest along a direction.
+/// Returns a pair at any place and any angle. About every other pair almost touches: the extreme
+/// points of both along a direction coincide, up to rounding.
 inline HullPair fine_pair(std::mt19937& random) {
     std::uniform_real_distribution<double> coordinate(-1, 1);
     std::uniform_int_distribution<std::size_t> number(1, 6);
@@ -113,7 +113,7 @@ inline HullPair fine_pair(std::mt19937& random) {
     return {a, b, pose, moved_points(b, pose)};
 }
 
-/// The mean of all points.
+/// Returns the mean of all points.
 inline Double3 middle_of(const Points& points) {
     Double3 sum{};
     for (const Double3& p : points) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
@@ -121,9 +121,9 @@ inline Double3 middle_of(const Points& points) {
     return {sum.x / count, sum.y / count, sum.z / count};
 }
 
-/// Squashed along one or two axes by up to 2^-60. Every other pair has its middles in one
-/// place, up to rounding; the others are at most 2^-55 to 1 away from touching where the
-/// two are farthest along a direction.
+/// Returns a pair scaled along one or two axes by factors down to 2^-59. In about half of the
+/// pairs the middles coincide, up to rounding. In the others the extreme points along a
+/// direction are apart by at most 2^-54 to 1.
 inline HullPair thin_pair(std::mt19937& random) {
     std::uniform_real_distribution<double> coordinate(-1, 1);
     HullPair pair = fine_pair(random);
@@ -150,7 +150,7 @@ inline HullPair thin_pair(std::mt19937& random) {
     return pair;
 }
 
-/// Points of a sphere, on a coarse grid or not.
+/// Returns points on a sphere, rounded to a coarse grid if `coarse`.
 inline Points ball_points(std::mt19937& random, std::size_t count, bool coarse) {
     std::normal_distribution<double> normal;
     Points points(count);
@@ -163,7 +163,7 @@ inline Points ball_points(std::mt19937& random, std::size_t count, bool coarse) 
     return points;
 }
 
-/// Any numbers, of points that may not be.
+/// Returns a cache with random numbers, also of points that do not exist.
 inline ConvexCache nonsense(std::mt19937& random) {
     ConvexCache cache;
     cache.count = static_cast<std::uint32_t>(random() % 6);

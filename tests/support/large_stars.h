@@ -9,8 +9,8 @@
 
 namespace cdprep::test {
 
-/// A closed cone upwards and one downwards with a common rim about the z axis, of radius 1:
-/// two vertices with `count` triangles each, at z = height and z = -height.
+/// Returns a closed surface of an upward and a downward cone. Their common rim is about the z axis
+/// and has radius 1. The tips at z = height and z = -height have `count` triangles each.
 inline TestMesh double_cone(std::uint32_t count, double height) {
     TestMesh mesh;
     mesh.positions = {{0, 0, height}, {0, 0, -height}};
@@ -24,7 +24,8 @@ inline TestMesh double_cone(std::uint32_t count, double height) {
     return mesh;
 }
 
-/// `count` triangles around the origin with the other corners anywhere within 1.
+/// Returns `count` triangles with a corner at the origin. The other corners are anywhere in
+/// [-1, 1]^3.
 inline TestMesh random_star(std::uint32_t seed, std::uint32_t count) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> around(-1, 1);
@@ -39,7 +40,7 @@ inline TestMesh random_star(std::uint32_t seed, std::uint32_t count) {
     return mesh;
 }
 
-/// `count` triangles with corners of their own in the square [-1, 1]^2 of the plane z = 0.
+/// Returns `count` triangles without shared corners in the square [-1, 1]^2 of the plane z = 0.
 /// Most of them are large, and most pairs overlap.
 inline TestMesh coplanar_soup(std::uint32_t seed, std::uint32_t count) {
     std::mt19937 random(seed);

@@ -12,13 +12,13 @@
 
 namespace cdprep::test {
 
-/// A model and the bytes that it lives in.
+/// A model and the bytes that hold it.
 struct OpenModel {
     AlignedBytes bytes;
     Model model;
 };
 
-/// Opens; ends the test program when that fails.
+/// Opens a file in memory. Ends the test program on failure.
 inline OpenModel open_tiny(AlignedBytes bytes) {
     Result<Model> opened = Model::open(std::as_const(bytes).span());
     if (!opened) {
@@ -28,7 +28,7 @@ inline OpenModel open_tiny(AlignedBytes bytes) {
     return {std::move(bytes), std::move(opened).value()};
 }
 
-/// Bakes and opens.
+/// Bakes and opens a mesh.
 inline OpenModel open_tiny(std::span<const Double3> positions, std::span<const Triangle> triangles,
                            const TinyOptions& options = {}) {
     return open_tiny(bake_tiny(positions, triangles, options));

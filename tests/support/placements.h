@@ -5,7 +5,7 @@
 
 namespace cdprep::test {
 
-/// One of the four kinds of placement, by `kind` modulo 4; those of one pose alone take the first.
+/// Returns one of the four kinds of placement, by `kind` modulo 4. Kinds with one pose use `pose`.
 inline Placement placement_of_kind(unsigned kind, const Pose& pose, const Pose& other) {
     switch (kind % 4) {
         case 0:

@@ -7,7 +7,7 @@
 
 namespace cdprep::test {
 
-/// A rotation drawn evenly and a translation in [-reach, reach]^3.
+/// Returns a uniformly distributed rotation with a translation in [-reach, reach]^3.
 inline Pose random_pose(std::mt19937& random, double reach) {
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> within(-reach, reach);

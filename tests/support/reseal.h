@@ -6,9 +6,8 @@
 
 namespace cdprep::test {
 
-/// Makes every checksum and the stated size right again, as far as the section
-/// table makes sense, so that a changed file is judged by its content. Header
-/// fields keep the values that they have.
+/// Corrects every checksum and the stated size, as far as the section table is valid. A changed
+/// file is then judged by its content. Header fields keep their values.
 void reseal(std::span<std::byte> file);
 
 }  // namespace cdprep::test

@@ -14,7 +14,7 @@ inline void expect_same(const ContactFeature& x, const ContactFeature& y) {
     EXPECT_EQ(x.vertex, y.vertex);
 }
 
-/// To the last bit.
+/// Expects equal contacts, bit for bit.
 inline void expect_same(const Contact& x, const Contact& y) {
     EXPECT_EQ(x.piece_a, y.piece_a);
     EXPECT_EQ(x.piece_b, y.piece_b);

@@ -9,7 +9,7 @@
 
 namespace cdprep::test {
 
-/// Bit for bit: the bounds, the triangles and the points.
+/// Expects equal bounds, triangles and points, bit for bit.
 inline void expect_same(const std::optional<Distance>& x, const std::optional<Distance>& y) {
     ASSERT_EQ(x.has_value(), y.has_value());
     if (!x) return;

@@ -13,7 +13,7 @@
 
 namespace cdprep::test {
 
-/// A new folder that is gone, with all it holds, when the object is.
+/// A new folder. The destructor removes it with all its content.
 class ScratchFolder {
 public:
     ScratchFolder() {
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] std::string file(const std::string& name) const {
         return (path_ / name).string();
     }
-    /// Writes a file into it and returns its path.
+    /// Writes a file into the folder and returns its path.
     std::filesystem::path write(const std::string& name, std::string_view content) const {
         std::ofstream(path_ / name, std::ios::binary) << content;
         return path_ / name;
@@ -47,7 +47,7 @@ public:
                      std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     }
 
-    /// Names of everything in it.
+    /// Returns the names of everything in the folder.
     [[nodiscard]] std::set<std::string> names() const {
         std::set<std::string> names;
         for (const auto& entry : std::filesystem::directory_iterator(path_)) {

@@ -8,12 +8,12 @@
 
 namespace cdprep::test {
 
-/// One of the large test models, normalised: centred, its box's diagonal 1, then
-/// rounded to floats. Nothing where a checkout has no test models beside it (or in
-/// $CDPREP_SHARED). Reads what those files are: binary PLY, float x, y, z, triangles.
+/// Returns one of the large test models, normalised: centred, with a box of diagonal 1, then
+/// rounded to floats. Returns nothing if there are no test models beside the checkout (or in
+/// $CDPREP_SHARED). Reads only the form of those files: binary PLY, float x, y, z, triangles.
 [[nodiscard]] std::optional<TestMesh> seed_mesh(const std::string& name);
 
-/// The same with the file's own coordinates.
+/// Returns the same model with the file's own coordinates.
 [[nodiscard]] std::optional<TestMesh> seed_mesh_as_read(const std::string& name);
 
 }  // namespace cdprep::test

@@ -7,8 +7,9 @@
 
 namespace cdprep::test {
 
-/// The folder of large test models, beside a checkout or in $CDPREP_SHARED; they are not ours to
-/// keep here. Nothing where it has no folder `part`.
+/// Returns the folder of the large test models, beside a checkout or in $CDPREP_SHARED. The models
+/// are not part of the repository, because they are not ours. Returns nothing if the folder has no
+/// subfolder `part`.
 [[nodiscard]] inline std::optional<std::filesystem::path> shared_models(const char* part) {
     const char* const chosen = std::getenv("CDPREP_SHARED");
     const std::filesystem::path beside =

@@ -10,22 +10,22 @@
 
 namespace cdprep::test {
 
-/// Whether queries climb along edges or look at every point.
+/// The search for support points: hill climbing along edges, or a test of every point.
 enum class Edges : std::uint8_t { none, exact };
 
-/// A convex hull in memory, with all that ConvexPoints wants.
+/// A convex hull in memory, with all data for ConvexPoints.
 class SmallHull {
 public:
-    /// The hull of some points, at least one, by adding one after the other to a polytope
-    /// of triangles with exact signs: O(n f). Points of a face or an edge of it may stay.
-    /// All stay, and there are no edges, when the points lie in one plane.
+    /// Makes the hull of at least one point. Adds one point after the other to a polytope of
+    /// triangles, with exact signs: O(n f). Points on a face or an edge of the hull may stay. If
+    /// all points lie in one plane, all stay and there are no edges.
     explicit SmallHull(std::span<const Double3> points, Edges edges = Edges::exact);
 
     [[nodiscard]] ConvexPoints view() const;
     [[nodiscard]] const std::vector<Double3>& points() const {
         return points_;
     }
-    /// Counter-clockwise from outside; none when flat.
+    /// Returns the triangles, counter-clockwise from outside; none if the points lie in one plane.
     [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& triangles() const {
         return triangles_;
     }
@@ -44,7 +44,7 @@ private:
     std::vector<std::uint32_t> starts_;
 };
 
-/// The corners of a box with these half extents around the origin.
+/// Returns the corners of a box with these half extents around the origin.
 [[nodiscard]] std::vector<Double3> box_corners(double x, double y, double z);
 
 }  // namespace cdprep::test

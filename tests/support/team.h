@@ -9,7 +9,7 @@
 
 namespace cdprep::test {
 
-/// A parallel_for of so many threads, whatever the number of tasks.
+/// A parallel_for with a fixed number of threads, whatever the number of tasks.
 class Team {
 public:
     explicit Team(unsigned threads) : threads_(threads) {}

@@ -19,33 +19,33 @@ using format::Triangle;
 
 struct TinyOptions {
     bool double_precision = false;  ///< positions_f64 instead of positions_f32
-    /// Where sections start; a multiple of format::kSectionAlignment.
+    /// The alignment of section starts; a multiple of format::kSectionAlignment.
     std::uint64_t section_alignment = format::kSectionAlignment;
     format::SectionSet leave_out = {};  ///< sections that are not written
     build::BvhBounds bounds = build::BvhOptions{}.bounds;
     build::Quality quality = build::Quality::best;
 };
 
-/// One section's id and bytes.
+/// The id and bytes of one section.
 struct TinySection {
     SectionId id;
     std::vector<std::byte> bytes;
 };
 
-/// Makes a complete file image in memory, as the format demands but without
-/// HDF5: user block, a superblock of zeros, then the sections. Vertices are
-/// taken as they are shared; positions must be finite.
+/// Makes a complete file image in memory as the format requires, but without HDF5: user block,
+/// a superblock of zeros, then the sections. Keeps the sharing of vertices unchanged. Positions
+/// must be finite.
 [[nodiscard]] AlignedBytes bake_tiny(std::span<const Double3> positions,
                                      std::span<const Triangle> triangles,
                                      const TinyOptions& options = {});
 
-/// The same with a hierarchy over these triangles that is there already.
+/// Makes the same with an existing BVH over these triangles.
 [[nodiscard]] AlignedBytes bake_tiny(std::span<const Double3> positions,
                                      std::span<const Triangle> triangles, const build::Bvh& bvh,
                                      const TinyOptions& options = {});
 
-/// Lays sections out behind a user block with these facts; what bake_tiny does
-/// last, for tests that change a section first.
+/// Lays out sections after a user block with these facts. This is the last step of bake_tiny(),
+/// for tests that change a section first.
 [[nodiscard]] AlignedBytes assemble(const format::FileHeader& facts,
                                     const std::vector<TinySection>& sections,
                                     std::uint64_t section_alignment = format::kSectionAlignment);

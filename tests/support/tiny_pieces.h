@@ -12,15 +12,16 @@
 
 namespace cdprep::test {
 
-/// A hierarchy over these pieces of a model. Hulls around nodes are boxes around the model.
+/// Returns the sections of a hierarchy over these pieces of a model. The hull of each node is a
+/// box around the model.
 [[nodiscard]] std::vector<TinySection> piece_tree_sections(
     const Model& model, std::span<const format::Piece> pieces,
     std::span<const std::uint32_t> triangles);
 
-/// The same file with pieces and a hierarchy over them. The pieces are no convex ones: some
-/// triangles that lie near each other in the tree order, 1 to 20 each, so that many a piece has
-/// several leaves, and its triangles stand among those of others. Hulls around nodes are boxes
-/// around the model. No answer depends on what pieces are.
+/// Returns the file with pieces and a hierarchy over them. The pieces are not convex. Each has 1
+/// to 20 triangles that are near each other in the tree order. Many pieces therefore have several
+/// leaves, and their triangles are mixed with those of other pieces. The hull of each node is a
+/// box around the model. No query result depends on the pieces.
 [[nodiscard]] AlignedBytes with_piece_tree(const AlignedBytes& file);
 
 }  // namespace cdprep::test

@@ -14,7 +14,7 @@ namespace cdprep::test {
 
 using Numbers = std::vector<std::uint32_t>;
 
-/// All triangles of the mesh that the shape touches.
+/// Returns all triangles of the mesh that the shape touches.
 template <class Shape>
 Numbers touched(const TestMesh& mesh, const Shape& shape, const ShapeOptions& options = {}) {
     const OpenModel model = open_tiny(mesh, {.double_precision = true});
@@ -25,7 +25,7 @@ Numbers touched(const TestMesh& mesh, const Shape& shape, const ShapeOptions& op
     return triangles;
 }
 
-/// 0 ... count - 1.
+/// Returns 0 ... count - 1.
 inline Numbers first_numbers(std::uint32_t count) {
     Numbers numbers(count);
     std::iota(numbers.begin(), numbers.end(), 0U);

@@ -15,9 +15,9 @@
 
 namespace cdprep::test {
 
-/// Two soups in pieces, and pairs of their leaves. Leaves of pieces are put together in fewer
-/// places than there are leaves: here three leaves take turns in each of a few places, so that
-/// those of a pair that waits to be tested would give way to others if they could.
+/// Two soups in pieces, and pairs of their leaves. The library assembles leaves of pieces in fewer
+/// places than there are leaves. Here three leaves compete for each of a few places. Leaves of a
+/// pair that waits for its test would be replaced by others if the library permitted it.
 struct WaitingLeaves {
     OpenModel a;
     OpenModel b;
@@ -40,7 +40,7 @@ inline WaitingLeaves waiting_leaves(std::uint32_t seed, std::size_t pairs) {
     return made;
 }
 
-/// What is found in pairs of leaves of pieces, tested so many views at a time.
+/// Returns the triangle pairs found in pairs of leaves of pieces, tested `views` at a time.
 inline std::vector<TrianglePair> pairs_in_leaves(const WaitingLeaves& waiting, std::size_t views,
                                                  Workspace& workspace) {
     const Model &a = waiting.a.model, &b = waiting.b.model;

@@ -7,13 +7,14 @@
 
 namespace cdprep::cli {
 
-/// Whether the environment lets terminals be coloured: NO_COLOR is unset or empty.
+/// Returns true if NO_COLOR is unset or empty: the environment then permits colours on terminals.
 [[nodiscard]] bool colours_allowed();
 
 /// Adds --color.
 void add_colour(const Command& command, std::string& choice);
 
-/// What --color comes to for standard output: "auto" colours terminals where colours_allowed().
+/// Returns true if standard output is coloured under this value of --color. "auto" means: on a
+/// terminal, if colours_allowed().
 [[nodiscard]] bool is_coloured(const std::string& choice);
 
 }  // namespace cdprep::cli

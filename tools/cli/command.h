@@ -13,10 +13,10 @@ namespace cdprep::cli {
 
 [[nodiscard]] Exit exit_for(ErrorCode code);
 
-/// Prints "cdprep COMMAND: SENTENCE" on stderr; returns the exit code for it.
+/// Prints "cdprep COMMAND: MESSAGE" on stderr and returns the error's exit code.
 Exit fail(const char* command, const Error& error);
 
-/// The report of a run that failed: what went in, the exit code, the sentence.
+/// The report of a failed run: the input, the exit code and the message.
 template <class Report>
 [[nodiscard]] Report failed(const std::filesystem::path& input, const Error& error) {
     Report report;
@@ -26,8 +26,8 @@ template <class Report>
     return report;
 }
 
-/// Options that commands share, each in one wording. What they store into lives as long as
-/// the command.
+/// Options that commands share, each with one wording. The variables that they write must
+/// outlive the command.
 void add_input(const Command& command, std::filesystem::path& input);
 void add_normalize(const Command& command, bool& normalize);
 void add_weld(const Command& command, double& distance);
@@ -37,7 +37,7 @@ void add_report_format(const Command& command, std::string& format);  ///< text 
 void add_timings(const Command& command, bool& timings);
 void add_progress(const Command& command, std::string& progress);
 
-/// Each adds its subcommand; its callback stores how it went in `exit`.
+/// Each function adds its subcommand. The callback stores the exit code of the run in `exit`.
 void add_accuracy(const Command& app, Exit& exit);
 void add_bake(const Command& app, Exit& exit);
 void add_compare(const Command& app, Exit& exit);

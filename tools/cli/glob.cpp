@@ -22,8 +22,8 @@ std::vector<fs::path> names_in(const fs::path& folder) {
     return names;
 }
 
-/// What follows `part` on the way down; links to folders are not gone through by **, so
-/// that it ends.
+/// The search for the paths that match a pattern, part by part. ** does not follow links to
+/// folders, so the search ends.
 class Expansion {
 public:
     explicit Expansion(const fs::path& pattern) : parts_(pattern.begin(), pattern.end()) {}

@@ -7,12 +7,12 @@
 
 namespace cdprep::cli {
 
-/// Whether a shell would expand it: it has one of * ? [.
+/// Returns true if a shell would expand `text`: it contains one of * ? [.
 [[nodiscard]] bool is_pattern(const std::string& text);
 
-/// What is there that a pattern matches, sorted: *, ? and [...] within a name, ** for any
-/// number of folders. As in a shell, names that begin with a dot must be asked for with
-/// one. Folders that cannot be read match nothing.
+/// Returns the existing paths that match a pattern, sorted. *, ? and [...] match within a
+/// name; ** matches any number of folders. As in a shell, only a pattern that begins with a
+/// dot matches a name that does. Folders that cannot be read match nothing.
 [[nodiscard]] std::vector<std::filesystem::path> expand_pattern(const std::string& pattern);
 
 }  // namespace cdprep::cli

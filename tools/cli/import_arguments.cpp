@@ -15,7 +15,7 @@ const std::map<std::string, double> kMetresPerUnit = {
 
 }  // namespace
 
-// Spelled out: clang-format takes a line that starts with "import" for a module's.
+// Qualified in full: clang-format takes a line that starts with "import" for a module import.
 cdprep::import::ImportOptions ImportArguments::options() const {
     import::ImportOptions options;
     options.memory_bytes = memory_bytes;

@@ -10,20 +10,20 @@
 
 namespace cdprep::cli {
 
-/// What every command that imports lets a person say about it: --import-memory,
-/// --import-file-size, --import-time, --unit, --up-axis and --allow-empty.
+/// The options of every command that imports: --import-memory, --import-file-size,
+/// --import-time, --unit, --up-axis and --allow-empty.
 struct ImportArguments {
     std::uint64_t memory_bytes = import::ImportOptions{}.memory_bytes;
     std::uint64_t file_bytes = import::ImportOptions{}.file_bytes;
     std::uint64_t seconds = static_cast<std::uint64_t>(import::ImportOptions{}.time.count());
-    std::string unit;     ///< of kUnits; empty: what the file says
-    std::string up_axis;  ///< "y" or "z"; empty: what the file says
+    std::string unit;     ///< "mm", "cm", "m", "in" or "ft"; empty: the unit of the file
+    std::string up_axis;  ///< "y" or "z"; empty: the axis of the file
     bool allow_empty = false;
 
     [[nodiscard]] import::ImportOptions options() const;
 };
 
-/// Adds the options to a command; `arguments` lives as long as it.
+/// Adds the options to a command. `arguments` must outlive the command.
 void add_import_arguments(const Command& command, ImportArguments& arguments);
 
 }  // namespace cdprep::cli

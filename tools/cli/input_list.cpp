@@ -20,8 +20,8 @@ Input missing(const fs::path& path, const std::string& why) {
     return {path, Error{ErrorCode::unreadable, path.string() + ": " + why}};
 }
 
-/// Every mesh file below a folder, and every folder that cannot be read. Links to folders
-/// are not gone through, so that it ends.
+/// Adds every mesh file below a folder, and an error for every folder that cannot be read.
+/// Links to folders are not followed, so the search ends.
 void search(const fs::path& folder, std::vector<Input>& found) {
     std::error_code error;
     fs::directory_iterator at(folder, error);
@@ -63,7 +63,7 @@ void add_argument(std::vector<Input>& inputs, const std::string& argument) {
     for (const fs::path& match : matches) add_path(inputs, match);
 }
 
-/// The first of several that name one file.
+/// Keeps the first of several inputs that name one file.
 void keep_each_once(std::vector<Input>& inputs) {
     std::set<fs::path> seen;
     std::erase_if(inputs, [&](const Input& input) {

@@ -16,20 +16,21 @@
 namespace cdprep::cli {
 namespace {
 
-// Set by a signal, read by every thread: without a lock a signal may touch it.
+// Set by a signal handler and read by every thread. A handler may only write lock-free atomics.
 std::atomic<bool> has_signal = false;
 std::atomic<bool> has_closed_pipe = false;
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-// Posted by the signal; a handler may do that.
+// Posted by the signal handler, which POSIX permits.
 sem_t signalled;
 
-// Held while last words change or are said, and by who ends the process.
+// Held while the last words change or run, and by the thread that ends the process.
 std::mutex ending;
 std::function<void()> last_words;
 bool is_over = false;
 
-/// Nobody reads what we write: as if the person had stopped us, but however often.
+/// Handles SIGPIPE: the reader of our output has ended. Acts like a first interrupt, however
+/// often the signal arrives.
 void on_closed_pipe(int) {
     has_closed_pipe = true;
     has_signal = true;
@@ -43,7 +44,7 @@ void on_signal(int signal) {
     ::sem_post(&signalled);
 }
 
-/// Runs on a thread of its own.
+/// Ends the process kPatience after a signal, unless the work ends first. Runs on its own thread.
 void give_up_after_signal() {
     while (::sem_wait(&signalled) != 0) {
     }
@@ -52,7 +53,7 @@ void give_up_after_signal() {
     if (is_over) return;
     if (last_words) last_words();
     constexpr std::string_view kSentence = "cdprep: stopped before the work was done.\n";
-    // The streams may be in use by other threads.
+    // Other threads may be using the streams.
     [[maybe_unused]] const ssize_t told =
         ::write(STDERR_FILENO, kSentence.data(), kSentence.size());
     ::_exit(static_cast<int>(Exit::interrupted));
@@ -66,7 +67,7 @@ void watch_for_interrupts() {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
     std::signal(SIGPIPE, on_closed_pipe);
-    // A file longer than permitted is then an error of the write that we report.
+    // A write beyond the permitted file size then fails, and we report it.
     std::signal(SIGXFSZ, SIG_IGN);
 }
 

@@ -15,7 +15,7 @@
 namespace cdprep::cli {
 namespace {
 
-/// The sentence for the first number that no mesh may hold.
+/// Returns the error for the first number that a mesh may not hold.
 Error refused(const std::filesystem::path& input, const mesh::TriangleSoup& soup) {
     const mesh::BadNumber& bad = soup.bad_numbers.front();
     std::string message = input.string() + ": ";
@@ -37,7 +37,7 @@ Error refused(const std::filesystem::path& input, const mesh::TriangleSoup& soup
     return {ErrorCode::unreadable, message + "."};
 }
 
-/// The sentence for the first coordinate beyond what the runtime promises.
+/// Returns the error for the first coordinate above format::kMaxCoordinate, or nothing.
 std::optional<Error> find_too_large(const std::filesystem::path& input,
                                     const mesh::TriangleSoup& soup) {
     for (const format::Triangle& triangle : soup.triangles) {

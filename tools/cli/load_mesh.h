@@ -11,13 +11,13 @@
 
 namespace cdprep::cli {
 
-/// Returns why no mesh can be made of what a file held, in a sentence: a number that is
-/// not finite or out of range, or a coordinate beyond what the runtime promises.
+/// Returns the reason why no mesh can be made of a file's content, or nothing. Reasons are a
+/// number that is not finite or out of range, and a coordinate above format::kMaxCoordinate.
 [[nodiscard]] std::optional<Error> find_refusal(const std::filesystem::path& input,
                                                 const mesh::TriangleSoup& soup);
 
-/// Refuses a distance that would weld the whole mesh into one point. Of a soup in the units in
-/// which it is welded.
+/// Returns an error if `distance` would weld the whole mesh into one point. The soup must be in
+/// the units in which it is welded.
 [[nodiscard]] std::optional<Error> find_wide_weld(const std::filesystem::path& input,
                                                   const mesh::TriangleSoup& soup, double distance);
 
@@ -27,11 +27,12 @@ struct LoadOptions {
     import::ImportOptions import;
 };
 
-/// What a file holds, normalised when asked to; fails when no mesh can be made of it.
+/// Returns the triangles of a file, normalised with options.normalize. Fails if no mesh can be
+/// made of them.
 [[nodiscard]] Result<mesh::TriangleSoup> load_soup(const std::filesystem::path& input,
                                                    const LoadOptions& options);
 
-/// The mesh of a file as bake makes it: that soup, welded.
+/// Returns the mesh of a file as bake makes it: the result of load_soup(), welded.
 [[nodiscard]] Result<mesh::Mesh> load_mesh(const std::filesystem::path& input,
                                            const LoadOptions& options);
 

@@ -14,15 +14,16 @@
 
 #include "cli/command.h"
 
-// A signal handler may only call what POSIX lists as safe there, and cannot allocate: this
-// file reads the list of mappings byte by byte, with open(), read(), write() and _exit().
+// A signal handler may only call functions that POSIX lists as async-signal-safe, and cannot
+// allocate. This file therefore reads the list of mappings byte by byte, with open(), read(),
+// write() and _exit().
 
 namespace cdprep::cli {
 namespace {
 
 constexpr std::size_t kMostPath = 4096;
 
-/// Reads a file byte by byte. -1 at its end.
+/// Reads a file byte by byte. next() returns -1 at its end, or if it cannot be read.
 class ByteReader {
 public:
     explicit ByteReader(const char* path) : descriptor_(::open(path, O_RDONLY | O_CLOEXEC)) {}
@@ -50,7 +51,7 @@ private:
     std::size_t filled_ = 0;
 };
 
-/// A hexadecimal number; `last` is the character behind it.
+/// Reads a hexadecimal number. `last` becomes the character after it.
 std::uintptr_t read_number(ByteReader& from, int& last) {
     std::uintptr_t number = 0;
     while (true) {
@@ -62,7 +63,7 @@ std::uintptr_t read_number(ByteReader& from, int& last) {
     }
 }
 
-/// The path of a mapped file, as far as it has room.
+/// The path of a mapped file, cut at the size of the buffer.
 struct MappedPath {
     std::array<char, kMostPath> letters{};
     std::size_t size = 0;
@@ -76,8 +77,8 @@ struct MappedPath {
     }
 };
 
-/// Finds which file is mapped at `address`. Lines are "first-last access offset device inode
-/// path"; other memory has no path, or one that does not begin with '/'.
+/// Finds the file that is mapped at `address`. A line is "first-last access offset device inode
+/// path". Other memory has no path, or one that does not begin with '/'.
 void find_path(std::uintptr_t address, MappedPath& path) {
     ByteReader from("/proc/self/maps");
     int letter = 0;
@@ -93,14 +94,14 @@ void find_path(std::uintptr_t address, MappedPath& path) {
     }
 }
 
-/// What the system says of a file that has no name any more.
+/// Removes the suffix that the system adds to the path of a deleted file.
 std::string_view without_deleted(std::string_view path) {
     constexpr std::string_view kDeleted = " (deleted)";
     if (path.ends_with(kDeleted)) path.remove_suffix(kDeleted.size());
     return path;
 }
 
-/// One line of several parts; it goes out in one write, so that threads do not mix lines.
+/// A line made of several parts, printed by one write() so that threads do not mix lines.
 class Line {
 public:
     void add(std::string_view part) {
@@ -110,7 +111,7 @@ public:
     }
     void write() const {
         const ssize_t ignored = ::write(STDERR_FILENO, letters_.data(), size_);
-        static_cast<void>(ignored);  // there is nobody to tell
+        static_cast<void>(ignored);  // a failure cannot be reported anywhere
     }
 
 private:
@@ -134,12 +135,12 @@ void on_bus_error(int signal, siginfo_t* info, void* /*context*/) {
     const bool is_of_file = is_page;
 #endif
     if (!is_of_file) {
-        // Of other memory, or sent by somebody: as if there were no handler.
+        // Other memory, or a signal sent by another process: act as if there were no handler.
         std::signal(signal, SIG_DFL);
         std::raise(signal);
         return;
     }
-    while (is_told.test_and_set()) ::pause();  // another thread tells it, and ends the program
+    while (is_told.test_and_set()) ::pause();  // another thread reports it and ends the program
     Line line;
     line.add("cdprep: ");
     line.add(path.size > 0 ? without_deleted(path.text()) : "a file that was read");

@@ -57,7 +57,7 @@ Exit run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using cdprep::cli::Exit;
-    // A preloaded library, or one linked with -ffast-math, may have changed it.
+    // A preloaded library, or one linked with -ffast-math, may have changed the settings.
     const cdprep::format::FloatEnvironment environment;
     try {
         return static_cast<int>(cdprep::cli::run(argc, argv));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r,";
 
-/// The next word of the text, taken off its front; empty at the end.
+/// Removes the next word from the front of the text and returns it; empty at the end.
 std::string_view next_word(std::string_view& text) {
     const std::size_t begin = std::min(text.find_first_not_of(kBlanks), text.size());
     const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
@@ -22,7 +22,7 @@ std::string_view next_word(std::string_view& text) {
 }
 
 bool parse_number(std::string_view word, double& value) {
-    if (word.starts_with('+')) word.remove_prefix(1);  // from_chars takes no plus
+    if (word.starts_with('+')) word.remove_prefix(1);  // from_chars accepts no plus
     const char* last = word.data() + word.size();
     const auto [end, error] = std::from_chars(word.data(), last, value);
     return error == std::errc{} && end == last && std::isfinite(value);

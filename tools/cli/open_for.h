@@ -8,12 +8,12 @@
 
 namespace cdprep::cli {
 
-/// For a mesh file in the place of a baked one: what to do, in place of `why` it is no model.
+/// Returns `why`, or for a mesh file an error that advises to bake it first.
 [[nodiscard]] Error baked_first(const std::filesystem::path& path, Error why);
 
-/// Opens a baked file with the sections that a question and the structure it goes through need or
-/// use, and no others. Fails with bad_argument when the file was baked without one of them; the
-/// message says how to bake it.
+/// Opens a baked file with the sections that a query and its structure need or use, and no
+/// others. Fails with bad_argument if the file was baked without a needed section; the message
+/// states how to bake it.
 [[nodiscard]] Result<Model> open_for(const std::filesystem::path& path, Ask asks,
                                      Structure through = Structure::bvh);
 

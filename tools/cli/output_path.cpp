@@ -9,7 +9,7 @@ namespace cdprep::cli {
 
 std::optional<Error> find_replaced_input(const std::filesystem::path& input,
                                          const std::filesystem::path& output) {
-    std::error_code unknown;  // not there: not the same
+    std::error_code unknown;  // a missing file is a different file
     if (!std::filesystem::equivalent(input, output, unknown)) return std::nullopt;
     return Error{ErrorCode::bad_argument,
                  output.string() + ": is the input and would be replaced. Choose another output."};
@@ -29,7 +29,7 @@ Result<write::MeshFormat> mesh_output(const std::filesystem::path& input,
 Result<Done> write_mesh(const std::filesystem::path& output, write::MeshFormat format,
                         const write::MeshArrays& mesh) {
     if (output != "-") return write::write_mesh_file(output, format, mesh);
-    // Not by std::cout, which --quiet turns away.
+    // Not through std::cout, which --quiet redirects.
     const std::string bytes = write::bytes_of(format, mesh);
     const bool is_whole = std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size();
     if (is_whole && std::fflush(stdout) == 0) return Done{};

@@ -10,21 +10,22 @@
 
 namespace cdprep::cli {
 
-/// Returns why `output` must not be written when it is the file `input`, however they are
-/// spelled.
+/// Returns an error if `output` is the same file as `input`, however the two paths are spelled.
 [[nodiscard]] std::optional<Error> find_replaced_input(const std::filesystem::path& input,
                                                        const std::filesystem::path& output);
 
-/// The format that the extension of `output` names; OBJ for "-", standard output. Fails before
-/// anything is read: when there is none, or when `output` is the input.
+/// Returns the format that the extension of `output` names; OBJ for "-", standard output. Fails
+/// if there is no such format or if `output` is the input. Reads no file content, so a command
+/// can fail before it reads anything.
 [[nodiscard]] Result<write::MeshFormat> mesh_output(const std::filesystem::path& input,
                                                     const std::filesystem::path& output);
 
-/// Writes a mesh where mesh_output() said: into the file, or to standard output for "-".
+/// Writes a mesh into the file `output`, or to standard output for "-". `format` is the result
+/// of mesh_output().
 [[nodiscard]] Result<Done> write_mesh(const std::filesystem::path& output, write::MeshFormat format,
                                       const write::MeshArrays& mesh);
 
-/// Where a report goes: standard output, unless that takes the mesh.
+/// Returns the stream for a report: standard output, or standard error if `mesh_output` is "-".
 [[nodiscard]] std::ostream& report_stream(const std::filesystem::path& mesh_output);
 
 }  // namespace cdprep::cli

@@ -9,11 +9,12 @@
 
 namespace cdprep::cli {
 
-/// Reads twelve numbers: R row by row, then T. `place` begins the sentence when
-/// they are not twelve numbers (`unreadable`) or no rigid motion (bad_argument).
+/// Reads a pose of twelve numbers: R row by row, then T. Fails with `unreadable` on other than
+/// twelve numbers and with bad_argument on a motion that is not rigid. The message begins with
+/// `place`.
 [[nodiscard]] Result<Pose> parse_pose(const std::string& text, const std::string& place);
 
-/// Reads one pose a line; empty lines and lines that start with # are skipped.
+/// Reads one pose per line. Skips empty lines and lines that start with #.
 [[nodiscard]] Result<std::vector<Pose>> read_poses(const std::filesystem::path& path);
 
 }  // namespace cdprep::cli

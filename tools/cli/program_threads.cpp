@@ -23,10 +23,10 @@
 namespace cdprep::cli {
 namespace {
 
-/// Tells the thread sanitizer what oneTBB guarantees: what happened before tasks
-/// were handed out, they see; what they did, the caller sees after the wait.
-/// Debian's oneTBB is not instrumented, so the sanitizer cannot know. Nothing
-/// elsewhere.
+/// Declares to the thread sanitizer what oneTBB guarantees. Tasks see everything that happened
+/// before they were handed out. After the wait, the caller sees everything that they did.
+/// Debian's oneTBB is not instrumented, so the sanitizer cannot know this. Without the sanitizer
+/// this class does nothing.
 class ForkJoin {
 public:
     ForkJoin() {
@@ -60,14 +60,14 @@ private:
 
 using Clock = std::chrono::steady_clock;
 
-// What a person is told of the loop that runs: read by the thread that tells.
+// The state of the running loop, read by the thread that reports progress.
 std::atomic<bool> are_watched = false;
 std::atomic<bool> is_taken = false;
 std::atomic<std::size_t> loop_done = 0;
 std::atomic<std::size_t> loop_count = 0;
 std::atomic<Clock::time_point> loop_begun{};
 
-/// Counts the tasks of the loop that it is the first to enclose.
+/// Counts the tasks of a loop, if no other loop is counted at that time.
 class WatchedLoop {
 public:
     explicit WatchedLoop(std::size_t count)
@@ -106,7 +106,7 @@ LoopShare watched_loop() {
     return {std::min(loop_done.load(), count), count};
 }
 
-/// oneTBB's, as ParallelFor wants it.
+/// The threads of oneTBB, in the form that ParallelFor requires.
 struct Threads::Pool {
     oneapi::tbb::global_control limit;
 
@@ -159,8 +159,8 @@ void Threads::run_in_order(std::size_t count,
     ForkJoin edges;
     ForkJoin counter;
     std::size_t next = 0;
-    // Here and not in the pipeline's own memory, where the sanitizer would see one thread
-    // make what another takes.
+    // Stored here, not in the pipeline's own memory. There the sanitizer would report that one
+    // thread makes a value and another takes it.
     std::vector<Deliver> deliveries(count);
     const auto number = [&](oneapi::tbb::flow_control& control) {
         counter.joined();
@@ -169,7 +169,7 @@ void Threads::run_in_order(std::size_t count,
         counter.end_task();
         return i;
     };
-    // Isolated: a thread that waits within one piece of work begins no other.
+    // Isolated: a thread that waits within one piece of work starts no other piece.
     const auto run = [&](std::size_t i) {
         const format::FloatEnvironment environment;
         edges.begin_task();
@@ -177,7 +177,7 @@ void Threads::run_in_order(std::size_t count,
         edges.end_task();
         return i;
     };
-    // Sees what was delivered before, too.
+    // Also sees the effects of earlier deliveries.
     const auto take = [&](std::size_t i) {
         const format::FloatEnvironment environment;
         edges.joined();

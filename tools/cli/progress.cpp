@@ -13,7 +13,7 @@ namespace cdprep::cli {
 namespace {
 
 constexpr std::size_t kBarWidth = 24;   ///< columns
-constexpr std::size_t kTextWidth = 48;  ///< columns for what is being done
+constexpr std::size_t kTextWidth = 48;  ///< columns for the work in progress
 
 std::string shortened(const std::string& text) {
     if (text.size() <= kTextWidth) return text;
@@ -84,7 +84,7 @@ void Progress::tell_while_it_lasts() {
     }
 }
 
-/// ", 12 s, 43 %": nothing for the first second; shares where one input is at work.
+/// Returns ", 12 s, 43 %": nothing in the first second, and a share only if there is one input.
 std::string Progress::since() const {
     const auto passed = std::chrono::duration_cast<std::chrono::seconds>(Clock::now() - begun_);
     if (passed.count() < 1) return "";

@@ -14,13 +14,13 @@ namespace cdprep::cli {
 
 enum class ProgressStyle { none, plain, bar };
 
-/// "auto" is a bar when stderr is a terminal and nothing otherwise. Fails with
-/// bad_argument on another word than auto, bar, plain, none.
+/// Returns the style that a word names: auto, bar, plain or none. "auto" is a bar if stderr is a
+/// terminal, and none otherwise. Fails with bad_argument on another word.
 [[nodiscard]] Result<ProgressStyle> parse_progress(const std::string& word);
 
-/// Tells a person how far long work is, on stderr. While a stage lasts it says for how long, and
-/// how much of a loop that takes longer than a second is done: a bar four times a second, plain
-/// lines every ten seconds.
+/// Shows the progress of long work on stderr. During a stage it shows the elapsed time and the
+/// finished share of a loop that takes longer than a second. A bar is updated four times a
+/// second; plain lines follow every ten seconds.
 class Progress {
 public:
     Progress(ProgressStyle style, std::size_t total);
@@ -28,10 +28,10 @@ public:
     Progress& operator=(const Progress&) = delete;
     ~Progress();
 
-    /// `done` of the total are finished; `what` is being worked at.
+    /// Shows that `done` of the total are finished and that `what` is in progress.
     void show(std::size_t done, const std::string& what);
 
-    /// Takes the bar away, so that a line can be printed.
+    /// Removes the bar, so that a line can be printed.
     void clear();
 
 private:
@@ -44,7 +44,7 @@ private:
 
     ProgressStyle style_;
     std::size_t total_;
-    std::mutex mutex_;  ///< of all that follows
+    std::mutex mutex_;  ///< guards all members below
     std::condition_variable ended_;
     std::size_t done_ = 0;
     std::string what_;

@@ -9,7 +9,7 @@ namespace {
 
 bool was_asked = false;
 
-/// Takes everything and keeps nothing.
+/// A stream buffer that discards everything.
 class Nowhere : public std::streambuf {
     int overflow(int byte) override {
         return traits_type::not_eof(byte);

@@ -5,11 +5,11 @@
 
 namespace cdprep::cli {
 
-/// Adds -q to a command: no report on standard output and no progress; what fails still stands on
-/// standard error, and the exit code tells.
+/// Adds -q to a command: no report on standard output and no progress. Failures still appear on
+/// standard error and in the exit code.
 void add_quiet(const Command& command);
 
-/// Whether -q was given.
+/// Returns true if -q was given.
 [[nodiscard]] bool is_quiet();
 
 }  // namespace cdprep::cli

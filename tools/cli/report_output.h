@@ -11,11 +11,11 @@
 
 namespace cdprep::cli {
 
-/// Where a report goes piece by piece: a file that appears when it is whole, or standard
-/// output.
+/// The destination of a report that is written piece by piece: a file or standard output. The
+/// file appears only when it is complete.
 class ReportOutput {
 public:
-    /// An empty path means standard output. Fails with `unwritable`.
+    /// Opens a file, or standard output for an empty path. Fails with `unwritable`.
     [[nodiscard]] static Result<ReportOutput> open(const std::filesystem::path& path);
 
     [[nodiscard]] bool is_file() const noexcept {
@@ -24,7 +24,7 @@ public:
 
     [[nodiscard]] Result<Done> append(std::string_view text);
 
-    /// Call once, after the last piece. Without it no file appears.
+    /// Completes the report. Call once, after the last piece; without the call no file appears.
     [[nodiscard]] Result<Done> finish();
 
 private:

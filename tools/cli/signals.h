@@ -9,45 +9,46 @@
 
 namespace cdprep::cli {
 
-/// Turns SIGINT and SIGTERM into a flag, so that work stops at the next place that looks at
-/// it. Work that goes on for kPatience after the signal is given up: the process ends with 130,
-/// wherever its threads are. Outputs have no name before they are whole, so nothing is left
-/// behind. A second signal ends the process at once. A write beyond the permitted file size
-/// fails instead of ending the process.
+/// Turns SIGINT and SIGTERM into a flag; work stops at the next place that tests it. If work
+/// continues for kPatience after the signal, the process ends with 130, wherever its threads
+/// are. Outputs have no name before they are complete, so nothing is left behind. A second
+/// signal ends the process at once. A write beyond the permitted file size fails instead of
+/// ending the process.
 void watch_for_interrupts();
 
-/// How long after a signal a stage may go on: time for loops that look at the flag. The system
+/// The time that a stage may continue after a signal, for loops that test the flag. The system
 /// needs another 70 ms for each gigabyte that it takes back.
 inline constexpr std::chrono::milliseconds kPatience{30};
 
-/// What is still to be done when work is given up, as to end a report. While it lives only.
-/// Called from another thread than the work, which goes on; must not wait for it.
+/// A function to call when work is abandoned, for example to complete a report. It is active
+/// while this object lives. The call comes from another thread while the work continues; it
+/// must not wait for that work.
 class LastWords {
 public:
     explicit LastWords(std::function<void()> words);
     LastWords(const LastWords&) = delete;
     LastWords& operator=(const LastWords&) = delete;
-    /// Waits for words that have begun: they end the process.
+    /// Waits if the call has begun; the process then ends within it.
     ~LastWords();
 };
 
-/// Work has ended by itself: a report may take its time from now on.
+/// Declares that the work has ended by itself. From now on a report has no time limit.
 void end_by_itself();
 
 [[nodiscard]] bool is_interrupted();
 
-/// Whether who read our output has ended, as `head` does: then there is nobody to complain to.
+/// Returns true if the reader of our output has ended, as `head` does. An error message then has
+/// no reader.
 [[nodiscard]] bool is_output_closed();
 
-/// Why nothing came of an input after that.
+/// Returns the error for an input that was not processed because of an interrupt.
 [[nodiscard]] Error interrupted(const std::filesystem::path& input);
 
-/// Ends the program with one sentence and Exit::unreadable when a page of a mapped file can
-/// not be read any more: somebody truncated the file, or its disk or network share failed.
-/// The sentence names the file where the system tells which it is (Linux does). Nothing else is
-/// done: outputs that are not complete keep their temporary names, and the next writer of the
-/// same output removes them, as after a killed program. Every other SIGBUS ends the program as
-/// if nobody watched.
+/// Ends the program with one message and Exit::unreadable if a page of a mapped file becomes
+/// unreadable. The cause is a truncated file, or a disk or network share that failed. The message
+/// names the file if the system provides its name (Linux does). Nothing else is done: incomplete
+/// outputs keep their temporary names, as after a killed program. The next writer of the same
+/// output removes them. Every other SIGBUS has its default effect, the end of the program.
 void watch_for_lost_pages();
 
 }  // namespace cdprep::cli

@@ -18,7 +18,7 @@ bool any(const CLI::App* /*command*/) {
     return true;
 }
 
-/// Adds what every command has; the texts of help are ours.
+/// Adds the options of every command, with our own help texts.
 void add_general_options(CLI::App& command) {
     command.allow_config_extras(CLI::config_extras_mode::error);
     command.get_help_ptr()->description("Print this help and exit")->group("General");

@@ -23,28 +23,29 @@ class Option;
 
 namespace cdprep::cli {
 
-/// A condition on the word of an option. `test` returns the sentence that refuses the word, or "";
-/// it may replace the word. `words` names the allowed values: "{text|json}" or "1 to 4096".
+/// A condition on the word of an option. `test` returns an error message for the word, or "" if it
+/// is valid; it may replace the word. `words` names the allowed values: "{text|json}" or
+/// "1 to 4096".
 struct Check {
     std::function<std::string(std::string& word)> test;
     std::string words;
 };
 
-/// Accepts one of some words; refuses others with the nearest.
+/// Accepts one of the given words. The error for another word suggests the nearest.
 [[nodiscard]] Check one_of(std::vector<std::string> words);
 
 /// Accepts a whole number from `least` to `most`.
 [[nodiscard]] Check whole_from(std::uint64_t least,
                                std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
-/// Accepts a finite number of 0 or more; `unit` names it in the refusal.
+/// Accepts a finite number of 0 or more. `unit` names the number in the error message.
 [[nodiscard]] Check zero_or_more(const char* unit = nullptr);
 
 /// Accepts a finite number above 0.
 [[nodiscard]] Check above_zero();
 
-/// Accepts a size such as 500MB, from a byte to a petabyte, and makes it a number of bytes. Units
-/// are powers of 1024.
+/// Accepts a size such as 500MB, from a byte to a petabyte, and replaces it by a number of bytes.
+/// Units are powers of 1024.
 [[nodiscard]] Check size_to_petabyte();
 
 /// Accepts a folder that exists.
@@ -61,7 +62,7 @@ public:
     Option group(const std::string& title) const;  // NOLINT(modernize-use-nodiscard)
     Option check(const Check& check) const;        // NOLINT(modernize-use-nodiscard)
     Option required() const;                       // NOLINT(modernize-use-nodiscard)
-    /// Shows the present value of the variable as the default.
+    /// Shows the current value of the variable as the default.
     Option show_default() const;  // NOLINT(modernize-use-nodiscard)
     /// Splits one word into several values.
     Option delimiter(char separator) const;  // NOLINT(modernize-use-nodiscard)
@@ -74,8 +75,8 @@ private:
     CLI::Option* option_;
 };
 
-/// A command of the program, or the program itself. What options store into must outlive the
-/// parse.
+/// A command of the program, or the program itself. The variables that options write must outlive
+/// the parse.
 class Command {
 public:
     explicit Command(CLI::App& app) noexcept : app_(&app) {}
@@ -110,11 +111,11 @@ public:
     Option add_flag(const std::string& names, const std::function<void()>& call,
                     const std::string& text) const;
 
-    /// How often an option was given.
+    /// Returns the number of times that an option was given.
     [[nodiscard]] std::size_t count(const std::string& option) const;
     /// Called after the whole command line was parsed.
     void callback(const std::function<void()>& run) const;
-    /// The paragraphs and the command lines that end the help.
+    /// Sets the paragraphs and the command lines that end the help.
     void set_notes(const std::string& notes, const std::vector<std::string>& examples) const;
 
     [[nodiscard]] const CLI::App& app() const noexcept {
@@ -141,9 +142,9 @@ public:
     void add_hidden(const std::string& name,
                     const std::function<Exit(const std::string& value)>& run) const;
 
-    /// Parses the arguments and calls the callback of the command. Returns an exit code if that
-    /// ends the program: after --help and --version, which print, and after a wrong command line,
-    /// which it explains on standard error.
+    /// Parses the arguments and calls the callback of the command. Returns an exit code if the
+    /// program must end. This is after --help and --version, which print, and after an invalid
+    /// command line. The error goes to standard error.
     [[nodiscard]] std::optional<Exit> parse(int count, const char* const* arguments) const;
 
 private:

@@ -8,7 +8,7 @@
 namespace cdprep::cli {
 namespace {
 
-/// CLI11 keeps one text behind a command's options: notes, this line, then examples.
+/// The line between notes and examples. CLI11 keeps both as one text after a command's options.
 constexpr const char* kExamples = "Examples:";
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -25,7 +25,7 @@ std::string upper(std::string word) {
     return word;
 }
 
-/// What CLI11 calls a type, in words for people.
+/// Returns the placeholder for people for a type name of CLI11.
 std::string placeholder(const std::string& type) {
     if (type == "UINT" || type == "INT") return "N";
     if (type == "FLOAT") return "NUMBER";
@@ -40,7 +40,7 @@ OptionEntry entry_of(const CLI::Option& option) {
         for (const std::string& name : option.get_snames()) entry.names.push_back("-" + name);
         for (const std::string& name : option.get_lnames()) entry.names.push_back("--" + name);
     }
-    const std::string type = option.get_type_name();  // and what usage.cpp's checks add to it
+    const std::string type = option.get_type_name();  // with the words that the checks add
     const std::size_t colon = type.find(':');
     if (option.get_type_size_max() > 0) entry.value = placeholder(type.substr(0, colon));
     const std::string allowed = colon == std::string::npos ? "" : type.substr(colon + 1);
@@ -56,14 +56,14 @@ OptionEntry entry_of(const CLI::Option& option) {
     return entry;
 }
 
-/// Whether the description has a clause "word: meaning" for each allowed word.
+/// Returns true if the description has a clause "word: meaning" for each allowed word.
 bool explains_all(const OptionEntry& option) {
     return std::ranges::all_of(option.words, [&](const std::string& word) {
         return option.text.find(word + ": ") != std::string::npos;
     });
 }
 
-/// "a, b or c".
+/// Returns "a, b or c".
 std::string listed(const std::vector<std::string>& words) {
     std::string text;
     for (std::size_t i = 0; i < words.size(); ++i) {
@@ -104,7 +104,7 @@ CommandPage page_of(const Command& described, const std::string& name) {
         if (group == page.groups.end()) group = page.groups.insert(group, {title, {}});
         group->options.push_back(entry_of(*option));
     }
-    // What every command has comes last; CLI11 adds it first.
+    // The options of every command come last; CLI11 adds them first.
     const auto general = std::ranges::find(page.groups, "General", &OptionGroup::title);
     if (general != page.groups.end()) std::rotate(general, general + 1, page.groups.end());
     const std::string footer = command.get_footer();

@@ -10,12 +10,12 @@ namespace cdprep::cli {
 
 /// An option or an input, as help, man pages, completion and tables show it.
 struct OptionEntry {
-    std::vector<std::string> names;  ///< "-o", "--output"; of an input its name alone: "INPUT"
+    std::vector<std::string> names;  ///< "-o", "--output"; for an input only its name: "INPUT"
     std::string value;               ///< "FILE"; empty for a flag
     std::vector<std::string> words;  ///< the allowed values of a choice; empty for others
-    std::string range;               ///< "1 to 4096"; empty where nothing is excluded
+    std::string range;               ///< "1 to 4096"; empty if no value is excluded
     std::string text;                ///< a sentence without its period
-    std::string preset;              ///< the default as typed; empty when there is none
+    std::string preset;              ///< the default as typed; empty if there is none
     bool is_required = false;
     bool is_repeatable = false;
 };
@@ -25,7 +25,7 @@ struct OptionGroup {
     std::vector<OptionEntry> options;
 };
 
-/// All that is said of a command in words. The option tree of the program is its only source.
+/// All texts about a command. The option tree of the program is their only source.
 struct CommandPage {
     std::string name;                                           ///< "cdprep query collide"
     std::string summary;                                        ///< a phrase: "Query baked files"
@@ -42,13 +42,13 @@ struct CommandPage {
 /// Returns the page of a command whose full name is `name`.
 [[nodiscard]] CommandPage page_of(const Command& command, const std::string& name);
 
-/// Returns the pages of a program and all its commands; a command follows the one that has it.
+/// Returns the pages of a program and all its commands. A command follows its parent.
 [[nodiscard]] std::vector<CommandPage> pages_of(const Command& program);
 
 /// Returns `text` in lines of at most `width` columns; words are not cut.
 [[nodiscard]] std::vector<std::string> wrapped(const std::string& text, std::size_t width);
 
-/// Returns the text of an option with its allowed values and its default, as one sentence each.
+/// Returns the text of an option with its allowed values and its default, one sentence each.
 [[nodiscard]] std::string full_text(const OptionEntry& option);
 
 }  // namespace cdprep::cli

@@ -8,7 +8,7 @@
 namespace cdprep::cli {
 namespace {
 
-/// Values that a shell completes as paths.
+/// Returns true for values that a shell completes as paths.
 bool is_path(const std::string& value) {
     return value == "FILE" || value == "FOLDER" || value == "FILES" || value == "PATTERN";
 }
@@ -33,14 +33,15 @@ std::vector<std::string> command_names(const CommandPage& page) {
     return names;
 }
 
-/// In single quotes of a shell.
+/// Returns the text in single quotes of a shell.
 std::string shell_quoted(const std::string& text) {
     std::string out = "'";
     for (const char letter : text) out += letter == '\'' ? "'\\''" : std::string(1, letter);
     return out + "'";
 }
 
-/// Without what zsh reads in the description of an option.
+/// Returns the text with an escape before each character that zsh interprets in the description
+/// of an option.
 std::string for_zsh(const std::string& text) {
     std::string out;
     for (const char letter : text) {
@@ -50,7 +51,7 @@ std::string for_zsh(const std::string& text) {
     return out;
 }
 
-/// "cdprep query collide" as the name of a function: "_cdprep_query_collide".
+/// Returns the name of a function: "_cdprep_query_collide" for "cdprep query collide".
 std::string function_name(const std::string& name) {
     std::string out = "_" + name;
     std::ranges::replace(out, ' ', '_');

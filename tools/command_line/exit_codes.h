@@ -22,7 +22,7 @@ struct ExitText {
     const char* text;
 };
 
-/// The one list of exit codes: manuals and documents are made of it.
+/// The only list of exit codes. Manuals and documents are generated from it.
 inline constexpr std::array<ExitText, 8> kExitTexts = {{
     {Exit::success, "success"},
     {Exit::findings, "findings: a defect, an unreached goal, a broken promise"},

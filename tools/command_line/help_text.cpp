@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kWidth = 80;
 constexpr std::size_t kTextColumn = 28;  ///< where descriptions begin
 
-/// "-o, --output FILE"; without a short name the long one stands under long ones.
+/// Returns "-o, --output FILE". A long name without a short one is aligned with other long names.
 std::string names_of(const OptionEntry& option) {
     std::string text;
     for (const std::string& name : option.names) text += (text.empty() ? "" : ", ") + name;
@@ -19,7 +19,7 @@ std::string names_of(const OptionEntry& option) {
     return text + (option.is_repeatable && !text.starts_with(' ') && text[0] != '-' ? "..." : "");
 }
 
-/// A term and its text, which begins on the same line when the term is short.
+/// Returns a term and its text. The text begins on the same line if the term is short.
 std::string row(const std::string& term, const std::string& text) {
     std::string rows = "  " + term;
     const bool is_long = rows.size() + 2 > kTextColumn;

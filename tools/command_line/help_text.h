@@ -7,7 +7,7 @@
 
 namespace cdprep::cli {
 
-/// Returns what --help prints: usage, options by group, notes, examples, in 80 columns.
+/// Returns the text of --help: usage, options by group, notes, examples, in 80 columns.
 [[nodiscard]] std::string help_text(const CommandPage& page);
 
 /// Makes help_text() the help of a program and all its commands.

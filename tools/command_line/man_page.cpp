@@ -7,7 +7,7 @@
 namespace cdprep::cli {
 namespace {
 
-/// Text in which troff sees no request and no escape.
+/// Returns the text escaped so that troff finds no request and no escape in it.
 std::string plain(const std::string& text) {
     std::string out;
     for (const char letter : text) {
@@ -22,7 +22,7 @@ std::string plain(const std::string& text) {
     return out.starts_with('.') || out.starts_with('\'') ? "\\&" + out : out;
 }
 
-/// "cdprep query" as the name of a page: "cdprep-query".
+/// Returns the name of a page: "cdprep-query" for "cdprep query".
 std::string page_name(std::string name) {
     std::ranges::replace(name, ' ', '-');
     return name;

@@ -10,7 +10,7 @@
 namespace cdprep::cli {
 namespace {
 
-/// The command that the arguments came to, "cdprep query collide" with all above it.
+/// The command that the arguments select. `name` includes its parents: "cdprep query collide".
 struct Reached {
     const CLI::App* command;
     std::string name;
@@ -59,7 +59,7 @@ bool is_option(const std::string& word) {
     return word.size() > 1 && word[0] == '-';
 }
 
-/// How the command takes its inputs: "cdprep query ray model".
+/// Returns the command with its inputs: "cdprep query ray model".
 std::string with_inputs(const Reached& at) {
     std::string text = at.name;
     for (const CLI::Option* option : at.command->get_options()) {
@@ -68,7 +68,7 @@ std::string with_inputs(const Reached& at) {
     return text;
 }
 
-/// The option or input of that name; null when it is none of the command's.
+/// Returns the option or input of that name; null if the command has none.
 const CLI::Option* option_of(const CLI::App& command, const std::string& name) {
     for (const CLI::Option* option : command.get_options()) {
         if (option->get_name() == name) return option;
@@ -76,7 +76,8 @@ const CLI::Option* option_of(const CLI::App& command, const std::string& name) {
     return nullptr;
 }
 
-/// "--rays is required: File of rays ...", "b is required: ... Usage: 'cdprep query collide a b'."
+/// Returns "--rays is required: File of rays ...", or "b is required: ... Usage: 'cdprep query
+/// collide a b'." for an input.
 std::string required(const Reached& at, const std::string& name) {
     const CLI::Option* option = option_of(*at.command, name);
     if (option == nullptr) return name + " is required.";
@@ -84,7 +85,7 @@ std::string required(const Reached& at, const std::string& name) {
     return option->get_positional() ? text + " Usage: '" + with_inputs(at) + "'." : text;
 }
 
-/// The library's own words, as a sentence: "--parts: 'x' is not a number." of
+/// Returns a message of CLI11 as a sentence of ours: "--parts: 'x' is not a number." for
 /// "Could not convert: --parts = x".
 std::string as_sentence(const Reached& at, std::string text) {
     constexpr std::string_view kRequired = " is required";

@@ -11,8 +11,8 @@ class ParseError;
 
 namespace cdprep::cli {
 
-/// Returns why the arguments were not understood, and what helps: "cdprep query: 'colide' is not a
-/// command. Did you mean 'collide'? ...".
+/// Returns a message that explains an invalid command line and how to correct it:
+/// "cdprep query: 'colide' is not a command. Did you mean 'collide'? ...".
 [[nodiscard]] std::string usage_sentence(const CLI::App& app, const CLI::ParseError& error);
 
 /// Returns a printable word in quotes.

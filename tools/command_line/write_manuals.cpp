@@ -10,7 +10,7 @@
 namespace cdprep::cli {
 namespace {
 
-/// Text of a cell: a bar would end it, a star might begin emphasis.
+/// Returns the escaped text of a table cell: a bar would end it, a star might begin emphasis.
 std::string cell(const std::string& text) {
     std::string out;
     for (const char letter : text) {

@@ -34,7 +34,7 @@ constexpr const char* kProgram = "cdprep-import-child";
 constexpr int kResult = 3;  // descriptor numbers in the child
 constexpr int kLifeline = 4;
 
-/// A descriptor of ours, closed at the end. Move-only.
+/// A file descriptor that this object owns and closes. Move-only.
 class Descriptor {
 public:
     explicit Descriptor(int number) : number_(number) {}
@@ -56,7 +56,7 @@ private:
     int number_;
 };
 
-/// The child's result, mapped. Shared memory that nobody else has any more.
+/// The child's result, mapped. No other process holds this shared memory any more.
 class ResultBytes {
 public:
     explicit ResultBytes(int descriptor) {
@@ -81,7 +81,8 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Beside the running program, where it is installed, or in a build tree.
+/// Returns the path of the child program: beside the running program, where it is installed, or
+/// in a build tree.
 std::optional<std::filesystem::path> find_child_program() {
     std::error_code error;
     const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
@@ -100,16 +101,16 @@ std::optional<std::filesystem::path> find_child_program() {
     return found == places.end() ? std::nullopt : std::optional(*found);
 }
 
-/// How the child ended.
+/// The end of the child process.
 struct Ending {
     bool in_time = true;
-    int status = 0;  ///< as waitpid gives it
+    int status = 0;  ///< from waitpid()
 };
 
 class Child {
 public:
     /// Starts the program. It holds `result` as kResult and the other end of the
-    /// lifeline as kLifeline, which closes when it ends.
+    /// lifeline as kLifeline. The lifeline closes when the program ends.
     static std::optional<Child> start(const std::filesystem::path& program,
                                       const std::filesystem::path& path, int result,
                                       const ImportOptions& options) {
@@ -118,7 +119,7 @@ public:
         Descriptor ours(pipe[0]);
         const Descriptor theirs(pipe[1]);
 
-        // Descriptors are first moved out of the way of each other.
+        // Descriptors are first moved to higher numbers, so that they do not collide.
         constexpr int kFirstFree = 10;
         const Descriptor result_copy(::fcntl(result, F_DUPFD_CLOEXEC, kFirstFree));
         const Descriptor theirs_copy(::fcntl(theirs.number(), F_DUPFD_CLOEXEC, kFirstFree));
@@ -145,7 +146,7 @@ public:
         return Child(process, std::move(ours));
     }
 
-    /// Waits until it ends, and kills it when the time is up.
+    /// Waits until the child ends, and kills it when the time is up.
     Ending wait(std::chrono::seconds time) {
         Ending ending;
         const auto last = std::chrono::steady_clock::now() + time;
@@ -195,7 +196,7 @@ Error out_of_memory(const SourceFile& file, std::uint64_t input_bytes,
                             " of memory that are allowed. Raise --import-memory to read it");
 }
 
-/// One line without the full stop: importers' texts come in all shapes.
+/// Returns one line without the full stop. The texts of importers have many forms.
 std::string as_clause(std::string_view text) {
     constexpr std::size_t kShown = 300;
     std::string clause = utf8_name(text.substr(0, kShown));

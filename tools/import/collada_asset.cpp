@@ -11,7 +11,7 @@ namespace {
 
 // Searches the text instead of parsing it: the child parses such files whole, and they are large.
 
-/// What stands between `before` and the next `after`; empty when there is none.
+/// Returns the text between `before` and the next `after`; empty if `before` is missing.
 std::string_view between(std::string_view text, std::string_view before, char after) {
     const std::size_t first = text.find(before);
     if (first == std::string_view::npos) return {};

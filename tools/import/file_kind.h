@@ -9,17 +9,17 @@
 
 namespace cdprep::import {
 
-/// Who reads a file.
+/// The reader of a file: one of ours, or `other` for the child process.
 enum class MeshFormat : std::uint8_t { obj, stl, ply, off, other };
 
-/// Decides by the name's ending: many text formats look alike. The first bytes decide against it
-/// only where they are of one format alone (PLY, GLB, binary FBX); the content decides where the
-/// ending is unknown. Looks at the first 64 KiB.
+/// Returns the reader of a file. The extension decides, because many text formats look alike. The
+/// first bytes override it only if they belong to exactly one format (PLY, GLB, binary FBX). The
+/// content decides if the extension is unknown. Reads at most the first 64 KiB.
 [[nodiscard]] MeshFormat sniff_format(std::string_view bytes, const std::filesystem::path& path);
 
-/// Says what a file is that is no mesh, or in a format that nobody here reads, and what to do:
-/// "is a web page, not a mesh. ...". Nothing for all others. Looks at the first bytes and at the
-/// name's ending.
+/// Returns a message about a file that is not a mesh or has an unsupported format, with advice:
+/// "is a web page, not a mesh. ...". Returns nothing for all other files. Tests the first bytes
+/// and the extension.
 [[nodiscard]] std::optional<std::string> find_other_kind(std::string_view bytes,
                                                          const std::filesystem::path& path);
 

@@ -28,7 +28,8 @@ Affine to_affine(const std::array<double, 16>& matrix) {
     return result;
 }
 
-/// world_from_node of a child, from those of its parent and itself.
+/// Returns a * b: world_from_node of a child from world_from_node of its parent and
+/// parent_from_node of the child.
 Affine compose(const Affine& a, const Affine& b) {
     Affine result;
     for (std::size_t row = 0; row < 3; ++row) {
@@ -55,12 +56,12 @@ bool mirrors(const Affine& m) {
     return exact::orient3d({m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {0, 0, 0}) < 0;
 }
 
-/// Arrays that follow each other in bytes nobody has aligned or checked.
+/// A cursor over consecutive arrays in bytes that are neither aligned nor checked.
 class ArrayCursor {
 public:
     explicit ArrayCursor(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
-    /// True and moves past, when `count` elements of T are left.
+    /// Takes `count` elements of T and moves past them. Returns false if fewer are left.
     template <class T>
     bool take(std::uint64_t count, std::span<const std::byte>& part) noexcept {
         if (count > bytes_.size() / sizeof(T)) return false;
@@ -109,7 +110,7 @@ std::optional<Arrays> find_arrays(std::span<const std::byte> bytes) noexcept {
     return whole ? std::optional<Arrays>(a) : std::nullopt;
 }
 
-/// Where a mesh's parts begin, and how many triangles it gives.
+/// The starts of a mesh's arrays, and its number of triangles.
 struct MeshPlace {
     SceneMesh counts;
     std::uint64_t first_vertex = 0;
@@ -213,7 +214,8 @@ private:
         return true;
     }
 
-    /// Instances multiply what the file holds, so they are counted before.
+    /// Returns an error if the scene is too large. Instances multiply the content of the file, so
+    /// their size is computed before they are made.
     [[nodiscard]] std::optional<Error> find_excess() const {
         std::uint64_t bytes = 0;
         for (const Use& use : uses_) {
@@ -267,12 +269,12 @@ private:
             chunk.corners.push_back(PolygonChunk::kFromChunkStart | index);
             return;
         }
-        // Past the mesh's own vertices, though perhaps a vertex of another one.
+        // The index is out of range for this mesh, though perhaps a vertex of another mesh.
         chunk.odd.push_back({chunk.corners.size(), index, -1, false});
         chunk.corners.push_back(0);
     }
 
-    /// "root/arm/hand", built where it is asked for: deep scenes have long paths.
+    /// Returns "root/arm/hand". It is built on demand, because deep scenes have long paths.
     [[nodiscard]] std::string path_of(std::uint32_t node) const {
         constexpr std::size_t kMaxPathBytes = 4096;
         std::vector<std::string_view> parts;
@@ -322,7 +324,7 @@ private:
         limit_bad_numbers(soup);
     }
 
-    /// An index is out of range when it passes its own mesh.
+    /// Sets the limit of each bad index to the vertex count of its own mesh.
     void limit_bad_numbers(mesh::TriangleSoup& soup) const {
         for (mesh::BadNumber& bad : soup.bad_numbers) {
             if (bad.kind != mesh::BadNumber::Kind::index_out_of_range) continue;

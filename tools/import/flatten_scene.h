@@ -11,17 +11,16 @@
 
 namespace cdprep::import {
 
-/// The header, if `bytes` begin with one and are as long as its counts say.
+/// Returns the header if `bytes` begin with one and have exactly the length that its counts give.
 [[nodiscard]] std::optional<SceneHeader> read_scene_header(
     std::span<const std::byte> bytes) noexcept;
 
-/// Makes a soup of what the child wrote: checks every count and reference, walks
-/// the nodes depth first, applies their transforms in double and reverses faces
-/// where they mirror.
+/// Makes a soup of the child's result. Checks every count and reference, walks the nodes depth
+/// first, applies their transforms in double and reverses faces under mirroring transforms.
 ///
-/// Meshes without triangles leave no instance. A scene in which every used
-/// transform is the identity is single precision. `bytes` must have an outcome of
-/// `read`; anything inconsistent in them is `unreadable`.
+/// Meshes without triangles leave no instance. A scene is single precision if every used
+/// transform is the identity and every used mesh is single precision. `bytes` must have an
+/// outcome of `read`. Fails with `unreadable` on any inconsistency in them.
 [[nodiscard]] Result<mesh::TriangleSoup> flatten_scene(const SourceFile& file,
                                                        std::span<const std::byte> bytes,
                                                        const ImportOptions& options);

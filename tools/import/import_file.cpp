@@ -37,7 +37,7 @@ std::uint64_t hash_of(const SourceFile& file) {
     return format::checksum(std::as_bytes(std::span(file.bytes())));
 }
 
-/// Notes what was read by its hash, so that another buffer is another source.
+/// Records the hash of each file that was read, so that a changed buffer changes the source.
 std::optional<Error> note_files(const SourceFile& file, const std::filesystem::path& path,
                                 const ImportOptions& options, mesh::TriangleSoup& soup) {
     soup.source_hash = hash_of(file);

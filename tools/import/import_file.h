@@ -12,24 +12,26 @@
 
 namespace cdprep::import {
 
-/// What an import may use before it is stopped with over_budget, or, where the
-/// file lies about its size, unreadable.
+/// The limits and settings of an import. An import that exceeds a limit fails with over_budget,
+/// or with `unreadable` if the file states a false size.
 struct ImportOptions {
     std::uint64_t memory_bytes = std::uint64_t{8} << 30;  ///< --import-memory
     std::chrono::seconds time{300};                       ///< --import-time
     std::uint64_t file_bytes = std::uint64_t{16} << 30;   ///< --import-file-size
     bool allow_empty = false;                             ///< --allow-empty
-    std::optional<double> metres_per_unit;  ///< --unit: in place of what the file says
-    std::optional<format::UpAxis> up_axis;  ///< --up-axis: likewise; nothing is turned
+    std::optional<double> metres_per_unit;  ///< --unit: replaces the unit of the file
+    std::optional<format::UpAxis> up_axis;  ///< --up-axis: likewise; rotates nothing
     ParallelFor parallel_for = serial_for;
 };
 
-/// Reads OBJ, STL, PLY and OFF by our own readers, 3MF and glTF by our own readers in a child
-/// process, and every other format by assimp there. sniff_format() says who reads.
+/// Reads a mesh file. Our own readers read OBJ, STL, PLY and OFF. In a child process, our own
+/// readers read 3MF and glTF, and assimp reads every other format. sniff_format() selects the
+/// reader.
 ///
-/// NaN, infinity and indices out of range come back as data (bad_numbers). A file that cannot be
-/// read as its format says is `unreadable`, with file, place, number found and number allowed. So
-/// is one that refers to a mesh which was not read, and, unless allowed, one without triangles.
+/// NaN, infinity and indices out of range are returned as data (bad_numbers). Fails with
+/// `unreadable` on a file that violates its format; the message gives file, place, number found and
+/// number allowed. Also fails on a file that refers to a mesh which was not read. Fails on a file
+/// without triangles, unless options.allow_empty is set.
 [[nodiscard]] Result<mesh::TriangleSoup> import_file(const std::filesystem::path& path,
                                                      const ImportOptions& options = {});
 

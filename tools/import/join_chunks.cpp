@@ -23,14 +23,14 @@ using mesh::Triangle;
 constexpr std::uint32_t kNoVertex = 0xffffffff;
 constexpr std::size_t kMaxListed = 1000;  // TriangleSoup::bad_numbers
 
-/// Where a chunk's parts go in the soup.
+/// The start of a chunk's parts in the soup.
 struct Place {
     std::uint64_t first_vertex = 0;
     std::uint64_t first_triangle = 0;
     std::uint64_t first_face = 0;
 };
 
-/// Zero times infinity or NaN is NaN, and NaN spreads.
+/// Returns true if all coordinates are finite: 0 times infinity or NaN is NaN, and NaN propagates.
 bool is_finite(const Double3& p) noexcept {
     return (p.x * 0 + p.y * 0) + p.z * 0 == 0;
 }
@@ -70,8 +70,8 @@ public:
         }
     }
 
-    /// Both steps in one for a chunk of triangles whose corners are all in range.
-    /// False for any other: then nothing counts.
+    /// Does both steps at once for a chunk of triangles whose corners are all in range. Returns
+    /// false for any other chunk; what it wrote is then invalid.
     bool write_plain_triangles() {
         if (!chunk_.sizes.empty() || !chunk_.odd.empty()) return false;
         const auto limit = static_cast<std::uint32_t>(soup_.positions.size());
@@ -191,7 +191,7 @@ private:
     std::vector<std::array<std::uint32_t, 3>> cut_;
 };
 
-/// Puts each chunk's part behind those before it. The last is the total.
+/// Returns the place of each chunk, after all chunks before it. The last entry is the total.
 std::vector<Place> find_places(const std::vector<PolygonChunk>& chunks, FaceNumbers numbers) {
     std::vector<Place> places(1);
     for (const PolygonChunk& chunk : chunks) {
@@ -220,7 +220,7 @@ std::optional<Error> find_excess(const SourceFile& file, const Place& total,
         return file.unreadable("has " + std::to_string(total.first_triangle) +
                                " triangles but no vertices");
     }
-    // Chunks and soup are alive together.
+    // Chunks and soup exist at the same time.
     const std::uint64_t bytes =
         2 * (total.first_vertex * sizeof(Double3) + total.first_triangle * (sizeof(Triangle) + 4));
     if (bytes > memory_bytes) {

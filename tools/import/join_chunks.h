@@ -12,7 +12,7 @@
 
 namespace cdprep::import {
 
-/// Where TriangleSoup::face starts from 0 again.
+/// The places where TriangleSoup::face starts from 0 again.
 enum class FaceNumbers : std::uint8_t { once, every_chunk };
 
 struct JoinOptions {
@@ -23,21 +23,20 @@ struct JoinOptions {
     ParallelFor parallel_for = serial_for;
 };
 
-/// Makes one soup of chunks in file order.
+/// Joins chunks in file order into one soup.
 ///
-/// Numbers vertices and triangles through, triangulates polygons, lists
-/// non-finite vertices and triangles with a corner out of range, builds the runs
-/// of groups and materials, and turns positions into floats where all of them
-/// allow it. A polygon with a bad corner or coordinate is cut into a fan.
-/// `over_budget` when the soup would not fit memory_bytes or the format's
-/// limits; `unreadable` when there are faces but no vertex at all. The result
-/// does not depend on how the file was cut.
+/// Numbers vertices and triangles consecutively and triangulates polygons. Lists non-finite
+/// vertices and triangles with a corner out of range. Builds the runs of groups and materials,
+/// and turns positions into floats if all of them permit it. A polygon with a bad corner or
+/// coordinate is cut into a fan. Fails with `over_budget` if the soup exceeds memory_bytes or
+/// the format's limits. Fails with `unreadable` if there are faces but no vertex. The result
+/// does not depend on the cuts between chunks.
 [[nodiscard]] Result<mesh::TriangleSoup> join_chunks(const SourceFile& file,
                                                      std::vector<PolygonChunk> chunks,
                                                      const JoinOptions& options);
 
-/// Lists the non-finite positions of a soup in front of `bad_triangles`, which
-/// are sorted, as TriangleSoup::bad_numbers says.
+/// Fills TriangleSoup::bad_numbers with the non-finite positions of a soup, followed by
+/// `bad_triangles`. Those must be sorted.
 void list_bad_numbers(mesh::TriangleSoup& soup, const std::vector<mesh::BadNumber>& bad_triangles,
                       ParallelFor parallel_for);
 

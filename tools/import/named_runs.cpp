@@ -8,7 +8,7 @@
 namespace cdprep::import {
 namespace {
 
-/// The length of the well-formed UTF-8 sequence at the front of `text`, or 0.
+/// Returns the length of the well-formed UTF-8 sequence at the front of `text`, or 0.
 /// Overlong forms, surrogates and numbers past U+10FFFF are not well-formed.
 std::size_t utf8_length(std::string_view text) noexcept {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -25,7 +25,7 @@ std::size_t utf8_length(std::string_view text) noexcept {
     return overlong || outside ? 0 : length;
 }
 
-/// Hands out the numbers of names, in the order of their first use.
+/// Numbers names in the order of their first use.
 class NameNumbers {
 public:
     explicit NameNumbers(std::vector<std::string>& names) : names_(names) {}

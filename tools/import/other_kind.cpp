@@ -28,7 +28,7 @@ constexpr std::array<Kind, 7> kUnread = {{{"PXR-USDC", ".usdc", "a USD scene"},
                                           {"", ".iges", "an IGES file"},
                                           {"", ".igs", "an IGES file"}}};
 
-/// Whether `text`, in small letters, stands at the start of `bytes` in any letters.
+/// Returns true if `bytes` begin with `text`, in upper or lower case. `text` is in lower case.
 bool starts_with_any_case(std::string_view bytes, std::string_view text) {
     return bytes.size() >= text.size() &&
            std::equal(text.begin(), text.end(), bytes.begin(), [](char wanted, char c) {

@@ -11,13 +11,13 @@
 namespace cdprep::import {
 namespace {
 
-constexpr int kMaxSingleDigits = 9;  // of a float printed so that it reads the same
+constexpr int kMaxSingleDigits = 9;  // digits that identify a float
 
 /// A finite decimal without sign, leading zeros and point:
 /// digits[0].digits[1]digits[2]... * 10^exponent.
 struct Decimal {
     std::array<char, kMaxSingleDigits + 1> digits{};
-    int count = 0;  ///< kMaxSingleDigits + 1 stands for more
+    int count = 0;  ///< kMaxSingleDigits + 1: that many or more
     std::int64_t exponent = 0;
 };
 
@@ -38,7 +38,7 @@ Decimal to_decimal(std::string_view text) noexcept {
             decimal.digits[static_cast<std::size_t>(decimal.count++)] = text[i];
         }
     }
-    --decimal.exponent;  // one digit stands before the point
+    --decimal.exponent;  // one digit is before the point
     if (i < text.size()) {
         ++i;
         if (i < text.size() && text[i] == '+') ++i;
@@ -61,7 +61,7 @@ bool starts_with(std::string_view text, std::string_view lower_prefix) noexcept 
                       [](char a, char b) { return a == lower(b); });
 }
 
-/// True when `token` spells infinity, NaN or a hexadecimal number; sets `value`.
+/// Returns true and sets `value` if `token` spells infinity, NaN or a hexadecimal number.
 bool spells_no_decimal(std::string_view token, double& value) noexcept {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     const bool negative = token.front() == '-';
@@ -86,7 +86,7 @@ bool single_prints_the_same(const char* first, const char* last, double value) n
     const Decimal decimal = to_decimal(text);
     if (decimal.count == 0 || decimal.count > kMaxSingleDigits) return false;
 
-    // Rounding text to double to float may differ from rounding once. Then the
+    // Rounding from text to double to float may differ from rounding once. If it does, the
     // number stays a double.
     float rounded_once = 0;
     const char* unsigned_first = first + (text.find_first_of("+-") == 0 ? 1 : 0);
@@ -102,10 +102,9 @@ bool single_prints_the_same(const char* first, const char* last, double value) n
            back.digits == decimal.digits;
 }
 
-// The quotient or product of two numbers that x87 registers hold exactly, rounded
-// to 64 bits, lies on the same side of every point halfway between two doubles as
-// the true value, unless it is such a point. So rounding it again is right, except
-// then.
+// x87 registers hold both operands exactly and round their quotient or product to 64 bits. The
+// result lies on the same side of every point halfway between two doubles as the true value,
+// unless it is such a point. Rounding it again is therefore correct, except in that case.
 Number parse_long_number(const char* first, const char* last, std::uint64_t significand,
                          int exponent) noexcept {
     using Limits = std::numeric_limits<long double>;
@@ -149,7 +148,7 @@ Number parse_odd_number(const char* first, const char* last) noexcept {
     const auto read = std::from_chars(magnitude, end, value);
     if (read.ptr != end || magnitude == end || *magnitude == '-') return {};
     if (read.ec == std::errc::result_out_of_range) {
-        // Too large or too small for a double: the decimal exponent says which.
+        // Too large or too small for a double: the decimal exponent decides which.
         const bool large = to_decimal(token).exponent > 0;
         value = large ? std::numeric_limits<double>::infinity() : 0.0;
     }

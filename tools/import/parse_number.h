@@ -12,38 +12,37 @@ namespace cdprep::import {
 /// A number read from text.
 struct Number {
     double value = 0;            ///< correctly rounded; NaN for spellings of no finite number
-    const char* next = nullptr;  ///< just past it; null when there is no number
-    /// The nearest float stands for it without loss: that float is
-    /// `value` itself, or the text has at most 9 significant digits and the float
-    /// printed with as many digits reads the same. static_cast<float>(value) is
-    /// that float.
+    const char* next = nullptr;  ///< just past it; null if there is no number
+    /// The nearest float represents the number without loss. Either that float equals `value`,
+    /// or the text has at most 9 significant digits and the float, printed with that number of
+    /// digits, reads the same. static_cast<float>(value) is that float.
     bool single = false;
 };
 
 /// Reads the decimal number at `first`, correctly rounded. It must end before a
 /// blank, a '#', a backslash or `last`; otherwise `next` is null.
 ///
-/// Infinity and NaN in the spellings that C libraries write ("inf", "nan",
-/// "-nan(ind)", "1.#QNAN", ...) give that value, also numbers too large for a
-/// double; hexadecimal spellings give NaN. `first` < `last` is not required.
-/// About 5 ns; numbers of more than 19 digits or great exponents about 50 ns.
+/// Infinity and NaN in the spellings of C libraries ("inf", "nan", "-nan(ind)", "1.#QNAN", ...)
+/// give that value. A number too large for a double gives infinity, a hexadecimal spelling NaN.
+/// `first` < `last` is not required. Takes about 5 ns; about 50 ns for numbers of more than 19
+/// digits or with large exponents.
 [[nodiscard]] inline Number parse_number(const char* first, const char* last) noexcept;
 
-/// The case of parse_number() for more digits than a double holds: at most 19
-/// digits, significand * 10^exponent, which [first, last) spells.
+/// Handles the case of parse_number() with more digits than a double holds. [first, last) spells
+/// significand * 10^exponent with at most 19 digits.
 [[nodiscard]] Number parse_long_number(const char* first, const char* last,
                                        std::uint64_t significand, int exponent) noexcept;
 
-/// The general case of parse_number(): any length, any exponent, any spelling.
+/// Handles the general case of parse_number(): any length, any exponent, any spelling.
 [[nodiscard]] Number parse_odd_number(const char* first, const char* last) noexcept;
 
-/// Decides `Number::single` for the finite text [first, last) of value `value`
-/// by printing the nearest float.
+/// Returns `Number::single` for the finite text [first, last) of value `value`. It prints the
+/// nearest float to decide.
 [[nodiscard]] bool single_prints_the_same(const char* first, const char* last,
                                           double value) noexcept;
 
 /// Appends the decimal digits at `first` to `value` (modulo 2^64) and returns the
-/// first character that is none.
+/// first character that is not a digit.
 [[nodiscard, gnu::always_inline]] inline const char* take_digits(const char* first,
                                                                  const char* last,
                                                                  std::uint64_t& value) noexcept;
@@ -51,11 +50,11 @@ struct Number {
 /// A whole number read from text.
 struct WholeNumber {
     std::int64_t value = 0;
-    const char* next = nullptr;  ///< just past it; null when there is none
+    const char* next = nullptr;  ///< just past it; null if there is no number
 };
 
-/// Reads the whole number of at most 18 digits at `first`, which ends where
-/// parse_number() says.
+/// Reads the whole number of at most 18 digits at `first`. The rules for its end are those of
+/// parse_number().
 [[nodiscard]] inline WholeNumber parse_whole_number(const char* first, const char* last) noexcept;
 
 // ---------------------------------------------------------------- inline parts
@@ -71,7 +70,7 @@ inline constexpr std::array<double, 23> kNegativePowerOfTen = {
 inline constexpr std::array<std::uint32_t, 9> kSmallPowerOfTen = {
     1, 10, 100, 1000, 10000, 100000, 1000000, 10000000, 100000000};
 
-/// The number that eight digit values spell, first digit in the lowest byte.
+/// Returns the number with these eight digits. The first digit is in the lowest byte.
 constexpr std::uint64_t eight_digits(std::uint64_t digits) noexcept {
     constexpr std::uint64_t kEverySecond = 0x000000ff000000ff;
     digits = digits * 10 + (digits >> 8);
@@ -90,13 +89,13 @@ constexpr bool ends_number(char c) noexcept {
 
 enum class Loss : std::uint8_t { none, some, unclear };
 
-/// Whether a float holds significand * 10^exponent = value without loss, for a
-/// significand up to 2^53 and exponents from -22 to 22, where no float overflows
-/// or is subnormal. Up to 6 digits always survive; for 7 to 9 the float must be
-/// nearer than half a unit of the last digit. `value` errs by less than 2^-53 of
-/// at most 10^9 units, so a millionth of a unit to either side is left unclear,
-/// as are decades (below them digits are finer) and doubles halfway between two
-/// floats (where rounding twice could differ from rounding once).
+/// Returns the loss of a float that holds significand * 10^exponent = value. The significand is at
+/// most 2^53 and the exponent from -22 to 22, so no float overflows or is subnormal. Up to 6 digits
+/// always survive. For 7 to 9 digits the float must be nearer than half a unit of the last digit.
+/// The error of `value` is less than 2^-53 of at most 10^9 units. The result is therefore
+/// `unclear` within a millionth of a unit to either side. It is also `unclear` at powers of ten,
+/// below which digits are finer. The same holds for doubles halfway between two floats, where
+/// rounding twice could differ from rounding once.
 inline Loss loss_as_single(std::uint64_t significand, int exponent, double value) noexcept {
     constexpr double kDoubt = 1e-6;  // of half a unit
     constexpr std::uint64_t kHalfway = std::uint64_t{1} << 28;
@@ -122,15 +121,15 @@ inline const char* take_digits(const char* first, const char* last, std::uint64_
         std::uint64_t text;
         std::memcpy(&text, first, 8);
         const std::uint64_t digits = text ^ 0x3030303030303030;
-        // The high bit of each byte above 9. A carry out of a byte above 0x89
-        // only spoils later bytes, and the first one that is no digit decides.
+        // The high bit of each byte above 9. A carry out of a byte above 0x89 only corrupts
+        // later bytes, and the first byte that is not a digit decides.
         const std::uint64_t others = ((digits + 0x7676767676767676) | digits) & 0x8080808080808080;
         const auto count = static_cast<unsigned>(std::countr_zero(others)) / 8;
         if (count == 0) return first;
         value = value * detail::kSmallPowerOfTen[count] +
                 detail::eight_digits(digits << (64 - 8 * count));
         first += count;
-        // One branch, seldom taken: lengths vary too much to be predicted.
+        // A single branch, seldom taken: lengths vary too much to be predicted.
         const bool more = (count == 8) & (first < last) && detail::is_digit(*first);
         if (!more) return first;
     }
@@ -190,7 +189,7 @@ inline Number parse_number(const char* first, const char* last) noexcept {
     // A '#' may begin a comment, or belong to 1.#INF.
     if (at<last&& static_cast<unsigned char>(*at)> ' ') return parse_odd_number(first, last);
 
-    // Both factors are doubles without rounding, so one operation rounds once.
+    // Both operands are exact doubles, so the one operation rounds once.
     constexpr std::uint64_t kExact = std::uint64_t{1} << 53;
     if (significand > kExact || exponent < -22 || exponent > 22) {
         return parse_long_number(first, at, significand, exponent);

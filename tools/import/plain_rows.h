@@ -11,8 +11,8 @@
 
 namespace cdprep::import {
 
-/// Reads the three numbers that a vertex row begins with, appends them, and
-/// returns the place behind them; or null, with nothing appended.
+/// Reads the three numbers at the start of a vertex row and appends them. Returns the place after
+/// them, or null with nothing appended if the row does not begin with three numbers.
 [[nodiscard]] inline const char* take_vertex(const char* at, const char* end, PolygonChunk& chunk) {
     std::array<double, 3> x{};
     bool single = true;
@@ -29,9 +29,8 @@ namespace cdprep::import {
     return at;
 }
 
-/// Reads the row "3 A B C" of three plain vertex numbers counted from 0, appends
-/// the face, and returns the place behind it; or null, with nothing appended, for
-/// any other row.
+/// Reads the row "3 A B C" of three plain vertex numbers counted from 0 and appends the face.
+/// Returns the place after it, or null with nothing appended for any other row.
 [[nodiscard]] inline const char* take_triangle(const char* at, const char* end,
                                                PolygonChunk& chunk) {
     constexpr std::ptrdiff_t kMaxDigits = 9;  // below PolygonChunk::kFromChunkStart

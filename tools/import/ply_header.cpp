@@ -64,7 +64,7 @@ std::optional<std::size_t> place_of(const PlyElement& element, std::string_view 
     return static_cast<std::size_t>(found - element.properties.begin());
 }
 
-/// Finds out what the element is for. Returns what is wrong with it, or nothing.
+/// Sets the role of the element. Returns a description of its error, or "".
 std::string assign_role(PlyElement& element) {
     if (element.name == "vertex") {
         const auto x = place_of(element, "x");

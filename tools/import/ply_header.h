@@ -14,16 +14,16 @@ namespace cdprep::import {
 
 enum class PlyType : std::uint8_t { none, i8, u8, i16, u16, i32, u32, f32, f64 };
 
-/// Bytes of one number; 0 for none.
+/// Returns the bytes of one number; 0 for `none`.
 [[nodiscard]] std::size_t size_of(PlyType type) noexcept;
 
 struct PlyProperty {
     std::string_view name;
-    PlyType type = PlyType::none;        ///< of the number, or of each in the list
+    PlyType type = PlyType::none;        ///< of the number, or of each number in the list
     PlyType count_type = PlyType::none;  ///< none: no list
 };
 
-/// What an element means to a mesh.
+/// The role of an element in a mesh.
 enum class PlyRole : std::uint8_t { other, vertices, faces, strips };
 
 struct PlyElement {
@@ -34,7 +34,7 @@ struct PlyElement {
     std::size_t x = 0, y = 0, z = 0;  ///< places of the coordinates: vertices only
     std::size_t indices = 0;          ///< place of the vertex list: faces and strips only
 
-    /// The least bytes that one takes in a binary file: its lists are empty.
+    /// Returns the minimum bytes of one element in a binary file, reached if its lists are empty.
     [[nodiscard]] std::size_t least_bytes() const noexcept;
 };
 
@@ -45,8 +45,8 @@ struct PlyHeader {
     const char* body = nullptr;  ///< the first byte after the header
 };
 
-/// Reads the header of a file that begins with "ply". `unreadable` when it is cut
-/// off, has a line that is none of PLY, or no vertices with x, y and z.
+/// Reads the header of a file that begins with "ply". Fails with `unreadable` if it is truncated,
+/// has a line that is not PLY, or has no vertices with x, y and z.
 [[nodiscard]] Result<PlyHeader> read_ply_header(const SourceFile& file);
 
 }  // namespace cdprep::import

@@ -20,13 +20,13 @@ constexpr std::array<std::string_view, 28> kStatements = {
     "s",    "mg",   "usemtl", "usemap", "mtllib", "maplib", "cstype", "deg", "curv", "curv2",
     "surf", "parm", "trim",   "hole",   "scrv",   "sp",     "end",    "con"};
 
-/// What stops the reading of a line.
+/// An error that stops the reading of a line.
 struct Fault {
     const char* at;
     std::string what;
 };
 
-/// True when the line end at `feed` is hidden by a backslash.
+/// Returns true if a backslash precedes the line end at `feed`, so that the line continues.
 bool is_continued(const char* begin, const char* feed) noexcept {
     if (feed > begin && feed[-1] == '\r') --feed;
     return feed > begin && feed[-1] == '\\';
@@ -62,7 +62,7 @@ class ObjChunkReader {
 public:
     ObjChunkReader(std::string_view text, PolygonChunk& chunk)
         : chunk_(chunk), at_(text.data()), end_(at_ + text.size()) {
-        // Half of the text may be vertices of 30 bytes, half faces of 25.
+        // Half of the text may be vertices of 30 bytes each, half faces of 25.
         chunk_.positions.reserve(text.size() / 60);
         chunk_.corners.reserve(3 * text.size() / 25);
     }
@@ -120,8 +120,8 @@ private:
         return fail("a vertex has " + std::to_string(axis) + " coordinates; 3 are needed");
     }
 
-    /// The usual face: three numbers from 1 on, perhaps with slashes. False, and
-    /// nothing read, for any other.
+    /// Reads the usual face: three numbers from 1 on, perhaps with slashes. Returns false and
+    /// reads nothing for any other face.
     bool read_plain_triangle() {
         constexpr std::ptrdiff_t kMaxDigits = 9;  // below kFromChunkStart
         std::array<std::uint32_t, 3> corners{};
@@ -157,7 +157,7 @@ private:
         return true;
     }
 
-    /// v, v/vt, v//vn or v/vt/vn; only v matters.
+    /// Reads v, v/vt, v//vn or v/vt/vn; only v matters.
     bool read_corner() {
         const char* at = at_;
         const bool negative = *at == '-';
@@ -190,7 +190,7 @@ private:
         }
     }
 
-    /// g, o and usemtl; any other line is left alone.
+    /// Reads g, o and usemtl; leaves any other line unread.
     void read_names() {
         const char first = *at_;
         if (first != 'g' && first != 'o' && first != 'u') return;

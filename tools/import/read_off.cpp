@@ -27,7 +27,7 @@ struct Header {
     const char* body = nullptr;
 };
 
-/// The length of the keyword at `at`, or 0. Digits may follow it directly.
+/// Returns the length of the keyword at `at`, or 0. Digits may follow it directly.
 std::size_t keyword_length(const char* at, const char* end) noexcept {
     constexpr std::string_view kPrefixLetters = "STCN4n";
     constexpr std::size_t kMaxPrefix = 6;
@@ -36,7 +36,7 @@ std::size_t keyword_length(const char* at, const char* end) noexcept {
     return prefix <= kMaxPrefix && text.substr(prefix, 3) == "OFF" ? prefix + 3 : 0;
 }
 
-/// The keyword is optional; vertices and faces follow, and perhaps edges.
+/// Reads the header: an optional keyword, the counts of vertices and faces, and perhaps of edges.
 std::optional<Fault> read_header(std::string_view text, Header& header) {
     const char* const end = text.data() + text.size();
     const char* at = next_row(text.data(), end);
@@ -143,8 +143,8 @@ private:
     std::optional<Fault> fault_;
 };
 
-/// Reads a body whose rows are not lines: numbers alone, of which there must be exactly as many as
-/// the header counts ask for. A file with colours or normals must read by lines.
+/// Reads a body whose rows are not lines. It must consist of exactly the numbers that the counts of
+/// the header require. A file with colours or normals must be read by lines.
 class FreeFormReader {
 public:
     FreeFormReader(const Header& header, const char* end)
@@ -204,7 +204,8 @@ private:
     PolygonChunk chunk_;
 };
 
-/// A file that reads neither by lines nor as numbers alone fails as by lines, which most are.
+/// Reads a file as numbers alone after reading by lines failed. If this fails too, returns the
+/// error of reading by lines, because most files have lines.
 Result<mesh::TriangleSoup> read_free_form(const SourceFile& file, const Header& header,
                                           const ImportOptions& options, Error by_lines) {
     const char* const end = file.bytes().data() + file.bytes().size();

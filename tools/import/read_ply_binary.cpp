@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kBlock = 16384;  // records that one parallel step reads
 
-/// A number as it lies in the file, in this machine's byte order.
+/// Returns the number at `at` in the file, converted to this machine's byte order if `swap`.
 template <class T>
 T load(const char* at, bool swap) noexcept {
     std::array<char, sizeof(T)> bytes;
@@ -51,7 +51,7 @@ double load_number(PlyType type, const char* at, bool swap) noexcept {
     return 0;
 }
 
-/// Requires an integer type.
+/// Returns the whole number at `at`. Requires an integer type.
 std::int64_t load_whole(PlyType type, const char* at, bool swap) noexcept {
     switch (type) {
         case PlyType::i32:
@@ -149,14 +149,15 @@ private:
         return true;
     }
 
-    /// Binary doubles stay doubles, whatever their value; integers may fit.
+    /// Returns true if a value counts as a float. Binary doubles stay doubles, whatever their
+    /// value; integers count if they fit.
     static bool counts_as_single(PlyType type, double value) {
         return is_always_single(type) ||
                (type != PlyType::f64 && static_cast<double>(static_cast<float>(value)) == value);
     }
 
-    /// Reads faces that are triangles to the last one, in parallel: if every
-    /// count where it would then stand is 3, every record does start there.
+    /// Reads faces in parallel if all are triangles. The test assumes records of three corners:
+    /// if every count at its place in this layout is 3, every record does start there.
     bool read_triangles(const PlyElement& element) {
         const PlyProperty& list = element.properties[element.indices];
         std::size_t before = 0;
@@ -246,7 +247,7 @@ private:
         add_strip(strip, chunks_.back());
     }
 
-    /// Moves at_ past one property, or fails where the file is too short for it.
+    /// Moves at_ past one property. Fails if the file is too short for it.
     bool skip(const PlyElement& element, std::uint64_t record, const PlyProperty& property) {
         const bool is_list = property.count_type != PlyType::none;
         const std::size_t first = size_of(is_list ? property.count_type : property.type);

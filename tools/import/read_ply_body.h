@@ -10,17 +10,17 @@
 
 namespace cdprep::import {
 
-/// Reads what follows the header of a text PLY file.
+/// Reads the content after the header of a text PLY file.
 [[nodiscard]] Result<std::vector<PolygonChunk>> read_ply_text(const SourceFile& file,
                                                               const PlyHeader& header,
                                                               const ImportOptions& options);
 
-/// Reads what follows the header of a binary PLY file.
+/// Reads the content after the header of a binary PLY file.
 [[nodiscard]] Result<std::vector<PolygonChunk>> read_ply_binary(const SourceFile& file,
                                                                 const PlyHeader& header,
                                                                 const ImportOptions& options);
 
-/// Cuts a strip into the triangles of `chunk`: 0 1 2, 2 1 3, ... ; -1 starts anew.
+/// Adds the triangles of a strip to `chunk`: 0 1 2, 2 1 3, ... ; -1 starts a new strip.
 void add_strip(const std::vector<std::int64_t>& strip, PolygonChunk& chunk);
 
 }  // namespace cdprep::import

@@ -17,7 +17,7 @@ struct Fault {
     std::string what;
 };
 
-/// Reads the rows of one chunk, whatever elements they belong to.
+/// Reads the rows of one chunk, whichever elements they belong to.
 class PlyRowReader {
 public:
     PlyRowReader(const PlyHeader& header, const RowChunk& rows, PolygonChunk& chunk)
@@ -33,7 +33,7 @@ public:
         at_ = next_row(at_, end_);
         while (at_ < end_) {
             while (element < elements_.size() && row_ >= last) last += elements_[element++].count;
-            if (row_ >= last) break;  // more rows than the header counts
+            if (row_ >= last) break;  // more rows than the header declares
             if (!read_row(elements_[element - 1])) return std::move(fault_);
             at_ = next_row(next_line(at_, end_), end_);
             ++row_;
@@ -146,7 +146,7 @@ private:
     std::optional<Fault> fault_;
 };
 
-/// The sentence for a file of fewer rows than its header counts.
+/// Returns the error for a file with fewer rows than its header declares, or nothing.
 std::optional<Error> find_missing_rows(const SourceFile& file, const PlyHeader& header,
                                        std::uint64_t rows) {
     for (const PlyElement& element : header.elements) {

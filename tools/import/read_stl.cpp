@@ -68,7 +68,7 @@ struct Fault {
     std::string what;
 };
 
-/// A word of a file of any case, compared with a lower-case one.
+/// Returns true if a word of a file, in upper or lower case, equals a lower-case word.
 bool is_word(std::string_view word, std::string_view lower) noexcept {
     return word.size() == lower.size() &&
            std::equal(word.begin(), word.end(), lower.begin(),
@@ -86,8 +86,8 @@ const char* skip_space(const char* at, const char* end) noexcept {
     return at;
 }
 
-/// Reads facets word by word: some files hold a facet on one line. Words that
-/// carry no position (normals, loops) are skipped.
+/// Reads facets word by word, because some files have a whole facet on one line. Words without a
+/// position (normals, loops) are skipped.
 class StlChunkReader {
 public:
     StlChunkReader(std::string_view text, PolygonChunk& chunk)

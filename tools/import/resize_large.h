@@ -9,8 +9,8 @@
 
 namespace cdprep::import {
 
-/// Resizes an empty vector, on huge pages where the system has them: first
-/// touches of 4 KiB pages otherwise cost a quarter of a fast import.
+/// Resizes an empty vector, on huge pages if the system has them. Otherwise the first access to
+/// each 4 KiB page costs a quarter of a fast import.
 template <class T>
 void resize_large(std::vector<T>& values, std::size_t count) {
     constexpr std::size_t kHugePage = std::size_t{1} << 21;
@@ -18,7 +18,7 @@ void resize_large(std::vector<T>& values, std::size_t count) {
     void* whole_pages = values.data();
     std::size_t bytes = count * sizeof(T);
     if (std::align(kHugePage, kHugePage, whole_pages, bytes)) {
-        // Advice: nothing is lost where it is not taken.
+        // This is advice: the program is correct if the system ignores it.
         (void)::madvise(whole_pages, bytes / kHugePage * kHugePage, MADV_HUGEPAGE);
     }
     values.resize(count);

@@ -7,17 +7,17 @@
 
 namespace cdprep::import {
 
-/// What the importing child hands to its parent: one SceneHeader, then arrays
-/// without gaps in the order of its counts. The parent believes none of it.
+/// The result of the importing child for its parent: one SceneHeader, then arrays
+/// without gaps in the order of its counts. The parent trusts none of it.
 ///
-/// Both sides come from one build on one machine: no byte order, no version.
+/// Both sides come from one build on one machine, so there is no byte order and no version.
 
 inline constexpr std::array<char, 8> kSceneMagic = {'C', 'D', 'P', 'S', 'C', 'E', 'N', 'E'};
 
-/// How the child fared. Only `read` has arrays; the others have a text.
+/// The outcome of the child. Only `read` has arrays; the others have a text.
 enum class SceneOutcome : std::uint32_t {
     read = 1,
-    unreadable = 2,     ///< the text says why
+    unreadable = 2,     ///< the text gives the reason
     out_of_memory = 3,  ///< the limit was reached
 };
 
@@ -25,7 +25,7 @@ struct SceneHeader {
     std::array<char, 8> magic;  ///< kSceneMagic
     SceneOutcome outcome;
     std::uint32_t up_axis;      ///< format::UpAxis
-    double metres_per_unit;     ///< 0: the file does not say
+    double metres_per_unit;     ///< 0: the file has no unit
     std::uint64_t input_bytes;  ///< of all files opened
     // Arrays follow, in this order:
     std::uint64_t mesh_count;       ///< SceneMesh
@@ -47,8 +47,8 @@ struct SceneMesh {
     std::uint32_t is_single;  ///< 1: every coordinate is a float without loss
 };
 
-/// The most memory that a file of so many bytes can fill: text formats through assimp stay below a
-/// hundred times their size. What asks for more lies about what it holds.
+/// Returns the memory limit for a file of `input_bytes` bytes. Text formats through assimp stay
+/// below a hundred times their size. A file that requires more states false sizes.
 [[nodiscard]] constexpr std::uint64_t honest_memory(std::uint64_t input_bytes) noexcept {
     constexpr std::uint64_t kProgram = std::uint64_t{512} << 20;
     constexpr std::uint64_t kRatio = 200;

@@ -7,7 +7,7 @@
 namespace cdprep::import {
 namespace {
 
-/// What no file of another format begins with.
+/// Returns true if the bytes begin with the magic of GLB or binary FBX, which no other format has.
 bool has_scene_magic(std::string_view bytes) {
     return bytes.starts_with("glTF") || bytes.starts_with("Kaydara FBX Binary");
 }
@@ -16,7 +16,7 @@ bool has_ply_magic(std::string_view bytes) {
     return bytes.starts_with("ply\n") || bytes.starts_with("ply\r");
 }
 
-/// JSON or XML.
+/// Returns true if the bytes look like JSON or XML.
 bool is_document(std::string_view bytes) {
     const std::size_t first = bytes.find_first_not_of(" \t\r\n\xef\xbb\xbf");
     return first < bytes.size() && (bytes[first] == '{' || bytes[first] == '<');

@@ -11,17 +11,17 @@
 
 namespace cdprep::import {
 
-/// A mesh file, mapped for reading, and its name as messages give it.
+/// A mesh file, mapped for reading, and its name in messages.
 ///
-/// Move-only. The bytes are those of the disk: a program that shortens the file
-/// during the import ends the import with a bus error, as for any mapped file.
+/// Move-only. The bytes are those of the disk. If another program truncates the file during the
+/// import, the import ends with a bus error, as for any mapped file.
 class SourceFile {
 public:
-    /// Maps a regular file of at most `max_bytes` bytes. `unreadable` when it is
-    /// missing, no regular file or not permitted; `over_budget` when too long.
+    /// Maps a regular file of at most `max_bytes` bytes. Fails with `unreadable` if it is missing,
+    /// not a regular file or not permitted, and with `over_budget` if it is too long.
     static Result<SourceFile> open(const std::filesystem::path& path, std::uint64_t max_bytes);
 
-    /// Reads from memory that outlives the object: what tests do.
+    /// Reads from memory that must outlive the object. Tests use this.
     SourceFile(std::string name, std::string_view bytes) noexcept;
 
     SourceFile(SourceFile&& other) noexcept;
@@ -35,13 +35,13 @@ public:
         return bytes_;
     }
 
-    /// "NAME: WHAT.", code `unreadable`.
+    /// Returns the error "NAME: WHAT." with code `unreadable`.
     [[nodiscard]] Error unreadable(std::string_view what) const;
 
-    /// "NAME: line N: WHAT.", where N is the line of `at`, a place in bytes().
+    /// Returns the error "NAME: line N: WHAT.". N is the line of `at`, a place in bytes().
     [[nodiscard]] Error unreadable_line(const char* at, std::string_view what) const;
 
-    /// "NAME: WHAT.", code `over_budget`.
+    /// Returns the error "NAME: WHAT." with code `over_budget`.
     [[nodiscard]] Error over_budget(std::string_view what) const;
 
 private:
@@ -50,8 +50,8 @@ private:
     bool mapped_ = false;
 };
 
-/// The start of the word at `at`, quoted and short enough for a message;
-/// characters that do not print are shown as '?'.
+/// Returns the start of the word at `at`, quoted and short enough for a message. '?' replaces
+/// characters that do not print.
 [[nodiscard]] std::string quoted_word(const char* at, const char* end);
 
 }  // namespace cdprep::import

@@ -11,15 +11,15 @@
 
 namespace cdprep::import {
 
-/// About how much text one parallel step reads: its results stay in the second
-/// level cache.
+/// The approximate size of the text that one parallel step reads. Its results fit the
+/// second-level cache.
 inline constexpr std::size_t kChunkBytes = std::size_t{1} << 19;
 
 constexpr bool is_blank(char c) noexcept {
     return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/// Returns the first character at or after `at` that is no blank.
+/// Returns the first character at or after `at` that is not a blank, or `end`.
 inline const char* skip_blanks(const char* at, const char* end) noexcept {
     while (at < end && is_blank(*at)) ++at;
     return at;
@@ -32,12 +32,11 @@ inline const char* next_line(const char* at, const char* end) noexcept {
     return feed ? static_cast<const char*>(feed) + 1 : end;
 }
 
-/// The line at `at`, without its end and the blanks around it.
+/// Returns the line at `at`, without its end and the surrounding blanks.
 [[nodiscard]] std::string_view trimmed_line(const char* at, const char* end) noexcept;
 
-/// Cuts text into chunks of about kChunkBytes that follow each other without
-/// gaps. Each but the first starts at the start of a line for which
-/// `may_start(line, end)` is true.
+/// Cuts text into consecutive chunks of about kChunkBytes, without gaps. Each chunk except the
+/// first begins at a line for which `may_start(line, end)` is true.
 template <class MayStart>
 [[nodiscard]] std::vector<std::string_view> split_lines(std::string_view text,
                                                         MayStart&& may_start) {
@@ -56,19 +55,19 @@ template <class MayStart>
     return chunks;
 }
 
-/// A chunk of lines that each hold one element, and the number of its first.
+/// A chunk of lines with one element each, and the number of its first element.
 struct RowChunk {
     std::string_view text;
     std::uint64_t first_row = 0;
     std::uint64_t row_count = 0;
 };
 
-/// Returns the first line at or after `at` that is neither blank nor a comment
-/// ('#'), at its first character that is no blank; or `end`.
+/// Returns the first line at or after `at` that is neither blank nor a comment ('#'), or `end`.
+/// The result points to the line's first character that is not a blank.
 [[nodiscard]] const char* next_row(const char* at, const char* end) noexcept;
 
-/// Cuts text into chunks of rows and numbers them. Rows are lines, without blank
-/// ones and comments.
+/// Cuts text into chunks of rows and numbers them. Rows are the lines that are neither blank nor
+/// comments.
 [[nodiscard]] std::vector<RowChunk> split_rows(std::string_view text, ParallelFor parallel_for);
 
 }  // namespace cdprep::import

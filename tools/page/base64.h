@@ -7,7 +7,7 @@
 
 namespace cdprep::report {
 
-/// The bytes as base64 (RFC 4648, padded, one line).
+/// Returns the bytes as base64 (RFC 4648, padded, one line).
 [[nodiscard]] std::string base64(std::span<const std::byte> bytes);
 
 }  // namespace cdprep::report

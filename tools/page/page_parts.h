@@ -9,11 +9,11 @@
 
 namespace cdprep::report {
 
-/// A text as content or attribute of an element.
+/// Returns a text escaped as the content or an attribute of an element.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// JSON for a script element: whatever a name holds, it cannot end the element. Bytes that
-/// are not UTF-8 become U+FFFD.
+/// Returns JSON for a script element. No text in it can end the element. Bytes that are not
+/// UTF-8 become U+FFFD.
 template <class Json>
 [[nodiscard]] std::string script_json(const Json& value) {
     const std::string plain = value.dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -33,12 +33,12 @@ template <class Json>
     return safe;
 }
 
-/// A script element that holds data.
+/// Returns a script element that holds data.
 [[nodiscard]] std::string script_element(const std::string& id, const char* type,
                                          const std::string& content);
 
-/// The frame with each name of `parts` replaced, which begin with '@'. What is filled in is
-/// not looked at again.
+/// Returns the frame with each name of `parts` replaced by its text. Names begin with '@'.
+/// Inserted text is not searched again.
 [[nodiscard]] std::string filled(std::string_view frame,
                                  std::span<const std::pair<std::string_view, std::string>> parts);
 

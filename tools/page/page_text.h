@@ -3,11 +3,11 @@
 
 #include <string_view>
 
-/// The texts that the page is put together from. They are files when the program is
-/// built and part of it then, so that it needs none when it runs.
+/// The texts from which the page is assembled. The build embeds their files in the program, so
+/// that no file is needed at run time.
 namespace cdprep::report::page {
 
-extern const std::string_view kFrame;     ///< page.html, with places for the rest: @name@
+extern const std::string_view kFrame;     ///< page.html, with placeholders for the rest: @name@
 extern const std::string_view kStyle;     ///< page.css
 extern const std::string_view kView;      ///< view.js
 extern const std::string_view kList;      ///< list.js

@@ -8,7 +8,7 @@
 
 namespace cdprep::report {
 
-/// How --bounds, provenance and info call what bounds the triangles of a model.
+/// The name of a kind of bounding volumes, as --bounds, provenance and info spell it.
 struct BoundsName {
     const char* name;
     build::BvhBounds bounds;
@@ -29,7 +29,7 @@ inline constexpr std::array<BoundsName, 6> kBoundsNames = {{
     return "unknown";
 }
 
-/// Of an open model, by the sections it has.
+/// Returns the kind of bounding volumes of an open model, found from its sections.
 [[nodiscard]] inline build::BvhBounds bounds_of(const Model& model) noexcept {
     const bool oriented = model.sections().contains(SectionId::oriented_nodes);
     if (!model.sections().contains(SectionId::swept_nodes)) {

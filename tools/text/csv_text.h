@@ -6,7 +6,8 @@
 
 namespace cdprep::report {
 
-/// A cell of CSV that holds this text: in quotes, quotes in it doubled (RFC 4180), on one line.
+/// Returns a CSV cell that holds the text: in quotes, with inner quotes doubled (RFC 4180). Line
+/// ends become blanks, so the cell stays on one line.
 [[nodiscard]] inline std::string csv_text(std::string_view text) {
     std::string quoted = "\"";
     for (const char letter : text) {

@@ -7,7 +7,7 @@
 namespace cdprep::report {
 namespace {
 
-/// Letters, digits and what RFC 3986 reserves nowhere; slashes part the path.
+/// Returns true for the unreserved characters of RFC 3986 and for the slash that separates folders.
 bool is_plain(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
            std::string_view("-._~/").find(c) != std::string_view::npos;

@@ -6,9 +6,9 @@
 
 namespace cdprep::report {
 
-/// Returns a reference to a file as RFC 3986 writes it: relative when the file lies
-/// below `folder`, which must be absolute; file:///... when it does not. `path` may be
-/// relative to `folder`; dots are resolved by their spelling, the disk is not looked at.
+/// Returns a reference to a file in the form of RFC 3986: relative if the file lies below
+/// `folder`, else file:///... . `folder` must be absolute; `path` may be relative to it. Dots are
+/// resolved by their spelling; the disk is not read.
 [[nodiscard]] std::string file_uri(const std::filesystem::path& path,
                                    const std::filesystem::path& folder);
 

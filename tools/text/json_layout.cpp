@@ -8,7 +8,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kLineLength = 100;
 
-/// The items in brackets: on one line when they fit, else one a line.
+/// Returns the items in brackets: on one line if they fit, else one per line.
 std::string bracketed(const char* brackets, const std::vector<std::string>& items, int depth) {
     std::size_t size = 1 + items.size();
     bool is_broken = false;

@@ -9,17 +9,17 @@
 
 namespace cdprep::report {
 
-/// JSON for people and for diff: what fits on a line stands on one, the rest is broken
-/// and indented, starting `depth` steps in. Bytes that are no UTF-8 are replaced.
+/// Returns JSON laid out for people and for diff. A value that fits on a line stays on one; others
+/// are broken and indented, starting at `depth` steps. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string laid_out(const nlohmann::ordered_json& json, int depth);
 
-/// On one line.
+/// Returns JSON on one line. Bytes that are not UTF-8 are replaced.
 [[nodiscard]] std::string compact(const nlohmann::ordered_json& json);
 
-/// The text with bytes that are no UTF-8 replaced, as they are in JSON.
+/// Returns the text with the bytes that are not UTF-8 replaced, as laid_out() replaces them.
 [[nodiscard]] std::string valid_utf8(std::string_view text);
 
-/// Three numbers, null where one is not finite.
+/// Returns an array of three numbers. A number that is not finite prints as null.
 [[nodiscard]] nlohmann::ordered_json position_json(const format::Double3& position);
 
 }  // namespace cdprep::report

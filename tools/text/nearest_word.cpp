@@ -8,7 +8,8 @@
 namespace cdprep::report {
 namespace {
 
-/// The optimal string alignment distance: of Damerau and Levenshtein, no part edited twice.
+/// Returns the optimal string alignment distance: the Damerau-Levenshtein distance in which no
+/// part is edited twice.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> before(b.size() + 1);
     std::vector<std::size_t> last(b.size() + 1);
@@ -31,7 +32,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string suggestion(std::string_view word, std::span<const std::string> candidates) {
-    constexpr std::size_t kShortest = 3;  // of one or two letters every other is near
+    constexpr std::size_t kShortest = 3;  // every word is near one of one or two letters
     if (word.size() < kShortest) return "";
     std::size_t nearest = std::max<std::size_t>(word.size() / 3, 1) + 1;
     std::string_view best;

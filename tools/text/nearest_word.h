@@ -7,9 +7,10 @@
 
 namespace cdprep::report {
 
-/// " Did you mean 'collide'?" of the candidate that is fewest typing mistakes away (a letter more,
-/// less, wrong, or two exchanged), the first of several; empty where none is near: more than a
-/// third of the word's letters, but at least one, are mistakes, or the word has one or two letters.
+/// Returns " Did you mean 'collide'?" for the candidate with the fewest typing mistakes, the first
+/// of several. A mistake is an added, missing or wrong letter, or two letters exchanged. The
+/// mistakes may be at most a third of the word's letters; one is always permitted. Empty if no
+/// candidate is that near, or if the word has one or two letters.
 [[nodiscard]] std::string suggestion(std::string_view word,
                                      std::span<const std::string> candidates);
 

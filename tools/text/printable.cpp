@@ -6,11 +6,12 @@
 namespace cdprep::report {
 namespace {
 
-/// Bytes of the control character that the text begins with; 0 when it begins with none.
+/// Returns the number of bytes of the control character at the front of the text; 0 if there is
+/// none.
 std::size_t control_length(std::string_view text) {
     const char first = text[0];
     if ((first >= 0 && first < ' ') || first == '\x7f') return 1;
-    // U+0080 to U+009F, which terminals may obey too.
+    // U+0080 to U+009F, which terminals may interpret too.
     const bool is_long = first == '\xc2' && text.size() > 1 &&
                          text.substr(1, 1) >= std::string_view("\x80") &&
                          text.substr(1, 1) < std::string_view("\xa0");

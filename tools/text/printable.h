@@ -6,8 +6,9 @@
 
 namespace cdprep::report {
 
-/// A text for a line of a terminal: control characters, which names of files may have,
-/// as "\\n", "\\t" or "\\x1b". Nothing else changes, so it cannot be undone.
+/// Returns a text that is safe on a line of a terminal. Control characters, which file names may
+/// contain, become "\\n", "\\t" or "\\x1b". Nothing else changes: backslashes are not escaped, so
+/// the result cannot be converted back.
 [[nodiscard]] std::string printable(std::string_view text);
 
 }  // namespace cdprep::report

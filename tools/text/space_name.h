@@ -7,10 +7,10 @@
 
 namespace cdprep::report {
 
-/// "y", or "unknown".
+/// Returns "x", "y", "z" or "unknown".
 [[nodiscard]] const char* axis_name(format::UpAxis axis) noexcept;
 
-/// "mm", "cm", "m", "in" or "ft"; "0.002 m" of another unit; "unknown" of 0.
+/// Returns "mm", "cm", "m", "in" or "ft"; "0.002 m" for another unit; "unknown" for 0.
 [[nodiscard]] std::string unit_name(double metres_per_unit);
 
 }  // namespace cdprep::report

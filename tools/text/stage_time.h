@@ -12,7 +12,7 @@ struct StageTime {
     double seconds;
 };
 
-/// Whether a report tells the times of stages.
+/// The choice to show or hide the times of stages in a report.
 enum class Timings : std::uint8_t { hide, show };
 
 }  // namespace cdprep::report

@@ -9,11 +9,11 @@
 
 namespace cdprep::report {
 
-/// How --structure, --structures, provenance and reports call a structure.
+/// The name of a structure, as --structure, --structures, provenance and reports spell it.
 struct StructureName {
     const char* name;
     Structure structure;
-    bool is_baked;  ///< --structures may ask for it; the others come of themselves, or with effects
+    bool is_baked;  ///< --structures may name it; others are always baked or come with effects
 };
 inline constexpr std::array<StructureName, 6> kStructureNames = {{
     {"bvh", Structure::bvh, false},
@@ -31,17 +31,17 @@ inline constexpr std::array<StructureName, 6> kStructureNames = {{
     return "unknown";
 }
 
-/// What to bake so that questions can be asked through it; empty for what every bake has.
+/// Returns the name to bake so that queries can use the structure; empty if every bake has it.
 [[nodiscard]] constexpr const char* baked_name(Structure structure) noexcept {
     if (structure == Structure::bvh) return "";
     return structure_name(structure);
 }
 
-/// As --split and --bounding spell them.
+/// Returns the name of a split rule, as --split spells it.
 [[nodiscard]] constexpr const char* split_name(format::SplitRule rule) noexcept {
     return rule == format::SplitRule::median ? "median" : "area";
 }
-/// As --octree-bounding spells it.
+/// Returns the bounding of an octree, as --octree-bounding spells it.
 [[nodiscard]] constexpr const char* bounding_name(bool has_boxes) noexcept {
     return has_boxes ? "boxes" : "cells";
 }

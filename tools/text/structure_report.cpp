@@ -9,7 +9,7 @@
 namespace cdprep::report {
 namespace {
 
-/// Of all triangles; 0 without any.
+/// Returns the share of `part` in all triangles; 0 if there are no triangles.
 double share(std::uint64_t part, std::uint64_t triangles) {
     return triangles == 0 ? 0 : static_cast<double>(part) / static_cast<double>(triangles);
 }
@@ -53,7 +53,7 @@ std::string as_text(const StructureReport& report) {
            " % of triangles in more than 8 cones";
 }
 
-/// What OctreeFigures and TetraFigures both have.
+/// Returns a report with the figures that OctreeFigures and TetraFigures share.
 template <class Figures>
 StructureReport counted(const Figures& figures) {
     StructureReport report;

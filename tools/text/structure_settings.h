@@ -9,14 +9,14 @@
 
 namespace cdprep::report {
 
-/// A choice that a structure has: "split" or "bounding", and what was chosen, as the options
-/// spell it.
+/// A choice in the construction of a structure: "split" or "bounding", and the chosen value as
+/// the options spell it.
 struct StructureRule {
     std::string name;
     std::string value;
 };
 
-/// How a structure was built: all that decides its bytes, besides the mesh.
+/// The settings of a structure: with the mesh they determine its bytes.
 struct StructureSettings {
     Structure structure = Structure::octree;
     std::uint32_t level = 0;

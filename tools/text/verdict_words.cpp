@@ -55,7 +55,8 @@ std::string crossing_text(const format::Verdict& verdict) {
                                                                 : "not self-crossing";
 }
 
-/// Whether no triangle was left to judge: open without a boundary, and no other fact either.
+/// Returns true if there was no triangle to judge: the mesh is open, has no boundary and no other
+/// fact holds.
 bool is_of_nothing(const format::Verdict& verdict) {
     return (verdict.facts & ~format::verdict_crossings_examined) == 0 &&
            verdict.boundary_loops == 0;

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr double kFull = 255;
 
-/// OBJ or PLY, or why not.
+/// Returns OBJ or PLY, or an error for another format.
 Result<MeshFormat> coloured_format(const fs::path& path) {
     const std::optional<MeshFormat> format = mesh_format_of(path);
     if (format == MeshFormat::obj || format == MeshFormat::ply) return *format;
@@ -58,7 +58,7 @@ std::string material_text(std::span<const Shade> shades) {
     return text;
 }
 
-/// Triangles by material, in their order within each.
+/// Returns an OBJ file with the triangles grouped by material, in their order within each.
 std::string coloured_obj(const fs::path& materials, const MeshArrays& mesh,
                          std::span<const Shade> shades, std::span<const std::uint8_t> shade_of) {
     std::string text = "mtllib " + materials.filename().string() + "\n";

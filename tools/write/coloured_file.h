@@ -12,23 +12,23 @@
 
 namespace cdprep::write {
 
-/// A class of triangles or points: what it is called and how it is shown.
+/// A class of triangles or points: its name and its colour.
 struct Shade {
     std::string name;                    ///< of an OBJ material: letters, digits, '_' and '-'
     std::array<std::uint8_t, 3> colour;  ///< red, green, blue
 };
 
 /// Writes a mesh with a colour per triangle: `shade_of[i]` is the number of triangle i's
-/// shade. PLY has the colours as properties of the faces; OBJ names materials and is
-/// accompanied by a file of the same name that ends in .mtl. Other formats have no
-/// colours and are refused with `bad_argument`.
+/// shade. PLY stores the colours as properties of the faces. OBJ names materials, which a
+/// second file of the same name with the extension .mtl defines. Other formats have no
+/// colours; they fail with `bad_argument`.
 [[nodiscard]] Result<Done> write_coloured_mesh(const std::filesystem::path& path,
                                                const MeshArrays& mesh,
                                                std::span<const Shade> shades,
                                                std::span<const std::uint8_t> shade_of);
 
-/// Writes points with a colour each: PLY has it as properties of the vertices, OBJ behind
-/// the coordinates, as most readers take it, with a point element for each.
+/// Writes points with a colour each. PLY stores the colours as properties of the vertices. OBJ
+/// stores them after the coordinates, which most readers accept, with a point element for each.
 [[nodiscard]] Result<Done> write_coloured_points(const std::filesystem::path& path,
                                                  std::span<const format::Double3> points,
                                                  std::span<const Shade> shades,

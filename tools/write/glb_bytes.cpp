@@ -18,13 +18,13 @@ struct Glb {
     std::string binary;
 };
 
-/// The position of an element that is appended to a list of the document.
+/// Appends an element to a list of the document and returns its index.
 std::size_t append(Json& document, const char* list, Json element) {
     document[list].push_back(std::move(element));
     return document[list].size() - 1;
 }
 
-/// Adds a view of the binary chunk from `begin` to its end, and an accessor of all of it.
+/// Adds a view of the binary chunk from `begin` to its end, and an accessor for the whole view.
 std::size_t add_accessor(Glb& glb, std::size_t begin, int target, Json accessor) {
     accessor["bufferView"] = append(glb.document, "bufferViews",
                                     {{"buffer", 0},
@@ -34,7 +34,7 @@ std::size_t add_accessor(Glb& glb, std::size_t begin, int target, Json accessor)
     return append(glb.document, "accessors", std::move(accessor));
 }
 
-/// The bounds of the floats that are written, which glTF requires.
+/// Returns the bounds of the written floats, which glTF requires.
 std::array<Json, 2> bounds_of(const HullArrays& hull) {
     std::array<Json, 2> bounds = {Json::array(), Json::array()};
     for (const auto axis : {&Double3::x, &Double3::y, &Double3::z}) {
@@ -73,7 +73,7 @@ std::size_t add_indices(Glb& glb, const HullArrays& hull) {
         {{"componentType", kUnsignedInt}, {"count", 3 * hull.facets.size()}, {"type", "SCALAR"}});
 }
 
-/// A node with a mesh; a hull without facets becomes points.
+/// Adds a node with a mesh. A hull without facets becomes points.
 void add_node(Glb& glb, const HullArrays& hull) {
     constexpr int kPoints = 0;
     Json primitive = {{"attributes", {{"POSITION", add_positions(glb, hull)}}}};

@@ -5,9 +5,8 @@
 #include <functional>
 #include <new>
 
-// A driver of HDF5's virtual file layer (H5FDpublic.h). Its functions get what
-// open() returned; addresses count from the start of the file, user block
-// included.
+// A driver for HDF5's virtual file layer (H5FDpublic.h). HDF5 passes the result of open() to
+// each function. Addresses count from the start of the file, user block included.
 
 namespace cdprep::write {
 namespace {
@@ -25,7 +24,7 @@ const File* file_of(const H5FD_t* base) noexcept {
     return reinterpret_cast<const File*>(base);
 }
 
-/// What an access list carries: where the file lives.
+/// The data in an access list: the memory that holds the file.
 struct Home {
     SparseMemory* memory;
 };
@@ -52,7 +51,7 @@ int compare(const H5FD_t* a, const H5FD_t* b) {
     return static_cast<int>(before(of_b, of_a)) - static_cast<int>(before(of_a, of_b));
 }
 
-/// Metadata in few, large pieces, as with a file on disk.
+/// Asks HDF5 to write metadata in few, large blocks, as for a file on disk.
 herr_t query(const H5FD_t* /*base*/, unsigned long* features) {
     *features = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_ACCUMULATE_METADATA |
                 H5FD_FEAT_AGGREGATE_SMALLDATA;
@@ -78,7 +77,7 @@ herr_t read(H5FD_t* base, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t addre
     return 0;
 }
 
-/// No exception may pass through HDF5.
+/// Writes bytes. Catches all exceptions, because none may pass through HDF5.
 herr_t write(H5FD_t* base, H5FD_mem_t /*type*/, hid_t /*transfer*/, haddr_t address,
              std::size_t size, const void* buffer) {
     try {

@@ -7,13 +7,12 @@
 
 namespace cdprep::write {
 
-/// Lets files that are made or opened with the file access list `access` live in
-/// `memory`, whatever their name. `memory` outlives the open file.
+/// Stores files that are created or opened with the file access list `access` in `memory`,
+/// whatever their name. `memory` must outlive the open file.
 ///
-/// HDF5 1.10 cannot close a file whose disk is full: it keeps the file as if it
-/// were open and crashes when the program ends. What lives in memory never meets
-/// a disk, and datasets that are allocated but not written take no room, which
-/// its own memory driver does not manage.
+/// HDF5 1.10 cannot close a file on a full disk: it treats the file as open and crashes when
+/// the program ends. A file in memory avoids the disk. Datasets that are allocated but not
+/// written take no space; with the memory driver of HDF5 they would.
 [[nodiscard]] bool keep_in_memory(hid_t access, SparseMemory& memory);
 
 }  // namespace cdprep::write

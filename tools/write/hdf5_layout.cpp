@@ -10,10 +10,10 @@
 #include "cdprep/format/sections.h"
 #include "write/hdf5_in_memory.h"
 
-// HDF5 gives bytes that depend on nothing but the content when time stamps are
-// off for the file, its groups and its datasets, and the library version is
-// pinned. Alignment belongs to the open, not to the dataset, so large sections
-// (on pages) and small ones (on cache lines) are made in two opens.
+// The bytes of HDF5 depend only on the content under two conditions. Time stamps are off for
+// the file, its groups and its datasets, and the library version is pinned. Alignment belongs
+// to the open file, not to the dataset. Large sections (aligned to pages) and small ones
+// (aligned to cache lines) are therefore created in two opens.
 
 namespace cdprep::write {
 namespace {
@@ -39,7 +39,7 @@ public:
     [[nodiscard]] bool good() const noexcept {
         return id_ >= 0;
     }
-    /// Closes now and tells whether that worked: HDF5 writes when it closes.
+    /// Closes now and returns true on success. HDF5 writes on close, so this can fail.
     [[nodiscard]] bool close() noexcept {
         return id_ >= 0 && close_(std::exchange(id_, -1)) >= 0;
     }
@@ -49,7 +49,7 @@ private:
     herr_t (*close_)(hid_t);
 };
 
-/// Keeps HDF5 from printing while it lives.
+/// Suppresses error output of HDF5 while this object lives.
 class Silence {
 public:
     Silence() {
@@ -97,7 +97,7 @@ Handle field_type(const format::Field& field) {
     return {H5Tarray_create2(scalar, static_cast<unsigned>(shape.size()), shape.data()), H5Tclose};
 }
 
-/// The HDF5 type of a dataset whose rows are such elements.
+/// Returns the HDF5 type of a dataset whose rows are such elements.
 Handle element_type(const format::Element& element) {
     if (element.fields.empty()) return {H5Tcopy(scalar_type(element.scalar)), H5Tclose};
     Handle type(H5Tcreate(H5T_COMPOUND, element.size), H5Tclose);
@@ -146,7 +146,8 @@ const char* axis_name(format::UpAxis axis) {
     return kNames[static_cast<std::size_t>(axis)];
 }
 
-/// What h5py needs to place boxes and to measure: the header before is no part of HDF5.
+/// Adds the facts that h5py needs to place boxes and to measure lengths. The header in front is
+/// not part of HDF5.
 bool add_facts(hid_t group, const format::FileHeader& facts) {
     const format::Double3& origin = facts.frame_origin;
     const format::Double3& offset = facts.normalize_offset;
@@ -179,7 +180,7 @@ void keep_links_simple(const Handle& creation) {
     H5Pset_obj_track_times(creation.id(), false);
 }
 
-/// An empty file with a user block and our group.
+/// Creates an empty file with a user block and our group.
 bool make_file(SparseMemory& memory, const format::FileHeader& facts) {
     const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
     H5Pset_userblock(creation.id(), format::kUserBlockSize);
@@ -232,7 +233,7 @@ bool is_large(const Plan& plan) {
     return plan.count * format::element_size(plan.id) >= format::kPageThreshold;
 }
 
-/// Makes the large or the small datasets, all in one open.
+/// Creates the large or the small datasets, all in one open.
 bool make_datasets(SparseMemory& memory, std::span<const Plan> plans, bool large,
                    std::vector<Place>& places) {
     const Handle access = large
@@ -255,7 +256,8 @@ std::string clause(SectionId id, const char* what) {
     return std::string("dataset ") + format::section_name(id) + " " + what;
 }
 
-/// One dataset of a file that somebody else may have written.
+/// Adds the place of one dataset of a file that another tool may have written. Returns a clause
+/// that describes the damage, or "".
 std::string find_place(const Handle& file, const format::SectionKind& kind,
                        std::vector<Place>& places) {
     const std::string name = std::string(kGroup) + "/" + kind.name;

@@ -42,8 +42,8 @@ std::string scale_text(double scale) {
     return text;
 }
 
-/// A name of letters, digits, '_', '-' and '.', which needs no escape in XML, in addresses or
-/// in a shell.
+/// Returns a name of letters, digits, '_', '-' and '.'. It needs no escape in XML, in URIs or in
+/// a shell.
 std::string plain_name(const fs::path& path) {
     std::string name = path.stem().string();
     for (char& letter : name) {
@@ -55,7 +55,8 @@ std::string plain_name(const fs::path& path) {
     return name;
 }
 
-/// Where the names of meshes begin: no two files in a folder have the same, but by extension.
+/// Returns the common prefix of the mesh names. Files in one folder have different prefixes, unless
+/// their names differ only in the extension.
 std::string mesh_stem(const fs::path& path) {
     std::string name = plain_name(path);
     const std::string stem = path.stem().string();
@@ -87,7 +88,7 @@ constexpr bool has_meshes(HullsFormat format) {
     return format == HullsFormat::urdf || format == HullsFormat::sdf;
 }
 
-/// The files that a URDF or SDF refers to.
+/// Writes the mesh files to which a URDF or SDF refers.
 Result<Done> write_meshes(const fs::path& folder, const RobotFile& file) {
     for (const HullArrays& hull : file.hulls) {
         const Result<Done> done =

@@ -14,19 +14,19 @@
 
 namespace cdprep::write {
 
-/// Files that simulators read convex pieces from.
+/// File formats from which simulators read convex pieces.
 enum class HullsFormat : std::uint8_t { obj, glb, urdf, sdf, mjcf };
 
-/// By the extension, in any case of letters: .obj, .glb, .urdf, .sdf, and .mjcf or .xml;
-/// nothing for another one.
+/// Returns the format that the extension names, in upper or lower case: .obj, .glb, .urdf, .sdf,
+/// and .mjcf or .xml. Returns nothing for another extension.
 [[nodiscard]] std::optional<HullsFormat> hulls_format_of(const std::filesystem::path& path);
 
-/// Whether a format tells what a body weighs.
+/// Returns true if a format stores the mass of a body.
 [[nodiscard]] constexpr bool has_mass(HullsFormat format) noexcept {
     return format != HullsFormat::obj && format != HullsFormat::glb;
 }
 
-/// A convex hull as it is to stand in the file.
+/// A convex hull in the form in which the file stores it.
 struct HullArrays {
     std::string name;  ///< letters, digits, '_' and '-'
     std::span<const format::Double3> points;
@@ -34,7 +34,7 @@ struct HullArrays {
     int dimension = 3;
 };
 
-/// What a rigid body weighs, in metres and kilograms.
+/// The mass, centre of mass and inertia of a rigid body, in metres and kilograms.
 struct BodyMass {
     double mass = 0;
     format::Double3 centre = {};
@@ -42,28 +42,28 @@ struct BodyMass {
 };
 
 struct HullsFileOptions {
-    double metres_per_unit = 0;  ///< scales what has a unit (URDF, SDF, MJCF); 0 stands for 1
-    /// Of the link or body; nothing: none is written, and readers take one of their own.
+    double metres_per_unit = 0;  ///< scales formats with a unit (URDF, SDF, MJCF); 0 means 1
+    /// Of the link or body. Nothing: no mass is written, and readers use their own default.
     std::optional<BodyMass> mass = {};
-    /// What URDF and SDF show instead of the pieces; nothing: they show nothing.
+    /// The mesh that URDF and SDF show instead of the pieces. Nothing: they show nothing.
     std::optional<MeshArrays> visual = {};
 };
 
-/// Whether write_hulls() might put a mesh in the place of a file.
+/// Returns true if write_hulls() to `path` might replace `file` by a mesh.
 [[nodiscard]] bool may_replace(const std::filesystem::path& path, HullsFormat format,
                                const std::filesystem::path& file);
 
-/// Writes hulls, each under its name: as objects of an OBJ, nodes of a GLB, collision
-/// elements of one link of a URDF or SDF, mesh geoms of one body of an MJCF.
+/// Writes hulls, each under its name. They become objects of an OBJ, nodes of a GLB, collision
+/// elements of one link of a URDF or SDF, or mesh geoms of one body of an MJCF.
 ///
-/// Coordinates are written in the fewest digits that are read back the same to the last
-/// bit, but in GLB, which has floats only: corners are rounded to the nearest there. URDF
-/// and SDF refer to meshes by file, relative to their own: each hull stands beside the file
-/// as STEM_NAME.obj, and what is shown as STEM_visual.obj. STEM is the file's without its
-/// extension; where that has more than letters, digits, '_', '-' and '.', the others become
-/// '_' and a number keeps files of such names apart. Hulls of fewer than three dimensions
-/// are left out of URDF, SDF and MJCF, whose readers want a volume; how many there are is
-/// the return value. Each file appears under its name when it is whole, `path` last.
+/// Coordinates are written in the fewest digits that read back bit for bit. GLB has only
+/// floats: its corners are rounded to the nearest float. URDF and SDF refer to mesh files by
+/// paths relative to their own. Each hull is written beside the file as STEM_NAME.obj, and the
+/// shown mesh as STEM_visual.obj. STEM is the file's name without its extension. Characters
+/// other than letters, digits, '_', '-' and '.' become '_'; a number then distinguishes such
+/// names. URDF, SDF and MJCF omit hulls of fewer than three dimensions, because their readers
+/// require a volume. Returns the number of omitted hulls. Each file appears under its name when
+/// it is complete, `path` last.
 [[nodiscard]] Result<std::size_t> write_hulls(const std::filesystem::path& path, HullsFormat format,
                                               std::span<const HullArrays> hulls,
                                               const HullsFileOptions& options = {});

@@ -10,7 +10,7 @@ namespace cdprep::write {
 
 constexpr const char* kVisual = "visual";  ///< the name of the shown mesh; no hull has it
 
-/// What all elements of a URDF, SDF or MJCF share.
+/// The data that all elements of a URDF, SDF or MJCF share.
 struct RobotFile {
     std::string name;       ///< of the robot, link, model and body
     std::string mesh_stem;  ///< the names of mesh files begin with it
@@ -19,7 +19,7 @@ struct RobotFile {
     std::string scale;  ///< metres per unit, for each axis
 };
 
-/// The mesh file of a hull, relative to the robot's file.
+/// Returns the path of the mesh file of a hull, relative to the robot's file.
 [[nodiscard]] std::string mesh_name(const RobotFile& file, const std::string& hull);
 
 [[nodiscard]] std::string glb_bytes(std::span<const HullArrays> hulls);

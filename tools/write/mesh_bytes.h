@@ -14,8 +14,9 @@ namespace cdprep::write {
 
 static_assert(std::endian::native == std::endian::little, "binary files are written as they lie");
 
-/// In the fewest digits that a reader of doubles reads back the same, and so does a reader of
-/// floats where the value is one: 0.1F is 0.10000000149011612, for 0.1 is another double.
+/// Appends a number in the fewest digits that a reader of doubles reads back exactly. A reader of
+/// floats also reads a float value back exactly. The double 0.1F is written as
+/// 0.10000000149011612, because 0.1 is another double.
 template <class Real>
 void append_number(std::string& text, Real value) {
     std::array<char, 32> digits;
@@ -35,7 +36,7 @@ void append_bytes(std::string& bytes, const T& value) {
     bytes.append(raw.data(), raw.size());
 }
 
-/// A point of a binary file.
+/// Appends a point of a binary file, in floats if `single`.
 inline void append_point(std::string& bytes, const format::Double3& p, bool single) {
     for (const double value : {p.x, p.y, p.z}) {
         if (single) {
@@ -46,7 +47,7 @@ inline void append_point(std::string& bytes, const format::Double3& p, bool sing
     }
 }
 
-/// Three numbers with blanks between.
+/// Appends three numbers, separated by blanks.
 inline void append_point_text(std::string& text, const format::Double3& p) {
     append_number(text, p.x);
     text += ' ';
@@ -55,7 +56,7 @@ inline void append_point_text(std::string& text, const format::Double3& p) {
     append_number(text, p.z);
 }
 
-/// A line per vertex, behind `lead`.
+/// Appends a line per vertex. Each line begins with `lead`.
 inline void append_positions(std::string& text, const MeshArrays& mesh, const char* lead) {
     for (const format::Double3& p : mesh.positions) {
         text += lead;
@@ -64,7 +65,7 @@ inline void append_positions(std::string& text, const MeshArrays& mesh, const ch
     }
 }
 
-/// A line for a triangle; `first` is the number of the first vertex.
+/// Appends a line for a triangle. `first` is the number of the first vertex.
 inline void append_triangle(std::string& text, const format::Triangle& t, const char* lead,
                             std::uint64_t first) {
     text += lead;
@@ -75,14 +76,14 @@ inline void append_triangle(std::string& text, const format::Triangle& t, const 
     text += '\n';
 }
 
-/// A line per triangle.
+/// Appends a line per triangle.
 inline void append_triangles(std::string& text, const MeshArrays& mesh, const char* lead,
                              std::uint64_t first) {
     for (const format::Triangle& t : mesh.triangles) append_triangle(text, t, lead, first);
 }
 
-/// Of a binary PLY; properties of vertices and faces beside place and corners, each behind
-/// a line end.
+/// Returns the header of a binary PLY. `of_vertex` and `of_face` are additional properties, each
+/// with a line end in front.
 inline std::string ply_header(std::size_t vertices, bool single, const char* of_vertex,
                               std::optional<std::size_t> faces, const char* of_face) {
     const std::string type = single ? "float" : "double";

@@ -58,7 +58,7 @@ std::string stl_bytes(const MeshArrays& mesh) {
     bytes.resize(kHeader, ' ');
     append_bytes(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
     for (const Triangle& t : mesh.triangles) {
-        // A normal of 0 asks readers to take it from the corners.
+        // A normal of 0 asks readers to compute it from the corners.
         for (int i = 0; i < 3; ++i) append_bytes(bytes, 0.0F);
         for (const std::uint32_t vertex : t.vertex) {
             const Double3& p = mesh.positions[vertex];

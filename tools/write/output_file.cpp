@@ -32,28 +32,28 @@ Error unwritable(const std::filesystem::path& target, const std::string& why) {
                 (was_there ? ". What was there before is unchanged." : ". Nothing was written.")};
 }
 
-/// Where a chain of symbolic links leads: a link stays, and what it names is replaced.
+/// Returns the end of a chain of symbolic links. A link stays, and its target is replaced.
 std::filesystem::path followed(std::filesystem::path target) {
-    constexpr int kMostLinks = 40;  // as the kernel
+    constexpr int kMostLinks = 40;  // the limit of the kernel
     std::error_code error;
     for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, error); ++i) {
         const std::filesystem::path next = std::filesystem::read_symlink(target, error);
         if (error) break;
-        target = target.parent_path() / next;  // an absolute one replaces all
+        target = target.parent_path() / next;  // an absolute path replaces all
     }
     return target;
 }
 
-/// A rename would replace a device or a pipe by a file.
+/// Returns false for a device or a pipe, which a rename would replace by a file.
 bool is_replaceable(const std::filesystem::path& target) {
     std::error_code error;
     const auto status = std::filesystem::status(target, error);
     return !std::filesystem::exists(status) || std::filesystem::is_regular_file(status);
 }
 
-/// Opens and locks one temporary; -1 with errno when it cannot be had. The lock
-/// is on the inode, so after locking we look whether the name still leads to it:
-/// another writer may just have renamed or removed it.
+/// Opens and locks one temporary; returns -1 and sets errno if it cannot. The lock is on the
+/// inode. After locking we therefore test that the name still leads to the inode: another
+/// writer may just have renamed or removed it.
 int open_locked(const std::filesystem::path& temporary) {
     while (true) {
         const int descriptor = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -86,13 +86,14 @@ std::filesystem::path folder_of(const std::filesystem::path& target) {
     return target.has_parent_path() ? target.parent_path() : ".";
 }
 
-/// As long as it is open.
+/// Returns a path to an open file. It is valid while the file is open.
 std::string path_of(int descriptor) {
     return "/proc/self/fd/" + std::to_string(descriptor);
 }
 
-/// Opens and locks a file without a name in a folder; -1 where there is no such thing. The lock
-/// holds off who would take it over in the moment between its name and its target's.
+/// Opens and locks a file without a name in a folder; returns -1 if that is not possible. The file
+/// briefly has a temporary's name before its target's. The lock keeps others from taking it over
+/// then.
 int open_nameless(const std::filesystem::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
     if (descriptor < 0) return -1;
@@ -102,7 +103,8 @@ int open_nameless(const std::filesystem::path& folder) {
     return -1;
 }
 
-/// A folder that is not there is likelier misspelled than its file.
+/// Returns a clause that explains why a file was not created. It names a missing folder, which is
+/// a likelier misspelling than the file.
 std::string why_not_created(const std::filesystem::path& target, int error) {
     const std::filesystem::path folder = folder_of(target);
     if (error == ENOENT)
@@ -195,8 +197,8 @@ Result<Done> OutputFile::commit() {
     if (temporary_.empty() && !give_name()) return failed("cannot be named");
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) return failed("cannot be renamed");
     ::close(std::exchange(descriptor_, -1));
-    // The name too must survive a power cut; where a folder cannot be synced the
-    // file is whole all the same.
+    // The name must also survive a power cut. If a folder cannot be synced, the file is
+    // complete all the same.
     const std::filesystem::path folder = folder_of(target_);
     const int handle = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (handle >= 0) {
@@ -210,8 +212,7 @@ std::filesystem::path OutputFile::readable_path() const {
     return temporary_.empty() ? std::filesystem::path(path_of(descriptor_)) : temporary_;
 }
 
-/// Files cannot be linked over others, so it gets a temporary's name for the moment before
-/// rename().
+/// Gives the file the name of a temporary until rename(): a link cannot replace an existing file.
 bool OutputFile::give_name() {
     const std::string own = path_of(descriptor_);
     for (int number = 0; number < kMostWriters; ++number) {

@@ -11,18 +11,19 @@
 
 namespace cdprep::write {
 
-/// A file that appears under its name only when it is whole.
+/// A file that appears under its name only when it is complete.
 ///
-/// Has no name until commit(), so that a killed process leaves nothing behind. Where the file
-/// system has no nameless files it lives as a temporary beside its target, locked while this object
-/// lives; a temporary that a killed process left has no lock, and the next one for that target
-/// takes it over. Destroyed before commit(), it leaves nothing behind.
+/// The file has no name until commit(), so a killed process leaves nothing behind. Where the file
+/// system has no nameless files, it is a temporary beside its target, locked while this object
+/// lives. A temporary of a killed process has no lock; the next one for that target takes it
+/// over. An object destroyed before commit() leaves nothing behind.
 class OutputFile {
 public:
     enum class Temporary : std::uint8_t { nameless_if_possible, named };
 
-    /// A symbolic link stays, and what it leads to is replaced. Fails with `unwritable`
-    /// when that is there and no regular file, and when no temporary can be made.
+    /// Creates the file. A symbolic link stays, and its target is replaced. Fails with
+    /// `unwritable` if the target exists but is not a regular file, or if no temporary can be
+    /// created.
     [[nodiscard]] static Result<OutputFile> create(
         const std::filesystem::path& wanted, Temporary kind = Temporary::nameless_if_possible);
 
@@ -30,7 +31,7 @@ public:
     OutputFile& operator=(OutputFile&&) = delete;
     ~OutputFile();
 
-    /// By which this process can open what was written so far.
+    /// Returns a path by which this process can open the bytes written so far.
     [[nodiscard]] std::filesystem::path readable_path() const;
 
     [[nodiscard]] Result<std::uint64_t> size() const;
@@ -46,11 +47,11 @@ private:
     [[nodiscard]] bool give_name();
 
     std::filesystem::path target_;
-    std::filesystem::path temporary_;  ///< empty: it has no name
+    std::filesystem::path temporary_;  ///< empty: the file has no name
     int descriptor_;
 };
 
-/// Creates, writes and commits a file that is at hand whole.
+/// Creates, writes and commits a file whose bytes are complete.
 [[nodiscard]] Result<Done> write_whole(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace cdprep::write

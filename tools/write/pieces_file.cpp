@@ -10,7 +10,7 @@
 namespace cdprep::write {
 namespace {
 
-/// Colours that are told apart; neighbouring pieces seldom have the same.
+/// Colours that are easy to distinguish. Neighbouring pieces seldom have the same colour.
 constexpr std::array<std::array<std::uint8_t, 3>, 12> kColours = {{{166, 206, 227},
                                                                    {31, 120, 180},
                                                                    {178, 223, 138},
@@ -24,7 +24,7 @@ constexpr std::array<std::array<std::uint8_t, 3>, 12> kColours = {{{166, 206, 22
                                                                    {255, 255, 153},
                                                                    {177, 89, 40}}};
 
-/// Mixes the bits of a number: pieces that follow each other lie beside each other.
+/// Returns the colour number of a piece. Mixes the bits, because consecutive pieces are neighbours.
 std::size_t colour_of(std::uint32_t piece) {
     std::uint32_t mixed = piece * 2654435761U;
     mixed ^= mixed >> 15U;

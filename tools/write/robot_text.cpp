@@ -48,7 +48,7 @@ std::string written(const pugi::xml_document& document) {
     return text.str();
 }
 
-/// An element of an inertia matrix in URDF and SDF, and its place in BodyMass.
+/// The name of an inertia element in URDF and SDF, and its place in BodyMass.
 struct InertiaName {
     const char* name;
     std::size_t place;
@@ -142,7 +142,7 @@ std::string sdf_text(const RobotFile& file) {
     return written(document);
 }
 
-/// Holds the vertices themselves; MuJoCo computes their hull.
+/// Returns an MJCF file that contains the vertices themselves; MuJoCo computes their hull.
 std::string mjcf_text(const RobotFile& file) {
     pugi::xml_document document;
     const xml_node mujoco = add(document, "mujoco");

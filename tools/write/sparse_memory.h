@@ -10,26 +10,26 @@
 
 namespace cdprep::write {
 
-/// The bytes of a file that is mostly unwritten: only touched pages take room,
-/// all others read as zeros.
+/// The bytes of a file that is mostly unwritten. Only written pages take memory; all others read
+/// as zeros.
 class SparseMemory {
 public:
     [[nodiscard]] std::uint64_t size() const noexcept {
         return size_;
     }
-    /// What lies beyond is forgotten.
+    /// Changes the size. Bytes beyond it are discarded.
     void resize(std::uint64_t size);
 
-    /// Grows as far as needed.
+    /// Writes bytes. The size grows as needed.
     void write(std::uint64_t offset, std::span<const std::byte> bytes);
-    /// Zeros beyond the end.
+    /// Reads bytes. Those beyond the end are zeros.
     void read(std::uint64_t offset, std::span<std::byte> bytes) const;
 
 private:
     static constexpr std::uint64_t kPageSize = 4096;
     using Page = std::array<std::byte, kPageSize>;
 
-    std::map<std::uint64_t, Page> pages_;  ///< by number; those that were written
+    std::map<std::uint64_t, Page> pages_;  ///< the written pages, by number
     std::uint64_t size_ = 0;
 };
 

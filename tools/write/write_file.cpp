@@ -24,7 +24,7 @@ using format::SectionId;
 
 using build::SectionTable;
 
-/// Datasets for all sections but the empty ones, which HDF5 would not place.
+/// Returns a dataset plan for each section that is not empty; HDF5 gives empty ones no place.
 std::vector<Plan> plans_for(const SectionTable& table) {
     std::vector<Plan> plans;
     for (const SectionEntry& entry : table.used_entries()) {
@@ -33,7 +33,7 @@ std::vector<Plan> plans_for(const SectionTable& table) {
     return plans;
 }
 
-/// Where HDF5 put the datasets: in the order of plans_for().
+/// Stores the offsets that HDF5 gave the datasets. `places` has the order of plans_for().
 void add_offsets(SectionTable& table, std::span<const Place> places) {
     std::size_t next = 0;
     for (std::uint32_t i = 0; i < table.count; ++i) {
@@ -52,7 +52,7 @@ Result<Done> write_sections(OutputFile& file, const SectionTable& table) {
     return Done{};
 }
 
-/// Writes what HDF5 put around the sections.
+/// Writes the bytes that HDF5 put around the sections.
 Result<Done> write_rest(OutputFile& file, const Layout& layout) {
     std::vector<Place> places = layout.places;
     places.push_back({SectionId{}, layout.rest.size(), 0});
@@ -69,8 +69,7 @@ Result<Done> write_rest(OutputFile& file, const Layout& layout) {
     return Done{};
 }
 
-/// Puts the user block in front; the magic comes last, with everything else of
-/// it already there.
+/// Writes the user block in front. The magic comes last, after the rest of the block.
 Result<Done> write_user_block(OutputFile& file, const format::FileHeader& facts,
                               std::span<const SectionEntry> entries) {
     const Result<std::uint64_t> size = file.size();
@@ -85,8 +84,8 @@ Result<Done> write_user_block(OutputFile& file, const format::FileHeader& facts,
     return file.write_at(0, bytes.first(magic));
 }
 
-/// Reads back what was written, as a user of the file will. `blame` says whose
-/// fault it is when that fails.
+/// Opens the written file as a user would, then commits it. `blame` is the error code if the file
+/// does not open.
 Result<Done> commit_checked(OutputFile& file, const std::filesystem::path& path, ErrorCode blame) {
     const Result<Model> opened = Model::open(file.readable_path());
     if (!opened) {
@@ -108,7 +107,7 @@ Error not_mendable(const std::filesystem::path& path, const std::string& why) {
             path.string() + ": cannot be reindexed: " + why + ". Bake the mesh again."};
 }
 
-/// The whole file's bytes.
+/// Returns all bytes of a file.
 Result<std::vector<std::byte>> bytes_of(const std::filesystem::path& path) {
     std::vector<std::byte> bytes;
     std::FILE* file = std::fopen(path.c_str(), "rb");
@@ -143,8 +142,8 @@ Result<Done> write_and_check(const std::filesystem::path& path, const format::Fi
     return commit_checked(file, path, blame);
 }
 
-/// The user block of a file, as far as it can be believed after another tool
-/// rewrote the rest: a clause that says what is wrong, or nothing.
+/// Checks the user block of a file, as far as it is reliable after another tool rewrote the rest.
+/// Returns a clause that describes the damage, or nothing.
 const char* find_block_damage(std::span<const std::byte> bytes) {
     if (bytes.size() < format::kUserBlockSize ||
         format::read_header(bytes).magic != format::kMagic) {
@@ -159,12 +158,12 @@ const char* find_block_damage(std::span<const std::byte> bytes) {
     return header.version == format::kVersion ? nullptr : "it was written as another version";
 }
 
-/// Where the sections lie now. Their bytes must be those of the bake: whoever
-/// moves data does not change it. Empty sections have no dataset and stay.
+/// The present places of the sections. Their bytes must equal the baked bytes; a tool may move
+/// data but not change it. Empty sections have no dataset and stay.
 struct Relocated {
     std::vector<Section> sections;
     std::vector<SectionEntry> entries;
-    std::string damage;  ///< a clause for a sentence, or empty
+    std::string damage;  ///< a clause for a message, or empty
 };
 
 std::string clause(const Place& place, const char* what) {
@@ -222,7 +221,7 @@ Result<Done> reindex_file(const std::filesystem::path& path) {
     if (!found.damage.empty()) return not_mendable(path, found.damage);
 
     const format::FileHeader facts = format::read_header(bytes);
-    // Where the other tool broke the alignment, the sections must move once more.
+    // If the other tool broke the alignment, the sections must move once more.
     if (!std::all_of(found.entries.begin(), found.entries.end(), is_aligned)) {
         return write_and_check(path, facts, found.sections, ErrorCode::unreadable);
     }

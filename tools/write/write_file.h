@@ -12,25 +12,24 @@ namespace cdprep::write {
 
 using build::Section;
 
-/// Writes a baked file: HDF5 behind a user block with header and section table.
+/// Writes a baked file: HDF5 after a user block with header and section table.
 ///
-/// `facts` gives the header fields that describe the model (counts, flags, units,
-/// frame, normalisation); the writer fills in the rest. The file appears under
-/// its name only when it is whole and synced: a temporary beside it is renamed.
-/// A temporary that a killed bake left is removed when its lock is free. Fails
-/// with `unwritable`; the old file is then as it was. Byte-identical for equal
-/// arguments and one HDF5 release. Sections that build::make_section_table() refuses fail
-/// with `bad_argument`.
+/// `facts` provides the header fields that describe the model (counts, flags, units, frame,
+/// normalisation); the writer fills in the rest. The file appears under its name only when it is
+/// complete and synced: a temporary beside it is renamed. A temporary left by a killed bake is
+/// removed if its lock is free. Fails with `unwritable`; the old file is then unchanged. Fails
+/// with `bad_argument` on sections that build::make_section_table() rejects. Equal arguments and
+/// one HDF5 release give equal bytes.
 [[nodiscard]] Result<Done> write_file(const std::filesystem::path& path,
                                       const format::FileHeader& facts,
                                       std::span<const Section> sections);
 
-/// Makes a new section table for a baked file that another HDF5 tool rewrote:
-/// finds every dataset by its name, checks its type and that its bytes are the
-/// baked ones, takes its offset, and replaces the user block. Datasets that are
-/// chunked, compressed, changed or of another type fail with `unreadable`, each
-/// named; those that were removed drop out of the table. The file is replaced as
-/// write_file() does; where the tool broke the alignment, the data moves again.
+/// Makes a new section table for a baked file that another HDF5 tool rewrote. Finds every
+/// dataset by its name and checks its type. Compares its bytes with the baked ones and puts its
+/// offset into a new user block. Fails with `unreadable` on a dataset that is chunked,
+/// compressed, changed or of another type; the message names it. Removed datasets are omitted
+/// from the table. The file is replaced as in write_file(). If the tool broke the alignment, the
+/// data moves again.
 [[nodiscard]] Result<Done> reindex_file(const std::filesystem::path& path);
 
 }  // namespace cdprep::write

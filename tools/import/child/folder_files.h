@@ -7,7 +7,7 @@
 
 namespace cdprep::import {
 
-/// Gives assimp the files that it may read, and notes which it opened and which it missed.
+/// Opens for assimp the files that it may read, and records the opened and the missing ones.
 class FolderFiles : public Assimp::DefaultIOSystem {
 public:
     explicit FolderFiles(InputFiles& files) : files_(files) {}

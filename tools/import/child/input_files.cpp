@@ -13,7 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "arm.lwo" of "C:\models\arm.lwo": files from other systems keep their separators.
+/// Returns the file name: "arm.lwo" for "C:\models\arm.lwo". Paths from other systems keep their
+/// separators.
 std::string_view last_part(std::string_view name) {
     const std::size_t separator = name.find_last_of("/\\");
     return separator == std::string_view::npos ? name : name.substr(separator + 1);

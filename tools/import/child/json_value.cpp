@@ -68,7 +68,7 @@ json parse_utf8(std::string_view text) {
     }
 }
 
-/// The text with U+FFFD for every byte that is not UTF-8.
+/// Returns the text with U+FFFD for every byte that is not UTF-8.
 std::string replace_other_bytes(std::string_view text) {
     return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
 }
@@ -80,7 +80,7 @@ json parse_json(std::string_view text) {
     try {
         return parse_utf8(text);
     } catch (const std::runtime_error&) {
-        // Some writers leave names in another encoding.
+        // Some writers store names in another encoding.
         const std::string replaced = replace_other_bytes(text);
         if (replaced == text) throw;
         return parse_utf8(replaced);

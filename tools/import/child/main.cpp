@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The importing child: reads one file under limits and writes what it found to
-// descriptor 3 (scene_bytes.h). Started by assimp_child.cpp only:
+// The importing child: reads one file under limits and writes the scene to descriptor 3
+// (scene_bytes.h). Only assimp_child.cpp starts it:
 //
 //     cdprep-import-child PATH MEMORY_BYTES CPU_SECONDS
 #include <sys/prctl.h>

@@ -5,10 +5,11 @@
 
 namespace cdprep::import {
 
-/// Sets the most memory that this process may ever use. False when the system refuses.
+/// Sets the maximum memory that this process may ever use. Returns false if the system refuses.
 [[nodiscard]] bool set_memory_limit(std::uint64_t bytes);
 
-/// Lets the process use what input of so many bytes can fill (honest_memory()), within that most.
+/// Permits the memory that `input_bytes` bytes of input can fill (honest_memory()), up to that
+/// maximum.
 void allow_memory_for(std::uint64_t input_bytes);
 
 }  // namespace cdprep::import

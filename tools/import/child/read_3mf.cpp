@@ -28,7 +28,7 @@ constexpr Matrix kIdentity = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     throw std::runtime_error(why);
 }
 
-/// "path" of "p:path": which prefix stands for a namespace is the document's choice.
+/// Returns "path" for "p:path". The document chooses the prefix of a namespace.
 std::string_view local_name(std::string_view name) {
     return name.substr(name.rfind(':') + 1);
 }
@@ -43,7 +43,7 @@ std::string_view attribute(const pugi::xml_node& node, std::string_view name) {
         .value();
 }
 
-/// "3D/parts/a.model" of "/3D/parts/a.model".
+/// Returns "3D/parts/a.model" for "/3D/parts/a.model".
 std::string entry_name(std::string_view path) {
     return std::string(path.starts_with('/') ? path.substr(1) : path);
 }
@@ -59,7 +59,8 @@ std::uint32_t index_of(const pugi::xml_node& triangle, const char* name) {
     return static_cast<std::uint32_t>(std::min(number.value, kNone));
 }
 
-/// Twelve numbers of rows that vectors stand before, as the matrix that stands before vectors.
+/// Returns the transform of a node as a matrix for column vectors. The file's twelve numbers are
+/// the rows of a matrix for row vectors.
 Matrix transform_of(const pugi::xml_node& node) {
     const std::string_view text = node.attribute("transform").value();
     if (text.empty()) return kIdentity;
@@ -87,8 +88,8 @@ double metres_of(std::string_view unit) {
     return found->second;
 }
 
-/// Refuses the extensions that the model says it cannot be read without, unless they are read or
-/// change no geometry.
+/// Refuses an extension that the model requires, unless this reader supports it or it changes no
+/// geometry.
 void check_extensions(const pugi::xml_node& model) {
     constexpr std::array<std::string_view, 3> kRead = {"/core/", "/production/", "/material/"};
     std::string_view prefixes = attribute(model, "requiredextensions");
@@ -124,7 +125,7 @@ public:
     }
 
 private:
-    /// The model that the package begins with, by its relationships.
+    /// Returns the root model of the package, found from its relationships.
     [[nodiscard]] std::string root_part() {
         const pugi::xml_node relationships = document("_rels/.rels");
         for (const pugi::xml_node& one : child(relationships, "Relationships").children()) {
@@ -134,13 +135,13 @@ private:
         fail("its package names no 3D model");
     }
 
-    /// An XML document of the package, kept: what was read before is not read again.
+    /// Returns an XML document of the package. It is kept, so no document is read twice.
     pugi::xml_node document(const std::string& name) {
         const auto [kept, is_new] = documents_.try_emplace(name);
         if (!is_new) return kept->second;
         std::string bytes = zip_.read(name);
         files_.note_part(bytes.size());
-        // Numbers and names are all that is wanted: no comments, no entities of a document type.
+        // Only numbers and names are used: no comments, no entities of a document type.
         const pugi::xml_parse_result result =
             kept->second.load_buffer(bytes.data(), bytes.size(), pugi::parse_default);
         if (!result) {
@@ -150,7 +151,7 @@ private:
         return kept->second;
     }
 
-    /// The model element of a part, with its objects found by number.
+    /// Returns the model element of a part, and indexes its objects by number.
     pugi::xml_node part(const std::string& name) {
         const pugi::xml_node model = child(document(name), "model");
         if (!model) fail("its part " + name + " has no model");
@@ -163,7 +164,7 @@ private:
         return model;
     }
 
-    /// Adds what an item or a component refers to below a node.
+    /// Adds below a node the object to which an item or a component refers.
     void place(const pugi::xml_node& use, const std::string& in, std::uint32_t parent,
                std::size_t depth) {
         constexpr std::size_t kMaxDepth = 200;
@@ -202,7 +203,7 @@ private:
         return number;
     }
 
-    /// The number of an object's mesh, which several uses share.
+    /// Returns the number of an object's mesh. Several uses of the object share it.
     std::uint32_t mesh_of(const std::string& part_name, const pugi::xml_node& object) {
         const auto number = static_cast<std::uint32_t>(scene_.meshes.size());
         const auto [known, is_new] = meshes_.try_emplace(object.internal_object(), number);

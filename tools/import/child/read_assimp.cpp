@@ -50,7 +50,7 @@ Scene::Node to_node(const aiNode& node, std::uint32_t parent) {
     return result;
 }
 
-/// Depth first, by hand: trees may be deeper than the stack.
+/// Returns the nodes depth first. It uses no recursion, because trees may be deeper than the stack.
 std::vector<Scene::Node> to_nodes(const aiNode* root) {
     struct Pending {
         const aiNode* node;
@@ -71,9 +71,9 @@ std::vector<Scene::Node> to_nodes(const aiNode* root) {
     return nodes;
 }
 
-/// Units and up axis, as far as assimp tells them.
+/// Sets units and up axis, as far as assimp provides them.
 void describe_space(const aiMetadata& metadata, Scene& scene) {
-    constexpr double kMetresPerCentimetre = 0.01;  // FBX counts in centimetres
+    constexpr double kMetresPerCentimetre = 0.01;  // the unit of FBX is a centimetre
     float factor = 0;
     double exact_factor = 0;
     if (metadata.Get("UnitScaleFactor", exact_factor) && exact_factor > 0) {
@@ -88,10 +88,10 @@ void describe_space(const aiMetadata& metadata, Scene& scene) {
     aiString importer;
     const bool named = metadata.Get("SourceAsset_Format", importer);
     if (named && text_of(importer).starts_with("glTF")) {
-        scene.metres_per_unit = 1;  // glTF says so
+        scene.metres_per_unit = 1;  // fixed by glTF
         scene.up_axis = format::UpAxis::y;
     }
-    // assimp scales the root, which COLLADA gives no transform, by the unit.
+    // assimp scales the root by the unit; in COLLADA the root has no transform.
     if (named && text_of(importer).starts_with("Collada") && !scene.nodes.empty()) {
         scene.nodes.front().parent_from_node = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     }
@@ -100,11 +100,11 @@ void describe_space(const aiMetadata& metadata, Scene& scene) {
 }  // namespace
 
 Scene read_assimp(const std::string& path, InputFiles& files) {
-    // Never destroyed: some of its scenes crash when they are, and the process ends anyway. It is
-    // static so that checkers of leaks see that it is kept.
+    // Never destroyed: destroying some of its scenes crashes, and the process ends anyway. It is
+    // static so that leak checkers see that it is reachable.
     static Assimp::Importer& importer = *new Assimp::Importer;
     importer.SetIOHandler(new FolderFiles(files));  // the importer owns it
-    // A head alone is a model; the rest of the body need not be there.
+    // A head alone is a model; the rest of the body may be missing.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_MD3_HANDLE_MULTIPART, false);
     importer.SetPropertyInteger(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);

@@ -70,7 +70,7 @@ std::uint64_t size_of(std::uint64_t component) {
     }
 }
 
-/// The value of one component; integers are divided where they are `normalized`.
+/// Returns the value of one component. Integers are divided by their limit if `normalized`.
 float load_component(std::uint64_t component, const char* at, bool normalized) {
     const auto scaled = [&](auto value, float limit) {
         const auto x = static_cast<float>(value);
@@ -191,8 +191,8 @@ Matrix local_transform(JsonValue node) {
     return result;
 }
 
-/// One document with its buffers. Written by hand: tinygltf does not check accessors against their
-/// buffers, and cgltf names neither the place nor the numbers of a mistake.
+/// One document with its buffers. We use no library: tinygltf does not check accessors against
+/// their buffers, and cgltf reports neither the place nor the numbers of an error.
 class GltfReader {
 public:
     GltfReader(const std::filesystem::path& path, JsonValue root, std::string_view binary,
@@ -217,14 +217,14 @@ public:
         }
         first_primitive_.push_back(static_cast<std::uint32_t>(scene_.meshes.size()));
         read_nodes();
-        scene_.metres_per_unit = 1;  // glTF says so
+        scene_.metres_per_unit = 1;  // fixed by glTF
         scene_.up_axis = format::UpAxis::y;
         return std::move(scene_);
     }
 
 private:
-    /// Refuses what would change the geometry and is not read: packed meshes and instances. How a
-    /// surface looks and what stands beside it does not matter.
+    /// Refuses unsupported extensions that change the geometry, such as packed meshes and
+    /// instances. Extensions for appearance, lights and the like are harmless.
     void check_extensions() const {
         for (const JsonValue name : root_["extensionsRequired"].items()) {
             const std::string& text = name.text();
@@ -264,7 +264,7 @@ private:
             }
             buffers_.push_back(owned_.back());
         }
-        // Moved strings may have moved their bytes.
+        // The bytes of a string may have moved with it.
         for (std::size_t i = 0; i < owned_.size(); ++i) {
             if (!owned_[i].empty()) buffers_[i] = owned_[i];
         }
@@ -286,8 +286,8 @@ private:
         std::uint64_t component = 0;
     };
 
-    /// Finds `count` elements of `width` components where `place` says, an accessor or a part of a
-    /// sparse one, and proves that all of them lie in their buffer.
+    /// Finds `count` elements of `width` components at `place`, an accessor or a part of a sparse
+    /// one. Proves that all of them lie in their buffer.
     [[nodiscard]] Accessor find(const std::string& name, JsonValue place, std::uint64_t component,
                                 std::uint64_t count, std::uint64_t width) const {
         Accessor result;
@@ -328,7 +328,8 @@ private:
         return mesh;
     }
 
-    /// The elements of an accessor of positions; zeros, where it is sparse and has no others.
+    /// Returns the elements of an accessor of positions. They are zeros if it is sparse and has no
+    /// buffer view.
     [[nodiscard]] std::vector<std::array<double, 3>> read_points(std::uint64_t number) const {
         const JsonValue accessor = root_["accessors"][number];
         const std::string name = "accessor " + std::to_string(number);
@@ -424,8 +425,8 @@ private:
         std::uint32_t depth;
     };
 
-    /// Depth first from the scene's roots. A path longer than the list of nodes
-    /// meets one of them twice.
+    /// Reads the nodes depth first from the scene's roots. A path longer than the list of nodes
+    /// visits one of them twice, so the scene has a cycle.
     void read_nodes() {
         constexpr std::size_t kMaxUses = 1'000'000;  // nodes with several parents multiply
         std::vector<Pending> pending = roots();
@@ -511,7 +512,7 @@ struct Parts {
     std::string_view binary;
 };
 
-/// GLB: a header of 12 bytes, then chunks of length, type and content.
+/// Splits a GLB: a header of 12 bytes, then chunks of length, type and content.
 std::optional<Parts> split_glb(std::string_view bytes) {
     constexpr std::size_t kHeader = 12;
     constexpr std::size_t kChunkHeader = 8;

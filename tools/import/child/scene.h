@@ -13,7 +13,7 @@
 
 namespace cdprep::import {
 
-/// What an importer found, before it goes to the parent.
+/// The result of an importer in the child, before it is sent to the parent.
 struct Scene {
     struct Mesh {
         std::vector<std::array<double, 3>> vertices;
@@ -24,7 +24,7 @@ struct Scene {
     };
     struct Node {
         std::string name;
-        std::uint32_t parent = kNoParent;  ///< stands before it
+        std::uint32_t parent = kNoParent;  ///< precedes this node
         std::array<double, 16> parent_from_node{};
         std::vector<std::uint32_t> meshes;
     };
@@ -35,10 +35,10 @@ struct Scene {
     format::UpAxis up_axis = format::UpAxis::unknown;
 };
 
-/// Writes the scene to the parent's descriptor, as scene_bytes.h says.
+/// Writes the scene to the parent's descriptor in the form of scene_bytes.h.
 [[nodiscard]] bool write_scene(const Scene& scene, const InputFiles& files);
 
-/// Writes that there is none, and why.
+/// Writes an outcome without a scene, and the reason.
 [[nodiscard]] bool write_failure(SceneOutcome outcome, std::string_view why,
                                  const InputFiles& files);
 

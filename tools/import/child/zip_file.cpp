@@ -15,7 +15,7 @@ struct CloseEntry {
     }
 };
 
-/// Deflate packs no more than 1,032 bytes into one.
+/// Deflate packs at most 1,032 bytes into one.
 constexpr std::uint64_t kMostPerPackedByte = 1032;
 
 }  // namespace

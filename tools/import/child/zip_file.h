@@ -12,12 +12,12 @@ namespace cdprep::import {
 /// A ZIP archive, read only.
 class ZipFile {
 public:
-    /// Throws std::runtime_error with the reason when it is no archive.
+    /// Opens an archive. Throws std::runtime_error with the reason if the file is not an archive.
     explicit ZipFile(const std::filesystem::path& path);
 
-    /// The bytes of an entry, whose name is compared without regard to case. Throws
-    /// std::runtime_error with the name when there is none, when it is encrypted or damaged, or
-    /// when it claims to be larger than its packed bytes can be.
+    /// Returns the bytes of an entry. Its name is compared without regard to case. Throws
+    /// std::runtime_error with the name if the entry is missing, encrypted or damaged. Also throws
+    /// if the entry declares more bytes than its packed bytes can hold.
     [[nodiscard]] std::string read(const std::string& name) const;
 
 private:
