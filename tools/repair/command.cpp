@@ -43,6 +43,17 @@ struct Arguments {
     mesh::RepairOptions options;
 };
 
+Error unknown_step(const std::string& name) {
+    std::vector<std::string> known;
+    std::string all;
+    for (std::size_t i = 0; i < mesh::kRepairStepCount; ++i) {
+        known.emplace_back(mesh::name_of(static_cast<mesh::RepairStep>(i)));
+        all += (i == 0 ? "" : ", ") + known.back();
+    }
+    return {ErrorCode::bad_argument, "--steps: there is no step '" + name + "'; there are " + all +
+                                         "." + report::suggestion(name, known)};
+}
+
 /// Parses a list such as "weld,orient" into exactly those steps.
 Result<mesh::RepairSteps> parse_steps(const std::string& list) {
     mesh::RepairSteps steps;
